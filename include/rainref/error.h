@@ -1,0 +1,49 @@
+// Errors that reach a user: one sentence, a place, an exit code.
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rainref {
+
+/// Exit codes of the command line. When several hold, the more serious one wins: 5, 4, 2, 3, 1.
+enum class ExitCode : int {
+  pass = 0,
+  fail = 1,      ///< a check failed, or something was not judged
+  usage = 2,     ///< command line, scene, or an input image that cannot be decoded
+  port_files = 3,///< a port's files are missing or malformed
+  io = 4,        ///< unreadable, unwritable, disk full
+  internal = 5   ///< a defect of rainref
+};
+
+/// A place in a text file; line and column count from 1, 0 means unknown.
+struct SourceLocation {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  /// "file:line:column", without the parts that are unknown.
+  std::string text() const;
+};
+
+/// The one exception type that rainref throws on purpose. what() is the whole message for the user.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ExitCode code, const SourceLocation& at, const std::string& message);
+  ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+/// The name in `names` nearest to `wrong` by edit distance, or "" when none is near enough to be a likely slip
+/// (distance over a third of the longer length, at least 1). Ties go to the earlier name.
+std::string nearest_name(std::string_view wrong, std::span<const std::string> names);
+
+/// "; did you mean 'x'?" for the nearest name, or "" when none is near.
+std::string did_you_mean(std::string_view wrong, std::span<const std::string> names);
+
+}  // namespace rainref

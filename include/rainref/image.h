@@ -1,0 +1,99 @@
+// Storage formats and the images that hold them: what a pass reads and writes, byte for byte.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rainref {
+
+/// Storage formats, named as graphics APIs name them. Unorm values are code / 255.
+enum class Format : std::uint8_t { r8, rg8, rgba8, rgba8_srgb, r16f, rg16f, rgba16f, r32f, rg32f, rgba32f, r32ui };
+
+/// How a float becomes a stored value: to nearest (ties to even) or toward zero, as many GPUs do.
+enum class Rounding : std::uint8_t { rne, rtz };
+
+/// One channel's storage. Strong types, so that an overload of load or store picks the conversion.
+struct Half {
+  std::uint16_t bits;
+};
+struct Unorm8 {
+  std::uint8_t code;
+};
+
+struct FormatInfo {
+  std::string_view name;
+  int channels;
+  int channel_bytes;
+  enum Kind : std::uint8_t { unorm8, srgb8, float16, float32, uint32 } kind;
+  int texel_bytes() const { return channels * channel_bytes; }
+};
+
+const FormatInfo& info(Format format);
+/// The format of this name; throws Error(usage) naming the nearest one.
+Format format_from_name(std::string_view name);
+const char* name(Rounding rounding);
+
+/// A two-dimensional array of texels, channels interleaved, row 0 = v 0 of the pass that writes it.
+///
+/// Every row has left_margin texels before and at least right_margin texels after it, so that a kernel may read a
+/// whole vector at any column and keep ghost texels for its boundary rule. Margins are zero until a kernel fills
+/// them, and are never hashed, captured or written to a file.
+class Image {
+ public:
+  static constexpr int left_margin = 16;
+  static constexpr int right_margin = 32;
+
+  Image() = default;
+  /// Zero-filled. Throws Error(usage) when a side is not in [1, 65536] or the memory cannot be had.
+  Image(Format format, int width, int height);
+
+  Format format() const { return format_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int channels() const { return info(format_).channels; }
+  bool empty() const { return width_ == 0; }
+
+  /// First texel of row y. T is the storage type of one channel: float, Half, Unorm8 or std::uint32_t.
+  template <class T> T* row(int y) { return reinterpret_cast<T*>(row_bytes(y)); }
+  template <class T> const T* row(int y) const { return reinterpret_cast<const T*>(row_bytes(y)); }
+  std::byte* row_bytes(int y) { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
+  const std::byte* row_bytes(int y) const { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
+  /// Bytes from one row to the next.
+  std::ptrdiff_t stride() const { return stride_; }
+
+  /// Bytes that an image of this format and size occupies.
+  static std::size_t memory_bytes(Format format, int width, int height);
+
+ private:
+  struct Free {
+    void operator()(std::byte* p) const;
+  };
+  Format format_ = Format::r8;
+  int width_ = 0, height_ = 0;
+  std::ptrdiff_t stride_ = 0;
+  std::unique_ptr<std::byte, Free> memory_;
+  std::byte* origin_ = nullptr;
+};
+
+/// What a buffer looks like from outside: its channels, in order, taken from one image or from several single-channel
+/// images of one size (`parts`); channels beyond the parts are zero. Canonical bytes are its rows without padding,
+/// little endian.
+struct BufferView {
+  Format format;
+  std::vector<const Image*> parts;
+
+  BufferView(const Image& image) : format(image.format()), parts{&image} {}
+  BufferView(Format as, std::vector<const Image*> channel_images) : format(as), parts(std::move(channel_images)) {}
+  int width() const { return parts.front()->width(); }
+  int height() const { return parts.front()->height(); }
+  std::size_t row_bytes() const { return static_cast<std::size_t>(width()) * info(format).texel_bytes(); }
+  /// Writes the canonical bytes of row y to out (row_bytes() of them).
+  void copy_row(int y, std::byte* out) const;
+};
+
+}  // namespace rainref

@@ -1,0 +1,17 @@
+// The version of rainref and of its golden results.
+#pragma once
+
+#define RAINREF_VERSION_MAJOR 0
+#define RAINREF_VERSION_MINOR 1
+#define RAINREF_VERSION_PATCH 0
+
+namespace rainref {
+
+/// "major.minor.patch" of this build.
+const char* version();
+
+/// Generation of the golden results. It rises when a change alters the bits of any published pass;
+/// CHANGELOG.md says which and why. It seeds every hash, so hashes of two generations never compare equal by accident.
+inline constexpr unsigned golden_generation = 1;
+
+}  // namespace rainref

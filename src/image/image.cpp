@@ -1,0 +1,87 @@
+#include "rainref/image.h"
+
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
+namespace rainref {
+
+static_assert(std::endian::native == std::endian::little, "canonical bytes are little endian; a swap is not written");
+
+namespace {
+
+constexpr std::array<FormatInfo, 11> formats{{{"r8", 1, 1, FormatInfo::unorm8},
+                                              {"rg8", 2, 1, FormatInfo::unorm8},
+                                              {"rgba8", 4, 1, FormatInfo::unorm8},
+                                              {"rgba8_srgb", 4, 1, FormatInfo::srgb8},
+                                              {"r16f", 1, 2, FormatInfo::float16},
+                                              {"rg16f", 2, 2, FormatInfo::float16},
+                                              {"rgba16f", 4, 2, FormatInfo::float16},
+                                              {"r32f", 1, 4, FormatInfo::float32},
+                                              {"rg32f", 2, 4, FormatInfo::float32},
+                                              {"rgba32f", 4, 4, FormatInfo::float32},
+                                              {"r32ui", 1, 4, FormatInfo::uint32}}};
+constexpr std::size_t alignment = 64;
+constexpr int max_side = 65536;
+
+std::size_t stride_bytes(Format format, int width) {
+  const std::size_t texels = static_cast<std::size_t>(Image::left_margin) + width + Image::right_margin;
+  return (texels * info(format).texel_bytes() + alignment - 1) / alignment * alignment;
+}
+
+}  // namespace
+
+const FormatInfo& info(Format format) { return formats[static_cast<std::size_t>(format)]; }
+
+Format format_from_name(std::string_view name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    if (formats[i].name == name) return static_cast<Format>(i);
+    names.emplace_back(formats[i].name);
+  }
+  throw Error(ExitCode::usage, fmt::format("unknown format '{}'{}", name, did_you_mean(name, names)));
+}
+
+const char* name(Rounding rounding) { return rounding == Rounding::rne ? "rne" : "rtz"; }
+
+void Image::Free::operator()(std::byte* p) const { std::free(p); }
+
+std::size_t Image::memory_bytes(Format format, int width, int height) {
+  return stride_bytes(format, width) * static_cast<std::size_t>(height);
+}
+
+Image::Image(Format format, int width, int height) : format_(format), width_(width), height_(height) {
+  if (width < 1 || height < 1 || width > max_side || height > max_side) {
+    throw Error(ExitCode::usage, fmt::format("image size {}x{}: each side must be from 1 to {}", width, height, max_side));
+  }
+  stride_ = static_cast<std::ptrdiff_t>(stride_bytes(format, width));
+  const std::size_t bytes = memory_bytes(format, width, height);
+  memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, bytes)));
+  if (!memory_) {
+    throw Error(ExitCode::usage, fmt::format("image {}x{} {}: {:.1f} GiB of memory could not be had", width, height,
+                                             info(format).name, static_cast<double>(bytes) / (1u << 30)));
+  }
+  std::memset(memory_.get(), 0, bytes);
+  // The margin keeps the first texel of every row aligned to 16 texels' worth of bytes.
+  origin_ = memory_.get() + static_cast<std::size_t>(left_margin) * info(format).texel_bytes();
+}
+
+void BufferView::copy_row(int y, std::byte* out) const {
+  if (parts.size() == 1 && parts.front()->format() == format) {
+    std::memcpy(out, parts.front()->row_bytes(y), row_bytes());
+    return;
+  }
+  const std::size_t channel_bytes = info(format).channel_bytes, texel_bytes = info(format).texel_bytes();
+  std::memset(out, 0, row_bytes());
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    const std::byte* in = parts[c]->row_bytes(y);
+    for (int x = 0; x < width(); ++x) std::memcpy(out + x * texel_bytes + c * channel_bytes, in + x * channel_bytes, channel_bytes);
+  }
+}
+
+}  // namespace rainref

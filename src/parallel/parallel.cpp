@@ -1,0 +1,84 @@
+#include "parallel/parallel.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "base/floating_point.h"
+#include "rainref/error.h"
+
+namespace rainref::parallel {
+
+struct Executor::Pool {
+  // The scheduler starts no more workers than the machine has processors unless told to; a proof over 8 threads on
+  // 2 processors needs 8.
+  oneapi::tbb::global_control limit;
+  mutable oneapi::tbb::task_arena arena;
+  explicit Pool(int threads)
+      : limit(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {
+    // An arena hands its workers the floating-point state of the thread that starts it.
+    FloatingPointGuard guard;
+    arena.initialize();
+  }
+};
+
+Executor::Executor(int threads) {
+  if (threads < 0 || threads > max_threads) {
+    throw Error(ExitCode::usage, fmt::format("threads: expected a number from 1 to {}, found {}", max_threads, threads));
+  }
+  pool_ = std::make_unique<Pool>(threads == 0 ? oneapi::tbb::info::default_concurrency() : threads);
+}
+
+Executor::~Executor() = default;
+
+int Executor::threads() const { return pool_->arena.max_concurrency(); }
+
+void Executor::for_range(std::int64_t count, std::int64_t chunk,
+                         const std::function<void(std::int64_t, std::int64_t)>& body) const {
+  if (count <= 0) return;
+  const std::int64_t chunks = (count + chunk - 1) / chunk;
+  std::vector<std::int64_t> order;
+  if (shuffle_seed_ != 0) {
+    order.resize(static_cast<std::size_t>(chunks));
+    std::iota(order.begin(), order.end(), std::int64_t{0});
+    std::uint64_t state = shuffle_seed_;
+    for (std::size_t i = order.size(); i > 1; --i) {
+      state = state * 6364136223846793005u + 1442695040888963407u;  // Knuth's MMIX generator; only the order hangs on it
+      std::swap(order[i - 1], order[(state >> 33) % i]);
+    }
+  }
+  const auto run = [&](std::int64_t i) {
+    const std::int64_t index = order.empty() ? i : order[static_cast<std::size_t>(i)];
+    FloatingPointGuard guard;
+    body(index * chunk, std::min(count, (index + 1) * chunk));
+  };
+  pool_->arena.execute([&] {
+    oneapi::tbb::parallel_for(
+        oneapi::tbb::blocked_range<std::int64_t>(0, chunks, 1),
+        [&](const oneapi::tbb::blocked_range<std::int64_t>& range) {
+          for (std::int64_t i = range.begin(); i != range.end(); ++i) run(i);
+        },
+        oneapi::tbb::simple_partitioner());
+  });
+}
+
+void Executor::for_tiles(int width, int height, int tile_width, int tile_height,
+                         const std::function<void(const Tile&)>& body) const {
+  const int columns = (width + tile_width - 1) / tile_width, rows = (height + tile_height - 1) / tile_height;
+  for_range(static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const int x = static_cast<int>(i % columns) * tile_width, y = static_cast<int>(i / columns) * tile_height;
+      body({x, y, std::min(width, x + tile_width), std::min(height, y + tile_height)});
+    }
+  });
+}
+
+}  // namespace rainref::parallel

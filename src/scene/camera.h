@@ -1,0 +1,35 @@
+// A pinhole camera, and the basis that a pass takes as uniforms.
+#pragma once
+
+#include <array>
+
+namespace rainref::scene {
+
+using Vector3 = std::array<double, 3>;
+
+/// Pinhole camera in the effect's world (right-handed, y up, metres unless the effect says otherwise).
+struct Camera {
+  Vector3 position{0, 0, 0};
+  Vector3 target{0, 0, -1};
+  Vector3 up{0, 1, 0};
+  double vertical_fov_deg = 60;
+
+  struct Basis {
+    Vector3 right, up, forward;  ///< orthonormal; right = forward x up
+  };
+  /// The basis, computed in double. Throws Error(usage) when position and target coincide or `up` is parallel to the
+  /// view.
+  Basis basis() const;
+  /// Half the height of the image plane at distance 1: tan(fov / 2).
+  double half_height() const;
+};
+
+Vector3 operator+(const Vector3& a, const Vector3& b);
+Vector3 operator-(const Vector3& a, const Vector3& b);
+Vector3 operator*(double s, const Vector3& a);
+double dot(const Vector3& a, const Vector3& b);
+Vector3 cross(const Vector3& a, const Vector3& b);
+/// a / |a|; a must not be zero.
+Vector3 normalized(const Vector3& a);
+
+}  // namespace rainref::scene
