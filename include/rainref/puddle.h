@@ -1,0 +1,117 @@
+// Rain on a puddle: the ripples of seed article "Rain drops on a puddle" (Nikolaos Papadopoulos, 4rknova.com), as
+// published and corrected. Mathematics, choices and the list of what is corrected: docs/effects/puddle.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rainref/image.h"
+#include "rainref/recorder.h"
+
+namespace rainref::parallel {
+class Executor;
+}
+
+namespace rainref::puddle {
+
+enum class Variant : std::uint8_t { as_published, corrected };
+enum class Boundary : std::uint8_t {
+  reflecting,  ///< edge texels repeat outside (clamp): waves reflect upright
+  periodic,    ///< opposite edges join (repeat)
+  fixed        ///< the rest value outside: waves reflect inverted
+};
+enum class Shape : std::uint8_t {
+  natural,  ///< an irregular shore inside the rectangle, wet ground around it
+  basin     ///< water of constant depth all over
+};
+
+/// Everything that a puddle depends on besides its images. Names, units and ranges: `rainref describe puddle`.
+struct Settings {
+  Variant variant = Variant::corrected;
+  std::uint64_t seed = 1;
+  double fps = 60;
+  int width = 1280, height = 720;  ///< of the picture; as-published also of the wave buffer
+
+  // The thirteen published parameters.
+  int drop_count = 5;
+  double drop_intensity = 1, rain_speed = 1, damping = 0.98, reflectivity = 1, vignette = 0, fog_depth = 0, env_rotation = 0;
+  bool use_checkerboard = false;
+  double ground_scale = 1, water_turbidity = 1, puddle_depth = 0.05;
+  std::array<double, 3> tint{0, 0, 0};
+
+  Format storage = Format::rg16f;  ///< rg16f, rg32f or rgba8
+  Rounding rounding = Rounding::rne;
+  Boundary boundary = Boundary::reflecting;
+  int max_steps = 256;
+
+  // as-published
+  double step = 1;  ///< offset of the neighbours [texels]
+
+  // corrected
+  std::array<int, 2> grid{640, 448};
+  double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, shore_width = 0.002, exposure = 0;
+  Shape shape = Shape::natural;
+  bool exact_fresnel = true;
+  double rain_rate = 10, smallest_drop = 0.5;
+
+  std::array<double, 3> camera_position{}, camera_target{}, camera_up{0, 1, 0};
+  double vertical_fov_deg = 45;
+};
+
+/// The images that shade takes. Row 0 is v = 0.
+struct Surroundings {
+  Image environment;  ///< 4 channels; latitude/longitude, or six stacked faces
+  bool environment_is_cube = false;
+  bool environment_is_encoded = false;  ///< display-encoded rather than linear
+  Image ground;                         ///< 4 channels, a tile; empty: asphalt made here
+  bool ground_is_encoded = false;
+};
+
+/// A puddle and its water. Advance it frame by frame; every buffer has the same bits whatever the executor's threads
+/// and the SIMD target.
+class Puddle {
+ public:
+  /// Throws Error(usage) for settings that cannot run: an unstable Courant number names the limit, sizes that need too
+  /// much memory name the need. The executor must outlive the puddle.
+  Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
+  ~Puddle();
+  Puddle(Puddle&&) noexcept;
+
+  /// raindrops and wave_step from time frame / fps to (frame + 1) / fps. Frames are 0, 1, 2 ... in this order.
+  void simulate(Recorder* recorder = nullptr);
+  /// surface_hit, shade and display of the present water.
+  void render(Recorder* recorder = nullptr);
+
+  /// Frames simulated so far.
+  int frame() const;
+  /// Wave steps made so far.
+  std::int64_t steps() const;
+  /// c dt / dx; as-published exactly sqrt(1/2) / step.
+  double courant() const;
+
+  /// Water: the newest and the previous level, in the storage type; single-channel planes.
+  const Image& newest() const;
+  const Image& previous() const;
+  /// As `wave` is captured: newest and previous as channels of the storage format.
+  BufferView wave() const;
+  /// Overwrites both levels with heights (corrected: metres; as-published: decoded units), row-major, rounded to the
+  /// storage type.
+  void set_water(const std::vector<float>& newest, const std::vector<float>& previous);
+
+  const Image& hit() const;      ///< rgba32f: position, iterations
+  const Image& normal() const;   ///< rgba16f: normal, hit flag
+  const Image& colour() const;   ///< rgba16f: linear radiance
+  const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Bytes of memory that a puddle of these settings needs, images aside.
+std::size_t memory_bytes(const Settings& settings);
+
+}  // namespace rainref::puddle

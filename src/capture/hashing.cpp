@@ -1,0 +1,76 @@
+#include "capture/hashing.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace rainref::capture {
+namespace {
+
+void add_buffer(Hasher& hasher, const BufferView& buffer) {
+  std::vector<std::byte> row(buffer.row_bytes());
+  for (int y = 0; y < buffer.height(); ++y) {
+    buffer.copy_row(y, row.data());
+    hasher.add(row);
+  }
+}
+
+}  // namespace
+
+Hash128 hash_of(const BufferView& buffer) {
+  Hasher hasher;
+  add_buffer(hasher, buffer);
+  return hasher.finish();
+}
+
+std::vector<TileHash> tile_hashes(const BufferView& buffer, int side) {
+  std::vector<TileHash> out;
+  const std::size_t texel = static_cast<std::size_t>(info(buffer.format).texel_bytes());
+  std::vector<std::byte> row(buffer.row_bytes());
+  const int columns = (buffer.width() + side - 1) / side;
+  for (int y0 = 0; y0 < buffer.height(); y0 += side) {
+    std::vector<Hasher> hashers(static_cast<std::size_t>(columns));
+    for (int y = y0; y < std::min(buffer.height(), y0 + side); ++y) {
+      buffer.copy_row(y, row.data());
+      for (int c = 0; c < columns; ++c) {
+        const int x0 = c * side, x1 = std::min(buffer.width(), x0 + side);
+        hashers[static_cast<std::size_t>(c)].add(std::span(row).subspan(x0 * texel, (x1 - x0) * texel));
+      }
+    }
+    for (int c = 0; c < columns; ++c) out.push_back({c * side, y0, hashers[static_cast<std::size_t>(c)].finish()});
+  }
+  return out;
+}
+
+std::string HashLine::text() const { return fmt::format("{} {} {} {}", frame, pass, buffer, hash.text()); }
+
+void HashRecorder::pass(const PassCall& call) {
+  auto time = std::find_if(times_.begin(), times_.end(), [&](const Time& t) { return t.pass == call.pass; });
+  if (time == times_.end()) time = times_.insert(times_.end(), {std::string(call.pass)});
+  time->seconds += call.seconds;
+  ++time->calls;
+  if (!hashing_) return;
+  for (const PassOutput& output : call.outputs) {
+    auto open = std::find_if(open_.begin(), open_.end(), [&](const Open& o) {
+      return o.frame == call.frame && o.pass == call.pass && o.buffer == output.name;
+    });
+    if (open == open_.end()) {
+      open = open_.insert(open_.end(), {call.frame, std::string(call.pass), std::string(output.name), std::make_unique<Hasher>()});
+    }
+    if (const auto* buffer = std::get_if<BufferView>(&output.content)) add_buffer(*open->hasher, *buffer);
+    else open->hasher->add(std::get<RecordView>(output.content).bytes());
+  }
+}
+
+std::vector<HashLine> HashRecorder::take_lines() {
+  std::vector<HashLine> lines;
+  for (const Open& o : open_) {
+    lines.push_back({o.frame, o.pass, o.buffer, o.hasher->finish()});
+    scene_.add(lines.back().text());
+    scene_.add("\n");
+  }
+  open_.clear();
+  return lines;
+}
+
+}  // namespace rainref::capture

@@ -1,0 +1,146 @@
+#include "cli/cli.h"
+
+#include <cstdio>
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "math/simd_target.h"
+#include "parallel/parallel.h"
+#include "rainref/error.h"
+#include "rainref/version.h"
+
+namespace rainref::cli {
+namespace {
+
+/// What `run` and `hash` take besides the scene, before it becomes overrides.
+struct SceneFlags {
+  std::string scene, size, simd, frames, threads;
+  std::vector<std::string> set;
+};
+
+void add_scene_flags(CLI::App& verb, SceneFlags& flags) {
+  verb.add_option("SCENE", flags.scene, "Scene file (TOML)")->required();
+  verb.add_option("--frames", flags.frames, "Number of frames");
+  verb.add_option("--size", flags.size, "Picture size, WxH");
+  verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them");
+  verb.add_option("--simd", flags.simd, "SIMD target; the result does not depend on it (see `rainref list`)");
+  verb.add_option("--set", flags.set, "Override a scene value: key=value")->allow_extra_args(false);
+}
+
+int whole_number(const std::string& text, const char* option, int low, int high) {
+  std::size_t used = 0;
+  long value = 0;
+  try {
+    value = std::stol(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used != text.size() || text.empty() || value < low || value > high) {
+    throw Error(ExitCode::usage, fmt::format("{}: expected a whole number from {} to {}, found '{}'", option, low, high, text));
+  }
+  return static_cast<int>(value);
+}
+
+SceneOptions resolve(const SceneFlags& flags) {
+  SceneOptions options;
+  options.scene = flags.scene;
+  options.overrides = flags.set;
+  if (!flags.frames.empty()) options.overrides.push_back(fmt::format("run.frames={}", whole_number(flags.frames, "--frames", 1, 1000000)));
+  if (!flags.size.empty()) {
+    const std::size_t x = flags.size.find('x');
+    if (x == std::string::npos) throw Error(ExitCode::usage, fmt::format("--size: expected WxH such as 1280x720, found '{}'", flags.size));
+    options.overrides.push_back(fmt::format("run.size=[{}, {}]", whole_number(flags.size.substr(0, x), "--size", 1, 65536),
+                                            whole_number(flags.size.substr(x + 1), "--size", 1, 65536)));
+  }
+  if (!flags.threads.empty()) options.threads = whole_number(flags.threads, "--threads", 1, parallel::Executor::max_threads);
+  select_simd_target(flags.simd);
+  return options;
+}
+
+int parse_and_run(int argc, const char* const* argv) {
+  CLI::App app{"rainref: the deterministic CPU reference for real-time rain"};
+  app.set_version_flag("--version", std::string("rainref ") + version());
+  app.require_subcommand(1);
+
+  bool list_json = false, describe_json = false;
+  CLI::App& list_verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
+  list_verb.add_flag("--json", list_json, "As JSON");
+  list_verb.footer("Example: rainref list --json");
+
+  std::string described, layout;
+  CLI::App& describe_verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
+  describe_verb.add_option("EFFECT", described, "Effect")->required();
+  describe_verb.add_flag("--json", describe_json, "As JSON");
+  describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda");
+  describe_verb.footer("Example: rainref describe puddle --layout glsl");
+
+  SceneFlags run_flags, hash_flags;
+  RunOptions run_options;
+  std::string image = "png", every;
+  CLI::App& run_verb = *app.add_subcommand("run", "Simulate and render a scene");
+  add_scene_flags(run_verb, run_flags);
+  run_verb.add_option("-o,--output", run_options.output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)");
+  run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none");
+  run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)");
+  run_verb.add_flag("--json", run_options.json, "Print the summary as JSON");
+  run_verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
+
+  CLI::App& hash_verb = *app.add_subcommand("hash", "Hash every buffer that every pass writes");
+  add_scene_flags(hash_verb, hash_flags);
+  hash_verb.footer("Example: rainref hash scenes/puddle/default.toml --frames 60 --threads 2 --simd avx2");
+
+  CLI::App& selftest_verb = *app.add_subcommand("selftest", "Prove determinism on this machine, in seconds");
+  selftest_verb.footer("Example: rainref selftest");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    fmt::print(stderr, "rainref: {} (see `rainref --help`)\n", e.what());
+    return static_cast<int>(ExitCode::usage);
+  }
+  if (list_verb.parsed()) return list(list_json);
+  if (describe_verb.parsed()) return describe(described, describe_json, layout);
+  if (run_verb.parsed()) {
+    const std::vector<std::string> kinds{"exr", "png", "both", "none"};
+    if (std::find(kinds.begin(), kinds.end(), image) == kinds.end()) {
+      throw Error(ExitCode::usage, fmt::format("--image: expected exr, png, both or none, found '{}'{}", image, did_you_mean(image, kinds)));
+    }
+    run_options.png = image == "png" || image == "both";
+    run_options.exr = image == "exr" || image == "both";
+    if (!every.empty()) run_options.every = whole_number(every, "--every", 1, 1000000);
+    run_options.scene = resolve(run_flags);
+    return run(run_options);
+  }
+  if (hash_verb.parsed()) return hash(resolve(hash_flags));
+  return selftest();
+}
+
+}  // namespace
+
+int main(int argc, const char* const* argv) {
+  ExitCode code = ExitCode::internal;
+  std::string message;
+  try {
+    const int result = parse_and_run(argc, argv);
+    // A full disk shows when standard output is flushed.
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return result;
+    code = ExitCode::io;
+    message = "standard output cannot be written";
+  } catch (const Error& e) {
+    code = e.code();
+    message = e.what();
+  } catch (const std::bad_alloc&) {
+    code = ExitCode::usage;
+    message = "this scene needs more memory than can be had";
+  } catch (const std::exception& e) {
+    message = fmt::format("internal error: {}", e.what());
+  }
+  fmt::print(stderr, "rainref: {}\n", message);
+  return static_cast<int>(code);
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,9 @@
+// The command line as a function, so that tests can call it.
+#pragma once
+
+namespace rainref::cli {
+
+/// Parses and runs. Returns the exit code; prints errors as one line on standard error.
+int main(int argc, const char* const* argv);
+
+}  // namespace rainref::cli

@@ -1,0 +1,32 @@
+// The verbs of the command line. Each returns an exit code or throws Error.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rainref::cli {
+
+/// Options that `run` and `hash` share.
+struct SceneOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;  ///< of --set, then of --frames and --size
+  int threads = 0;                     ///< 0: one for each processor
+};
+
+struct RunOptions {
+  SceneOptions scene;
+  std::filesystem::path output;  ///< empty: out/<name of the scene>
+  int every = 0;                 ///< 0: the last frame only
+  bool png = true, exr = false;
+  bool json = false;
+};
+
+int list(bool json);
+int describe(const std::string& effect, bool json, const std::string& layout);
+int run(const RunOptions& options);
+int hash(const SceneOptions& options);
+int selftest();
+
+}  // namespace rainref::cli

@@ -1,0 +1,104 @@
+// `rainref list` and `rainref describe`.
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/registry.h"
+#include "math/simd_target.h"
+#include "rainref/version.h"
+#include "scene/describe.h"
+#include "scene/json.h"
+#include "scene/uniform_layout.h"
+
+namespace rainref::cli {
+namespace {
+
+// The scenes below ./scenes, or else those that came with this build.
+std::vector<std::string> scenes() {
+  std::vector<std::string> found;
+  for (const char* root : {"scenes", RAINREF_SCENES}) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none)) {
+      if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
+    }
+    if (!found.empty()) break;
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool used(const capture::PassInfo& pass, const std::string& variant) {
+  return pass.variants.empty() || std::find(pass.variants.begin(), pass.variants.end(), variant) != pass.variants.end();
+}
+
+}  // namespace
+
+int list(bool json) {
+  if (json) {
+    nlohmann::ordered_json out;
+    out["effects"] = nlohmann::ordered_json::array();
+    for (const EffectEntry& e : effects()) {
+      nlohmann::ordered_json effect{{"name", e.name}, {"variants", e.variants}, {"passes", nlohmann::ordered_json::array()}};
+      for (const capture::PassInfo& pass : e.info->passes) effect["passes"].push_back(pass.name);
+      out["effects"].push_back(effect);
+    }
+    out["scenes"] = scenes();
+    out["simd_targets"] = simd_targets();
+    out["threads"] = parallel::Executor().threads();
+    fmt::print("{}\n", out.dump(2));
+    return 0;
+  }
+  fmt::print("rainref {}\n\nEffects\n", version());
+  for (const EffectEntry& e : effects()) {
+    for (const std::string& variant : e.variants) {
+      fmt::print("  {:<14} {:<13}", e.name, variant);
+      for (const capture::PassInfo& pass : e.info->passes) {
+        if (used(pass, variant)) fmt::print(" {}", pass.name);
+      }
+      fmt::print("\n");
+    }
+  }
+  fmt::print("\nScenes\n");
+  for (const std::string& scene : scenes()) fmt::print("  {}\n", scene);
+  fmt::print("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
+  return 0;
+}
+
+int describe(const std::string& name, bool json, const std::string& layout) {
+  const EffectEntry& e = effect(name);
+  const std::vector<scene::Parameter> parameters = scene::scene_parameters(effect_table().find(name), effect_table());
+  if (!layout.empty()) {
+    const scene::Language language = scene::language_from_name(layout);
+    for (const scene::UniformBlock& record : e.info->records) fmt::print("{}\n", scene::record_layout(record, language));
+    for (const capture::PassInfo& pass : e.info->passes) {
+      for (const scene::UniformBlock& block : pass.uniforms) fmt::print("// Pass {}\n{}\n", pass.name, scene::layout(block, language));
+    }
+    return 0;
+  }
+  if (json) {
+    nlohmann::ordered_json out{{"effect", e.name}, {"variants", e.variants}, {"parameters", scene::parameters_json(parameters)}};
+    out["passes"] = nlohmann::ordered_json::array();
+    for (const capture::PassInfo& p : e.info->passes) {
+      nlohmann::ordered_json pass{{"name", p.name}, {"sentence", p.sentence}, {"reads", p.reads}, {"writes", p.writes}, {"judge", p.judge}};
+      if (!p.variants.empty()) pass["variants"] = p.variants;
+      for (const scene::UniformBlock& block : p.uniforms) pass["uniforms"].push_back(scene::uniform_block_json(block));
+      out["passes"].push_back(pass);
+    }
+    for (const capture::BufferInfo& b : e.info->buffers) out["buffers"].push_back({{"name", b.name}, {"format", b.format}, {"sentence", b.sentence}});
+    for (const scene::UniformBlock& record : e.info->records) out["records"].push_back(scene::uniform_block_json(record));
+    fmt::print("{}\n", out.dump(2));
+    return 0;
+  }
+  fmt::print("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "), scene::describe_text(parameters));
+  for (const capture::PassInfo& p : e.info->passes) {
+    fmt::print("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, p.variants.empty() ? "" : fmt::format(" ({})", fmt::join(p.variants, ", ")),
+               p.sentence, p.reads.empty() ? "nothing" : fmt::format("{}", fmt::join(p.reads, " ")), fmt::join(p.writes, " "), p.judge);
+  }
+  fmt::print("\nBuffers\n\n");
+  for (const capture::BufferInfo& b : e.info->buffers) fmt::print("{:<13} {:<15} {}\n", b.name, b.format, b.sentence);
+  return 0;
+}
+
+}  // namespace rainref::cli

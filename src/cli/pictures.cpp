@@ -1,0 +1,18 @@
+#include "cli/pictures.h"
+
+#include <cstring>
+
+#include "image_io/write.h"
+
+namespace rainref::cli {
+
+Image flipped(const Image& image) {
+  Image out(image.format(), image.width(), image.height());
+  const std::size_t bytes = BufferView(image).row_bytes();
+  for (int y = 0; y < image.height(); ++y) std::memcpy(out.row_bytes(image.height() - 1 - y), image.row_bytes(y), bytes);
+  return out;
+}
+
+void write_picture(const std::filesystem::path& path, const Image& picture) { image_io::write_png(path, flipped(picture)); }
+
+}  // namespace rainref::cli

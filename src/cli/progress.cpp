@@ -1,0 +1,44 @@
+#include "cli/progress.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace rainref::cli {
+
+std::string duration_text(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const int whole = static_cast<int>(seconds + 0.5);
+  return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+Progress::Progress(std::string what, int total)
+    : what_(std::move(what)), total_(total), shown_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {
+  if (shown_) draw();
+}
+
+Progress::~Progress() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::advance() {
+  ++done_;
+  if (!shown_) return;
+  const auto now = Clock::now();
+  if (done_ < total_ && now - drawn_ < std::chrono::milliseconds(100)) return;
+  drawn_ = now;
+  draw();
+}
+
+void Progress::draw() {
+  constexpr int width = 24;
+  const int filled = total_ > 0 ? width * done_ / total_ : width;
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  std::string line = fmt::format("\r{} [{}{}] {}/{}", what_, std::string(filled, '#'), std::string(width - filled, '.'), done_, total_);
+  if (done_ > 0) line += fmt::format("  {:.1f} frames/s  {} left", done_ / elapsed, duration_text(elapsed / done_ * (total_ - done_)));
+  fmt::print(stderr, "{}\033[K", line);
+  std::fflush(stderr);
+}
+
+}  // namespace rainref::cli

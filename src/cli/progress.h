@@ -1,0 +1,29 @@
+// A progress bar on the terminal.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace rainref::cli {
+
+/// Frames done, rate and time left, on one line of standard error that is redrawn ten times a second at most. Silent
+/// when standard error is no terminal.
+class Progress {
+ public:
+  Progress(std::string what, int total);
+  ~Progress();
+  void advance();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw();
+  std::string what_;
+  int total_, done_ = 0;
+  bool shown_;
+  Clock::time_point start_, drawn_;
+};
+
+/// "4.2 s", "1 min 05 s".
+std::string duration_text(double seconds);
+
+}  // namespace rainref::cli

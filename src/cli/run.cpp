@@ -1,0 +1,103 @@
+// `rainref run` and `rainref hash`.
+#include <chrono>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "capture/hashing.h"
+#include "cli/commands.h"
+#include "cli/pictures.h"
+#include "cli/progress.h"
+#include "cli/registry.h"
+#include "math/simd_target.h"
+#include "rainref/error.h"
+#include "rainref/version.h"
+#include "scene/json.h"
+#include "scene/toml.h"
+
+namespace rainref::cli {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", folder.string(), error ? error.message() : "a file of that name exists"));
+  }
+}
+
+nlohmann::ordered_json summary(const scene::Config& config, const std::vector<InputFile>& inputs, const parallel::Executor& executor,
+                               const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds, int frames) {
+  nlohmann::ordered_json out{{"rainref", version()}, {"golden_generation", golden_generation}, {"config", scene::config_json(config)}, {"origins", scene::origins_json(config)}};
+  out["inputs"] = nlohmann::ordered_json::array();
+  for (const InputFile& f : inputs) out["inputs"].push_back({{"key", f.key}, {"file", f.path}, {"decoded_hash", f.decoded_hash}, {"lossy", f.lossy}});
+  out["simd"] = selected_simd_target();
+  out["threads"] = executor.threads();
+  out["frames"] = frames;
+  out["seconds"] = seconds;
+  for (const auto& t : recorder.times()) {
+    out["passes"].push_back({{"name", t.pass}, {"calls", t.calls}, {"ms_per_frame", t.seconds * 1e3 / frames}});
+  }
+  for (const capture::HashLine& line : last) {
+    out["last_frame"].push_back({{"frame", line.frame}, {"pass", line.pass}, {"buffer", line.buffer}, {"xxh3", line.hash.text()}});
+  }
+  out["scene_hash"] = recorder.scene_hash().text();
+  return out;
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const scene::Config config = scene::load(options.scene.scene, options.scene.overrides, effect_table());
+  const parallel::Executor executor(options.scene.threads);
+  const std::filesystem::path folder = options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
+  make_folder(folder);  // before the work: an unwritable place should not cost a run
+
+  std::vector<InputFile> inputs;
+  const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
+  const int frames = static_cast<int>(config.integer("run.frames"));
+  capture::HashRecorder recorder;
+  std::vector<capture::HashLine> last;
+  int pictures = 0;
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress(config.effect(), frames);
+    for (int frame = 0; frame < frames; ++frame) {
+      simulation->frame(&recorder);
+      last = recorder.take_lines();
+      if (options.every > 0 ? frame % options.every == 0 : frame == frames - 1) {
+        const std::string stem = fmt::format("{}.{:04}", config.effect(), frame);
+        if (options.png) write_picture(folder / (stem + ".png"), simulation->picture());
+        if (options.exr) simulation->write_exr(folder / (stem + ".exr"));
+        pictures += options.png + options.exr;
+      }
+      progress.advance();
+    }
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
+  write_file(folder / "summary.json", report.dump(2) + "\n");
+  if (options.json) fmt::print("{}\n", report.dump(2));
+  else fmt::print("{} frames in {}, {} picture{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s", folder.string());
+  return 0;
+}
+
+int hash(const SceneOptions& options) {
+  const scene::Config config = scene::load(options.scene, options.overrides, effect_table());
+  const parallel::Executor executor(options.threads);
+  std::vector<InputFile> inputs;
+  const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
+  const int frames = static_cast<int>(config.integer("run.frames"));
+  capture::HashRecorder recorder;
+  Progress progress(config.effect(), frames);
+  for (int frame = 0; frame < frames; ++frame) {
+    simulation->frame(&recorder);
+    for (const capture::HashLine& line : recorder.take_lines()) fmt::print("{}\n", line.text());
+    progress.advance();
+  }
+  fmt::print("scene {}\n", recorder.scene_hash().text());
+  return 0;
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,118 @@
+// Texture lookups, written once over a number N. Text only, like math/vocabulary-inl.h; include it beside the pass texts.
+//
+// Coordinates are normalized; texel i of a side of W texels has its centre at (i + 1/2) / W. With x = a(u) W - 1/2:
+//   nearest    texel floor(a(u) W)
+//   bilinear   texels floor(x) and floor(x) + 1, weights 1 - f and f with f = x - floor(x); rows likewise
+//   trilinear  two levels floor(lod) and floor(lod) + 1, weights 1 - g and g with g = lod - floor(lod)
+// The address rule a: clamp holds x in [0, W - 1]; repeat takes fract(u); mirror takes 1 - |2 fract(u / 2) - 1|;
+// border lets x run to [-1, W] and gives the border colour for texels outside. mix is a (1 - t) + b t throughout.
+
+template <class N, int Count>
+struct Channels {
+  N value[Count];
+  RAINREF_FN Channels() {}
+  RAINREF_FN N& operator[](int i) { return value[i]; }
+  RAINREF_FN const N& operator[](int i) const { return value[i]; }
+};
+
+/// One mip level, its size as numbers and as integers.
+template <class N>
+struct Level {
+  typename N::Int width, height, offset;
+  N width_number, height_number;
+  RAINREF_FN Level() {}
+};
+/// The same level for every element.
+template <class N>
+RAINREF_FN Level<N> uniform_level(const Texture& t, int level) {
+  Level<N> l;
+  l.width = N::uniform_int(t.width[level]);
+  l.height = N::uniform_int(t.height[level]);
+  l.offset = N::uniform_int(t.offset[level]);
+  l.width_number = N(static_cast<float>(t.width[level]));
+  l.height_number = N(static_cast<float>(t.height[level]));
+  return l;
+}
+/// A level of each element's own.
+template <class N>
+RAINREF_FN Level<N> level_of(const Texture& t, typename N::Int level) {
+  Level<N> l;
+  l.width = lookup(t.width, level);
+  l.height = lookup(t.height, level);
+  l.offset = lookup(t.offset, level);
+  l.width_number = to_number(l.width);
+  l.height_number = to_number(l.height);
+  return l;
+}
+
+/// The address rule a(u): u itself for clamp and border.
+template <class N>
+RAINREF_FN N address_coordinate(Address address, N u) {
+  switch (address) {
+    case Address::repeat: return fract(u);
+    case Address::mirror: return N(1.0f) - abs(N(2.0f) * fract(u * N(0.5f)) - N(1.0f));
+    case Address::clamp:
+    case Address::border: break;
+  }
+  return u;
+}
+/// The lower texel coordinate x of a bilinear lookup along one side of `size` texels.
+template <class N>
+RAINREF_FN N texel_coordinate(Address address, N u, N size) {
+  const N x = address_coordinate(address, u) * size - N(0.5f);
+  if (address == Address::repeat) return x;
+  if (address == Address::border) return clamp(x, N(-1.0f), size);
+  return clamp(x, N(0.0f), size - N(1.0f));
+}
+template <class Int>
+RAINREF_FN Int texel_index(Address address, Int i, Int size) {
+  return address == Address::repeat ? wrap_index(i, size) : clamp_index(i, size);
+}
+
+/// Channels First ... First + Count - 1 of texel (x, y), by the address rules.
+template <int First, int Count, class N>
+RAINREF_FN Channels<N, Count> load_texel(const Texture& t, const Level<N>& l, typename N::Int x, typename N::Int y) {
+  const auto xi = texel_index(t.address_u, x, l.width), yi = texel_index(t.address_v, y, l.height);
+  const auto offset = (texel_offset(xi, yi, l.width) + l.offset) * t.channels;
+  Channels<N, Count> out;
+  for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels, offset + (First + c), N());
+  if (t.address_u == Address::border || t.address_v == Address::border) {
+    const auto in = inside(x, l.width) & inside(y, l.height);
+    for (int c = 0; c < Count; ++c) out[c] = select(in, out[c], N(t.border[First + c]));
+  }
+  return out;
+}
+
+template <int First, int Count, class N>
+RAINREF_FN Channels<N, Count> sample_nearest(const Texture& t, N u, N v) {
+  const Level<N> l = uniform_level<N>(t, 0);
+  // Held within one texel of the image before the cut to integers; the index rule does the rest.
+  const N x = clamp(address_coordinate(t.address_u, u) * l.width_number, N(-1.0f), l.width_number);
+  const N y = clamp(address_coordinate(t.address_v, v) * l.height_number, N(-1.0f), l.height_number);
+  return load_texel<First, Count, N>(t, l, to_int(floor(x)), to_int(floor(y)));
+}
+
+template <int First, int Count, class N>
+RAINREF_FN Channels<N, Count> sample_level(const Texture& t, const Level<N>& l, N u, N v) {
+  const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
+  const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
+  const auto xi = to_int(x0), yi = to_int(y0);
+  const auto a = load_texel<First, Count, N>(t, l, xi, yi), b = load_texel<First, Count, N>(t, l, xi + 1, yi);
+  const auto c = load_texel<First, Count, N>(t, l, xi, yi + 1), d = load_texel<First, Count, N>(t, l, xi + 1, yi + 1);
+  Channels<N, Count> out;
+  for (int k = 0; k < Count; ++k) out[k] = mix(mix(a[k], b[k], fx), mix(c[k], d[k], fx), fy);
+  return out;
+}
+template <int First, int Count, class N>
+RAINREF_FN Channels<N, Count> sample_bilinear(const Texture& t, N u, N v, int level = 0) {
+  return sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+}
+template <int First, int Count, class N>
+RAINREF_FN Channels<N, Count> sample_trilinear(const Texture& t, N u, N v, N lod) {
+  const N last(static_cast<float>(t.levels - 1)), l = clamp(lod, N(0.0f), last), l0 = floor(l), g = l - l0;
+  const auto a = sample_level<First, Count, N>(t, level_of<N>(t, to_int(l0)), u, v);
+  const auto b = sample_level<First, Count, N>(t, level_of<N>(t, to_int(min(l0 + N(1.0f), last))), u, v);
+  Channels<N, Count> out;
+  for (int k = 0; k < Count; ++k) out[k] = mix(a[k], b[k], g);
+  return out;
+}

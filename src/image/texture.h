@@ -1,0 +1,68 @@
+// Decoded images that passes sample.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rainref/image.h"
+
+namespace rainref {
+
+/// What a lookup outside the image gives.
+enum class Address : std::uint8_t {
+  clamp,   ///< the nearest texel of the edge
+  repeat,  ///< the image is a tile
+  mirror,  ///< the image and its mirror image alternate
+  border   ///< a constant (zero by default)
+};
+
+/// A view of float texels with mip levels, as sampling-inl.h reads it. Level l has width[l] x height[l] texels,
+/// row-major, channels interleaved, starting at texel offset[l]. Row 0 is v = 0.
+struct Texture {
+  static constexpr int max_levels = 17;
+  const float* texels = nullptr;
+  int channels = 0;
+  int levels = 0;
+  std::int32_t width[max_levels] = {}, height[max_levels] = {}, offset[max_levels] = {};
+  Address address_u = Address::clamp, address_v = Address::clamp;
+  float border[4] = {0, 0, 0, 0};
+};
+
+/// Owns the texels of a Texture. Made from an Image by exact decoding: half and float keep their values, unorm8 is
+/// code / 255 correctly rounded. No colour conversion.
+class TextureData {
+ public:
+  TextureData() = default;
+  /// Level 0 only. Throws Error(usage) when the image has more than 2^31 / channels texels.
+  TextureData(const Image& image, Address u, Address v);
+  /// Takes decoded texels of one level.
+  TextureData(std::vector<float> texels, int channels, int width, int height, Address u, Address v);
+
+  /// Adds the chain of mip levels down to 1x1: each level has floor(size / 2) texels a side (at least 1), and each
+  /// texel is the exact mean of its footprint in the level above, weights of a polyphase box where a side is odd. So
+  /// the mean is kept at every size; a 2x2 box with dropped rows would change it. Stops at `levels` levels.
+  void build_mips(int levels = Texture::max_levels);
+
+  const Texture& view() const { return view_; }
+  /// The texels, to be written again in place.
+  float* texels() { return texels_.data(); }
+  void set_border(float r, float g, float b, float a);
+  bool empty() const { return texels_.empty(); }
+
+ private:
+  std::vector<float> texels_;
+  Texture view_;
+  void refresh() { view_.texels = texels_.data(); }
+
+ public:
+  TextureData(const TextureData& other) : texels_(other.texels_), view_(other.view_) { refresh(); }
+  TextureData(TextureData&& other) noexcept : texels_(std::move(other.texels_)), view_(other.view_) { refresh(); }
+  TextureData& operator=(TextureData other) noexcept {
+    texels_.swap(other.texels_);
+    view_ = other.view_;
+    refresh();
+    return *this;
+  }
+};
+
+}  // namespace rainref

@@ -1,0 +1,44 @@
+// From the bytes of an image file to samples in the file's own type: the part of reading that OpenImageIO does.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rainref::image_io {
+
+enum class FileKind : std::uint8_t { exr, png, hdr, jpeg };
+
+/// How a file stores one channel.
+enum class Sample : std::uint8_t { u8, u16, half, float32 };
+
+/// One of the four channels of the result: where it lies in a texel of Decoded::texels, or a constant (offset < 0).
+struct Channel {
+  std::string name;  ///< the file's name for it, "" for a constant
+  int offset = -1;   ///< bytes from the start of the texel
+  Sample sample = Sample::u8;
+  bool one = false;  ///< when a constant: 1 rather than 0
+};
+
+struct Decoded {
+  int width = 0, height = 0;
+  std::vector<std::string> channel_names;  ///< of every channel in the file
+  std::array<Channel, 4> channels;         ///< red, green, blue, alpha
+  std::string compression;
+  bool declared_linear = false;  ///< the file says that its integers are proportional to light
+  std::size_t texel_bytes = 0;
+  std::unique_ptr<std::byte[]> texels;  ///< row by row from the top of the picture, channels interleaved, native types
+};
+
+/// Decodes the first picture of a file at its full resolution. `file` is its quoted name and starts every message;
+/// `layer` as in pick_channels. Throws Error(usage) when the bytes are damaged or incomplete, or hold something that
+/// rainref does not read: deep or volume data, integer EXR channels, a picture stored rotated or cropped, a side over
+/// 65536, more memory than the machine has.
+Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer);
+
+}  // namespace rainref::image_io

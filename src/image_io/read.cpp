@@ -1,0 +1,201 @@
+#include "image_io/read.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/memory.h"
+#include "image_io/decode.h"
+#include "math/half.h"
+#include "rainref/error.h"
+
+namespace rainref::image_io {
+
+namespace {
+
+[[noreturn]] void cannot_read(const std::filesystem::path& path, int error) {
+  throw Error(ExitCode::io, fmt::format("cannot read '{}': {}", path.string(), std::generic_category().message(error)));
+}
+
+/// The whole file. Read by us rather than by OpenImageIO, so that a failing disk and a damaged picture stay apart.
+std::vector<std::byte> file_bytes(const std::filesystem::path& path) {
+  struct Descriptor {
+    int number;
+    ~Descriptor() {
+      if (number >= 0) ::close(number);
+    }
+  } file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // opening a pipe must not wait for its writer
+  if (file.number < 0) cannot_read(path, errno);
+  struct stat status;
+  if (::fstat(file.number, &status) != 0) cannot_read(path, errno);
+  if (S_ISDIR(status.st_mode)) cannot_read(path, EISDIR);
+  if (!S_ISREG(status.st_mode))
+    throw Error(ExitCode::io, fmt::format("cannot read '{}': not a regular file", path.string()));
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (size > physical_memory()) {
+    throw Error(ExitCode::io, fmt::format("cannot read '{}': its {} are more than this machine's memory", path.string(),
+                                          memory_text(size)));
+  }
+  std::vector<std::byte> bytes(size);
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::read(file.number, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) cannot_read(path, errno);
+    if (count == 0) break;  // it became shorter meanwhile
+    done += static_cast<std::size_t>(count);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+std::optional<FileKind> kind_of(std::span<const std::byte> bytes) {
+  const auto starts_with = [&](std::string_view signature) {
+    return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+  };
+  if (starts_with("\x76\x2f\x31\x01")) return FileKind::exr;
+  if (starts_with("\x89PNG\r\n\x1a\n")) return FileKind::png;
+  if (starts_with("#?RADIANCE") || starts_with("#?RGBE")) return FileKind::hdr;
+  if (starts_with("\xff\xd8\xff")) return FileKind::jpeg;
+  return std::nullopt;
+}
+
+/// Bytes at any address as a T.
+template <class T>
+T load(const std::byte* from) {
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+float load_float(const std::byte* from, Sample sample) {
+  switch (sample) {
+    case Sample::u8:
+      return static_cast<float>(load<std::uint8_t>(from)) / 255.0f;
+    // Both numbers are exact in float, so the division rounds once.
+    case Sample::u16:
+      return static_cast<float>(load<std::uint16_t>(from)) / 65535.0f;
+    case Sample::half:
+      return to_float(load<Half>(from));
+    case Sample::float32:
+      return load<float>(from);
+  }
+  return 0;
+}
+
+/// Fills the image from samples of type T, which is what the image stores.
+template <class T>
+void copy_texels(const Decoded& in, T one, Image& out) {
+  const std::byte* texel = in.texels.get();
+  for (int y = 0; y < in.height; ++y) {
+    T* row = out.row<T>(y);
+    for (int x = 0; x < in.width; ++x, texel += in.texel_bytes) {
+      for (const Channel& c : in.channels) *row++ = c.offset >= 0 ? load<T>(texel + c.offset) : c.one ? one : T{};
+    }
+  }
+}
+
+/// Fills an rgba32f image from samples of any type.
+void widen_texels(const Decoded& in, Image& out) {
+  const std::byte* texel = in.texels.get();
+  for (int y = 0; y < in.height; ++y) {
+    float* row = out.row<float>(y);
+    for (int x = 0; x < in.width; ++x, texel += in.texel_bytes) {
+      for (const Channel& c : in.channels) {
+        *row++ = c.offset >= 0 ? load_float(texel + c.offset, c.sample) : c.one ? 1.0f : 0.0f;
+      }
+    }
+  }
+}
+
+Image to_image(const Decoded& in) {
+  const auto all = [&](Sample sample) {
+    return std::ranges::all_of(in.channels, [&](const Channel& c) { return c.offset < 0 || c.sample == sample; });
+  };
+  if (all(Sample::u8)) {
+    Image out(Format::rgba8, in.width, in.height);
+    copy_texels<std::uint8_t>(in, 255, out);
+    return out;
+  }
+  if (all(Sample::half)) {
+    Image out(Format::rgba16f, in.width, in.height);
+    copy_texels<std::uint16_t>(in, 0x3c00, out);
+    return out;
+  }
+  Image out(Format::rgba32f, in.width, in.height);
+  widen_texels(in, out);
+  return out;
+}
+
+/// Refuses the first NaN or infinity, row by row from the top.
+template <class T>
+void require_finite(const std::string& file, const Decoded& in, const Image& image) {
+  for (int y = 0; y < image.height(); ++y) {
+    const T* row = image.row<T>(y);
+    for (int i = 0; i < 4 * image.width(); ++i) {
+      float value;
+      if constexpr (std::is_same_v<T, Half>) {
+        value = to_float(row[i]);
+      } else {
+        value = row[i];
+      }
+      if (std::isfinite(value)) continue;
+      throw Error(ExitCode::usage,
+                  fmt::format("{}: {} at x {}, y {} (from the top), channel '{}'", file,
+                              std::isnan(value) ? "NaN" : "infinity", i / 4, y, in.channels[i % 4].name));
+    }
+  }
+}
+
+bool is_lossy(FileKind kind, std::string_view compression) {
+  if (kind == FileKind::hdr || kind == FileKind::jpeg) return true;
+  constexpr std::array<std::string_view, 5> codes{"dwaa", "dwab", "b44", "b44a", "pxr24"};
+  return std::ranges::find(codes, compression.substr(0, compression.find(':'))) != codes.end();
+}
+
+Hash128 canonical_hash(const Image& image) {
+  const BufferView view(image);
+  std::vector<std::byte> row(view.row_bytes());
+  Hasher hasher;
+  for (int y = 0; y < image.height(); ++y) {
+    view.copy_row(y, row.data());
+    hasher.add(row);
+  }
+  return hasher.finish();
+}
+
+}  // namespace
+
+Picture read(const std::filesystem::path& path, std::string_view layer) {
+  const std::vector<std::byte> bytes = file_bytes(path);
+  const std::string file = fmt::format("'{}'", path.string());
+  if (bytes.empty()) throw Error(ExitCode::usage, file + ": empty file");
+  const std::optional<FileKind> kind = kind_of(bytes);
+  if (!kind) throw Error(ExitCode::usage, file + ": not an EXR, PNG, Radiance HDR or JPEG file");
+  const Decoded decoded = decode(file, *kind, bytes, layer);
+
+  Picture picture;
+  picture.image = to_image(decoded);
+  if (picture.image.format() == Format::rgba16f) require_finite<Half>(file, decoded, picture.image);
+  if (picture.image.format() == Format::rgba32f) require_finite<float>(file, decoded, picture.image);
+  picture.channel_names = decoded.channel_names;
+  picture.srgb_encoded = (*kind == FileKind::png || *kind == FileKind::jpeg) && !decoded.declared_linear;
+  picture.lossy = is_lossy(*kind, decoded.compression);
+  picture.compression = decoded.compression;
+  picture.decoded_hash = canonical_hash(picture.image);
+  picture.file_width = decoded.width;
+  picture.file_height = decoded.height;
+  return picture;
+}
+
+}  // namespace rainref::image_io

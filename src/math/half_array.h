@@ -1,0 +1,15 @@
+// binary16 conversion of arrays by the SIMD target in use: the lanes' own conversion, for proofs and benchmarks.
+#pragma once
+
+#include <cstddef>
+
+#include "rainref/image.h"
+
+namespace rainref {
+
+/// half[i] = to_half(x[i], rounding); x finite.
+void to_half_array(const float* x, Half* half, std::size_t count, Rounding rounding);
+/// x[i] = to_float(half[i]); half finite.
+void to_float_array(const Half* half, float* x, std::size_t count);
+
+}  // namespace rainref

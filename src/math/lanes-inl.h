@@ -1,0 +1,221 @@
+// The reference reading: a number is a vector of floats, one lane for each output element.
+//
+// No operation crosses lanes, so the bits of an element do not depend on the width. What is missing here is missing on
+// purpose: no fused multiply-add, no reciprocal or square-root estimates, no hn::Min/Max (signed zeros differ between
+// targets), no hn::DemoteTo(float16) below F16C (it truncates), no sums over lanes.
+// Re-included for every target; see foreach_target.h.
+#if defined(RAINREF_MATH_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAINREF_MATH_LANES_INL_H_
+#undef RAINREF_MATH_LANES_INL_H_
+#else
+#define RAINREF_MATH_LANES_INL_H_
+#endif
+
+#include "hwy/highway.h"
+#include "math/real64_lanes-inl.h"
+#include "rainref/image.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rainref {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+struct Lanes {
+  using D = hn::ScalableTag<float>;
+  using DI = hn::RebindToSigned<D>;
+  using DU = hn::RebindToUnsigned<D>;
+  using DH = hn::Rebind<std::uint16_t, D>;
+  using DB = hn::Rebind<std::uint8_t, D>;
+  using V = hn::Vec<D>;
+
+  struct Mask {
+    hn::Mask<D> m;
+    friend HWY_INLINE Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+    friend HWY_INLINE Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+    friend HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+  };
+
+  /// Texel indices: made by to_int, used to fetch.
+  struct Int {
+    hn::Vec<DI> i;
+    friend HWY_INLINE Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
+    friend HWY_INLINE Int clamp_index(Int a, Int size) {
+      const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
+      const auto last = hn::Sub(size.i, hn::Set(DI(), 1));
+      return {hn::IfThenElse(below, hn::Zero(DI()), hn::IfThenElse(within, a.i, last))};
+    }
+    friend HWY_INLINE Int wrap_index(Int a, Int size) {
+      const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
+      return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
+    }
+    friend HWY_INLINE Mask inside(Int a, Int size) {
+      return {hn::RebindMask(D(), hn::And(hn::Not(hn::Lt(a.i, hn::Zero(DI()))), hn::Lt(a.i, size.i)))};
+    }
+    friend HWY_INLINE Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }
+    friend HWY_INLINE Int texel_offset(Int x, Int y, Int width) { return {hn::Add(hn::Mul(y.i, width.i), x.i)}; }
+    friend HWY_INLINE Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
+    friend HWY_INLINE Int operator*(Int a, std::int32_t b) { return {hn::Mul(a.i, hn::Set(DI(), b))}; }
+  };
+
+  V v;
+
+  HWY_INLINE Lanes() {}
+  HWY_INLINE Lanes(V x) : v(x) {}
+  HWY_INLINE Lanes(float x) : v(hn::Set(D(), x)) {}
+  static constexpr int size() { return static_cast<int>(hn::MaxLanes(D())); }
+
+  static HWY_INLINE Lanes load(const float* p) { return hn::LoadU(D(), p); }
+  static HWY_INLINE Lanes load(const Half* p) {
+#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
+    return hn::PromoteTo(D(), hn::LoadU(hn::Rebind<hwy::float16_t, D>(), reinterpret_cast<const hwy::float16_t*>(p)));
+#else
+    // The exponent moves by a multiplication with 2^112: exact, subnormals included. Infinities never get here.
+    const auto bits = hn::PromoteTo(DU(), hn::LoadU(DH(), reinterpret_cast<const std::uint16_t*>(p)));
+    const auto magnitude = hn::BitCast(D(), hn::ShiftLeft<13>(hn::And(bits, hn::Set(DU(), 0x7fffu))));
+    const auto sign = hn::BitCast(D(), hn::ShiftLeft<16>(hn::And(bits, hn::Set(DU(), 0x8000u))));
+    return hn::Or(hn::Mul(magnitude, hn::Set(D(), 0x1p112f)), sign);
+#endif
+  }
+  static HWY_INLINE Lanes load(const Unorm8* p) {
+    const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
+    return hn::Div(hn::ConvertTo(D(), code), hn::Set(D(), 255.0f));
+  }
+  static HWY_INLINE Lanes index(int first) { return hn::ConvertTo(D(), hn::Iota(DI(), first)); }
+  static HWY_INLINE Int uniform_int(int value) { return {hn::Set(DI(), value)}; }
+
+  friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
+  friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+  friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
+  friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+  friend HWY_INLINE Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
+  friend HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
+  friend HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+  friend HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+  friend HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
+  friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(b.v, a.v), b.v, a.v); }
+  friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(a.v, b.v), b.v, a.v); }
+  friend HWY_INLINE Lanes abs(Lanes a) { return hn::IfThenElse(hn::Lt(a.v, hn::Zero(D())), hn::Neg(a.v), a.v); }
+  friend HWY_INLINE Lanes sqrt(Lanes a) { return hn::Sqrt(a.v); }
+  friend HWY_INLINE Lanes square(Lanes a) { return a * a; }
+  // + 0 makes the zero positive: targets disagree on the sign of floor(-0).
+  friend HWY_INLINE Lanes floor(Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(D())); }
+  friend HWY_INLINE Lanes fract(Lanes a) { return a - floor(a); }
+  friend HWY_INLINE Lanes mix(Lanes a, Lanes b, Lanes t) { return a * (Lanes(1.0f) - t) + b * t; }
+  friend HWY_INLINE Int to_int(Lanes a) { return {hn::ConvertTo(DI(), a.v)}; }
+  friend HWY_INLINE Lanes to_number(Int a) { return hn::ConvertTo(D(), a.i); }
+  friend HWY_INLINE bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
+
+  friend HWY_INLINE Lanes exp(Lanes a) { return exp_lanes(a.v); }
+  friend HWY_INLINE Lanes exp2(Lanes a) { return exp2_lanes(a.v); }
+  friend HWY_INLINE Lanes log(Lanes a) { return log_lanes(a.v); }
+  friend HWY_INLINE Lanes pow(Lanes a, Lanes b) { return pow_lanes(a.v, b.v); }
+  friend HWY_INLINE Lanes sin(Lanes a) { return sin_lanes(a.v); }
+  friend HWY_INLINE Lanes cos(Lanes a) { return cos_lanes(a.v); }
+  friend HWY_INLINE Lanes atan2(Lanes y, Lanes x) { return atan2_lanes(y.v, x.v); }
+
+  friend HWY_INLINE Lanes fetch(const float* texels, Int offset, Lanes) { return hn::GatherIndex(D(), texels, offset.i); }
+
+  /// Half codes in 16-bit lanes.
+  HWY_INLINE hn::Vec<DH> half_codes(Rounding rounding) const {
+    const V x = hn::Add(v, hn::Zero(D()));
+#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
+    const auto nearest = hn::DemoteTo(hn::Rebind<hwy::float16_t, D>(), x);
+    if (rounding == Rounding::rne) return hn::BitCast(DH(), nearest);
+    const auto codes = hn::PromoteTo(DU(), hn::BitCast(DH(), nearest));
+    const V back = hn::PromoteTo(D(), nearest);
+#else
+    const auto bits = hn::BitCast(DU(), x), sign = hn::And(hn::ShiftRight<16>(bits), hn::Set(DU(), 0x8000u));
+    const auto magnitude = hn::And(bits, hn::Set(DU(), 0x7fffffffu));
+    const auto odd = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(DU(), 1u));
+    // Normal halves: add just under half a code, one more when the code is odd, and move the exponent by 112.
+    const auto normal = hn::ShiftRight<13>(hn::Add(hn::Add(magnitude, hn::Set(DU(), 0xfffu - 0x38000000u)), odd));
+    // Subnormal halves: the adder of 0.5 + x rounds at 2^-24, to even.
+    const auto subnormal = hn::Sub(hn::BitCast(DU(), hn::Add(hn::BitCast(D(), magnitude), hn::Set(D(), 0.5f))), hn::Set(DU(), 0x3f000000u));
+    const auto as_int = hn::BitCast(DI(), magnitude);
+    const auto below = [&](std::int32_t limit) HWY_ATTR { return hn::RebindMask(DU(), hn::Lt(as_int, hn::Set(DI(), limit))); };
+    auto code = hn::IfThenElse(below(0x38800000), subnormal, normal);
+    code = hn::IfThenElse(below(0x477ff000), code, hn::Set(DU(), 0x7c00u));
+    const auto codes = hn::Or(code, sign);
+    if (rounding == Rounding::rne) return hn::DemoteTo(DH(), hn::BitCast(DI(), codes));
+    const auto finite = hn::BitCast(D(), hn::ShiftLeft<13>(code));
+    const V scaled = hn::Mul(finite, hn::Set(D(), 0x1p112f));
+    const V back = hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), hn::Set(D(), 0x1p16f), scaled);
+#endif
+    // Toward zero: one code less where the nearest lies further out.
+    const auto out = hn::Gt(hn::Abs(back), hn::Abs(x));
+    const auto cut = hn::IfThenElse(hn::RebindMask(DU(), out), hn::Sub(codes, hn::Set(DU(), 1u)), codes);
+    return hn::DemoteTo(DH(), hn::BitCast(DI(), cut));
+  }
+  /// 8-bit codes, as to_unorm8.
+  HWY_INLINE hn::Vec<DB> unorm8_codes(Rounding rounding) const {
+    const Lanes scaled = min(max(*this, Lanes(0.0f)), Lanes(1.0f)) * Lanes(255.0f), magic(0x1p23f);
+    const Lanes value = rounding == Rounding::rne ? (scaled + magic) - magic : scaled;
+    return hn::DemoteTo(DB(), hn::ConvertTo(DI(), value.v));
+  }
+};
+
+/// Writes the first `count` lanes in the storage type, with its rounding; count is at most size().
+HWY_INLINE void store(float* p, Lanes x, Rounding, int count) {
+  const Lanes::D d;
+  const Lanes::V v = hn::Add(x.v, hn::Zero(d));
+  if (HWY_LIKELY(count == Lanes::size())) return hn::StoreU(v, d, p);
+  HWY_ALIGN float lanes[HWY_MAX_BYTES / sizeof(float)];
+  hn::Store(v, d, lanes);
+  for (int k = 0; k < count; ++k) p[k] = lanes[k];
+}
+HWY_INLINE void store(Half* p, Lanes x, Rounding rounding, int count) {
+  const Lanes::DH d;
+  const auto codes = x.half_codes(rounding);
+  if (HWY_LIKELY(count == Lanes::size())) return hn::StoreU(codes, d, reinterpret_cast<std::uint16_t*>(p));
+  HWY_ALIGN std::uint16_t lanes[HWY_MAX_BYTES / sizeof(std::uint16_t)];
+  hn::StoreU(codes, d, lanes);
+  for (int k = 0; k < count; ++k) p[k].bits = lanes[k];
+}
+HWY_INLINE void store(Unorm8* p, Lanes x, Rounding rounding, int count) {
+  HWY_ALIGN std::uint8_t lanes[HWY_MAX_BYTES];
+  hn::StoreU(x.unorm8_codes(rounding), Lanes::DB(), lanes);
+  for (int k = 0; k < count; ++k) p[k].code = lanes[k];
+}
+
+/// Four interleaved channels of size() texels. Rows of an Image have room for whole vectors, so there is no tail.
+HWY_INLINE void load4(const float* p, Lanes (&c)[4]) { hn::LoadInterleaved4(Lanes::D(), p, c[0].v, c[1].v, c[2].v, c[3].v); }
+HWY_INLINE void load4(const Half* p, Lanes (&c)[4]) {
+  const Lanes::DH d;
+  auto r = hn::Zero(d), g = r, b = r, a = r;
+  hn::LoadInterleaved4(d, reinterpret_cast<const std::uint16_t*>(p), r, g, b, a);
+  HWY_ALIGN std::uint16_t codes[HWY_MAX_BYTES / sizeof(std::uint16_t)];
+  const auto widen = [&](auto v) HWY_ATTR {
+    hn::StoreU(v, d, codes);
+    return Lanes::load(reinterpret_cast<const Half*>(codes));
+  };
+  c[0] = widen(r);
+  c[1] = widen(g);
+  c[2] = widen(b);
+  c[3] = widen(a);
+}
+HWY_INLINE void store4(float* p, const Lanes (&c)[4], Rounding) {
+  const Lanes::D d;
+  const auto zero = hn::Zero(d);
+  hn::StoreInterleaved4(hn::Add(c[0].v, zero), hn::Add(c[1].v, zero), hn::Add(c[2].v, zero), hn::Add(c[3].v, zero), d, p);
+}
+HWY_INLINE void store4(Half* p, const Lanes (&c)[4], Rounding rounding) {
+  hn::StoreInterleaved4(c[0].half_codes(rounding), c[1].half_codes(rounding), c[2].half_codes(rounding), c[3].half_codes(rounding),
+                        Lanes::DH(), reinterpret_cast<std::uint16_t*>(p));
+}
+HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
+  hn::StoreInterleaved4(c[0].unorm8_codes(rounding), c[1].unorm8_codes(rounding), c[2].unorm8_codes(rounding),
+                        c[3].unorm8_codes(rounding), Lanes::DB(), reinterpret_cast<std::uint8_t*>(p));
+}
+
+#define RAINREF_FN HWY_INLINE
+#define RAINREF_LAMBDA HWY_ATTR
+#include "math/vocabulary-inl.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rainref
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAINREF_MATH_LANES_INL_H_

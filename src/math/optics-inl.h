@@ -1,0 +1,28 @@
+// Optics at a smooth dielectric surface, written once over a number N. Text only; needs vocabulary-inl.h before it.
+
+/// Schlick's approximation: f0 + (1 - f0) (1 - cos)^5, cos in [0, 1]; f0 is the reflectance at normal incidence.
+template <class N>
+RAINREF_FN N fresnel_schlick(N cosine, float f0) {
+  const N m = N(1.0f) - cosine, m2 = square(m);
+  return N(f0) + N(1.0f - f0) * (square(m2) * m);
+}
+/// Fresnel's reflectance of unpolarized light, cos_i in [0, 1], eta = n_t / n_i >= 1:
+///   r_par = (eta cos_i - cos_t) / (eta cos_i + cos_t), r_perp = (cos_i - eta cos_t) / (cos_i + eta cos_t).
+template <class N>
+RAINREF_FN N fresnel_dielectric(N cos_i, float eta) {
+  const N sin2_t = (N(1.0f) - square(cos_i)) * N(1.0f / (eta * eta));
+  const N cos_t = sqrt(max(N(1.0f) - sin2_t, N(0.0f))), e(eta), tiny(1e-20f);
+  const N parallel = (e * cos_i - cos_t) / max(e * cos_i + cos_t, tiny);
+  const N perpendicular = (cos_i - e * cos_t) / max(cos_i + e * cos_t, tiny);
+  return N(0.5f) * (square(parallel) + square(perpendicular));
+}
+/// Beer's law: exp(-extinction * path).
+template <class N>
+RAINREF_FN N transmittance(N extinction, N path) { return exp(-(extinction * path)); }
+
+/// Linear radiance to the sRGB code value, x in [0, 1] (IEC 61966-2-1).
+template <class N>
+RAINREF_FN N encode_srgb(N x) {
+  const N curve = N(1.055f) * pow(max(x, N(0.0031308f)), N(0x1.aaaaaap-2f)) - N(0.055f);  // 1 / 2.4
+  return select(x <= N(0.0031308f), x * N(12.92f), curve);
+}

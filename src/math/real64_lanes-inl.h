@@ -1,0 +1,155 @@
+// The SIMD reading of double arithmetic, and with it the transcendental functions of a vector of floats.
+//
+// No operation crosses lanes, so the bits of an element do not depend on the width of the vector. Not used on purpose:
+// hn::MulAdd, hn::Min/Max, hn::Floor/Round, estimates, sums over lanes; they differ between targets.
+// Re-included for every target; see foreach_target.h.
+#if defined(RAINREF_MATH_REAL64_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAINREF_MATH_REAL64_LANES_INL_H_
+#undef RAINREF_MATH_REAL64_LANES_INL_H_
+#else
+#define RAINREF_MATH_REAL64_LANES_INL_H_
+#endif
+
+#include "hwy/highway.h"
+#include "math/real64.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rainref {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// As many doubles as fit one vector, with the interface of Real64.
+struct Real64Lanes {
+  using D = hn::ScalableTag<double>;
+  using DU = hn::RebindToUnsigned<D>;
+  using V = hn::Vec<D>;
+  using VU = hn::Vec<DU>;
+  struct Mask {
+    hn::Mask<D> m;
+  };
+
+  V v;
+
+  HWY_INLINE Real64Lanes(V x) : v(x) {}
+  HWY_INLINE Real64Lanes(double x) : v(hn::Set(D(), x)) {}
+
+  friend HWY_INLINE Real64Lanes operator+(Real64Lanes a, Real64Lanes b) { return hn::Add(a.v, b.v); }
+  friend HWY_INLINE Real64Lanes operator-(Real64Lanes a, Real64Lanes b) { return hn::Sub(a.v, b.v); }
+  friend HWY_INLINE Real64Lanes operator*(Real64Lanes a, Real64Lanes b) { return hn::Mul(a.v, b.v); }
+  friend HWY_INLINE Real64Lanes operator/(Real64Lanes a, Real64Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE Real64Lanes operator-(Real64Lanes a) { return hn::Neg(a.v); }
+  friend HWY_INLINE Mask operator<(Real64Lanes a, Real64Lanes b) { return {hn::Lt(a.v, b.v)}; }
+  friend HWY_INLINE Mask operator<=(Real64Lanes a, Real64Lanes b) { return {hn::Le(a.v, b.v)}; }
+  friend HWY_INLINE Mask operator>(Real64Lanes a, Real64Lanes b) { return {hn::Gt(a.v, b.v)}; }
+  friend HWY_INLINE Mask operator>=(Real64Lanes a, Real64Lanes b) { return {hn::Ge(a.v, b.v)}; }
+  friend HWY_INLINE Real64Lanes select(Mask m, Real64Lanes a, Real64Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
+  static HWY_INLINE bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
+
+  friend HWY_INLINE Real64Lanes abs(Real64Lanes a) { return hn::Abs(a.v); }
+  friend HWY_INLINE Mask has_sign_bit(Real64Lanes a) { return from_lowest_bit(hn::ShiftRight<63>(a.bits())); }
+  friend HWY_INLINE Real64Lanes flip_sign(Real64Lanes a, Real64Lanes s) {
+    return hn::Xor(a.v, from_bits(hn::And(s.bits(), hn::Set(DU(), Real64::sign_bit))));
+  }
+
+  friend HWY_INLINE Mask is_odd(Real64Lanes biased) {
+    return from_lowest_bit(hn::And(biased.bits(), hn::Set(DU(), std::uint64_t{1})));
+  }
+  friend HWY_INLINE Real64Lanes flip_sign_in_half_turn(Real64Lanes a, Real64Lanes biased) {
+    return hn::Xor(a.v, from_bits(hn::ShiftLeft<62>(hn::And(biased.bits(), hn::Set(DU(), std::uint64_t{2})))));
+  }
+  friend HWY_INLINE Real64Lanes scale_by_power_of_two(Real64Lanes a, Real64Lanes biased) {
+    return from_bits(hn::Add(a.bits(), hn::ShiftLeft<52>(biased.bits())));
+  }
+  friend HWY_INLINE Real64Lanes binary_exponent(Real64Lanes a) {
+    const VU field = hn::ShiftRight<52>(hn::Add(a.bits(), hn::Set(DU(), Real64::exponent_offset)));
+    return Real64Lanes(from_bits(hn::Or(field, hn::Set(DU(), Real64::two_to_52)))) - (0x1p52 + 1024);
+  }
+
+  friend HWY_INLINE void reduce_large_angles(Real64Lanes x, Real64Lanes& turns, Real64Lanes& rest) {
+    const D d;
+    HWY_ALIGN double angles[HWY_MAX_BYTES / sizeof(double)];
+    HWY_ALIGN double all_turns[HWY_MAX_BYTES / sizeof(double)];
+    HWY_ALIGN double all_rests[HWY_MAX_BYTES / sizeof(double)];
+    hn::Store(x.v, d, angles);
+    hn::Store(turns.v, d, all_turns);
+    hn::Store(rest.v, d, all_rests);
+    rainref::reduce_large_angles(angles, all_turns, all_rests, hn::MaxLanes(d));
+    turns = hn::Load(d, all_turns);
+    rest = hn::Load(d, all_rests);
+  }
+
+ private:
+  HWY_INLINE VU bits() const { return hn::BitCast(DU(), v); }
+  static HWY_INLINE V from_bits(VU bits) { return hn::BitCast(D(), bits); }
+  /// The mask of lanes that hold 1, all others holding 0.
+  static HWY_INLINE Mask from_lowest_bit(VU bit) { return {hn::MaskFromVec(from_bits(hn::Sub(hn::Zero(DU()), bit)))}; }
+};
+
+#pragma push_macro("RAINREF_FN")
+#undef RAINREF_FN
+#define RAINREF_FN HWY_INLINE
+#include "math/transcendental-inl.h"
+#pragma pop_macro("RAINREF_FN")
+
+/// A vector of floats, and the part of it that widens to one vector of doubles.
+using FloatTag = hn::ScalableTag<float>;
+using FloatVector = hn::Vec<FloatTag>;
+using NarrowTag = hn::Rebind<float, Real64Lanes::D>;
+
+HWY_INLINE Real64Lanes widen(hn::Vec<NarrowTag> x) { return hn::PromoteTo(Real64Lanes::D(), x); }
+
+/// The one rounding to float, as round_to_float(Real64).
+HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) { return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v); }
+
+/// formula over the doubles of x, or of x and y, rounded once. The scalar target has one lane and no halves.
+template <class Formula>
+HWY_INLINE FloatVector in_double(FloatVector x, Formula formula) {
+#if HWY_TARGET == HWY_SCALAR
+  return round_to_float(formula(widen(x)));
+#else
+  const NarrowTag half;
+  const Real64Lanes lower = formula(widen(hn::LowerHalf(half, x)));
+  const Real64Lanes upper = formula(widen(hn::UpperHalf(half, x)));
+  return hn::Combine(FloatTag(), round_to_float(upper), round_to_float(lower));
+#endif
+}
+template <class Formula>
+HWY_INLINE FloatVector in_double(FloatVector x, FloatVector y, Formula formula) {
+#if HWY_TARGET == HWY_SCALAR
+  return round_to_float(formula(widen(x), widen(y)));
+#else
+  const NarrowTag half;
+  const Real64Lanes lower = formula(widen(hn::LowerHalf(half, x)), widen(hn::LowerHalf(half, y)));
+  const Real64Lanes upper = formula(widen(hn::UpperHalf(half, x)), widen(hn::UpperHalf(half, y)));
+  return hn::Combine(FloatTag(), round_to_float(upper), round_to_float(lower));
+#endif
+}
+
+/// The functions of transcendental-inl.h, where their domain and accuracy stand, for a vector of floats.
+HWY_INLINE FloatVector exp_lanes(FloatVector x) {
+  return in_double(x, [](Real64Lanes a) HWY_ATTR { return exp_real(a); });
+}
+HWY_INLINE FloatVector exp2_lanes(FloatVector x) {
+  return in_double(x, [](Real64Lanes a) HWY_ATTR { return exp2_real(a); });
+}
+HWY_INLINE FloatVector log_lanes(FloatVector x) {
+  return in_double(x, [](Real64Lanes a) HWY_ATTR { return log_real(a); });
+}
+HWY_INLINE FloatVector pow_lanes(FloatVector x, FloatVector y) {
+  return in_double(x, y, [](Real64Lanes a, Real64Lanes b) HWY_ATTR { return pow_real(a, b); });
+}
+HWY_INLINE FloatVector sin_lanes(FloatVector x) {
+  return in_double(x, [](Real64Lanes a) HWY_ATTR { return sin_real(a); });
+}
+HWY_INLINE FloatVector cos_lanes(FloatVector x) {
+  return in_double(x, [](Real64Lanes a) HWY_ATTR { return cos_real(a); });
+}
+HWY_INLINE FloatVector atan2_lanes(FloatVector y, FloatVector x) {
+  return in_double(y, x, [](Real64Lanes a, Real64Lanes b) HWY_ATTR { return atan2_real(a, b); });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rainref
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAINREF_MATH_REAL64_LANES_INL_H_

@@ -1,0 +1,70 @@
+#include "math/simd_target.h"
+
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "hwy/highway.h"
+#include "hwy/targets.h"
+#include "rainref/error.h"
+
+namespace rainref {
+namespace {
+
+struct Named {
+  const char* name;
+  std::int64_t bit;
+};
+// EMU128 is what Highway builds in place of SCALAR with clang: the same operations on arrays of four.
+constexpr Named known[] = {{"avx3", HWY_AVX3},   {"avx2", HWY_AVX2},     {"sse4", HWY_SSE4},
+                           {"ssse3", HWY_SSSE3}, {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128},
+                           {"neon", HWY_NEON}};
+
+std::int64_t usable() {
+  static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
+  return targets;
+}
+
+std::int64_t& selected() {
+  static std::int64_t bit = 0;
+  return bit;
+}
+
+}  // namespace
+
+std::vector<std::string> simd_targets() {
+  std::vector<std::string> names;
+  for (const Named& target : known) {
+    if (usable() & target.bit) names.emplace_back(target.name);
+  }
+  return names;
+}
+
+void select_simd_target(std::string_view name) {
+  const std::int64_t all = usable();  // before a restriction is set
+  std::int64_t bit = 0;
+  for (const Named& target : known) {
+    if ((all & target.bit) && (name.empty() || name == target.name)) {
+      bit = target.bit;
+      break;
+    }
+  }
+  if (bit == 0) {
+    const std::vector<std::string> here = simd_targets();
+    throw Error(ExitCode::usage, fmt::format("SIMD target '{}': this machine has {}{}", name, fmt::join(here, ", "),
+                                             did_you_mean(name, here)));
+  }
+  hwy::SetSupportedTargetsForTest(bit);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  selected() = bit;
+}
+
+std::string selected_simd_target() {
+  if (selected() == 0) select_simd_target("");
+  for (const Named& target : known) {
+    if (selected() == target.bit) return target.name;
+  }
+  throw Error(ExitCode::internal, "a SIMD target without a name is selected");
+}
+
+}  // namespace rainref

@@ -1,0 +1,81 @@
+// The named mathematics of passes, written once over a number N and included by every reading.
+//
+// Text only: no guard, no includes, no namespace. plain.h and lanes-inl.h include it inside theirs, with RAINREF_FN as
+// the linkage of a function and RAINREF_LAMBDA as the attribute of a lambda.
+
+// ---- sums ----------------------------------------------------------------------------------------------------------
+// The order of these sums is free to a GPU. The reference adds from left to right.
+template <class N>
+RAINREF_FN N sum_any_order(N a, N b, N c) { return (a + b) + c; }
+template <class N>
+RAINREF_FN N sum_any_order(N a, N b, N c, N d) { return ((a + b) + c) + d; }
+
+// ---- shaping -------------------------------------------------------------------------------------------------------
+template <class N>
+RAINREF_FN N clamp(N x, N low, N high) { return min(max(x, low), high); }
+template <class N>
+RAINREF_FN N saturate(N x) { return clamp(x, N(0.0f), N(1.0f)); }
+/// t t (3 - 2 t) with t = saturate((x - edge0) / (edge1 - edge0)). Defined here for edge0 > edge1 too, where GLSL leaves it open.
+template <class N>
+RAINREF_FN N smoothstep(float edge0, float edge1, N x) {
+  const N t = saturate((x - N(edge0)) / N(edge1 - edge0));
+  return t * t * (N(3.0f) - N(2.0f) * t);
+}
+
+// ---- vectors -------------------------------------------------------------------------------------------------------
+template <class N>
+struct Vec3 {
+  N x, y, z;
+  RAINREF_FN Vec3() {}
+  RAINREF_FN Vec3(N x_, N y_, N z_) : x(x_), y(y_), z(z_) {}
+  explicit RAINREF_FN Vec3(const float* uniform) : x(uniform[0]), y(uniform[1]), z(uniform[2]) {}
+  friend RAINREF_FN Vec3 operator+(const Vec3& a, const Vec3& b) { return Vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
+  friend RAINREF_FN Vec3 operator-(const Vec3& a, const Vec3& b) { return Vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
+  friend RAINREF_FN Vec3 operator*(const Vec3& a, const Vec3& b) { return Vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
+  friend RAINREF_FN Vec3 operator*(N s, const Vec3& a) { return Vec3(s * a.x, s * a.y, s * a.z); }
+};
+template <class N>
+RAINREF_FN N dot(const Vec3<N>& a, const Vec3<N>& b) { return sum_any_order(a.x * b.x, a.y * b.y, a.z * b.z); }
+template <class N>
+RAINREF_FN N length(N x, N y) { return sqrt(square(x) + square(y)); }
+template <class N>
+RAINREF_FN N length(const Vec3<N>& a) { return sqrt(sum_any_order(square(a.x), square(a.y), square(a.z))); }
+/// a / |a|, by one division; a must not be zero.
+template <class N>
+RAINREF_FN Vec3<N> normalize(const Vec3<N>& a) { return (N(1.0f) / length(a)) * a; }
+template <class M, class N>
+RAINREF_FN Vec3<N> select(M m, const Vec3<N>& a, const Vec3<N>& b) {
+  return Vec3<N>(select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z));
+}
+template <class N>
+RAINREF_FN Vec3<N> mix(const Vec3<N>& a, const Vec3<N>& b, N t) { return Vec3<N>(mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t)); }
+/// v - 2 (n . v) n
+template <class N>
+RAINREF_FN Vec3<N> reflect(const Vec3<N>& v, const Vec3<N>& n) { return v - (N(2.0f) * dot(n, v)) * n; }
+/// Snell's refraction of unit v at unit n (against v), eta = n1 / n2; zero vector at total internal reflection.
+template <class N>
+RAINREF_FN Vec3<N> refract(const Vec3<N>& v, const Vec3<N>& n, float eta) {
+  const N cosine = dot(n, v);
+  const N k = N(1.0f) - N(eta) * N(eta) * (N(1.0f) - square(cosine));
+  const Vec3<N> bent = N(eta) * v - (N(eta) * cosine + sqrt(max(k, N(0.0f)))) * n;
+  const N zero(0.0f);
+  return select(k < zero, Vec3<N>(zero, zero, zero), bent);
+}
+
+// ---- loops ---------------------------------------------------------------------------------------------------------
+/// At most `limit` rounds of state = body(round, state).state for every lane whose rounds have all said `go` so far.
+/// body returns {go, state}: the round that says stop still counts. The state type has its own select(mask, a, b).
+template <class M, class State>
+struct Round {
+  M go;
+  State state;
+};
+template <class State, class M, class Body>
+RAINREF_FN State advance_while(int limit, State state, M active, Body body) {
+  for (int round = 0; round < limit && any(active); ++round) {
+    const auto next = body(round, state);
+    state = select(active, next.state, state);
+    active = active & next.go;
+  }
+  return state;
+}

@@ -1,0 +1,111 @@
+// What stands in the street: plain data, drawn once from the seed, read by everything else.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "night_street/compact_lights.h"
+#include "night_street/hierarchy.h"
+#include "night_street/light_map.h"
+#include "night_street/night_street.h"
+#include "night_street/noise.h"
+#include "night_street/shapes.h"
+#include "night_street/vec.h"
+
+namespace rainref::night_street {
+
+/// Fixed measures of the street, metres.
+namespace plan {
+inline constexpr double road_half_width = 4.5;
+inline constexpr double kerb_height = 0.12;
+inline constexpr double facade = 7.5;        ///< |x| of the building line
+inline constexpr double back = 22;           ///< |x| where every building ends
+inline constexpr double street_end = 290;    ///< |z| of the last lot
+inline constexpr double skyline = 330;       ///< |z| of the silhouettes that close the view
+inline constexpr double tallest = 40;        ///< no building reaches this height
+inline constexpr double ground_floor = 4.1;  ///< height of the shop storey
+inline constexpr std::array<double, 3> crossings{-22, 58, -118};  ///< z of the pedestrian crossings
+inline constexpr double crossing_half_length = 1.9;
+}  // namespace plan
+
+struct Material {
+  Vec albedo;
+  Vec emission;
+  double shine = 0;   ///< reflectance of the wet coat at normal incidence; 0 is matte
+  bool glass = false; ///< dark glass except where the normal points up: a car's cabin
+};
+
+/// A lit text of tubes. Letters stand 4 units wide on a pitch of 6, 6 units tall.
+struct Sign {
+  std::string_view text;
+  Vec colour;        ///< radiance of the tube's core
+  bool upright;      ///< letters below one another
+  double unit;       ///< metres of one letter unit
+  Box board;         ///< metres; the face that carries the text is its two largest sides
+  double flicker;    ///< share of the nominal brightness, [0, 1]
+};
+
+enum class Shop : std::uint8_t { glazed, cafe, shutter, entrance };
+
+/// One building of one side of the street. Distances from the street's axis are |x|.
+struct Lot {
+  double z0, z1;          ///< extent along the street, z0 < z1
+  double front;           ///< |x| of its facade
+  double height;
+  double storey;          ///< height of one storey above the ground floor
+  int bays;               ///< window columns
+  double window_width, window_height;  ///< share of the bay and of the storey
+  double lit_share;       ///< how many windows are lit, [0, 1]
+  int style;              ///< 0 punched windows, 1 ribbon glazing, 2 tall sash pairs
+  Shop shop;
+  Vec wall;               ///< albedo
+  Vec shop_light;         ///< radiance of the shop's interior
+  int fascia = -1;        ///< index of the sign above the shop, or -1
+  std::uint64_t id;
+};
+
+/// A source for the light map and the haze: a small sphere, brighter along an axis.
+struct Source {
+  Vec position;
+  Vec intensity;   ///< radiance x m^2 towards a viewer off the axis
+  Vec axis;        ///< unit, or zero for none
+  double gain;     ///< intensity on the axis / off the axis - 1
+  int focus;       ///< the gain falls as cos^(2^focus) from the axis
+  double radius;   ///< metres, for highlights
+  bool compact;    ///< makes its own highlight on wet asphalt and a halo in the haze
+};
+
+struct City {
+  std::uint64_t seed;
+  std::array<std::vector<Lot>, 2> lots;  ///< [0] x < 0, [1] x > 0; ascending z, gapless
+  std::vector<Solid> solids;
+  std::vector<Plane> planes;
+  std::vector<Material> materials;
+  std::vector<Sign> signs;
+  std::vector<Source> sources;
+  std::vector<Lamp> lamps;
+  Hierarchy hierarchy;
+  LightMap light;
+  CompactLights lights;
+  Noise clouds, clouds_large, puddles, asphalt, ripple, stain, skyline;
+
+  explicit City(std::uint64_t street_seed);
+  double random(std::uint64_t object, Purpose purpose) const { return random01(seed, object, purpose); }
+  int add_material(const Material& material);
+  /// Adds a solid whose planes are already in `planes`, from first_plane on, or that has none.
+  void add(Solid solid, int material);
+  void add_box(const Vec& low, const Vec& high, int material);
+  void add_pole(const Vec& foot, double radius, double height, int material);
+  void add_convex(const std::vector<Plane>& sides, const Box& bounds, int material);
+  /// A sphere that emits; listed as a lamp and as a compact source. gain and focus as in Source.
+  void add_lamp(const Vec& centre, double radius, const Vec& radiance, const Vec& axis, double gain, int focus);
+};
+
+void build_lots(City& city);
+void build_lamps(City& city);
+void build_signals(City& city);
+void build_cars(City& city);
+void build_walkers(City& city);
+
+}  // namespace rainref::night_street

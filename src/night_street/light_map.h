@@ -1,0 +1,35 @@
+// Light that lamps, shops and signs throw on the street, computed once on grids and looked up by every shading.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "night_street/vec.h"
+
+namespace rainref::night_street {
+
+struct Source;
+
+/// Irradiance / pi on the ground and on the two building lines (so that albedo times it is radiance), without shadows.
+class LightMap {
+ public:
+  LightMap() = default;
+  explicit LightMap(const std::vector<Source>& sources);
+
+  /// On the horizontal ground at (x, z).
+  Vec ground(double x, double z) const;
+  /// On the building line of side 0 (x < 0) or 1 (x > 0) at height y.
+  Vec facade(int side, double y, double z) const;
+
+ private:
+  struct Grid {
+    double first_a = 0, step_a = 1, first_z = 0, step_z = 1;
+    int count_a = 0, count_z = 0;
+    std::vector<Vec> cells;
+    Vec at(double a, double z) const;
+  };
+  Grid ground_;
+  std::array<Grid, 2> facade_;
+};
+
+}  // namespace rainref::night_street

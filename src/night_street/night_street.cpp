@@ -1,0 +1,21 @@
+#include "night_street/night_street.h"
+
+#include "base/floating_point.h"
+#include "night_street/city.h"
+
+namespace rainref::night_street {
+
+Street::Street(const Options& options) {
+  FloatingPointGuard guard;  // the light map is computed here, outside the tiles that pin the state
+  auto city = std::make_unique<City>(options.seed);
+  lamps_ = city->lamps;
+  city_ = std::move(city);
+}
+
+Street::~Street() = default;
+Street::Street(Street&&) noexcept = default;
+Street& Street::operator=(Street&&) noexcept = default;
+
+const std::vector<Lamp>& Street::lamps() const { return lamps_; }
+
+}  // namespace rainref::night_street

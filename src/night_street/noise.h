@@ -1,0 +1,79 @@
+// Randomness of the street: integer hashes of (seed, object, purpose), and smooth noise on an integer lattice.
+#pragma once
+
+#include <cstdint>
+
+#include "night_street/vec.h"
+
+namespace rainref::night_street {
+
+/// What a random number decides; one object may draw one number for each purpose.
+enum class Purpose : std::uint32_t {
+  lot_width, lot_height, lot_storey, lot_style, lot_setback, lot_shop, lot_tone, lot_bays, lot_lit, lot_window,
+  window_lit, window_tone, window_blind, window_level, goods, sign_word, sign_colour, sign_place, fascia_word,
+  lamp_kind, lamp_offset, car_place, car_paint, car_present, walker_place, walker_coat, skyline, signal_state,
+  clouds, clouds_large, puddles, asphalt, ripple, ring, jitter, stain, awning
+};
+
+/// Bijective 64-bit mixer (the finaliser of SplitMix64).
+inline std::uint64_t scramble(std::uint64_t h) {
+  h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+  h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+  return h ^ (h >> 31);
+}
+
+inline std::uint64_t random_bits(std::uint64_t seed, std::uint64_t object, Purpose purpose) {
+  const std::uint64_t salted = seed + 0x9e3779b97f4a7c15u * (static_cast<std::uint64_t>(purpose) + 1);
+  return scramble(scramble(salted) ^ (object * 0xd1342543de82ef95u + 0x632be59bd9b4e019u));
+}
+/// Uniform in [0, 1), a multiple of 2^-53.
+inline double random01(std::uint64_t seed, std::uint64_t object, Purpose purpose) {
+  return static_cast<double>(random_bits(seed, object, purpose) >> 11) * 0x1p-53;
+}
+inline double random_in(std::uint64_t seed, std::uint64_t object, Purpose purpose, double low, double high) {
+  return low + (high - low) * random01(seed, object, purpose);
+}
+
+/// One key for a pair of integers, order matters.
+inline std::uint64_t pair_key(std::int64_t a, std::int64_t b) {
+  return static_cast<std::uint64_t>(a) * 0x9e3779b97f4a7c15u ^ scramble(static_cast<std::uint64_t>(b) + 0x7f4a7c15u);
+}
+
+/// A field of smooth noise. The salt is mixed once, a lattice point costs one 32-bit hash.
+class Noise {
+ public:
+  Noise(std::uint64_t seed, Purpose purpose)
+      : salt_(static_cast<std::uint32_t>(random_bits(seed, 0, purpose) >> 32)) {}
+
+  /// In [0, 1), a hash of the lattice point.
+  double lattice(std::int64_t x, std::int64_t y) const {
+    std::uint32_t h = salt_ ^ (static_cast<std::uint32_t>(x) * 0x85ebca6bu) ^ (static_cast<std::uint32_t>(y) * 0xc2b2ae35u);
+    h = (h ^ (h >> 16)) * 0x7feb352du;
+    h = (h ^ (h >> 15)) * 0x846ca68bu;
+    return static_cast<double>(h ^ (h >> 16)) * 0x1p-32;
+  }
+  /// In [0, 1): lattice values at integers, continuous with continuous slope between them.
+  double value(double x, double y) const {
+    const std::int64_t i = floor_int(x), j = floor_int(y);
+    const double u = x - static_cast<double>(i), v = y - static_cast<double>(j);
+    const double su = u * u * (3 - 2 * u), sv = v * v * (3 - 2 * v);
+    return mix(mix(lattice(i, j), lattice(i + 1, j), su), mix(lattice(i, j + 1), lattice(i + 1, j + 1), su), sv);
+  }
+  /// In [0, 1): octaves of value() at doubled frequency and halved weight.
+  double layered(double x, double y, int octaves) const {
+    double sum = 0, weight = 0.5, total = 0;
+    for (int i = 0; i < octaves; ++i) {
+      sum += weight * value(x, y);
+      total += weight;
+      weight *= 0.5;
+      x = 2 * x + 17.3;
+      y = 2 * y - 9.1;
+    }
+    return sum / total;
+  }
+
+ private:
+  std::uint32_t salt_;
+};
+
+}  // namespace rainref::night_street

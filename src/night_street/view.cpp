@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include "night_street/antialias.h"
+#include "night_street/city.h"
+#include "rainref/error.h"
+
+namespace rainref::night_street {
+
+Street::View Street::view(const scene::Camera& camera, int width, int height, double far,
+                          const parallel::Executor& executor) const {
+  if (!(far > 0 && far < 1e300)) throw Error(ExitCode::usage, fmt::format("far: expected a positive distance in metres, found {}", far));
+  const scene::Camera::Basis basis = camera.basis();
+  const Vec origin = from(camera.position), right = from(basis.right), up = from(basis.up), forward = from(basis.forward);
+  const double half_height = camera.half_height(), half_width = half_height * width / height;
+  const auto ray_of = [&](int i, int j) {
+    const double x = half_width * ((2 * i + 1) / (3.0 * width) - 1), y = half_height * ((2 * j + 1) / (3.0 * height) - 1);
+    return Ray(origin, unit(forward + x * right + y * up));
+  };
+  View result;
+  result.depth = Image(Format::r32f, width, height);
+  result.normal = Image(Format::rgba32f, width, height);
+  const auto at_centre = [&](int x, int y, const Ray& ray, const Seen& seen) {
+    const double depth = seen.hit.t * dot(ray.direction, forward);
+    const bool is_near = seen.hit.is_surface() && depth < far;
+    result.depth.row<float>(y)[x] = static_cast<float>(is_near ? depth : far);
+    if (!is_near) return;
+    float* normal = result.normal.row<float>(y) + static_cast<std::ptrdiff_t>(x) * 4;
+    normal[0] = static_cast<float>(seen.hit.normal.x);
+    normal[1] = static_cast<float>(seen.hit.normal.y);
+    normal[2] = static_cast<float>(seen.hit.normal.z);
+    normal[3] = 1;
+  };
+  result.colour = antialiased(*city_, width, height, Edge::clamp, ray_of, at_centre, executor);
+  return result;
+}
+
+}  // namespace rainref::night_street

@@ -1,0 +1,106 @@
+#include "puddle/environment.h"
+
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "image/colour.h"
+#include "rainref/error.h"
+
+namespace rainref::puddle {
+namespace {
+
+constexpr double pi = 0x1.921fb54442d18p+1;
+
+// 4-channel floats of an image in the code that this variant's pass expects.
+std::vector<float> recode(const Image& image, bool is_encoded, Variant variant) {
+  const TextureData decoded(image, Address::clamp, Address::clamp);
+  const int c = image.channels();
+  std::vector<float> out(static_cast<std::size_t>(image.width()) * image.height() * 4, 1.0f);
+  const float* in = decoded.view().texels;
+  for (std::size_t i = 0; i < out.size() / 4; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const float x = in[i * c + (k < c ? k : 0)];
+      if (is_encoded == (variant == Variant::as_published)) out[i * 4 + k] = x;
+      else out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+    }
+    if (c == 4) out[i * 4 + 3] = in[i * c + 3];
+  }
+  return out;
+}
+
+}  // namespace
+
+TextureData prepare_environment(const Surroundings& s, Variant variant) {
+  const Image& image = s.environment;
+  std::vector<float> texels = recode(image, s.environment_is_encoded, variant);
+  int width = image.width(), height = image.height();
+  if (s.environment_is_cube) {
+    if (width == 6 * height) {
+      std::vector<float> column(texels.size());
+      const std::size_t face_row = static_cast<std::size_t>(height) * 4;
+      for (int face = 0; face < 6; ++face) {
+        for (int y = 0; y < height; ++y) {
+          std::memcpy(column.data() + (static_cast<std::size_t>(face) * height + y) * face_row,
+                      texels.data() + (static_cast<std::size_t>(y) * 6 + face) * face_row, face_row * sizeof(float));
+        }
+      }
+      texels.swap(column);
+      width = height;
+      height = 6 * width;
+    }
+    if (height != 6 * width) {
+      throw Error(ExitCode::usage, fmt::format("environment.image: a cube needs six square faces in a row or a column, found {}x{}",
+                                               image.width(), image.height()));
+    }
+  }
+  const Address around = s.environment_is_cube ? Address::clamp : Address::repeat;
+  TextureData texture(std::move(texels), 4, width, height, around, Address::clamp);
+  if (variant == Variant::corrected) {
+    // A cube's levels end where a face is one texel.
+    int levels = Texture::max_levels;
+    if (s.environment_is_cube) {
+      levels = 1;
+      for (int side = width; side > 1 && side % 2 == 0; side /= 2) ++levels;
+    }
+    texture.build_mips(levels);
+  }
+  return texture;
+}
+
+TextureData prepare_ground(const Image& ground, bool is_encoded, Variant variant) {
+  TextureData texture(recode(ground, is_encoded, variant), 4, ground.width(), ground.height(), Address::repeat, Address::repeat);
+  if (variant == Variant::corrected) texture.build_mips();
+  return texture;
+}
+
+std::array<float, 3> ambient_radiance(const Texture& t, bool is_cube) {
+  const int w = t.width[0], h = t.height[0];
+  double sum[3] = {};
+  for (int y = 0; y < h; ++y) {
+    double row[3] = {};
+    const float* texels = t.texels + static_cast<std::size_t>(y) * w * t.channels;
+    if (is_cube) {
+      const int face = y / w;
+      const double r = 2 * (y % w + 0.5) / w - 1;
+      for (int x = 0; x < w; ++x) {
+        const double s = 2 * (x + 0.5) / w - 1, length_sq = 1 + s * s + r * r;
+        const double up = face == 2 ? 1 : face == 3 ? -1 : -r;
+        if (up <= 0) continue;
+        const double weight = up / (length_sq * length_sq) * 4 / (static_cast<double>(w) * w);  // cos(theta) d(omega)
+        for (int k = 0; k < 3; ++k) row[k] += weight * texels[x * t.channels + k];
+      }
+    } else {
+      const double elevation = ((y + 0.5) / h - 0.5) * pi;
+      if (elevation <= 0) continue;
+      const double weight = sin_real(Real64(elevation)).v * cos_real(Real64(elevation)).v * (pi / h) * (2 * pi / w);
+      for (int x = 0; x < w; ++x) {
+        for (int k = 0; k < 3; ++k) row[k] += weight * texels[x * t.channels + k];
+      }
+    }
+    for (int k = 0; k < 3; ++k) sum[k] += row[k];
+  }
+  return {static_cast<float>(sum[0] / pi), static_cast<float>(sum[1] / pi), static_cast<float>(sum[2] / pi)};
+}
+
+}  // namespace rainref::puddle

@@ -1,0 +1,123 @@
+#include "puddle/ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "random/counter.h"
+
+namespace rainref::puddle {
+namespace {
+
+// Lattice value in [0, 1) of cell (x, y), layer n.
+double lattice(std::uint64_t seed, int x, int y, std::uint32_t layer) {
+  const random::Block b = random::block(seed, random::Purpose::puddle_bed, static_cast<std::uint32_t>(x) * 0x9e3779b9u + layer,
+                                        static_cast<std::uint32_t>(y));
+  return b[0] * 0x1p-32;
+}
+double ease(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+
+// Value noise in [-1, 1].
+double noise(std::uint64_t seed, double x, double y, std::uint32_t layer) {
+  const double fx = std::floor(x), fy = std::floor(y), u = ease(x - fx), v = ease(y - fy);
+  const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+  const double a = lattice(seed, i, j, layer), b = lattice(seed, i + 1, j, layer);
+  const double c = lattice(seed, i, j + 1, layer), d = lattice(seed, i + 1, j + 1, layer);
+  return 2 * ((a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v) - 1;
+}
+double fractal(std::uint64_t seed, double x, double y, int octaves) {
+  double sum = 0, weight = 0.5;
+  for (int k = 0; k < octaves; ++k) {
+    sum += weight * noise(seed, x, y, static_cast<std::uint32_t>(k));
+    x = 2 * x + 17.5;
+    y = 2 * y + 3.25;
+    weight /= 2;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TextureData make_bed(const Settings& s) {
+  const double half_x = 0.5 * s.grid[0] * s.cell_size, half_z = 0.5 * s.grid[1] * s.cell_size;
+  if (s.shape == Shape::basin) {
+    TextureData bed({static_cast<float>(s.puddle_depth)}, 1, 1, 1, Address::border, Address::border);
+    bed.set_border(static_cast<float>(s.puddle_depth), 0, 0, 0);
+    return bed;
+  }
+  const int width = 768, height = std::max(1, static_cast<int>(width * half_z / half_x));
+  std::vector<float> depth(static_cast<std::size_t>(width) * height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double u = 2 * (x + 0.5) / width - 1, v = 2 * (y + 0.5) / height - 1;
+      const double mx = u * half_x, mz = v * half_z;
+      // A bowl that ends before the rectangle does, pushed about by noise at the scale of a step, roughened by grain.
+      const double bowl = 0.85 - 1.6 * (u * u + v * v) + 0.75 * fractal(s.seed, 1.7 * mx + 40, 1.7 * mz + 40, 5);
+      const double window = 1 - std::max(u * u * u * u * u * u, v * v * v * v * v * v);
+      const double grain = 0.0012 * noise(s.seed, 90 * mx, 90 * mz, 77);
+      const double shaped = s.puddle_depth * std::min(bowl, 3 * window - 1) + grain;
+      depth[static_cast<std::size_t>(y) * width + x] = static_cast<float>(std::min(shaped, s.puddle_depth));
+    }
+  }
+  TextureData bed(std::move(depth), 1, width, height, Address::border, Address::border);
+  bed.set_border(static_cast<float>(-s.puddle_depth), 0, 0, 0);
+  return bed;
+}
+
+Image make_asphalt(std::uint64_t seed) {
+  constexpr int size = 512, cells = 80;
+  Image tile(Format::rgba32f, size, size);
+  for (int y = 0; y < size; ++y) {
+    float* row = tile.row<float>(y);
+    for (int x = 0; x < size; ++x) {
+      const double u = (x + 0.5) * cells / size, v = (y + 0.5) * cells / size;
+      const int cx = static_cast<int>(u), cy = static_cast<int>(v);
+      // Stones: the nearest of one jittered point in each cell, the tile joined at its edges.
+      double nearest = 4, second = 4;
+      random::Block stone{};
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const random::Block b = random::block(seed, random::Purpose::puddle_ground, static_cast<std::uint32_t>((cx + i + cells) % cells),
+                                                static_cast<std::uint32_t>((cy + j + cells) % cells));
+          const double dx = cx + i + b[0] * 0x1p-32 - u, dy = cy + j + b[1] * 0x1p-32 - v, d = dx * dx + dy * dy;
+          if (d < nearest) {
+            second = nearest;
+            nearest = d;
+            stone = b;
+          } else {
+            second = std::min(second, d);
+          }
+        }
+      }
+      const double edge = std::min(1.0, 3.0 * (std::sqrt(second) - std::sqrt(nearest)));  // 0 between two stones
+      const double grey = stone[2] * 0x1p-32, warm = stone[3] * 0x1p-32;
+      const double albedo = (0.035 + 0.11 * grey * grey) * (0.35 + 0.65 * edge);
+      row[4 * x + 0] = static_cast<float>(albedo * (1.0 + 0.10 * warm));
+      row[4 * x + 1] = static_cast<float>(albedo * (1.0 + 0.03 * warm));
+      row[4 * x + 2] = static_cast<float>(albedo * (1.04 - 0.08 * warm));
+      row[4 * x + 3] = static_cast<float>(edge * (0.4 + 0.6 * grey));
+    }
+  }
+  return tile;
+}
+
+TextureData make_relief(const TextureData& ground, bool height_in_alpha) {
+  constexpr float gain = 0.35f;  // slope of one unit of height between neighbouring texels
+  const Texture& g = ground.view();
+  const int w = g.width[0], h = g.height[0], c = g.channels;
+  const auto height = [&](int x, int y) {
+    const float* t = g.texels + (static_cast<std::size_t>((y + h) % h) * w + (x + w) % w) * c;
+    return height_in_alpha ? t[3] : 0.2126f * t[0] + 0.7152f * t[1] + 0.0722f * t[2];
+  };
+  std::vector<float> slopes(static_cast<std::size_t>(w) * h * 2);
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      slopes[(static_cast<std::size_t>(y) * w + x) * 2] = gain * (height(x - 1, y) - height(x + 1, y));
+      slopes[(static_cast<std::size_t>(y) * w + x) * 2 + 1] = gain * (height(x, y - 1) - height(x, y + 1));
+    }
+  }
+  TextureData relief(std::move(slopes), 2, w, h, Address::repeat, Address::repeat);
+  relief.build_mips();
+  return relief;
+}
+
+}  // namespace rainref::puddle

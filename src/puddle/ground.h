@@ -1,0 +1,21 @@
+// What lies under and around the water: the bed of the puddle, and asphalt. Made once on the host, in double.
+#pragma once
+
+#include "image/texture.h"
+#include "rainref/image.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+
+/// Water depth over the puddle's rectangle [m], r32f, negative where the ground stands out of the water. Border: dry
+/// for a natural shore, the full depth for a basin.
+TextureData make_bed(const Settings& settings);
+
+/// A tile of asphalt, 512x512 rgba32f, linear albedo in rgb and height in a (0 to 1).
+Image make_asphalt(std::uint64_t seed);
+
+/// Slopes (-dh/du, -dh/dv) of a ground tile, two channels with mips. The height is the alpha channel of made asphalt, or
+/// the luminance of a picture.
+TextureData make_relief(const TextureData& ground, bool height_in_alpha);
+
+}  // namespace rainref::puddle

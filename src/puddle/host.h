@@ -1,0 +1,44 @@
+// What the host computes from the settings alone: uniforms, in double, each rounded once.
+#pragma once
+
+#include "puddle/kernels.h"
+#include "puddle/uniforms.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+
+/// How heights are stored: height = scale * stored + bias; `rest` is the stored value of level water.
+struct Encoding {
+  double scale, bias;
+  float rest;
+};
+/// as-published u = 2 (s - 1/2), corrected metres. An 8-bit corrected wave spans +-rgba8_range.
+Encoding encoding(const Settings& settings);
+inline constexpr double rgba8_range = 0.02;  ///< [m]
+
+/// Energy kept in one wave step.
+double gamma_of_step(const Settings& settings);
+double courant_number(const Settings& settings);
+/// Wave steps made by the end of frame `frames` - 1.
+std::int64_t steps_until(const Settings& settings, int frames);
+
+/// Throws Error(usage) for settings that cannot run; the first problem only.
+void check(const Settings& settings);
+
+RaindropsUniforms raindrops_uniforms(const Settings& settings, int frame);
+WaveStepUniforms wave_step_uniforms(const Settings& settings);
+CameraUniforms camera_uniforms(const Settings& settings);
+SurfaceHitUniforms surface_hit_uniforms(const Settings& settings);
+GroundNoiseUniforms ground_noise_uniforms(const Settings& settings);
+ShadeUniforms shade_uniforms(const Settings& settings);
+DisplayUniforms display_uniforms(const Settings& settings);
+
+/// Sets surface_top and surface_slope from the extent of the stored water.
+void set_bounds(SurfaceHitUniforms& uniforms, const Settings& settings, const Extent& extent);
+/// ShadeUniforms::ground_footprint for a tile of this many texels a side.
+float ground_footprint(const Settings& settings, int tile_texels);
+
+/// Columns and rows of the wave buffer.
+std::array<int, 2> wave_size(const Settings& settings);
+
+}  // namespace rainref::puddle

@@ -1,0 +1,114 @@
+#include "puddle/info.h"
+
+#include "puddle/uniforms.h"
+
+namespace rainref::puddle {
+namespace {
+
+using namespace rainref::scene;
+
+std::vector<Member> camera() {
+  return {member<&CameraUniforms::position>("position", "m", "Eye."),
+          member<&CameraUniforms::pixel_scale>("pixel_scale", "1", "Height of a pixel on the image plane at distance 1."),
+          member<&CameraUniforms::right>("right", "1", "Unit vector to the right of the picture."),
+          member<&CameraUniforms::plane_left>("plane_left", "1", "Left edge of the image plane at distance 1."),
+          member<&CameraUniforms::up>("up", "1", "Unit vector to the top of the picture."),
+          member<&CameraUniforms::plane_bottom>("plane_bottom", "1", "Bottom edge of the image plane at distance 1."),
+          member<&CameraUniforms::forward>("forward", "1", "Unit vector into the picture.")};
+}
+std::vector<Member> with_camera(std::vector<Member> head, std::vector<Member> rest) {
+  head.insert(head.end(), rest.begin(), rest.end());
+  return head;
+}
+
+capture::EffectInfo make() {
+  const UniformBlock raindrops = uniform_block<RaindropsUniforms>(
+      "RaindropsUniforms", {member<&RaindropsUniforms::time>("time", "s", "Frame number over frame rate, rounded once."),
+                            member<&RaindropsUniforms::rain_speed>("rain_speed", "1/s", "Pulses of each drop a second."),
+                            member<&RaindropsUniforms::drop_intensity>("drop_intensity", "1", "Strength of an impact."),
+                            member<&RaindropsUniforms::width>("width", "texel", "Columns of the wave."),
+                            member<&RaindropsUniforms::height>("height", "texel", "Rows of the wave."),
+                            member<&RaindropsUniforms::drop_count>("drop_count", "1", "Drops in the list.")});
+  const UniformBlock wave_step = uniform_block<WaveStepUniforms>(
+      "WaveStepUniforms",
+      {member<&WaveStepUniforms::damping>("damping", "1", "as-published: factor of the new level; corrected: gamma of a step."),
+       member<&WaveStepUniforms::step>("step", "texel", "as-published: offset of the neighbours."),
+       member<&WaveStepUniforms::courant_sq>("courant_sq", "1", "corrected: Courant number squared, times (1 + gamma) / 2."),
+       member<&WaveStepUniforms::drop_count>("drop_count", "1", "Drops in the list.")});
+  const UniformBlock surface_hit = uniform_block<SurfaceHitUniforms>(
+      "SurfaceHitUniforms",
+      with_camera(nested<&SurfaceHitUniforms::camera>("camera", camera()),
+                  {member<&SurfaceHitUniforms::half_size>("half_size", "m", "Half the puddle's extent."),
+                   member<&SurfaceHitUniforms::epsilon>("epsilon", "m", "Distance that counts as a hit."),
+                   member<&SurfaceHitUniforms::texel>("texel", "1", "1 over the wave's columns and rows."),
+                   member<&SurfaceHitUniforms::max_steps>("max_steps", "1", "Most steps of the march."),
+                   member<&SurfaceHitUniforms::normal_gain>("normal_gain", "1", "Factor from a height difference to a slope."),
+                   member<&SurfaceHitUniforms::height_scale>("height_scale", "m", "corrected: height = scale * stored + bias."),
+                   member<&SurfaceHitUniforms::height_bias>("height_bias", "m", "corrected: see height_scale."),
+                   member<&SurfaceHitUniforms::surface_top>("surface_top", "m", "corrected: no height lies above this, or below its negative."),
+                   member<&SurfaceHitUniforms::surface_slope>("surface_slope", "1", "corrected: no slope of the surface is above this.")}));
+  const UniformBlock ground_noise = uniform_block<GroundNoiseUniforms>(
+      "GroundNoiseUniforms", with_camera(nested<&GroundNoiseUniforms::camera>("camera", camera()),
+                                         {member<&GroundNoiseUniforms::puddle_depth>("puddle_depth", "m", "Depth of the ground under y = 0.")}));
+  const UniformBlock shade = uniform_block<ShadeUniforms>(
+      "ShadeUniforms",
+      with_camera(nested<&ShadeUniforms::camera>("camera", camera()),
+                  {member<&ShadeUniforms::tint>("tint", "1", "Colour of the water's body, linear RGB."),
+                   member<&ShadeUniforms::reflectivity>("reflectivity", "1", "Weight of the reflection."),
+                   member<&ShadeUniforms::rotation>("rotation", "1", "Cosine and sine of env_rotation."),
+                   member<&ShadeUniforms::ground_scale>("ground_scale", "1/m", "Tiles of the ground in a metre."),
+                   member<&ShadeUniforms::water_turbidity>("water_turbidity", "1/m", "Extinction of light in the water."),
+                   member<&ShadeUniforms::puddle_depth>("puddle_depth", "m", "as-published: depth of the ground under y = 0."),
+                   member<&ShadeUniforms::fog_depth>("fog_depth", "1/m", "Extinction of the fog."),
+                   member<&ShadeUniforms::use_checkerboard>("use_checkerboard", "1", "1: checkerboard ground, 0: image."),
+                   member<&ShadeUniforms::environment_is_cube>("environment_is_cube", "1", "1: cube faces, 0: latitude/longitude."),
+                   member<&ShadeUniforms::ambient>("ambient", "1", "corrected: radiance of a white diffuse level ground."),
+                   member<&ShadeUniforms::gloss_level>("gloss_level", "1", "corrected: mip level of the environment in wet ground."),
+                   member<&ShadeUniforms::half_size>("half_size", "m", "corrected: half the puddle's extent in x and z."),
+                   member<&ShadeUniforms::shore_width>("shore_width", "m", "corrected: depth over which wet ground turns into water."),
+                   member<&ShadeUniforms::ground_footprint>("ground_footprint", "1/m", "corrected: texels of the ground under a pixel at distance 1."),
+                   member<&ShadeUniforms::fog_colour>("fog_colour", "1", "corrected: radiance of the fog."),
+                   member<&ShadeUniforms::exact_fresnel>("exact_fresnel", "1", "corrected: 1: Fresnel's equations, 0: Schlick.")}));
+  const UniformBlock display =
+      uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::vignette>("vignette", "1", "Loss at distance 1 from the centre."),
+                                                         member<&DisplayUniforms::exposure>("exposure", "1", "corrected: factor of the radiance."),
+                                                         member<&DisplayUniforms::width>("width", "pixel", "Columns of the picture."),
+                                                         member<&DisplayUniforms::height>("height", "pixel", "Rows of the picture.")});
+  const UniformBlock drop = record<Drop>("Drop", {member<&Drop::x>("x", "texel", "Centre; texel centres lie at k + 1/2."),
+                                                  member<&Drop::y>("y", "texel", "Centre."),
+                                                  member<&Drop::amplitude>("amplitude", "1", "as-published: strength times activation; corrected: stored height at the centre."),
+                                                  member<&Drop::radius>("radius", "texel", "Nothing is added from this distance on.")});
+  capture::EffectInfo info;
+  info.passes = {
+      {"raindrops", "The drops that fall in this step.", {}, {}, {"drops"}, "as-published: input_only; corrected: bits", {raindrops}},
+      {"wave_step", "The next level of the water from the newest and the previous one.", {}, {"wave", "drops"}, {"wave"}, "envelope", {wave_step}},
+      {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {}, {"wave"}, {"hit", "normal"}, "envelope", {surface_hit}},
+      {"ground_noise", "The sine hash of the ground point, which shade takes as data.", {"as-published"}, {"hit", "normal"}, {"noise"}, "input_only", {ground_noise}},
+      {"shade", "Reflection, refraction, water and ground: linear radiance.", {}, {"hit", "normal", "noise", "environment", "ground", "relief", "bed"}, {"colour"}, "envelope", {shade}},
+      {"display", "Vignette and display code.", {}, {"colour"}, {"picture"}, "envelope", {display}},
+  };
+  info.buffers = {
+      {"drops", "records", "Drop records of this step."},
+      {"wave", "puddle.storage", "Newest level, previous level. as-published: u = 2 (s - 1/2); corrected: metres, or for rgba8 0.04 (s - 128/255) m."},
+      {"hit", "rgba32f", "Position x y z [m], march steps."},
+      {"normal", "rgba16f", "Unit normal x y z; 1 where the ray hit, 0 where not."},
+      {"noise", "r32f", "as-published: noise of the ground point in [0, 1)."},
+      {"environment", "rgba32f", "Radiance by direction; as-published encoded by the power 1/2.2, corrected linear with mips."},
+      {"ground", "rgba32f", "Tile of the ground; as-published encoded by the power 1/2.2, corrected linear albedo with mips."},
+      {"relief", "rg32f", "corrected: slopes of the ground tile, with mips."},
+      {"bed", "r32f", "corrected: depth of the water over the puddle's rectangle [m], negative where dry."},
+      {"colour", "rgba16f", "Linear radiance, alpha 1."},
+      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture."},
+  };
+  info.records = {drop};
+  return info;
+}
+
+}  // namespace
+
+const capture::EffectInfo& effect_info() {
+  static const capture::EffectInfo info = make();
+  return info;
+}
+
+}  // namespace rainref::puddle

@@ -1,0 +1,64 @@
+// The shells of the puddle's passes: rows of texels in, rows of texels out, for the SIMD target in use. They load,
+// call the pass and store; they know no arithmetic.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "image/texture.h"
+#include "parallel/parallel.h"
+#include "puddle/uniforms.h"
+#include "rainref/image.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+
+struct WaveJob {
+  WaveStepUniforms uniforms;
+  bool corrected;
+  Rounding rounding;
+  Boundary boundary;
+  float rest;                   ///< stored value of level water
+  const Image* newest;          ///< ghost columns filled
+  Image* previous;              ///< in: the previous level; out: the next one, ghost columns filled
+  const Image* rest_row;        ///< one row at rest, for Boundary::fixed
+  std::span<const Drop> drops;
+};
+
+/// Encodes stored values, `width` to a row, into a plane, ghost columns included.
+void encode_rows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding);
+
+/// wave_step over whole rows; the tile must span the width.
+void wave_step_rows(const WaveJob& job, const parallel::Tile& tile);
+/// The second output of the corrected wave_step: adds the drops to the level in `plane`, in place, where they touch it.
+void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile);
+/// Decodes rows of a single-channel plane to floats, `width` to a row.
+void decode_rows(const Image& plane, float* out, const parallel::Tile& tile);
+/// Largest |s - rest| of the rows, and largest difference of neighbours inside the plane, both of stored values.
+struct Extent {
+  float height, difference;
+};
+Extent extent_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile);
+
+/// as published: drop i of the frame for i in [0, uniforms.drop_count).
+std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms);
+
+/// hit: rgba32f, normal: rgba16f (flag in alpha).
+void surface_hit_rows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, Image& hit, Image& normal,
+                      const parallel::Tile& tile);
+/// noise: r32f.
+void ground_noise_rows(const GroundNoiseUniforms& uniforms, Rounding rounding, const Image& hit, const Image& normal, Image& noise,
+                       const parallel::Tile& tile);
+
+struct ShadeInputs {
+  const Texture *environment, *ground, *relief, *bed;
+  const Image *hit, *normal, *noise;
+};
+/// colour: rgba16f, alpha 1.
+void shade_rows(const ShadeUniforms& uniforms, bool corrected, Rounding rounding, const ShadeInputs& in, Image& colour,
+                const parallel::Tile& tile);
+/// picture: rgba8, alpha 1.
+void display_rows(const DisplayUniforms& uniforms, bool corrected, Rounding rounding, const Image& colour, Image& picture,
+                  const parallel::Tile& tile);
+
+}  // namespace rainref::puddle

@@ -1,0 +1,25 @@
+// The scalar readings of the puddle's passes: for the oracle and the tests. A namespace of their own, so that argument
+// types of this room do not pull them into the lanes.
+#pragma once
+
+#include "image/texture.h"
+#include "math/plain.h"
+#include "puddle/uniforms.h"
+
+namespace rainref::puddle::scalar {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling-inl.h"
+#include "image/environment-inl.h"
+#include "puddle/raindrops.pass.h"
+#include "puddle/wave_step.pass.h"
+#include "puddle/surface_hit.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::puddle::scalar

@@ -1,0 +1,217 @@
+// The order of the passes. No arithmetic.
+#include "rainref/puddle.h"
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "parallel/parallel.h"
+#include "puddle/environment.h"
+#include "puddle/ground.h"
+#include "puddle/host.h"
+#include "puddle/kernels.h"
+#include "puddle/rainfall.h"
+#include "rainref/error.h"
+
+namespace rainref::puddle {
+namespace {
+
+constexpr int wave_tile_rows = 32, picture_tile_rows = 8;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Format channel_format(Format storage) {
+  switch (storage) {
+    case Format::rg16f: return Format::r16f;
+    case Format::rg32f: return Format::r32f;
+    case Format::rgba8: return Format::r8;
+    default: throw Error(ExitCode::usage, "puddle.storage: expected rg16f, rg32f or rgba8");
+  }
+}
+
+}  // namespace
+
+struct Puddle::State {
+  Settings settings;
+  const parallel::Executor& executor;
+  bool corrected;
+  Encoding encoding;
+  int frame = 0;
+  std::int64_t steps = 0;
+  Image newest, previous, rest_row;
+  Rainfall rainfall;
+
+  TextureData environment, ground, relief, bed;
+  std::array<float, 3> ambient{};
+  TextureData water;  // one channel of the wave, decoded
+  Image hit, normal, noise, colour, picture;
+
+  State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
+      : settings(s), executor(e), corrected(s.variant == Variant::corrected), encoding(puddle::encoding(s)),
+        rainfall(corrected ? s : no_rain(s), 1 / encoding.scale) {
+    const auto [columns, rows] = wave_size(s);
+    const Format format = channel_format(s.storage);
+    newest = Image(format, columns, rows);
+    previous = Image(format, columns, rows);
+    rest_row = Image(format, columns, 1);
+    set_rest();
+    environment = prepare_environment(around, s.variant);
+    const bool own_ground = around.ground.empty();
+    const Image made = own_ground ? make_asphalt(s.seed) : Image();
+    ground = prepare_ground(own_ground ? made : around.ground, own_ground ? false : around.ground_is_encoded, s.variant);
+    if (corrected) {
+      relief = make_relief(ground, own_ground);
+      bed = make_bed(s);
+      ambient = ambient_radiance(environment.view(), around.environment_is_cube);
+    }
+    environment_is_cube = around.environment_is_cube;
+    hit = Image(Format::rgba32f, s.width, s.height);
+    normal = Image(Format::rgba16f, s.width, s.height);
+    colour = Image(Format::rgba16f, s.width, s.height);
+    picture = Image(Format::rgba8, s.width, s.height);
+    if (!corrected) noise = Image(Format::r32f, s.width, s.height);
+    const Address edge = corrected ? Address::border : s.boundary == Boundary::periodic ? Address::repeat : Address::clamp;
+    water = TextureData(std::vector<float>(static_cast<std::size_t>(columns) * rows), 1, columns, rows, edge, edge);
+    water.set_border(encoding.rest, 0, 0, 0);
+  }
+
+  bool environment_is_cube = false;
+
+  static Settings no_rain(Settings s) {
+    s.rain_rate = 0;
+    return s;
+  }
+
+  void set_rest() {
+    const Image& p = newest;
+    const std::vector<float> level(static_cast<std::size_t>(p.width()) * p.height(), encoding.rest);
+    encode(level, newest);
+    encode(level, previous);
+    encode(std::vector<float>(static_cast<std::size_t>(p.width()), encoding.rest), rest_row);
+  }
+  // Stored values, row-major, into a plane with its ghosts.
+  void encode(const std::vector<float>& stored, Image& plane) const { encode_rows(stored.data(), plane, settings.boundary, encoding.rest, settings.rounding); }
+
+  void wave_tiles(const std::function<void(const parallel::Tile&)>& body) const {
+    executor.for_tiles(newest.width(), newest.height(), newest.width(), wave_tile_rows, body);
+  }
+  void picture_tiles(const std::function<void(const parallel::Tile&)>& body) const {
+    executor.for_tiles(settings.width, settings.height, settings.width, picture_tile_rows, body);
+  }
+
+  void report(Recorder* recorder, int step, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
+    if (recorder) recorder->pass({frame, step, pass, {outputs.begin(), outputs.size()}, seconds});
+  }
+};
+
+Puddle::Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor) {
+  check(settings);
+  state_ = std::make_unique<State>(settings, surroundings, executor);
+}
+Puddle::~Puddle() = default;
+Puddle::Puddle(Puddle&&) noexcept = default;
+
+void Puddle::simulate(Recorder* recorder) {
+  State& s = *state_;
+  const std::int64_t end = steps_until(s.settings, s.frame + 1);
+  for (int step = 0; s.steps < end; ++step, ++s.steps) {
+    Stopwatch rain_time;
+    const std::vector<Drop> drops =
+        s.corrected ? s.rainfall.drops(s.steps) : raindrops_as_published(raindrops_uniforms(s.settings, s.frame));
+    s.report(recorder, step, "raindrops", {{"drops", RecordView{drops.data(), drops.size(), sizeof(Drop)}}}, rain_time.seconds());
+
+    Stopwatch wave_time;
+    WaveJob job{wave_step_uniforms(s.settings), s.corrected, s.settings.rounding, s.settings.boundary, s.encoding.rest,
+                &s.newest,                      &s.previous, &s.rest_row,         drops};
+    job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
+    s.wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
+    if (s.corrected && !drops.empty()) {
+      s.wave_tiles([&](const parallel::Tile& tile) { wave_previous_rows(job, s.newest, tile); });
+    }
+    std::swap(s.newest, s.previous);
+    s.report(recorder, step, "wave_step", {{"wave", wave()}}, wave_time.seconds());
+  }
+  ++s.frame;
+}
+
+void Puddle::render(Recorder* recorder) {
+  State& s = *state_;
+  const int recorded_frame = s.frame;
+  s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
+  const int last_step = 0;
+
+  Stopwatch hit_time;
+  SurfaceHitUniforms u = surface_hit_uniforms(s.settings);
+  // As published the green channel: the previous level. Corrected: the newest.
+  const Image& shown = s.corrected ? s.newest : s.previous;
+  float* decoded = s.water.texels();
+  s.wave_tiles([&](const parallel::Tile& tile) { decode_rows(shown, decoded, tile); });
+  if (s.corrected) {
+    const int rows = shown.height();
+    std::vector<Extent> extents(static_cast<std::size_t>((rows + wave_tile_rows - 1) / wave_tile_rows));
+    s.wave_tiles([&](const parallel::Tile& tile) {
+      extents[static_cast<std::size_t>(tile.y0 / wave_tile_rows)] = extent_of_rows(decoded, shown.width(), rows, s.encoding.rest, tile);
+    });
+    Extent all{0, 0};
+    for (const Extent& e : extents) all = {std::max(all.height, e.height), std::max(all.difference, e.difference)};
+    set_bounds(u, s.settings, all);
+  }
+  s.picture_tiles([&](const parallel::Tile& tile) {
+    surface_hit_rows(u, s.corrected, s.settings.rounding, s.water.view(), s.hit, s.normal, tile);
+  });
+  s.report(recorder, last_step, "surface_hit", {{"hit", s.hit}, {"normal", s.normal}}, hit_time.seconds());
+
+  if (!s.corrected) {
+    Stopwatch noise_time;
+    const GroundNoiseUniforms noise = ground_noise_uniforms(s.settings);
+    s.picture_tiles([&](const parallel::Tile& tile) { ground_noise_rows(noise, s.settings.rounding, s.hit, s.normal, s.noise, tile); });
+    s.report(recorder, last_step, "ground_noise", {{"noise", s.noise}}, noise_time.seconds());
+  }
+
+  Stopwatch shade_time;
+  ShadeUniforms shade = shade_uniforms(s.settings);
+  shade.environment_is_cube = s.environment_is_cube;
+  shade.ground_footprint = ground_footprint(s.settings, s.ground.view().width[0]);
+  for (int k = 0; k < 3; ++k) shade.ambient[k] = shade.fog_colour[k] = s.ambient[k];
+  const ShadeInputs in{&s.environment.view(), &s.ground.view(), &s.relief.view(), &s.bed.view(), &s.hit, &s.normal, &s.noise};
+  s.picture_tiles([&](const parallel::Tile& tile) { shade_rows(shade, s.corrected, s.settings.rounding, in, s.colour, tile); });
+  s.report(recorder, last_step, "shade", {{"colour", s.colour}}, shade_time.seconds());
+
+  Stopwatch display_time;
+  const DisplayUniforms display = display_uniforms(s.settings);
+  s.picture_tiles([&](const parallel::Tile& tile) { display_rows(display, s.corrected, s.settings.rounding, s.colour, s.picture, tile); });
+  s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_time.seconds());
+  s.frame = recorded_frame;
+}
+
+void Puddle::set_water(const std::vector<float>& newest, const std::vector<float>& previous) {
+  State& s = *state_;
+  const std::size_t cells = static_cast<std::size_t>(s.newest.width()) * s.newest.height();
+  if (newest.size() != cells || previous.size() != cells) throw Error(ExitCode::internal, "set_water: sizes differ from the wave's");
+  std::vector<float> stored(cells);
+  const auto put = [&](const std::vector<float>& heights, Image& plane) {
+    for (std::size_t i = 0; i < cells; ++i) stored[i] = static_cast<float>((heights[i] - s.encoding.bias) / s.encoding.scale);
+    s.encode(stored, plane);
+  };
+  put(newest, s.newest);
+  put(previous, s.previous);
+}
+
+int Puddle::frame() const { return state_->frame; }
+std::int64_t Puddle::steps() const { return state_->steps; }
+double Puddle::courant() const { return courant_number(state_->settings); }
+const Image& Puddle::newest() const { return state_->newest; }
+const Image& Puddle::previous() const { return state_->previous; }
+BufferView Puddle::wave() const { return BufferView(state_->settings.storage, {&state_->newest, &state_->previous}); }
+const Image& Puddle::hit() const { return state_->hit; }
+const Image& Puddle::normal() const { return state_->normal; }
+const Image& Puddle::colour() const { return state_->colour; }
+const Image& Puddle::picture() const { return state_->picture; }
+
+}  // namespace rainref::puddle

@@ -1,0 +1,52 @@
+#include "puddle/rainfall.h"
+
+#include <algorithm>
+
+#include "rain/rain.h"
+#include "random/counter.h"
+
+namespace rainref::puddle {
+namespace {
+
+constexpr double gravity = 9.80665;       // m/s^2, CGPM 1901
+constexpr double energy_share = 0.01;     // of the impact that goes into the wave; the rest splashes and stirs
+constexpr double crater_per_diameter = 5; // crater radius over drop diameter
+constexpr double least_radius = 3;        // texels; a smaller crater would not be resolved, so its energy is spread
+
+}  // namespace
+
+double crater_depth(double diameter, double speed, double radius) {
+  return __builtin_sqrt(energy_share * diameter * diameter * diameter * speed * speed * 35 / (18 * gravity * radius * radius));
+}
+
+Rainfall::Rainfall(const Settings& s, double stored_per_metre)
+    : seed_(s.seed), width_(static_cast<std::uint32_t>(s.grid[0])), height_(static_cast<std::uint32_t>(s.grid[1])) {
+  const rain::DropSizes sizes_of_rain(s.rain_rate, s.smallest_drop);
+  const double area = s.grid[0] * s.cell_size * (s.grid[1] * s.cell_size);
+  mean_ = sizes_of_rain.flux() * area / s.step_rate;
+  count_ = random::PoissonTable(mean_);
+  for (const double diameter_mm : sizes_of_rain.quantiles(sizes)) {
+    const double diameter = diameter_mm * 1e-3;
+    const double radius = std::max(crater_per_diameter * diameter, least_radius * s.cell_size);
+    const double depth = crater_depth(diameter, rain::terminal_velocity(diameter_mm), radius);
+    craters_.push_back({0, 0, static_cast<float>(-depth * s.drop_intensity * stored_per_metre), static_cast<float>(radius / s.cell_size)});
+  }
+}
+
+std::vector<Drop> Rainfall::drops(std::int64_t step) const {
+  std::vector<Drop> out;
+  if (craters_.empty()) return out;
+  // Steps beyond 2^32 start over: at 240 steps a second after 207 days.
+  const auto k = static_cast<std::uint32_t>(step);
+  const int count = count_.count(random::block(seed_, random::Purpose::puddle_drop_count, k, 0)[0]);
+  for (int i = 0; i < count; ++i) {
+    const random::Block r = random::block(seed_, random::Purpose::puddle_drop, k, static_cast<std::uint32_t>(i));
+    Drop drop = craters_[r[2] >> 22];
+    drop.x = static_cast<float>(((r[0] >> 16) * width_) >> 8) * 0x1p-8f;
+    drop.y = static_cast<float>(((r[1] >> 16) * height_) >> 8) * 0x1p-8f;
+    out.push_back(drop);
+  }
+  return out;
+}
+
+}  // namespace rainref::puddle

@@ -1,0 +1,41 @@
+// Pass raindrops, corrected: which drops fall in a wave step. Integers and host tables, so every machine agrees.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "puddle/uniforms.h"
+#include "random/poisson.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+
+/// Drops of step k are a function of (seed, k): the count by a Poisson table, place and size from a hash of (seed, k, i).
+class Rainfall {
+ public:
+  /// stored_per_metre: stored units in a metre of height.
+  Rainfall(const Settings& settings, double stored_per_metre);
+
+  /// Places are multiples of 1/256 texel: x = ((word >> 16) * width >> 8) / 256, exact in float.
+  std::vector<Drop> drops(std::int64_t step) const;
+
+  /// Expected drops in a step.
+  double mean() const { return mean_; }
+  static constexpr int sizes = 1024;
+  /// Crater amplitude (stored units) and radius (texels) of the size class; class 0 holds the smallest drops.
+  const Drop& crater(int size_class) const { return craters_[static_cast<std::size_t>(size_class)]; }
+
+ private:
+  std::uint64_t seed_;
+  std::uint32_t width_, height_;
+  double mean_ = 0;
+  random::PoissonTable count_;
+  std::vector<Drop> craters_;
+};
+
+/// Depth of the crater at its centre [m] of a drop of this diameter [m] that hits at this speed [m/s]: the potential
+/// energy of the crater shape of wave_step, radius R [m], is 1 % of the drop's kinetic energy.
+///   rho g A^2 pi R^2 (3/35) / 2 = 0.01 * (rho pi D^3 / 6) v^2 / 2
+double crater_depth(double diameter, double speed, double radius);
+
+}  // namespace rainref::puddle

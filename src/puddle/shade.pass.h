@@ -1,0 +1,141 @@
+// Passes ground_noise and shade: from hit and normal to linear radiance. Needs surface_hit.pass.h for the view ray.
+
+constexpr float water_ior = 1.333f;
+
+/// Hit and normal of a pixel as shade takes them from their stored buffers.
+template <class N>
+struct Surface {
+  Vec3<N> position, normal;
+  N flag;
+};
+
+// ---- as published --------------------------------------------------------------------------------------------------
+/// Distance along d from p to the plane y = height, or -1.
+template <class N>
+RAINREF_FN N intersect_plane(const Vec3<N>& p, const Vec3<N>& d, N height) {
+  const auto parallel = abs(d.y) < N(0.0001f);
+  const N t = (height - p.y) / select(parallel, N(1.0f), d.y);
+  return select((t > N(0.0f)) & !parallel, t, N(-1.0f));
+}
+template <class N>
+struct GroundPoint {
+  N distance, x, z;
+};
+template <class N>
+RAINREF_FN GroundPoint<N> ground_as_published(const Vec3<N>& view, const Surface<N>& s, float puddle_depth) {
+  const Vec3<N> bent = refract(view, s.normal, 1.0f / water_ior);
+  const N distance = intersect_plane(s.position, bent, N(-puddle_depth));
+  return {distance, s.position.x + bent.x * distance, s.position.z + bent.z * distance};
+}
+/// The sine hash of the ground point. No GPU reproduces it: shade takes it as data.
+template <class N>
+RAINREF_FN N ground_noise_as_published(const GroundNoiseUniforms& u, const Surface<N>& s, int px, int py) {
+  const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
+  const GroundPoint<N> g = ground_as_published(view, s, u.puddle_depth);
+  const N noise = fract(sin(g.x * N(12.9898f) + g.z * N(78.233f)) * N(43758.5453f));
+  return select(g.distance > N(0.0f), noise, N(0.5f));
+}
+
+template <class N>
+RAINREF_FN Vec3<N> rotate_y(const Vec3<N>& v, const float* rotation) {
+  const N c(rotation[0]), s(rotation[1]);
+  return Vec3<N>(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+}
+template <class N>
+RAINREF_FN Vec3<N> decode_gamma(const Vec3<N>& c) {
+  return Vec3<N>(pow(c.x, N(2.2f)), pow(c.y, N(2.2f)), pow(c.z, N(2.2f)));
+}
+template <class N>
+RAINREF_FN Vec3<N> environment_as_published(const ShadeUniforms& u, const Texture& environment, const Vec3<N>& d) {
+  return decode_gamma(sample_environment(environment, u.environment_is_cube != 0, rotate_y(d, u.rotation), N(0.0f)));
+}
+template <class N>
+RAINREF_FN Vec3<N> checkerboard(N x, N z, float scale) {
+  const N parity = floor(x * N(scale)) + floor(z * N(scale));
+  const N odd = parity - N(2.0f) * floor(parity / N(2.0f));
+  const Vec3<N> dark(N(0.15f), N(0.12f), N(0.10f)), light(N(0.25f), N(0.22f), N(0.20f));
+  return mix(dark, light, odd);
+}
+
+template <class N>
+RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& environment, const Texture& ground, const Surface<N>& s, N noise,
+                                      int px, int py) {
+  const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
+  const N zero(0.0f), one(1.0f);
+  const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));
+  const N f = fresnel_schlick(min(abs(dot(view, s.normal)), one), f0);
+  const auto hit = s.flag > N(0.5f);
+  const Vec3<N> reflected = environment_as_published(u, environment, select(hit, reflect(view, s.normal), view));
+
+  const GroundPoint<N> g = ground_as_published(view, s, u.puddle_depth);
+  const auto on_ground = g.distance > zero;
+  const N gx = select(on_ground, g.x, zero), gz = select(on_ground, g.z, zero);
+  Vec3<N> base;
+  if (u.use_checkerboard != 0) {
+    const N wobble = (noise - N(0.5f)) * N(0.05f);
+    base = checkerboard(gx, gz, u.ground_scale) + Vec3<N>(wobble, wobble, wobble);
+  } else {
+    const auto texel = sample_bilinear<0, 3, N>(ground, gx * N(u.ground_scale), gz * N(u.ground_scale));
+    base = N(0.6f) * decode_gamma(Vec3<N>(texel[0], texel[1], texel[2]));
+  }
+  const Vec3<N> tint(u.tint);
+  const N visibility = transmittance(N(u.water_turbidity), max(g.distance, zero));
+  const Vec3<N> filter = N(0.7f) * (Vec3<N>(one, one, one) - N(0.5f) * tint);
+  const Vec3<N> below = select(on_ground, filter * mix(tint, base, visibility), N(0.3f) * tint);
+
+  const N reflection = mix(N(0.3f), N(0.8f), N(u.reflectivity));
+  Vec3<N> colour = mix(below, reflected, f * (reflection - N(0.3f)) + N(0.3f));
+  colour = colour + (N(0.15f) * (one - f)) * tint;
+  const N depth = length(s.position - Vec3<N>(u.camera.position));
+  const N fog = transmittance(N(u.fog_depth), depth);
+  colour = mix(N(0.7f) * colour, colour, fog);
+  return select(hit, colour, reflected);
+}
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+// Water over a bed of varying depth, wet ground around it. Coverage w goes from 0 (wet ground) to 1 (water) over the
+// first shore_width metres of depth; normal, gloss and the refracted offset follow w, so the shore has no seam.
+//   L = F E(reflected) + (1 - F) [T albedo + (1 - T) tint] ambient,   T = exp(-turbidity (path down + path up))
+template <class N>
+RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& environment, const Texture& ground, const Texture& relief,
+                                   const Texture& bed, const Surface<N>& s, int px, int py) {
+  const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
+  const N zero(0.0f), one(1.0f), half(0.5f);
+  const auto hit = s.flag > half;
+  const Vec3<N>& p = s.position;
+  const N bed_u = half * (p.x / N(u.half_size[0]) + one), bed_v = half * (p.z / N(u.half_size[1]) + one);
+  const N depth = sample_bilinear<0, 1, N>(bed, bed_u, bed_v)[0];
+  const N water = smoothstep(0.0f, u.shore_width, depth);
+
+  const N distance = length(p - Vec3<N>(u.camera.position));
+  const N lod = log(max(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)), one)) * N(0x1.715476p+0f);  // 1 / ln 2
+  const auto tilt = sample_trilinear<0, 2, N>(relief, p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
+  const Vec3<N> rough(tilt[0], one, tilt[1]);
+  const Vec3<N> normal = normalize(mix(rough, s.normal, water));
+
+  const N cosine = clamp(-dot(view, normal), N(1e-3f), one);
+  const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));
+  const N fresnel = (u.exact_fresnel != 0 ? fresnel_dielectric(cosine, water_ior) : fresnel_schlick(cosine, f0)) * N(u.reflectivity);
+  const Vec3<N> mirrored = reflect(view, normal);
+  // A mirror ray that dips below the horizon would meet the water again: it is turned up.
+  const Vec3<N> up_mirrored(mirrored.x, abs(mirrored.y), mirrored.z);
+  const Vec3<N> look = rotate_y(select(hit, up_mirrored, view), u.rotation);
+  const N gloss = select(hit, (one - water) * N(u.gloss_level), zero);
+  const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);
+
+  const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
+  const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
+  const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
+  Vec3<N> albedo;
+  if (u.use_checkerboard != 0) {
+    albedo = checkerboard(gx, gz, u.ground_scale);
+  } else {
+    const auto texel = sample_trilinear<0, 3, N>(ground, gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
+    albedo = Vec3<N>(texel[0], texel[1], texel[2]);
+  }
+  const N seen = transmittance(N(u.water_turbidity), path + column);
+  const Vec3<N> body = mix(Vec3<N>(u.tint), albedo, seen) * Vec3<N>(u.ambient);
+  const Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
+  const N clear = transmittance(N(u.fog_depth), distance);
+  return select(hit, mix(Vec3<N>(u.fog_colour), surface, clear), reflected);
+}

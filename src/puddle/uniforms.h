@@ -1,0 +1,92 @@
+// What the puddle's passes take besides images: uniform blocks and the drop record. Sizes are multiples of 16 bytes,
+// nothing straddles a 16-byte row, and every gap is a named padding member, so the bytes serve every GPU language.
+#pragma once
+
+#include <cstdint>
+
+namespace rainref::puddle {
+
+/// One drop as wave_step takes it: a crater around (x, y).
+struct Drop {
+  float x, y;       ///< centre [texels], texel centres at k + 1/2
+  float amplitude;  ///< as-published: strength times activation; corrected: height at the centre in stored units
+  float radius;     ///< [texels]; nothing is added at this distance or beyond
+};
+
+struct RaindropsUniforms {
+  float time;            ///< n / fps, rounded once [s]
+  float rain_speed;      ///< pulses a second [1/s]
+  float drop_intensity;  ///< [1]
+  float padding0;
+  float width, height;  ///< size of the wave buffer [texels]
+  std::int32_t drop_count;
+  std::int32_t padding1;
+};
+
+struct WaveStepUniforms {
+  float damping;     ///< as-published: factor of the new level; corrected: gamma of one step
+  float step;        ///< as-published: offset of the neighbours [texels]
+  float courant_sq;  ///< corrected: (c dt / dx)^2 (1 + gamma) / 2
+  std::int32_t drop_count;
+};
+
+struct CameraUniforms {
+  float position[3];
+  float pixel_scale;  ///< height of a pixel on the image plane at distance 1
+  float right[3];
+  float plane_left;  ///< x of the image plane's left edge at distance 1
+  float up[3];
+  float plane_bottom;  ///< y of the image plane's bottom edge at distance 1
+  float forward[3];
+  float padding0;
+};
+
+struct SurfaceHitUniforms {
+  CameraUniforms camera;
+  float half_size[3];  ///< of the puddle's box; as-published (42, 5, 42)
+  float epsilon;       ///< distance that counts as a hit
+  float texel[2];      ///< 1 / size of the wave buffer
+  std::int32_t max_steps;
+  float normal_gain;  ///< as-published 2.5; corrected: metres of height per stored unit over twice the cell size
+  float height_scale, height_bias;  ///< corrected: height = scale * stored + bias [m]
+  float surface_top;                ///< corrected: no height is above this [m]
+  float surface_slope;              ///< corrected: no slope is above this [1]
+};
+
+struct GroundNoiseUniforms {
+  CameraUniforms camera;
+  float puddle_depth;
+  float padding0, padding1, padding2;
+};
+
+struct ShadeUniforms {
+  CameraUniforms camera;
+  float tint[3];
+  float reflectivity;
+  float rotation[2];  ///< cosine and sine of env_rotation
+  float ground_scale;
+  float water_turbidity;
+  float puddle_depth;
+  float fog_depth;
+  std::int32_t use_checkerboard;
+  std::int32_t environment_is_cube;
+  float ambient[3];  ///< corrected: radiance of a white diffuse ground under the environment
+  float gloss_level;  ///< corrected: mip level of the environment that the wet ground mirrors
+  float half_size[2];  ///< corrected: half the puddle's extent in x and z [m]
+  float shore_width;   ///< corrected: water depth over which wet ground turns into water [m]
+  float ground_footprint;  ///< corrected: texels of the ground image that a pixel covers at distance 1
+  float fog_colour[3];     ///< corrected
+  std::int32_t exact_fresnel;
+};
+
+struct DisplayUniforms {
+  float vignette;
+  float exposure;  ///< corrected: factor of the radiance
+  float width, height;
+};
+
+static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(WaveStepUniforms) == 16);
+static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 112 && sizeof(GroundNoiseUniforms) == 80);
+static_assert(sizeof(ShadeUniforms) == 160 && sizeof(DisplayUniforms) == 16);
+
+}  // namespace rainref::puddle

@@ -1,0 +1,44 @@
+#include "random/poisson.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "math/real64.h"
+#include "rainref/error.h"
+
+namespace rainref::random {
+
+PoissonTable::PoissonTable(double mean) {
+  if (!(mean >= 0 && mean <= max_mean)) {
+    throw Error(ExitCode::usage, fmt::format("a Poisson mean of {}: expected a number from 0 to {}", mean, max_mean));
+  }
+  if (mean == 0) return;
+  // Weights by logarithm, because e^-mean is no double beyond a mean of 745; then normalized, so that the rounding of
+  // the logarithms does not show.
+  const double log_mean = log_real(Real64(mean)).v;
+  double log_weight = -mean;
+  std::vector<double> weights;
+  for (int k = 0; k < mean + 12 * __builtin_sqrt(mean) + 40; ++k) {
+    if (k > 0) log_weight += log_mean - log_real(Real64(k)).v;
+    weights.push_back(log_weight < -60 ? 0.0 : exp_real(Real64(log_weight)).v);
+  }
+  double total = 0;
+  for (const double w : weights) total += w;
+  double sum = 0;
+  for (const double w : weights) {
+    sum += w;
+    const double scaled = sum / total * 0x1p32;
+    if (scaled >= 0x1p32 - 1) break;
+    thresholds_.push_back(static_cast<std::uint32_t>(scaled));
+  }
+  const auto some = std::find_if(thresholds_.begin(), thresholds_.end(), [](std::uint32_t t) { return t > 0; });
+  first_ = static_cast<int>(some - thresholds_.begin());
+  thresholds_.erase(thresholds_.begin(), some);
+}
+
+int PoissonTable::count(std::uint32_t word) const {
+  return first_ + static_cast<int>(std::upper_bound(thresholds_.begin(), thresholds_.end(), word) - thresholds_.begin());
+}
+
+}  // namespace rainref::random

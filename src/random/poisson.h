@@ -1,0 +1,27 @@
+// Poisson counts by a table of integer thresholds: the host computes the table, anyone can draw from it exactly.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace rainref::random {
+
+/// Draws N with P(N <= k) = thresholds[k - first] / 2^32, from one random word and comparisons alone.
+class PoissonTable {
+ public:
+  static constexpr double max_mean = 4000;
+
+  PoissonTable() = default;
+  /// mean in [0, max_mean]; throws Error(usage) otherwise. Probabilities below 2^-32 are cut off.
+  explicit PoissonTable(double mean);
+
+  /// The count of this random word.
+  int count(std::uint32_t word) const;
+  int largest() const { return first_ + static_cast<int>(thresholds_.size()); }
+
+ private:
+  int first_ = 0;                          // counts below this have no weight
+  std::vector<std::uint32_t> thresholds_;  // non-decreasing; a word not below the last draws largest()
+};
+
+}  // namespace rainref::random

@@ -1,0 +1,195 @@
+#include "scene/toml.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scene/check.h"
+#include "scene/toml_reader.h"
+
+namespace rainref::scene {
+namespace {
+
+// More than any scene holds; what lies beyond it is not read, so that a device or a film given by mistake ends at once.
+constexpr std::size_t read_limit = (std::size_t{1} << 20) + 1;
+// Longer names are not compared with the valid ones: the edit distance takes their length times each valid length.
+constexpr std::size_t longest_guess = 128;
+
+std::string read_file(const std::filesystem::path& file) {
+  const SourceLocation at{file.string()};
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw Error(ExitCode::io, at, "expected a scene file, found a directory");
+  }
+  const auto cannot_read = [&](int why) {
+    return Error(ExitCode::io, at, fmt::format("cannot be read: {}", std::generic_category().message(why)));
+  };
+  const auto close = [](std::FILE* f) { std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> stream(std::fopen(file.string().c_str(), "rb"), close);
+  if (!stream) throw cannot_read(errno);
+  std::string text(read_limit, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
+  if (std::ferror(stream.get())) throw cannot_read(errno);
+  return text;
+}
+
+std::string shortened(const std::string& key) {
+  return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…";
+}
+
+struct Override {
+  std::string key;
+  std::string text;
+};
+
+std::vector<Override> split(const std::vector<std::string>& overrides) {
+  std::vector<Override> out;
+  for (const std::string& o : overrides) {
+    const std::size_t equals = o.find('=');
+    const std::size_t begin = o.find_first_not_of(' ');
+    if (equals == std::string::npos || begin == equals) {
+      throw Error(ExitCode::usage, fmt::format("--set {}: expected key=value", shortened(o)));
+    }
+    out.push_back({o.substr(begin, o.find_last_not_of(' ', equals - 1) + 1 - begin), o.substr(equals + 1)});
+  }
+  return out;
+}
+
+const Origin from_override{Origin::override_option, {}};
+
+Value checked(const Override& o, const Parameter& p) {
+  const bool wants_text = p.type == Type::text || p.type == Type::choice;
+  std::optional<RawValue> raw = read_toml_value(o.text);
+  if (!raw || (wants_text && !std::holds_alternative<std::string>(raw->data))) raw = read_bare_text(o.text);
+  if (!raw) refuse(from_override, o.key, fmt::format("expected {}, found bytes that are not UTF-8", expectation(p)));
+  return checked(*raw, p, from_override);
+}
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// A slip of the fingers first; else the right name in the wrong table. A shared table must not make two names near, so
+// only keys whose last part is near are thought of.
+std::string guess(const std::string& wrong, const std::vector<std::string>& valid) {
+  if (wrong.size() > longest_guess) return "";
+  std::vector<std::string> candidates;
+  for (const std::string& key : valid) {
+    const std::string last = last_part(key);
+    if (!nearest_name(last_part(wrong), {&last, 1}).empty()) candidates.push_back(key);
+  }
+  const std::string near = did_you_mean(wrong, candidates);
+  if (!near.empty() || candidates.empty()) return near;
+  const auto same = [&](const std::string& key) { return last_part(key) == last_part(wrong); };
+  const auto found = std::find_if(candidates.begin(), candidates.end(), same);
+  return fmt::format("; did you mean '{}'?", found == candidates.end() ? candidates.front() : *found);
+}
+
+class Assembly {
+ public:
+  Assembly(std::vector<Parameter> parameters, std::string variant) : variant_(std::move(variant)) {
+    for (Parameter& p : parameters) {
+      const Value value = p.default_in(variant_);
+      if (p.used_by(variant_)) valid_.push_back(p.key);
+      entries_.push_back({std::move(p), value, {}});
+    }
+  }
+
+  void take(const RawEntry& raw) {
+    const Origin origin{Origin::file, raw.at};
+    const auto inside = [&](const Config::Entry& e) { return e.parameter.key.starts_with(raw.key + "."); };
+    if (std::any_of(entries_.begin(), entries_.end(), inside)) {
+      if (std::holds_alternative<RawValue::Table>(raw.value.data)) return;  // an empty table says nothing
+      refuse({Origin::file, raw.value.at}, raw.key, fmt::format("expected a table, found {}", raw.value.text()));
+    }
+    if (std::holds_alternative<RawValue::Table>(raw.value.data) && !declared(raw.key)) {
+      refuse(origin, shortened(raw.key), "unknown table" + guess(raw.key, tables()));
+    }
+    Config::Entry& entry = find(raw.key, origin);
+    entry.value = scene::checked(raw.value, entry.parameter, origin);
+    entry.origin = origin;
+  }
+
+  void take(const Override& o) {
+    Config::Entry& entry = find(o.key, from_override);
+    entry.value = checked(o, entry.parameter);
+    entry.origin = from_override;
+  }
+
+  Config finish(const std::filesystem::path& file) {
+    std::vector<Config::Entry> used;
+    for (Config::Entry& e : entries_) {
+      if (!e.parameter.used_by(variant_)) continue;
+      if (e.parameter.is_required && e.origin.kind == Origin::by_default) {
+        refuse({Origin::file, {file.string()}}, e.parameter.key, "missing; expected " + expectation(e.parameter));
+      }
+      used.push_back(std::move(e));
+    }
+    return Config(std::move(used), file.parent_path());
+  }
+
+ private:
+  Config::Entry& find(const std::string& key, const Origin& origin) {
+    for (Config::Entry& e : entries_) {
+      if (e.parameter.key != key) continue;
+      if (e.parameter.used_by(variant_)) return e;
+      refuse(origin, key,
+             fmt::format("not used by variant '{}', only by '{}'", variant_, fmt::join(e.parameter.variants, "', '")));
+    }
+    refuse(origin, shortened(key), "unknown key" + guess(key, valid_));
+  }
+
+  bool declared(const std::string& key) const {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [&](const Config::Entry& e) { return e.parameter.key == key; });
+  }
+
+  // "run", "puddle", …
+  std::vector<std::string> tables() const {
+    std::vector<std::string> out;
+    for (const std::string& key : valid_) {
+      if (key.find('.') != std::string::npos) out.push_back(key.substr(0, key.rfind('.')));
+    }
+    return out;
+  }
+
+  std::string variant_;
+  std::vector<Config::Entry> entries_;
+  std::vector<std::string> valid_;  // the keys that this variant uses
+};
+
+// The text of `effect` or `variant`, which decide what else is valid, so they are read before the rest.
+std::string deciding(const Parameter& p, const std::vector<RawEntry>& entries, const std::vector<Override>& overrides,
+                     const std::filesystem::path& file) {
+  for (auto o = overrides.rbegin(); o != overrides.rend(); ++o) {
+    if (o->key == p.key) return std::get<std::string>(checked(*o, p));
+  }
+  for (const RawEntry& e : entries) {
+    if (e.key == p.key) return std::get<std::string>(checked(e.value, p, {Origin::file, e.at}));
+  }
+  refuse({Origin::file, {file.string()}}, p.key, "missing; expected " + expectation(p));
+}
+
+}  // namespace
+
+Config load(const std::filesystem::path& file, const std::vector<std::string>& overrides, const EffectTable& effects) {
+  return parse(read_file(file), file, overrides, effects);
+}
+
+Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,
+             const EffectTable& effects) {
+  const std::vector<Override> given = split(overrides);
+  const std::vector<RawEntry> entries = read_toml(toml, file.string());
+  const Effect& effect = effects.find(deciding(effect_parameter(effects), entries, given, file));
+  std::string variant = deciding(variant_parameter(effect), entries, given, file);
+  Assembly assembly(scene_parameters(effect, effects), std::move(variant));
+  for (const RawEntry& e : entries) assembly.take(e);
+  for (const Override& o : given) assembly.take(o);
+  return assembly.finish(file);
+}
+
+}  // namespace rainref::scene

@@ -1,0 +1,27 @@
+// Scene files: TOML plus the command line's --set, checked key by key against the declared parameters.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/config.h"
+#include "scene/effect_table.h"
+
+namespace rainref::scene {
+
+/// Reads a scene file and checks all of it. `overrides` are "key=value" texts: the value is a TOML value, or a bare
+/// text where that fails or where the parameter is a text or a choice; a later one of the same key wins, and any of
+/// them wins over the file, `effect` and `variant` included.
+///
+/// Throws Error(usage) for the first problem in the order of the file, then of the overrides: bad TOML; an effect or a
+/// variant that is missing or unknown; a key that is unknown, or that this variant does not use; a value of the wrong
+/// type, out of range or not finite; a required key that is missing. Throws Error(io) when the file cannot be read.
+Config load(const std::filesystem::path& file, const std::vector<std::string>& overrides, const EffectTable& effects);
+
+/// The same for a text already in memory; `file` names it in messages and gives the directory.
+Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,
+             const EffectTable& effects);
+
+}  // namespace rainref::scene

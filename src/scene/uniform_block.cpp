@@ -1,0 +1,139 @@
+#include "scene/uniform_block.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+#include "scene/reserved_words.h"
+
+namespace rainref::scene {
+namespace {
+
+constexpr std::size_t row = 16;
+
+[[noreturn]] void broken(const UniformBlock& block, const std::string& why) {
+  throw Error(ExitCode::internal, fmt::format("layout {}: {}", block.name, why));
+}
+
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// WaveStepUniforms
+bool is_type_name(std::string_view name) {
+  return !name.empty() && is_upper(name[0]) &&
+         std::all_of(name.begin(), name.end(), [](char c) { return is_lower(c) || is_upper(c) || is_digit(c); });
+}
+
+// wave_speed; two underscores in a row belong to GLSL.
+bool is_member_name(std::string_view name) {
+  return !name.empty() && is_lower(name[0]) && name.find("__") == std::string_view::npos &&
+         std::all_of(name.begin(), name.end(), [](char c) { return is_lower(c) || is_digit(c) || c == '_'; });
+}
+
+bool is_one_line(std::string_view text) {
+  return !text.empty() && std::none_of(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; });
+}
+
+void validate_words(const UniformBlock& block) {
+  if (!is_type_name(block.name)) broken(block, "the name must be UpperCamel");
+  if (block.members.empty()) broken(block, "no members");
+  for (const Member& m : block.members) {
+    if (!is_member_name(m.name)) broken(block, fmt::format("'{}' is no snake_case name", m.name));
+    if (m.name.starts_with("padding")) broken(block, fmt::format("'{}': padding is not listed", m.name));
+    if (is_reserved_word(m.name)) broken(block, fmt::format("'{}' is a reserved word of a shading language", m.name));
+    if (!is_one_line(m.unit)) broken(block, fmt::format("'{}' has no unit", m.name));
+    if (!is_one_line(m.sentence)) broken(block, fmt::format("'{}' has no sentence", m.name));
+    const auto same = [&](const Member& other) { return other.name == m.name; };
+    if (std::count_if(block.members.begin(), block.members.end(), same) > 1) {
+      broken(block, fmt::format("'{}' is listed twice", m.name));
+    }
+  }
+}
+
+// Returns the largest alignment.
+std::size_t validate_offsets(const UniformBlock& block) {
+  std::size_t end = 0, largest = 4;
+  for (const Member& m : block.members) {
+    if (m.components < 1 || m.components > 4)
+      broken(block, fmt::format("'{}' has {} components", m.name, m.components));
+    if (m.offset < end) {
+      broken(block, fmt::format("'{}' at {} begins before the member before it ends, at {}", m.name, m.offset, end));
+    }
+    if (m.offset % m.alignment() != 0) {
+      broken(block, fmt::format("'{}' at {} is not aligned to {}", m.name, m.offset, m.alignment()));
+    }
+    end = m.offset + m.size();
+    largest = std::max(largest, m.alignment());
+  }
+  if (end > block.size) broken(block, fmt::format("members end at {}, beyond the size {}", end, block.size));
+  return largest;
+}
+
+}  // namespace
+
+const char* name(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::float32:
+      return "float";
+    case Scalar::int32:
+      return "int";
+    case Scalar::uint32:
+      return "uint";
+  }
+  return "?";
+}
+
+void validate(const UniformBlock& block) {
+  validate_words(block);
+  validate_offsets(block);
+  if (block.size % row != 0) broken(block, fmt::format("size {} is not a multiple of {}", block.size, row));
+}
+
+void validate_record(const UniformBlock& record) {
+  validate_words(record);
+  const std::size_t alignment = validate_offsets(record);
+  if (record.size % alignment != 0) {
+    broken(record, fmt::format("size {} is not a multiple of {}", record.size, alignment));
+  }
+}
+
+std::vector<Member> with_padding(const UniformBlock& block) {
+  std::vector<Member> out;
+  std::size_t at = 0;
+  int paddings = 0;
+  const auto fill = [&](std::size_t to) {
+    for (; at < to; at += 4) out.push_back({fmt::format("padding_{}", paddings++), Scalar::float32, 1, at, "", ""});
+  };
+  for (const Member& m : block.members) {
+    fill(m.offset);
+    out.push_back(m);
+    at = m.offset + m.size();
+  }
+  fill(block.size);
+  return out;
+}
+
+namespace detail {
+
+std::vector<Member> moved(std::vector<Member> members, std::size_t by, const std::string& prefix) {
+  for (Member& m : members) {
+    m.offset += by;
+    m.name = fmt::format("{}_{}", prefix, m.name);
+  }
+  return members;
+}
+
+UniformBlock validated_block(UniformBlock block) {
+  validate(block);
+  return block;
+}
+
+UniformBlock validated_record(UniformBlock record) {
+  validate_record(record);
+  return record;
+}
+
+}  // namespace detail
+}  // namespace rainref::scene

@@ -1,0 +1,195 @@
+#include "base/atomic_file.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <optional>
+
+#include <gmock/gmock.h>
+
+#include "base/temporary_folder.h"
+#include "rainref/error.h"
+
+namespace rainref {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+template <class F>
+std::optional<Error> error_of(F&& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error;
+  }
+  return std::nullopt;
+}
+
+TEST(AtomicFile, AppearsOnlyWhenCommitted) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "a.txt");
+  file.write("one ");
+  file.write("two");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+  file.commit();
+  EXPECT_EQ(contents(folder / "a.txt"), "one two");
+  EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
+}
+
+TEST(AtomicFile, WithoutCommitLeavesTheOldFileAndNothingElse) {
+  const TemporaryFolder folder;
+  put(folder / "a.txt", "old");
+  {
+    AtomicFile file(folder / "a.txt");
+    file.write("new");
+  }
+  EXPECT_EQ(contents(folder / "a.txt"), "old");
+  EXPECT_THAT(folder.names(), ElementsAre("a.txt"));
+}
+
+TEST(AtomicFile, KeepsEveryByteAcrossItsBuffer) {
+  const TemporaryFolder folder;
+  std::string expected;
+  AtomicFile file(folder / "a.bin");
+  for (const std::size_t size : {1u, 65535u, 65536u, 1u, 65537u, 200000u, 0u, 7u, 40000u, 40000u}) {
+    std::string part(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) part[i] = static_cast<char>((expected.size() + i) * 131 >> 3);
+    file.write(part);
+    expected += part;
+  }
+  file.commit();
+  EXPECT_EQ(contents(folder / "a.bin"), expected);
+}
+
+TEST(AtomicFile, WritesAnEmptyFile) {
+  const TemporaryFolder folder;
+  write_file(folder / "empty", std::string_view());
+  EXPECT_THAT(folder.names(), ElementsAre("empty"));
+}
+
+TEST(AtomicFile, TwoWritersOfOneNameDoNotMix) {
+  const TemporaryFolder folder;
+  AtomicFile first(folder / "a"), second(folder / "a");
+  first.write("first");
+  second.write("second");
+  second.commit();
+  first.commit();
+  EXPECT_EQ(contents(folder / "a"), "first");
+  EXPECT_THAT(folder.names(), ElementsAre("a"));
+}
+
+TEST(AtomicFile, StepsOverTheTemporaryOfAKilledProcess) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 1000; ++i)
+    put(folder / (".rainref-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp"), "left");
+  write_file(folder / "a", "fresh");
+  EXPECT_EQ(contents(folder / "a"), "fresh");
+  EXPECT_EQ(folder.names().size(), 1001u);
+}
+
+TEST(AtomicFile, ANameOfFullLengthFits) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_file(folder / name, "x");
+  EXPECT_THAT(folder.names(), ElementsAre(name));
+}
+
+TEST(AtomicFile, WritesThroughASymbolicLink) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "real");
+  put(folder / "real/a", "old");
+  std::filesystem::create_symlink("real/a", folder / "link");
+  write_file(folder / "link", "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(contents(folder / "real/a"), "new");
+  EXPECT_THAT(folder.names(), ElementsAre("link", "real"));
+}
+
+TEST(AtomicFile, WritesADeviceWithoutReplacingIt) {
+  write_file("/dev/null", "x");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, AFullDiskIsAnIoErrorWithItsReason) {
+  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const auto error = error_of([] { write_file("/dev/full", "x"); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ExitCode::io);
+  EXPECT_STREQ(error->what(), "cannot write '/dev/full': No space left on device");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(AtomicFile, AFolderThatCannotHoldFilesIsAnIoError) {
+  const TemporaryFolder folder;
+  put(folder / "file", "x");
+  const auto below_file = error_of([&] { AtomicFile(folder / "file/a.txt"); });
+  ASSERT_TRUE(below_file);
+  EXPECT_EQ(below_file->code(), ExitCode::io);
+  EXPECT_EQ(below_file->what(), "cannot write '" + (folder / "file/a.txt").string() + "': Not a directory");
+
+  const auto missing = error_of([&] { AtomicFile(folder / "none/a.txt"); });
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(missing->code(), ExitCode::io);
+  EXPECT_THAT(missing->what(), HasSubstr("No such file or directory"));
+  EXPECT_THAT(folder.names(), ElementsAre("file"));
+}
+
+TEST(AtomicFile, AFolderOrAnEmptyNameIsAnIoError) {
+  const TemporaryFolder folder;
+  for (const std::filesystem::path& path : {folder.path(), folder / "", folder / "new/", std::filesystem::path()}) {
+    const auto error = error_of([&] { write_file(path, "x"); });
+    ASSERT_TRUE(error) << path;
+    EXPECT_EQ(error->code(), ExitCode::io);
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(AtomicFile, RefusesUseAfterCommit) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder / "a");
+  file.commit();
+  const auto error = error_of([&] { file.write("late"); });
+  ASSERT_TRUE(error);
+  EXPECT_EQ(error->code(), ExitCode::internal);
+  EXPECT_THROW(file.commit(), Error);
+}
+
+/// Exit status of a child process that may write files of 100 000 bytes at most and runs f; 99 when f does not throw an
+/// io error that says so.
+template <class F>
+int status_under_size_limit(F&& f) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{100000, 100000};
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(98);
+    const auto error = error_of(f);
+    ::_exit(error && error->code() == ExitCode::io && std::string(error->what()).ends_with("File too large") ? 0 : 99);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(AtomicFile, AShortWriteIsAnIoErrorAndLeavesNothing) {
+  const TemporaryFolder folder;
+  // One call that the kernel cuts short at the limit, and many small ones that reach it in a flush.
+  EXPECT_EQ(status_under_size_limit([&] { write_file(folder / "a", std::string(150000, 'x')); }), 0);
+  EXPECT_THAT(folder.names(), IsEmpty());
+  put(folder / "a", "old");
+  EXPECT_EQ(status_under_size_limit([&] {
+              AtomicFile file(folder / "a");
+              for (int i = 0; i < 150; ++i) file.write(std::string(1000, 'x'));
+              file.commit();
+            }),
+            0);
+  EXPECT_THAT(folder.names(), ElementsAre("a"));
+  EXPECT_EQ(contents(folder / "a"), "old");
+}
+
+}  // namespace
+}  // namespace rainref

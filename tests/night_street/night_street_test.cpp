@@ -1,0 +1,223 @@
+// The street's promises: same bits everywhere, sound numbers, geometry that agrees with arithmetic done by hand.
+#include "night_street/night_street.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "night_street/support.h"
+#include "rainref/error.h"
+
+namespace rainref::night_street {
+namespace {
+
+// A Vector3 is an array: its operators are not found by themselves.
+using scene::operator+, scene::operator-, scene::operator*;
+
+const Street& street() {
+  static const Street one({1});
+  return one;
+}
+
+const Image& small_panorama() {
+  static const Image image = street().panorama(256, 128, puddle_eye, parallel::Executor(2));
+  return image;
+}
+
+TEST(NightStreet, HasTheSameBitsOnAnyNumberOfThreadsInAnyOrder) {
+  const parallel::Executor one(1);
+  const std::string panorama = hash_of(street().panorama(96, 48, puddle_eye, one));
+  const std::string view = hash_of(street().view(driver(), 96, 54, 400, one));
+  for (const int threads : {2, 3, 8}) {
+    for (const std::uint64_t shuffle : {0u, 1u, 977u}) {
+      parallel::Executor executor(threads);
+      executor.shuffle_tiles(shuffle);
+      EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), panorama) << threads << " threads, shuffle " << shuffle;
+      EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), view) << threads << " threads, shuffle " << shuffle;
+    }
+  }
+}
+
+TEST(NightStreet, HasTheRecordedBits) {
+  const parallel::Executor executor(2);
+  EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), "GOLDEN_PANORAMA");
+  EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), "GOLDEN_VIEW");
+}
+
+TEST(NightStreet, IsAnotherStreetForAnotherSeed) {
+  const parallel::Executor executor(2);
+  const Image a = street().panorama(64, 32, puddle_eye, executor), b = Street({2}).panorama(64, 32, puddle_eye, executor);
+  int different = 0;
+  for (int y = 16; y < 32; ++y) {  // above the horizon, where the houses are
+    for (int x = 0; x < 64; ++x) {
+      const float p = a.row<float>(y)[4 * x], q = b.row<float>(y)[4 * x];
+      different += std::fabs(p - q) > 0.1f * (p + q);
+    }
+  }
+  EXPECT_GT(different, 64 * 16 / 10);
+}
+
+TEST(NightStreet, RadianceIsFiniteAndNotNegativeAndAlphaIsOne) {
+  const Street::View view = street().view(driver(), 160, 90, 400, parallel::Executor(2));
+  for (const Image* image : {&small_panorama(), &view.colour}) {
+    for (int y = 0; y < image->height(); ++y) {
+      for (int x = 0; x < image->width(); ++x) {
+        const float* texel = image->row<float>(y) + 4 * x;
+        for (int c = 0; c < 3; ++c) ASSERT_TRUE(std::isfinite(texel[c]) && texel[c] >= 0) << x << ' ' << y << ' ' << texel[c];
+        ASSERT_EQ(texel[3], 1);
+      }
+    }
+  }
+}
+
+TEST(NightStreet, NormalsAreUnitOnSurfacesAndZeroOnSky) {
+  const double far = 150;
+  const Street::View view = street().view(driver(), 160, 90, far, parallel::Executor(2));
+  int surfaces = 0, skies = 0;
+  for (int y = 0; y < 90; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const float* n = view.normal.row<float>(y) + 4 * x;
+      const double squared = double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2];
+      const bool is_surface = n[3] == 1;
+      ASSERT_TRUE(is_surface || n[3] == 0);
+      ASSERT_NEAR(std::sqrt(squared), is_surface ? 1 : 0, 1e-6) << x << ' ' << y;
+      ASSERT_EQ(is_surface, view.depth.row<float>(y)[x] < far);
+      (is_surface ? surfaces : skies)++;
+    }
+  }
+  EXPECT_GT(surfaces, 1000);
+  EXPECT_GT(skies, 100);
+}
+
+TEST(NightStreet, DepthOfTheRoadIsThatOfThePlane) {
+  // Straight down at the empty road before the camera: depth follows from the height alone.
+  const double height = 1.4;
+  const scene::Camera camera{{0.3, height, 0}, {0.3, 0, -2.5}, {0, 1, 0}, 50};
+  const int width = 64, rows = 48;
+  const Street::View view = street().view(camera, width, rows, 100, parallel::Executor(2));
+  const scene::Camera::Basis basis = camera.basis();
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double across = (2 * (x + 0.5) / width - 1) * camera.half_height() * width / rows;
+      const double upward = (2 * (y + 0.5) / rows - 1) * camera.half_height();
+      const scene::Vector3 ray = basis.forward + across * basis.right + upward * basis.up;
+      const double expected = height / -ray[1];  // the ray advances 1 m along the axis for each unit of its parameter
+      if (std::fabs(camera.position[0] + expected * ray[0]) > 4.4) continue;  // the kerb and what lies behind it
+      ASSERT_NEAR(view.depth.row<float>(y)[x], expected, 1e-6 * expected) << x << ' ' << y;
+      ASSERT_EQ(view.normal.row<float>(y)[4 * x + 1], 1);
+    }
+  }
+}
+
+TEST(NightStreet, DepthOfTheSkyIsFar) {
+  const scene::Camera camera{{0, 1, 0}, {0, 101, 0}, {0, 0, 1}, 10};
+  const Street::View view = street().view(camera, 16, 16, 123, parallel::Executor(1));
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) ASSERT_EQ(view.depth.row<float>(y)[x], 123);
+  }
+}
+
+TEST(NightStreet, RefusesAFarDistanceThatIsNone) {
+  const parallel::Executor executor(1);
+  EXPECT_THROW(street().view(driver(), 4, 4, 0, executor), Error);
+  EXPECT_THROW(street().view(driver(), 4, 4, std::nan(""), executor), Error);
+}
+
+/// Mean step in brightness between two columns of a panorama; the square root ranks brightness as an eye does.
+double column_step(const Image& image, int a, int b) {
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    sum += std::fabs(std::sqrt(image.row<float>(y)[4 * a + 1]) - std::sqrt(image.row<float>(y)[4 * b + 1]));
+  }
+  return sum / image.height();
+}
+
+TEST(NightStreet, PanoramaHasNoSeam) {
+  const Image& image = small_panorama();
+  const int width = image.width();
+  double nearby = 0;
+  for (int i = 0; i < 8; ++i) nearby += (column_step(image, i, i + 1) + column_step(image, width - 2 - i, width - 1 - i)) / 16;
+  EXPECT_LT(column_step(image, width - 1, 0), 2 * nearby);
+}
+
+TEST(NightStreet, PanoramaPolesAreTheirDirections) {
+  // All texels of the top row look almost straight up into the sky: one colour within the clouds of a degree.
+  const Image& image = small_panorama();
+  const float first = image.row<float>(image.height() - 1)[2];
+  for (int x = 0; x < image.width(); ++x) EXPECT_NEAR(image.row<float>(image.height() - 1)[4 * x + 2], first, 0.05f * first);
+}
+
+TEST(NightStreet, PanoramaAndViewAgree) {
+  // One texel of the panorama and a view of one texel in its direction. A texel is a mean over its area, so it may
+  // differ from the radiance at its centre by as much as its neighbourhood varies; edges are left out. The ground is
+  // left out too: its glitter has finer grain than any texel.
+  const Image& image = small_panorama();
+  const parallel::Executor executor(1);
+  constexpr double pi = 3.14159265358979;
+  int judged = 0;
+  for (int y = image.height() / 2 + 2; y < image.height() - 1; y += 3) {
+    for (int x = 1; x < image.width() - 1; x += 5) {
+      float low = 1e9f, high = 0;
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const float green = image.row<float>(y + j)[4 * (x + i) + 1];
+          low = std::min(low, green);
+          high = std::max(high, green);
+        }
+      }
+      if (high > 1.08f * low) continue;
+      const double azimuth = 2 * pi * ((x + 0.5) / image.width() - 0.5), elevation = pi * ((y + 0.5) / image.height() - 0.5);
+      const scene::Vector3 direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation), std::cos(elevation) * std::sin(azimuth)};
+      const scene::Camera camera{puddle_eye, puddle_eye + direction, {0, 1, 0}, 10};
+      const Street::View view = street().view(camera, 1, 1, 400, executor);
+      for (int c = 0; c < 3; ++c) {
+        const float from_panorama = image.row<float>(y)[4 * x + c];
+        EXPECT_NEAR(view.colour.row<float>(0)[c], from_panorama, 0.08f * from_panorama) << x << ' ' << y << " channel " << c;
+      }
+      ++judged;
+    }
+  }
+  EXPECT_GT(judged, 300);
+}
+
+TEST(NightStreet, LampsShineWhereTheyAreListed) {
+  const parallel::Executor executor(1);
+  const scene::Vector3 eye{0, 3, 0};
+  int seen = 0, hidden = 0;
+  for (const Lamp& lamp : street().lamps()) {
+    const scene::Vector3 towards = lamp.position - eye;
+    const double distance = std::sqrt(scene::dot(towards, towards));
+    if (lamp.position[1] < 7 || distance > 60) continue;  // street lamps, before the haze dims them
+    const Street::View view = street().view({eye, lamp.position, {0, 1, 0}, 1}, 1, 1, 400, executor);
+    const float depth = view.depth.row<float>(0)[0];
+    if (depth < distance - lamp.radius - 1e-3) {  // a sign, a post or another lamp stands before it
+      ++hidden;
+      continue;
+    }
+    EXPECT_NEAR(depth, distance - lamp.radius, 1e-3);  // the nearest point of the sphere
+    EXPECT_GT(view.colour.row<float>(0)[0], 0.5f * lamp.radiance[0]);
+    ++seen;
+  }
+  EXPECT_GE(seen, 6);
+  EXPECT_LE(hidden, 3);
+}
+
+TEST(NightStreet, NothingOutshinesTheLamps) {
+  // Whatever is brighter than any neon tube or room lies within a texel of a listed lamp or its closest halo.
+  const Image& image = small_panorama();
+  constexpr double pi = 3.14159265358979;
+  for (int y = image.height() / 2; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.row<float>(y)[4 * x] < 16) continue;
+      const double azimuth = 2 * pi * ((x + 0.5) / image.width() - 0.5), elevation = pi * ((y + 0.5) / image.height() - 0.5);
+      const scene::Vector3 direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation), std::cos(elevation) * std::sin(azimuth)};
+      double best = -1;
+      for (const Lamp& lamp : street().lamps()) best = std::max(best, scene::dot(direction, scene::normalized(lamp.position - puddle_eye)));
+      EXPECT_GT(best, std::cos(2.5 * 2 * pi / image.width())) << x << ' ' << y;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rainref::night_street
