@@ -51,7 +51,7 @@ struct Settings {
   double step = 1;  ///< offset of the neighbours [texels]
 
   // corrected
-  std::array<int, 2> grid{640, 448};
+  std::array<int, 2> grid{768, 512};
   double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, shore_width = 0.002, exposure = 0;
   Shape shape = Shape::natural;
   bool exact_fresnel = true;

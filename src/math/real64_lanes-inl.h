@@ -19,6 +19,10 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// As many doubles as fit one vector, with the interface of Real64.
+///
+/// Its functions name the target (HWY_ATTR) because GCC does not give the target of the region to functions defined in
+/// a class. That shows without optimisation only, when they are called and not inlined: the caller passes registers
+/// that the callee does not know.
 struct Real64Lanes {
   using D = hn::ScalableTag<double>;
   using DU = hn::RebindToUnsigned<D>;
@@ -30,42 +34,44 @@ struct Real64Lanes {
 
   V v;
 
-  HWY_INLINE Real64Lanes(V x) : v(x) {}
-  HWY_INLINE Real64Lanes(double x) : v(hn::Set(D(), x)) {}
+  HWY_INLINE HWY_ATTR Real64Lanes(V x) : v(x) {}
+  HWY_INLINE HWY_ATTR Real64Lanes(double x) : v(hn::Set(D(), x)) {}
 
-  friend HWY_INLINE Real64Lanes operator+(Real64Lanes a, Real64Lanes b) { return hn::Add(a.v, b.v); }
-  friend HWY_INLINE Real64Lanes operator-(Real64Lanes a, Real64Lanes b) { return hn::Sub(a.v, b.v); }
-  friend HWY_INLINE Real64Lanes operator*(Real64Lanes a, Real64Lanes b) { return hn::Mul(a.v, b.v); }
-  friend HWY_INLINE Real64Lanes operator/(Real64Lanes a, Real64Lanes b) { return hn::Div(a.v, b.v); }
-  friend HWY_INLINE Real64Lanes operator-(Real64Lanes a) { return hn::Neg(a.v); }
-  friend HWY_INLINE Mask operator<(Real64Lanes a, Real64Lanes b) { return {hn::Lt(a.v, b.v)}; }
-  friend HWY_INLINE Mask operator<=(Real64Lanes a, Real64Lanes b) { return {hn::Le(a.v, b.v)}; }
-  friend HWY_INLINE Mask operator>(Real64Lanes a, Real64Lanes b) { return {hn::Gt(a.v, b.v)}; }
-  friend HWY_INLINE Mask operator>=(Real64Lanes a, Real64Lanes b) { return {hn::Ge(a.v, b.v)}; }
-  friend HWY_INLINE Real64Lanes select(Mask m, Real64Lanes a, Real64Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
-  static HWY_INLINE bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes operator+(Real64Lanes a, Real64Lanes b) { return hn::Add(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes operator-(Real64Lanes a, Real64Lanes b) { return hn::Sub(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes operator*(Real64Lanes a, Real64Lanes b) { return hn::Mul(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes operator/(Real64Lanes a, Real64Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes operator-(Real64Lanes a) { return hn::Neg(a.v); }
+  friend HWY_INLINE HWY_ATTR Mask operator<(Real64Lanes a, Real64Lanes b) { return {hn::Lt(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Mask operator<=(Real64Lanes a, Real64Lanes b) { return {hn::Le(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Mask operator>(Real64Lanes a, Real64Lanes b) { return {hn::Gt(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Mask operator>=(Real64Lanes a, Real64Lanes b) { return {hn::Ge(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Real64Lanes select(Mask m, Real64Lanes a, Real64Lanes b) {
+    return hn::IfThenElse(m.m, a.v, b.v);
+  }
+  static HWY_INLINE HWY_ATTR bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
 
-  friend HWY_INLINE Real64Lanes abs(Real64Lanes a) { return hn::Abs(a.v); }
-  friend HWY_INLINE Mask has_sign_bit(Real64Lanes a) { return from_lowest_bit(hn::ShiftRight<63>(a.bits())); }
-  friend HWY_INLINE Real64Lanes flip_sign(Real64Lanes a, Real64Lanes s) {
+  friend HWY_INLINE HWY_ATTR Real64Lanes abs(Real64Lanes a) { return hn::Abs(a.v); }
+  friend HWY_INLINE HWY_ATTR Mask has_sign_bit(Real64Lanes a) { return from_lowest_bit(hn::ShiftRight<63>(a.bits())); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes flip_sign(Real64Lanes a, Real64Lanes s) {
     return hn::Xor(a.v, from_bits(hn::And(s.bits(), hn::Set(DU(), Real64::sign_bit))));
   }
 
-  friend HWY_INLINE Mask is_odd(Real64Lanes biased) {
+  friend HWY_INLINE HWY_ATTR Mask is_odd(Real64Lanes biased) {
     return from_lowest_bit(hn::And(biased.bits(), hn::Set(DU(), std::uint64_t{1})));
   }
-  friend HWY_INLINE Real64Lanes flip_sign_in_half_turn(Real64Lanes a, Real64Lanes biased) {
+  friend HWY_INLINE HWY_ATTR Real64Lanes flip_sign_in_half_turn(Real64Lanes a, Real64Lanes biased) {
     return hn::Xor(a.v, from_bits(hn::ShiftLeft<62>(hn::And(biased.bits(), hn::Set(DU(), std::uint64_t{2})))));
   }
-  friend HWY_INLINE Real64Lanes scale_by_power_of_two(Real64Lanes a, Real64Lanes biased) {
+  friend HWY_INLINE HWY_ATTR Real64Lanes scale_by_power_of_two(Real64Lanes a, Real64Lanes biased) {
     return from_bits(hn::Add(a.bits(), hn::ShiftLeft<52>(biased.bits())));
   }
-  friend HWY_INLINE Real64Lanes binary_exponent(Real64Lanes a) {
+  friend HWY_INLINE HWY_ATTR Real64Lanes binary_exponent(Real64Lanes a) {
     const VU field = hn::ShiftRight<52>(hn::Add(a.bits(), hn::Set(DU(), Real64::exponent_offset)));
     return Real64Lanes(from_bits(hn::Or(field, hn::Set(DU(), Real64::two_to_52)))) - (0x1p52 + 1024);
   }
 
-  friend HWY_INLINE void reduce_large_angles(Real64Lanes x, Real64Lanes& turns, Real64Lanes& rest) {
+  friend HWY_INLINE HWY_ATTR void reduce_large_angles(Real64Lanes x, Real64Lanes& turns, Real64Lanes& rest) {
     const D d;
     HWY_ALIGN double angles[HWY_MAX_BYTES / sizeof(double)];
     HWY_ALIGN double all_turns[HWY_MAX_BYTES / sizeof(double)];
@@ -79,10 +85,12 @@ struct Real64Lanes {
   }
 
  private:
-  HWY_INLINE VU bits() const { return hn::BitCast(DU(), v); }
-  static HWY_INLINE V from_bits(VU bits) { return hn::BitCast(D(), bits); }
+  HWY_INLINE HWY_ATTR VU bits() const { return hn::BitCast(DU(), v); }
+  static HWY_INLINE HWY_ATTR V from_bits(VU bits) { return hn::BitCast(D(), bits); }
   /// The mask of lanes that hold 1, all others holding 0.
-  static HWY_INLINE Mask from_lowest_bit(VU bit) { return {hn::MaskFromVec(from_bits(hn::Sub(hn::Zero(DU()), bit)))}; }
+  static HWY_INLINE HWY_ATTR Mask from_lowest_bit(VU bit) {
+    return {hn::MaskFromVec(from_bits(hn::Sub(hn::Zero(DU()), bit)))};
+  }
 };
 
 #pragma push_macro("RAINREF_FN")
@@ -99,7 +107,9 @@ using NarrowTag = hn::Rebind<float, Real64Lanes::D>;
 HWY_INLINE Real64Lanes widen(hn::Vec<NarrowTag> x) { return hn::PromoteTo(Real64Lanes::D(), x); }
 
 /// The one rounding to float, as round_to_float(Real64).
-HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) { return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v); }
+HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) {
+  return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v);
+}
 
 /// formula over the doubles of x, or of x and y, rounded once. The scalar target has one lane and no halves.
 template <class Formula>

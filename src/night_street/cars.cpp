@@ -54,7 +54,7 @@ bool near_crossing(double z, double room) {
 
 void build_cars(City& city) {
   constexpr std::array<Vec, 6> paints{Vec{0.010, 0.011, 0.013}, Vec{0.22, 0.22, 0.23}, Vec{0.14, 0.008, 0.008},
-                                      Vec{0.012, 0.025, 0.07}, Vec{0.35, 0.35, 0.34}, Vec{0.03, 0.035, 0.03}};
+                                      Vec{0.012, 0.025, 0.07},  Vec{0.35, 0.35, 0.34}, Vec{0.03, 0.035, 0.03}};
   const auto paint_of = [&](std::uint64_t id) {
     return paints[static_cast<std::size_t>(6 * city.random(id, Purpose::car_paint))];
   };
@@ -64,7 +64,8 @@ void build_cars(City& city) {
     const double jitter_away = 3 * city.random(4000 + i, Purpose::car_place);
     const double jitter_oncoming = 5 * city.random(4100 + i, Purpose::car_place);
     add_car(city, 1.95, away[i] - (away[i] < 0 ? jitter_away : -jitter_away), -1, paint_of(4000 + i), true);
-    add_car(city, -1.95, oncoming[i] - (oncoming[i] < 0 ? jitter_oncoming : -jitter_oncoming), 1, paint_of(4100 + i), true);
+    add_car(city, -1.95, oncoming[i] - (oncoming[i] < 0 ? jitter_oncoming : -jitter_oncoming), 1, paint_of(4100 + i),
+            true);
   }
   for (int row = 0; row < 2; ++row) {
     const double direction = row == 0 ? 1 : -1;

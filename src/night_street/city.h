@@ -19,12 +19,12 @@ namespace rainref::night_street {
 namespace plan {
 inline constexpr double road_half_width = 4.5;
 inline constexpr double kerb_height = 0.12;
-inline constexpr double facade = 7.5;        ///< |x| of the building line
-inline constexpr double back = 22;           ///< |x| where every building ends
-inline constexpr double street_end = 290;    ///< |z| of the last lot
-inline constexpr double skyline = 330;       ///< |z| of the silhouettes that close the view
-inline constexpr double tallest = 40;        ///< no building reaches this height
-inline constexpr double ground_floor = 4.1;  ///< height of the shop storey
+inline constexpr double facade = 7.5;                             ///< |x| of the building line
+inline constexpr double back = 22;                                ///< |x| where every building ends
+inline constexpr double street_end = 290;                         ///< |z| of the last lot
+inline constexpr double skyline = 330;                            ///< |z| of the silhouettes that close the view
+inline constexpr double tallest = 40;                             ///< no building reaches this height
+inline constexpr double ground_floor = 4.1;                       ///< height of the shop storey
 inline constexpr std::array<double, 3> crossings{-22, 58, -118};  ///< z of the pedestrian crossings
 inline constexpr double crossing_half_length = 1.9;
 }  // namespace plan
@@ -32,48 +32,48 @@ inline constexpr double crossing_half_length = 1.9;
 struct Material {
   Vec albedo;
   Vec emission;
-  double shine = 0;   ///< reflectance of the wet coat at normal incidence; 0 is matte
-  bool glass = false; ///< dark glass except where the normal points up: a car's cabin
+  double shine = 0;    ///< reflectance of the wet coat at normal incidence; 0 is matte
+  bool glass = false;  ///< dark glass except where the normal points up: a car's cabin
 };
 
 /// A lit text of tubes. Letters stand 4 units wide on a pitch of 6, 6 units tall.
 struct Sign {
   std::string_view text;
-  Vec colour;        ///< radiance of the tube's core
-  bool upright;      ///< letters below one another
-  double unit;       ///< metres of one letter unit
-  Box board;         ///< metres; the face that carries the text is its two largest sides
-  double flicker;    ///< share of the nominal brightness, [0, 1]
+  Vec colour;         ///< radiance of the tube's core
+  bool upright;       ///< letters below one another
+  double unit;        ///< metres of one letter unit
+  Box board;          ///< metres; the face that carries the text is its two largest sides
+  double brightness;  ///< share of the nominal brightness, [0, 1]
 };
 
 enum class Shop : std::uint8_t { glazed, cafe, shutter, entrance };
 
 /// One building of one side of the street. Distances from the street's axis are |x|.
 struct Lot {
-  double z0, z1;          ///< extent along the street, z0 < z1
-  double front;           ///< |x| of its facade
+  double z0, z1;  ///< extent along the street, z0 < z1
+  double front;   ///< |x| of its facade
   double height;
-  double storey;          ///< height of one storey above the ground floor
-  int bays;               ///< window columns
+  double storey;                       ///< height of one storey above the ground floor
+  int bays;                            ///< window columns
   double window_width, window_height;  ///< share of the bay and of the storey
-  double lit_share;       ///< how many windows are lit, [0, 1]
-  int style;              ///< 0 punched windows, 1 ribbon glazing, 2 tall sash pairs
+  double lit_share;                    ///< how many windows are lit, [0, 1]
+  int style;                           ///< 0 punched windows, 1 ribbon glazing, 2 tall sash pairs
   Shop shop;
-  Vec wall;               ///< albedo
-  Vec shop_light;         ///< radiance of the shop's interior
-  int fascia = -1;        ///< index of the sign above the shop, or -1
+  Vec wall;         ///< albedo
+  Vec shop_light;   ///< radiance of the shop's interior
+  int fascia = -1;  ///< index of the sign above the shop, or -1
   std::uint64_t id;
 };
 
 /// A source for the light map and the haze: a small sphere, brighter along an axis.
 struct Source {
   Vec position;
-  Vec intensity;   ///< radiance x m^2 towards a viewer off the axis
-  Vec axis;        ///< unit, or zero for none
-  double gain;     ///< intensity on the axis / off the axis - 1
-  int focus;       ///< the gain falls as cos^(2^focus) from the axis
-  double radius;   ///< metres, for highlights
-  bool compact;    ///< makes its own highlight on wet asphalt and a halo in the haze
+  Vec intensity;  ///< radiance x m^2 towards a viewer off the axis
+  Vec axis;       ///< unit, or zero for none
+  double gain;    ///< intensity on the axis / off the axis - 1
+  int focus;      ///< the gain falls as cos^(2^focus) from the axis
+  double radius;  ///< metres, for highlights
+  bool compact;   ///< makes its own highlight on wet asphalt and a halo in the haze
 };
 
 struct City {

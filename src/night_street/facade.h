@@ -10,11 +10,11 @@ struct Lot;
 
 /// A point of the street-side face of a building, in the frame of somebody who looks at it.
 struct FacadePoint {
-  double u;             ///< metres from the left edge
-  double y;             ///< height, metres
-  Vec into;             ///< unit view direction: x right, y up, z into the building (>= 0)
-  Vec light;            ///< irradiance / pi
-  double soft;          ///< [0, 1] fades fine detail (far away, or a rough reflection)
+  double u;     ///< metres from the left edge
+  double y;     ///< height, metres
+  Vec into;     ///< unit view direction: x right, y up, z into the building (>= 0)
+  Vec light;    ///< irradiance / pi
+  double soft;  ///< [0, 1] fades fine detail (far away, or a rough reflection)
 };
 
 /// Radiance towards the viewer of a building hit at `point` by a ray in direction d from `distance` metres.

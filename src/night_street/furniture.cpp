@@ -76,13 +76,19 @@ void build_walkers(City& city) {
   constexpr std::array<Vec, 5> canopies{Vec{0.02, 0.02, 0.025}, Vec{0.35, 0.03, 0.03}, Vec{0.03, 0.05, 0.10},
                                         Vec{0.40, 0.28, 0.03}, Vec{0.02, 0.02, 0.02}};
   constexpr double diagonal = 0.7071067811865476;
-  constexpr std::array<std::array<double, 2>, 8> around{{{1, 0}, {diagonal, diagonal}, {0, 1}, {-diagonal, diagonal},
-                                                         {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}}};
+  constexpr std::array<std::array<double, 2>, 8> around{{{1, 0},
+                                                         {diagonal, diagonal},
+                                                         {0, 1},
+                                                         {-diagonal, diagonal},
+                                                         {-1, 0},
+                                                         {-diagonal, -diagonal},
+                                                         {0, -1},
+                                                         {diagonal, -diagonal}}};
   for (int i = 0; i < 26; ++i) {
     const auto id = static_cast<std::uint64_t>(3000 + i);
     const double side = i % 2 == 0 ? -1 : 1;
     const double x = side * (5.6 + 1.4 * city.random(id, Purpose::walker_place));
-    const double z = -150 + 12 * i + 9 * city.random(id, Purpose::jitter);
+    const double z = -150 + 12 * i + 9 * city.random(id, Purpose::walker_stride);
     if (magnitude(z) < 3) continue;  // room for a camera on the pavement near the origin
     const double tone = city.random(id, Purpose::walker_coat);
     const int coat = city.add_material({(0.02 + 0.05 * tone) * Vec{0.9, 1.0, 1.2}, {}, 0.02, false});
@@ -103,8 +109,8 @@ void build_walkers(City& city) {
     head.a = {x, ground + 1.57, z};
     head.b = {0.115, 0, 0};
     city.add(head, skin);
-    if (city.random(id, Purpose::sign_place) < 0.25) continue;  // no umbrella
-    const auto pick = static_cast<std::size_t>(5 * city.random(id, Purpose::sign_colour));
+    if (city.random(id, Purpose::umbrella) < 0.25) continue;  // no umbrella
+    const auto pick = static_cast<std::size_t>(5 * city.random(id, Purpose::umbrella_colour));
     const int canopy = city.add_material({canopies[pick], {}, 0.03, false});
     const double rim = ground + 1.78, radius = 0.55, rise = 0.26;
     std::vector<Plane> sides;

@@ -37,9 +37,9 @@ class Hierarchy {
  private:
   struct Node {
     Box box;
-    int first = 0;         ///< leaf: first entry of order_; inner node: first child (low side of the split)
+    int first = 0;  ///< leaf: first entry of order_; inner node: first child (low side of the split)
     int second_child = 0;
-    int count = 0;         ///< solids of a leaf, 0 for an inner node
+    int count = 0;  ///< solids of a leaf, 0 for an inner node
     int axis = 0;
   };
   static double axis_of(const Vec& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }

@@ -23,9 +23,9 @@ struct Options {
 
 /// An emissive sphere: street lamp, headlight, tail light or traffic signal. For glints.
 struct Lamp {
-  scene::Vector3 position;       ///< centre, metres
-  std::array<float, 3> radiance; ///< linear RGB, relative
-  double radius;                 ///< metres
+  scene::Vector3 position;        ///< centre, metres
+  std::array<float, 3> radiance;  ///< linear RGB, relative
+  double radius;                  ///< metres
 };
 
 struct City;

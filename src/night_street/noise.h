@@ -7,12 +7,59 @@
 
 namespace rainref::night_street {
 
-/// What a random number decides; one object may draw one number for each purpose.
+/// What a random number decides: one object draws one number for each purpose.
 enum class Purpose : std::uint32_t {
-  lot_width, lot_height, lot_storey, lot_style, lot_setback, lot_shop, lot_tone, lot_bays, lot_lit, lot_window,
-  window_lit, window_tone, window_blind, window_level, goods, sign_word, sign_colour, sign_place, fascia_word,
-  lamp_kind, lamp_offset, car_place, car_paint, car_present, walker_place, walker_coat, skyline, signal_state,
-  clouds, clouds_large, puddles, asphalt, ripple, ring, jitter, stain, awning
+  alley,
+  asphalt,
+  awning,
+  awning_cover,
+  blade,
+  blade_colour,
+  car_paint,
+  car_place,
+  car_present,
+  clouds,
+  clouds_large,
+  display,
+  fascia_word,
+  goods,
+  goods_tone,
+  jitter,
+  lamp_kind,
+  lamp_offset,
+  lot_bays,
+  lot_height,
+  lot_light,
+  lot_lit,
+  lot_setback,
+  lot_shop,
+  lot_storey,
+  lot_style,
+  lot_tone,
+  lot_wall,
+  lot_width,
+  lot_window,
+  lot_window_height,
+  puddles,
+  ring,
+  ripple,
+  shop_door,
+  sign_colour,
+  sign_fault,
+  sign_place,
+  sign_word,
+  signal_state,
+  skyline,
+  stain,
+  umbrella,
+  umbrella_colour,
+  walker_coat,
+  walker_place,
+  walker_stride,
+  window_blind,
+  window_level,
+  window_lit,
+  window_tone
 };
 
 /// Bijective 64-bit mixer (the finaliser of SplitMix64).
@@ -42,12 +89,12 @@ inline std::uint64_t pair_key(std::int64_t a, std::int64_t b) {
 /// A field of smooth noise. The salt is mixed once, a lattice point costs one 32-bit hash.
 class Noise {
  public:
-  Noise(std::uint64_t seed, Purpose purpose)
-      : salt_(static_cast<std::uint32_t>(random_bits(seed, 0, purpose) >> 32)) {}
+  Noise(std::uint64_t seed, Purpose purpose) : salt_(static_cast<std::uint32_t>(random_bits(seed, 0, purpose) >> 32)) {}
 
   /// In [0, 1), a hash of the lattice point.
   double lattice(std::int64_t x, std::int64_t y) const {
-    std::uint32_t h = salt_ ^ (static_cast<std::uint32_t>(x) * 0x85ebca6bu) ^ (static_cast<std::uint32_t>(y) * 0xc2b2ae35u);
+    std::uint32_t h =
+        salt_ ^ (static_cast<std::uint32_t>(x) * 0x85ebca6bu) ^ (static_cast<std::uint32_t>(y) * 0xc2b2ae35u);
     h = (h ^ (h >> 16)) * 0x7feb352du;
     h = (h ^ (h >> 15)) * 0x846ca68bu;
     return static_cast<double>(h ^ (h >> 16)) * 0x1p-32;

@@ -34,27 +34,29 @@ Vec ground_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce bou
   // A rough film sends less to the mirror side at grazing view: its slopes shade one another.
   const double share = (0.02 + 0.98 * fifth(1 - steep) / (1 + 3.5 * rough)) * mix(0.8, 1, ground.water);
 
-  Vec mirror_normal = ground.normal;
-  Vec mirrored = reflect(ray.direction, mirror_normal);
-  mirrored.y = magnitude(mirrored.y) + 1e-4;
+  // Slopes spread like the film's, in pairs that lean opposite ways; keyed by the place, so that every picture of the
+  // street agrees. The key is finer than any texel.
+  const std::uint64_t place = pair_key(floor_int(p.x * 32768), floor_int(p.z * 32768));
+  const std::uint64_t bits = random_bits(city.seed, place, Purpose::jitter);
+  const auto draw = [bits](int shift) { return static_cast<double>(bits >> shift & 0xffff) * (1.0 / 65536); };
+  const double spread = 0.55 * rough;
+  const Vec lean{spread * (draw(0) - draw(16)), 0, spread * (draw(32) - draw(48))};
+  const auto off_ground = [](Vec direction) {
+    direction.y = magnitude(direction.y) + 1e-4;
+    return unit(direction);
+  };
   Vec sum;
   Hit first;
   const int samples = ground.water > 0.9 ? 1 : 2;
   for (int i = 0; i < samples; ++i) {
-    // Slopes spread like the film's; keyed by the place, so that every picture of the street agrees.
-    const std::uint64_t bits = random_bits(city.seed, pair_key(floor_int(p.x * 32768), floor_int(p.z * 32768)) + static_cast<std::uint64_t>(i), Purpose::jitter);
-    const auto draw = [bits](int shift) { return static_cast<double>(bits >> shift & 0xffff) * (1.0 / 65536); };
-    const double spread = 0.55 * rough;
-    const Vec tilted = unit(ground.normal + Vec{spread * (draw(0) - draw(16)), 0, spread * (draw(32) - draw(48))});
-    Vec direction = reflect(ray.direction, tilted);
-    direction.y = magnitude(direction.y) + 1e-4;
+    const Vec tilted = unit(ground.normal + (i == 0 ? 1.0 : -1.0) * lean);
     Hit met;
-    sum = sum + reflected(city, Ray(p, unit(direction)), Bounce::rough, met);
+    sum = sum + reflected(city, Ray(p, off_ground(reflect(ray.direction, tilted))), Bounce::rough, met);
     if (i == 0) first = met;
   }
-  const Ray mean(p, unit(mirrored));
+  const Ray mean(p, off_ground(reflect(ray.direction, ground.normal)));
   const double end = first.is_surface() ? first.t : 400;
-  Vec mirror = (1.0 / samples) * sum + city.lights.halo(mean, end);
+  const Vec mirror = (1.0 / samples) * sum + city.lights.halo(mean, end);
   // Luminaires send more light down to the road than they show to a viewer.
   Vec highlight = 1.7 * city.lights.highlight(p, -1.0 * ray.direction, ground.normal, rough);
   // What stands on the road hides the lamps behind it.
@@ -105,7 +107,8 @@ Vec solid_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce boun
 Vec surface(const City& city, const Ray& ray, const Hit& hit, Bounce bounce) {
   switch (hit.kind) {
     case Hit::road:
-    case Hit::pavement: return ground_radiance(city, ray, hit, bounce);
+    case Hit::pavement:
+      return ground_radiance(city, ray, hit, bounce);
     case Hit::kerb: {
       const Vec p = ray.at(hit.t);
       return 0.10 * city.light.ground(p.x, p.z) + Vec{0.001, 0.001, 0.0012};
@@ -114,9 +117,12 @@ Vec surface(const City& city, const Ray& ray, const Hit& hit, Bounce bounce) {
       const double soft = bounce == Bounce::rough ? 1 : smooth_step(30, 90, hit.t);
       return building_radiance(city, hit, ray.at(hit.t), ray.direction, soft);
     }
-    case Hit::solid: return solid_radiance(city, ray, hit, bounce);
-    case Hit::skyline: return skyline_radiance(city, -hit.normal.z, ray.at(hit.t));
-    case Hit::sky: break;
+    case Hit::solid:
+      return solid_radiance(city, ray, hit, bounce);
+    case Hit::skyline:
+      return skyline_radiance(city, -hit.normal.z, ray.at(hit.t));
+    case Hit::sky:
+      break;
   }
   return {};
 }

@@ -78,9 +78,12 @@ bool enter_convex(const Solid& s, const std::vector<Plane>& planes, const Ray& r
 }  // namespace
 
 Vec entry_normal(const Box& box, const Ray& ray) {
-  const double x = min_of((box.low.x - ray.origin.x) * ray.reciprocal.x, (box.high.x - ray.origin.x) * ray.reciprocal.x);
-  const double y = min_of((box.low.y - ray.origin.y) * ray.reciprocal.y, (box.high.y - ray.origin.y) * ray.reciprocal.y);
-  const double z = min_of((box.low.z - ray.origin.z) * ray.reciprocal.z, (box.high.z - ray.origin.z) * ray.reciprocal.z);
+  const double x =
+      min_of((box.low.x - ray.origin.x) * ray.reciprocal.x, (box.high.x - ray.origin.x) * ray.reciprocal.x);
+  const double y =
+      min_of((box.low.y - ray.origin.y) * ray.reciprocal.y, (box.high.y - ray.origin.y) * ray.reciprocal.y);
+  const double z =
+      min_of((box.low.z - ray.origin.z) * ray.reciprocal.z, (box.high.z - ray.origin.z) * ray.reciprocal.z);
   if (x >= y && x >= z) return {ray.direction.x > 0 ? -1.0 : 1.0, 0, 0};
   if (y >= z) return {0, ray.direction.y > 0 ? -1.0 : 1.0, 0};
   return {0, 0, ray.direction.z > 0 ? -1.0 : 1.0};
@@ -88,11 +91,15 @@ Vec entry_normal(const Box& box, const Ray& ray) {
 
 Box Solid::bounds() const {
   switch (shape) {
-    case sphere: return {a - Vec{b.x, b.x, b.x}, a + Vec{b.x, b.x, b.x}};
-    case pole: return {a - Vec{b.x, 0, b.x}, a + Vec{b.x, b.y, b.x}};
-    case wheel: return {a - Vec{b.y, b.x, b.x}, a + Vec{b.y, b.x, b.x}};
+    case sphere:
+      return {a - Vec{b.x, b.x, b.x}, a + Vec{b.x, b.x, b.x}};
+    case pole:
+      return {a - Vec{b.x, 0, b.x}, a + Vec{b.x, b.y, b.x}};
+    case wheel:
+      return {a - Vec{b.y, b.x, b.x}, a + Vec{b.y, b.x, b.x}};
     case box:
-    case convex: break;
+    case convex:
+      break;
   }
   return {a, b};
 }
@@ -101,10 +108,18 @@ bool intersect(const Solid& solid, const std::vector<Plane>& planes, const Ray& 
                SolidHit& hit) {
   bool met = false;
   switch (solid.shape) {
-    case Solid::sphere: met = enter_sphere(solid, ray, hit); break;
-    case Solid::pole: met = enter_pole(solid, ray, hit); break;
-    case Solid::wheel: met = enter_wheel(solid, ray, hit); break;
-    case Solid::convex: met = enter_convex(solid, planes, ray, hit); break;
+    case Solid::sphere:
+      met = enter_sphere(solid, ray, hit);
+      break;
+    case Solid::pole:
+      met = enter_pole(solid, ray, hit);
+      break;
+    case Solid::wheel:
+      met = enter_wheel(solid, ray, hit);
+      break;
+    case Solid::convex:
+      met = enter_convex(solid, planes, ray, hit);
+      break;
     case Solid::box: {
       const Box box{solid.a, solid.b};
       met = crosses(box, ray, farthest, hit.t) && hit.t > 0;

@@ -12,7 +12,7 @@ constexpr double glass_foot = 0.62, glass_head = 3.15, fascia_foot = 3.30, fasci
 /// Goods on a shelf or people at a table: a colour for each cell, the same from every direction.
 Vec goods_colour(const City& city, const Lot& lot, std::int64_t i, std::int64_t j) {
   const std::uint64_t key = scramble(lot.id ^ pair_key(i, j));
-  const double hue = city.random(key, Purpose::goods), tone = 0.25 + 0.75 * city.random(key, Purpose::window_tone);
+  const double hue = city.random(key, Purpose::goods), tone = 0.25 + 0.75 * city.random(key, Purpose::goods_tone);
   const Vec warm{0.9, 0.45, 0.25}, green{0.35, 0.65, 0.40}, blue{0.30, 0.42, 0.85}, pale{0.85, 0.82, 0.75};
   return tone * (hue < 0.3 ? warm : hue < 0.45 ? green : hue < 0.65 ? blue : pale);
 }
@@ -26,9 +26,11 @@ Vec interior(const City& city, const Lot& lot, const FacadePoint& at, double wid
       const bool is_strip = fraction(seen.p.z / 1.6) < 0.14 && fraction(seen.p.x / 1.9) < 0.75;
       return (is_strip ? 2.6 : 0.55 * fall) * lot.shop_light;
     }
-    case RoomPoint::floor: return (0.22 * fall) * lot.shop_light;
+    case RoomPoint::floor:
+      return (0.22 * fall) * lot.shop_light;
     case RoomPoint::back_wall:
-    case RoomPoint::side_wall: break;
+    case RoomPoint::side_wall:
+      break;
   }
   const double along = seen.surface == RoomPoint::back_wall ? seen.p.x : seen.p.z;
   const double shelf = lot.shop == Shop::cafe ? 0.9 : 0.46, pitch = lot.shop == Shop::cafe ? 0.7 : 0.27;
@@ -47,7 +49,7 @@ Vec interior(const City& city, const Lot& lot, const FacadePoint& at, double wid
 bool is_display(const City& city, const Lot& lot, double u, double y) {
   const std::int64_t i = floor_int(u / 0.42);
   const std::uint64_t key = scramble(lot.id * 131 + static_cast<std::uint64_t>(i + 64));
-  const double tall = glass_foot + (lot.shop == Shop::cafe ? 0.75 : 0.5) * city.random(key, Purpose::jitter);
+  const double tall = glass_foot + (lot.shop == Shop::cafe ? 0.75 : 0.5) * city.random(key, Purpose::display);
   const double x = fraction(u / 0.42) - 0.5;
   return y < tall && magnitude(x) < 0.2 + 0.2 * (tall - y);
 }
@@ -68,7 +70,9 @@ Vec entrance(const City& city, const Lot& lot, const FacadePoint& at, double wid
   const double x = fraction(at.u / 2.4);
   if (from_middle > 1.2 && at.y > 1.1 && at.y < 2.9 && x > 0.25 && x < 0.75) {
     const std::uint64_t key = scramble(lot.id * 31 + static_cast<std::uint64_t>(floor_int(at.u / 2.4)));
-    if (x < 0.27 || x > 0.73 || magnitude(x - 0.5) < 0.012 || at.y < 1.15 || at.y > 2.85 || magnitude(at.y - 2.35) < 0.03) return 0.5 * wall;
+    if (x < 0.27 || x > 0.73 || magnitude(x - 0.5) < 0.012 || at.y < 1.15 || at.y > 2.85 ||
+        magnitude(at.y - 2.35) < 0.03)
+      return 0.5 * wall;
     if (city.random(key, Purpose::window_lit) > 0.3) return glass_reflection(at);
     const double fold = 0.8 + 0.3 * fraction(x * 22);  // a drawn curtain
     return (mix(fold, 0.95, at.soft) * (0.2 + 0.25 * at.y)) * Vec{1.0, 0.55, 0.22} + glass_reflection(at);
@@ -95,7 +99,7 @@ Vec shop_radiance(const City& city, const Lot& lot, const FacadePoint& at) {
   if (at.y > glass_head) return 0.7 * wall;
   if (lot.shop == Shop::shutter) return at.y < 0.15 ? 0.4 * wall : shutter(lot, at);
 
-  const double door = 0.5 + (width - 2.2) * city.random(lot.id, Purpose::window_lit);
+  const double door = 0.5 + (width - 2.2) * city.random(lot.id, Purpose::shop_door);
   const double in_door = at.u - door;
   const bool is_door = in_door > 0 && in_door < 1.15;
   if (!is_door && at.y < glass_foot) return (at.y < 0.2 ? 0.4 : 0.9) * wall;

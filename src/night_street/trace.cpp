@@ -53,7 +53,8 @@ void trace_buildings(const City& city, const Ray& ray, int side, Hit& hit) {
   for (int i = lot_at(lots, ray.origin.z + max_of(entry, 0) * ray.direction.z);
        i >= 0 && i < static_cast<int>(lots.size()); i += step) {
     const Lot& lot = lots[static_cast<std::size_t>(i)];
-    const Box box{{side == 0 ? -plan::back : lot.front, 0, lot.z0}, {side == 0 ? -lot.front : plan::back, lot.height, lot.z1}};
+    const Box box{{side == 0 ? -plan::back : lot.front, 0, lot.z0},
+                  {side == 0 ? -lot.front : plan::back, lot.height, lot.z1}};
     double t = 0;
     if (crosses(box, ray, hit.t, t) && t > 0) {
       hit = {Hit::building, t, entry_normal(box, ray), side, i};
@@ -79,17 +80,20 @@ Hit trace(const City& city, const Ray& ray, bool with_lamps) {
   Hit hit;
   hit.t = nothing;
   trace_ground(ray, hit);
+  // Big things first: they shorten the walk through the small ones.
+  trace_buildings(city, ray, ray.direction.x < 0 ? 0 : 1, hit);
+  trace_skyline(city, ray, hit);
   double farthest = hit.t;
   city.hierarchy.walk(ray, farthest, [&](int index, double& limit) {
     const Solid& solid = city.solids[static_cast<std::size_t>(index)];
-    if (!with_lamps && solid.shape == Solid::sphere && city.materials[static_cast<std::size_t>(solid.material)].emission.x > 0) return;
+    if (!with_lamps && solid.shape == Solid::sphere &&
+        city.materials[static_cast<std::size_t>(solid.material)].emission.x > 0)
+      return;
     SolidHit met;
     if (!intersect(solid, city.planes, ray, 1e-9, limit, met)) return;
     limit = met.t;
     hit = {Hit::solid, met.t, met.normal, 0, index};
   });
-  trace_buildings(city, ray, ray.direction.x < 0 ? 0 : 1, hit);
-  trace_skyline(city, ray, hit);
   if (hit.kind == Hit::sky) hit.t = 0;
   return hit;
 }

@@ -29,7 +29,8 @@ Room draw_room(const City& city, std::uint64_t id) {
 }
 
 /// The lit room seen through the pane; x, y in [0, 1] on the pane, u and height in metres in the room.
-Vec room_radiance(const Room& room, const FacadePoint& at, double x, double y, double u, double v, double width, double height) {
+Vec room_radiance(const Room& room, const FacadePoint& at, double x, double y, double u, double v, double width,
+                  double height) {
   const RoomPoint seen = look_into_room(u, v, at.into, width, height, 3.6);
   const Vec lamp{0.5 * width, height - 0.35, 1.7}, away = seen.p - lamp;
   const double distance = 1.0 / (0.35 + 0.22 * dot(away, away));
@@ -57,9 +58,9 @@ Vec storey_radiance(const City& city, const Lot& lot, const FacadePoint& at) {
     const double lip = at.y - top;
     return (lip < 0.18 ? 0.25 : lip < 0.5 ? 1.25 : 0.8) * wall;
   }
-  if (at.u < 0.12 || at.u > width - 0.12) return 0.35 * wall;      // the joint between two houses
-  if (v < 0.10 && lot.style != 2) return 1.35 * wall;              // string course
-  if (v < 0.16 && lot.style != 2) return 0.45 * wall;              // and its shadow
+  if (at.u < 0.12 || at.u > width - 0.12) return 0.35 * wall;  // the joint between two houses
+  if (v < 0.10 && lot.style != 2) return 1.35 * wall;          // string course
+  if (v < 0.16 && lot.style != 2) return 0.45 * wall;          // and its shadow
   const double margin = 0.5, bay = (width - 2 * margin) / lot.bays;
   const double across = (at.u - margin) / bay;
   const std::int64_t column = floor_int(across);
@@ -68,13 +69,15 @@ Vec storey_radiance(const City& city, const Lot& lot, const FacadePoint& at) {
   const double sill = 0.28 * lot.storey, pane_height = lot.window_height * lot.storey;
   const double y = (v - sill) / pane_height;
   const double pane_width = lot.window_width * bay;
-  if (y < 0 && y > -0.11 / pane_height && x > -0.06 && x < 1.06) return 1.5 * wall;                  // window sill
+  if (y < 0 && y > -0.11 / pane_height && x > -0.06 && x < 1.06) return 1.5 * wall;  // window sill
   if (x < 0 || x > 1 || y < 0 || y > 1) {
     const bool is_lintel = lot.style == 2 && y > 1 && y < 1.14 && x > -0.08 && x < 1.08;
     if (is_lintel) return 1.4 * wall;
     // Courses of brick or blocks, near the viewer only.
     const double course = fraction(at.y * 3.2) < 0.12 ? 0.8 : 1.0;
-    const double block = 0.86 + 0.28 * city.stain.lattice(floor_int(at.u * 1.9 + 0.5 * static_cast<double>(floor_int(at.y * 3.2) & 1)), floor_int(at.y * 3.2));
+    const double block =
+        0.86 + 0.28 * city.stain.lattice(floor_int(at.u * 1.9 + 0.5 * static_cast<double>(floor_int(at.y * 3.2) & 1)),
+                                         floor_int(at.y * 3.2));
     return mix(course * block, 1, at.soft) * wall;
   }
   const double edge_x = min_of(x, 1 - x) * pane_width, edge_y = min_of(y, 1 - y) * pane_height;
@@ -83,7 +86,8 @@ Vec storey_radiance(const City& city, const Lot& lot, const FacadePoint& at) {
   const bool is_transom = lot.style != 1 && magnitude(y - (lot.style == 2 ? 0.5 : 0.72)) * pane_height < 0.03;
   if (min_of(edge_x, edge_y) < 0.055 || bar < 0.026 || is_transom) return 0.55 * wall + 0.002 * Vec{1, 1, 1};
 
-  const std::uint64_t id = scramble(lot.id * 4096 + static_cast<std::uint64_t>(storey) * 64 + static_cast<std::uint64_t>(column));
+  const std::uint64_t id =
+      scramble(lot.id * 4096 + static_cast<std::uint64_t>(storey) * 64 + static_cast<std::uint64_t>(column));
   const Vec reflection = glass_reflection(at);
   // Offices light whole floors, homes single rooms.
   const std::uint64_t floor_id = scramble(lot.id * 64 + static_cast<std::uint64_t>(storey) + 7);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "puddle/plain.h"
 #include "random/counter.h"
 
 namespace rainref::puddle {
@@ -51,7 +52,7 @@ TextureData make_bed(const Settings& s) {
       const double u = 2 * (x + 0.5) / width - 1, v = 2 * (y + 0.5) / height - 1;
       const double mx = u * half_x, mz = v * half_z;
       // A bowl that ends before the rectangle does, pushed about by noise at the scale of a step, roughened by grain.
-      const double bowl = 0.85 - 1.6 * (u * u + v * v) + 0.75 * fractal(s.seed, 1.7 * mx + 40, 1.7 * mz + 40, 5);
+      const double bowl = 1.0 - 1.55 * (u * u + v * v) + 0.8 * fractal(s.seed, 1.7 * mx + 40, 1.7 * mz + 40, 5);
       const double window = 1 - std::max(u * u * u * u * u * u, v * v * v * v * v * v);
       const double grain = 0.0012 * noise(s.seed, 90 * mx, 90 * mz, 77);
       const double shaped = s.puddle_depth * std::min(bowl, 3 * window - 1) + grain;
@@ -61,6 +62,19 @@ TextureData make_bed(const Settings& s) {
   TextureData bed(std::move(depth), 1, width, height, Address::border, Address::border);
   bed.set_border(static_cast<float>(-s.puddle_depth), 0, 0, 0);
   return bed;
+}
+
+Image make_shore(const Settings& s, const Texture& bed) {
+  Image shore(Format::r32f, s.grid[0], s.grid[1]);
+  for (int y = 0; y < s.grid[1]; ++y) {
+    for (int x = 0; x < s.grid[0]; ++x) {
+      const scalar::Plain<double> u((x + 0.5) / s.grid[0]), v((y + 0.5) / s.grid[1]);
+      const double depth = scalar::sample_bilinear<0, 1>(bed, u, v)[0].v;
+      const double t = std::clamp(depth / (2 * s.shore_width), 0.0, 1.0);
+      shore.row<float>(y)[x] = static_cast<float>(t * t * (3 - 2 * t));
+    }
+  }
+  return shore;
 }
 
 Image make_asphalt(std::uint64_t seed) {

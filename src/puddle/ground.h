@@ -11,6 +11,10 @@ namespace rainref::puddle {
 /// for a natural shore, the full depth for a basin.
 TextureData make_bed(const Settings& settings);
 
+/// What the shore leaves of the wave in a step, on the wave's grid, r32f: 1 where the water is at least twice
+/// shore_width deep, 0 where the ground is dry, smooth between.
+Image make_shore(const Settings& settings, const Texture& bed);
+
 /// A tile of asphalt, 512x512 rgba32f, linear albedo in rgb and height in a (0 to 1).
 Image make_asphalt(std::uint64_t seed);
 

@@ -82,6 +82,7 @@ WaveStepUniforms wave_step_uniforms(const Settings& s) {
   const double gamma = gamma_of_step(s), courant = courant_number(s);
   u.damping = static_cast<float>(gamma);
   u.step = corrected(s) ? 1.0f : static_cast<float>(s.step);
+  u.rest = encoding(s).rest;
   u.courant_sq = corrected(s) ? static_cast<float>(courant * courant * (1 + gamma) / 2) : 0.0f;
   return u;
 }
@@ -152,6 +153,8 @@ ShadeUniforms shade_uniforms(const Settings& s) {
   u.half_size[1] = static_cast<float>(0.5 * s.grid[1] * s.cell_size);
   u.shore_width = static_cast<float>(s.shore_width);
   u.gloss_level = 3.5f;
+  u.wetness = 0.45f;
+  u.background_level = 0.0f;
   u.exact_fresnel = s.exact_fresnel;
   return u;
 }

@@ -34,7 +34,8 @@ capture::EffectInfo make() {
       {member<&WaveStepUniforms::damping>("damping", "1", "as-published: factor of the new level; corrected: gamma of a step."),
        member<&WaveStepUniforms::step>("step", "texel", "as-published: offset of the neighbours."),
        member<&WaveStepUniforms::courant_sq>("courant_sq", "1", "corrected: Courant number squared, times (1 + gamma) / 2."),
-       member<&WaveStepUniforms::drop_count>("drop_count", "1", "Drops in the list.")});
+       member<&WaveStepUniforms::drop_count>("drop_count", "1", "Drops in the list."),
+       member<&WaveStepUniforms::rest>("rest", "1", "Stored value of level water.")});
   const UniformBlock surface_hit = uniform_block<SurfaceHitUniforms>(
       "SurfaceHitUniforms",
       with_camera(nested<&SurfaceHitUniforms::camera>("camera", camera()),
@@ -68,7 +69,9 @@ capture::EffectInfo make() {
                    member<&ShadeUniforms::shore_width>("shore_width", "m", "corrected: depth over which wet ground turns into water."),
                    member<&ShadeUniforms::ground_footprint>("ground_footprint", "1/m", "corrected: texels of the ground under a pixel at distance 1."),
                    member<&ShadeUniforms::fog_colour>("fog_colour", "1", "corrected: radiance of the fog."),
-                   member<&ShadeUniforms::exact_fresnel>("exact_fresnel", "1", "corrected: 1: Fresnel's equations, 0: Schlick.")}));
+                   member<&ShadeUniforms::exact_fresnel>("exact_fresnel", "1", "corrected: 1: Fresnel's equations, 0: Schlick."),
+                   member<&ShadeUniforms::wetness>("wetness", "1", "corrected: reflectance of the wet ground over that of water."),
+                   member<&ShadeUniforms::background_level>("background_level", "1", "corrected: mip level of the environment behind the scene.")}));
   const UniformBlock display =
       uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::vignette>("vignette", "1", "Loss at distance 1 from the centre."),
                                                          member<&DisplayUniforms::exposure>("exposure", "1", "corrected: factor of the radiance."),
@@ -81,7 +84,7 @@ capture::EffectInfo make() {
   capture::EffectInfo info;
   info.passes = {
       {"raindrops", "The drops that fall in this step.", {}, {}, {"drops"}, "as-published: input_only; corrected: bits", {raindrops}},
-      {"wave_step", "The next level of the water from the newest and the previous one.", {}, {"wave", "drops"}, {"wave"}, "envelope", {wave_step}},
+      {"wave_step", "The next level of the water from the newest and the previous one.", {}, {"wave", "drops", "shore"}, {"wave"}, "envelope", {wave_step}},
       {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {}, {"wave"}, {"hit", "normal"}, "envelope", {surface_hit}},
       {"ground_noise", "The sine hash of the ground point, which shade takes as data.", {"as-published"}, {"hit", "normal"}, {"noise"}, "input_only", {ground_noise}},
       {"shade", "Reflection, refraction, water and ground: linear radiance.", {}, {"hit", "normal", "noise", "environment", "ground", "relief", "bed"}, {"colour"}, "envelope", {shade}},
@@ -90,6 +93,7 @@ capture::EffectInfo make() {
   info.buffers = {
       {"drops", "records", "Drop records of this step."},
       {"wave", "puddle.storage", "Newest level, previous level. as-published: u = 2 (s - 1/2); corrected: metres, or for rgba8 0.04 (s - 128/255) m."},
+      {"shore", "r32f", "corrected, natural shape: share of the wave that the shore leaves, 1 in the water, 0 on dry ground."},
       {"hit", "rgba32f", "Position x y z [m], march steps."},
       {"normal", "rgba16f", "Unit normal x y z; 1 where the ray hit, 0 where not."},
       {"noise", "r32f", "as-published: noise of the ground point in [0, 1)."},

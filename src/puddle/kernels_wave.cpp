@@ -74,6 +74,7 @@ void step_rows(const WaveJob& job, const parallel::Tile& tile) {
     rows.above_next = row_of<Storage>(job, y + rows.reach + 1);
     Storage* out = job.previous->row<Storage>(y);
     rows.previous = out;
+    rows.shore = job.shore ? job.shore->row<float>(y) : nullptr;
     drops_in_row(job.drops, y, in_row);
     for (int x = 0; x < width; x += n) {
       const int count = std::min(n, width - x);
@@ -82,7 +83,7 @@ void step_rows(const WaveJob& job, const parallel::Tile& tile) {
                                        : wave_step_as_published<Lanes>(job.uniforms, rows, near.data(), drop_count, x, y);
       store(out + x, next, job.rounding, count);
     }
-    fill_row_ghosts(out, width, job.boundary, encode_one<Storage>(job.rest, job.rounding));
+    fill_row_ghosts(out, width, job.boundary, encode_one<Storage>(job.uniforms.rest, job.rounding));
   }
 }
 void StepRows(const WaveJob& job, const parallel::Tile& tile) {
@@ -107,7 +108,7 @@ void previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile)
       if (drop_count == 0) continue;
       store(row + x, wave_previous_corrected<Lanes>(row, near.data(), drop_count, x, y), job.rounding, count);
     }
-    fill_row_ghosts(row, width, job.boundary, encode_one<Storage>(job.rest, job.rounding));
+    fill_row_ghosts(row, width, job.boundary, encode_one<Storage>(job.uniforms.rest, job.rounding));
   }
 }
 void PreviousRows(const WaveJob& job, Image& plane, const parallel::Tile& tile) {

@@ -44,7 +44,7 @@ struct Puddle::State {
   Encoding encoding;
   int frame = 0;
   std::int64_t steps = 0;
-  Image newest, previous, rest_row;
+  Image newest, previous, rest_row, shore;
   Rainfall rainfall;
 
   TextureData environment, ground, relief, bed;
@@ -68,6 +68,7 @@ struct Puddle::State {
     if (corrected) {
       relief = make_relief(ground, own_ground);
       bed = make_bed(s);
+      if (s.shape == Shape::natural) shore = make_shore(s, bed.view());
       ambient = ambient_radiance(environment.view(), around.environment_is_cube);
     }
     environment_is_cube = around.environment_is_cube;
@@ -127,8 +128,9 @@ void Puddle::simulate(Recorder* recorder) {
     s.report(recorder, step, "raindrops", {{"drops", RecordView{drops.data(), drops.size(), sizeof(Drop)}}}, rain_time.seconds());
 
     Stopwatch wave_time;
-    WaveJob job{wave_step_uniforms(s.settings), s.corrected, s.settings.rounding, s.settings.boundary, s.encoding.rest,
-                &s.newest,                      &s.previous, &s.rest_row,         drops};
+    WaveJob job{wave_step_uniforms(s.settings), s.corrected, s.settings.rounding, s.settings.boundary,
+                &s.newest,                      &s.previous, &s.rest_row,         s.shore.empty() ? nullptr : &s.shore,
+                drops};
     job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
     s.wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
     if (s.corrected && !drops.empty()) {

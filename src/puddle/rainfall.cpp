@@ -10,7 +10,7 @@ namespace {
 
 constexpr double gravity = 9.80665;       // m/s^2, CGPM 1901
 constexpr double energy_share = 0.01;     // of the impact that goes into the wave; the rest splashes and stirs
-constexpr double crater_per_diameter = 5; // crater radius over drop diameter
+constexpr double crater_per_diameter = 7; // crater radius over drop diameter
 constexpr double least_radius = 3;        // texels; a smaller crater would not be resolved, so its energy is spread
 
 }  // namespace

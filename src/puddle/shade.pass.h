@@ -115,12 +115,13 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
 
   const N cosine = clamp(-dot(view, normal), N(1e-3f), one);
   const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));
-  const N fresnel = (u.exact_fresnel != 0 ? fresnel_dielectric(cosine, water_ior) : fresnel_schlick(cosine, f0)) * N(u.reflectivity);
+  const N fresnel = (u.exact_fresnel != 0 ? fresnel_dielectric(cosine, water_ior) : fresnel_schlick(cosine, f0)) *
+                    (N(u.reflectivity) * mix(N(u.wetness), one, water));
   const Vec3<N> mirrored = reflect(view, normal);
   // A mirror ray that dips below the horizon would meet the water again: it is turned up.
   const Vec3<N> up_mirrored(mirrored.x, abs(mirrored.y), mirrored.z);
   const Vec3<N> look = rotate_y(select(hit, up_mirrored, view), u.rotation);
-  const N gloss = select(hit, (one - water) * N(u.gloss_level), zero);
+  const N gloss = select(hit, (one - water) * N(u.gloss_level), N(u.background_level));
   const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);
 
   const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);

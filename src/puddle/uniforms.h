@@ -28,6 +28,8 @@ struct WaveStepUniforms {
   float step;        ///< as-published: offset of the neighbours [texels]
   float courant_sq;  ///< corrected: (c dt / dx)^2 (1 + gamma) / 2
   std::int32_t drop_count;
+  float rest;  ///< stored value of level water
+  float padding0, padding1, padding2;
 };
 
 struct CameraUniforms {
@@ -77,6 +79,9 @@ struct ShadeUniforms {
   float ground_footprint;  ///< corrected: texels of the ground image that a pixel covers at distance 1
   float fog_colour[3];     ///< corrected
   std::int32_t exact_fresnel;
+  float wetness;           ///< corrected: reflectance of the wet ground over that of water
+  float background_level;  ///< corrected: mip level of the environment behind the scene
+  float padding0, padding1;
 };
 
 struct DisplayUniforms {
@@ -85,8 +90,8 @@ struct DisplayUniforms {
   float width, height;
 };
 
-static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(WaveStepUniforms) == 16);
+static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(WaveStepUniforms) == 32);
 static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 112 && sizeof(GroundNoiseUniforms) == 80);
-static_assert(sizeof(ShadeUniforms) == 160 && sizeof(DisplayUniforms) == 16);
+static_assert(sizeof(ShadeUniforms) == 176 && sizeof(DisplayUniforms) == 16);
 
 }  // namespace rainref::puddle

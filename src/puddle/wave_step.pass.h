@@ -6,6 +6,7 @@ struct WaveRows {
   const Storage *here, *below, *above, *below_next, *above_next, *previous;
   int reach;       ///< whole texels to the neighbours
   float fraction;  ///< what is left of a fractional offset; *_next are the rows one texel further out
+  const float* shore;  ///< corrected: share of the wave that the shore leaves; null: all of it
 };
 
 // ---- as published --------------------------------------------------------------------------------------------------
@@ -40,7 +41,7 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<St
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
 //   new = (1 + gamma) u - gamma p + C^2 (1 + gamma)/2 L(u) + impulse,     previous = u + impulse
-// L is the five-point Laplacian and C the Courant number. The weights of u and p add to 1, so the rest value and the
+// and on a natural shore new = rest + shore (new - rest), with shore from 1 in the water to 0 on dry ground. L is the five-point Laplacian and C the Courant number. The weights of u and p add to 1, so the rest value and the
 // unit of the stored heights cancel out, and the mean has the roots 1 and gamma: it is kept. The impulse goes to both
 // levels: a displacement, not a kick. (physics: P3, P7)
 //
@@ -65,7 +66,8 @@ RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Stora
   const N around = sum_any_order(N::load(in.below + x), N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.above + x));
   const N laplacian = around - N(4.0f) * here;
   const N moving = here + N(u.damping) * (here - N::load(in.previous + x));
-  return (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, drop_count, x, y);
+  const N next = (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, drop_count, x, y);
+  return in.shore ? N(u.rest) + N::load(in.shore + x) * (next - N(u.rest)) : next;
 }
 /// The second output: what becomes the previous level.
 template <class N, class Storage>

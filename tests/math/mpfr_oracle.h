@@ -10,8 +10,8 @@ namespace rainref::test {
 
 enum class Function { exp, exp2, log, sin, cos, pow, atan2 };
 
-/// The functions as the documentation of transcendental-inl.h defines them: what is infinite or beyond the floats is the
-/// largest float, log(x <= 0) its negative, pow(x < 0, y) is pow(0, y). One object for each thread.
+/// The functions as the documentation of transcendental-inl.h defines them: what is infinite or beyond the floats is
+/// the largest float, log(x <= 0) its negative, pow(x < 0, y) is pow(0, y). One object for each thread.
 class MpfrOracle {
  public:
   MpfrOracle() {
@@ -50,13 +50,20 @@ class MpfrOracle {
 
   static double in_double(Function f, double a, double b) {
     switch (f) {
-      case Function::exp: return std::exp(a);
-      case Function::exp2: return std::exp2(a);
-      case Function::log: return a > 0 ? std::log(a) : -HUGE_VAL;
-      case Function::sin: return std::sin(a);
-      case Function::cos: return std::cos(a);
-      case Function::pow: return std::pow(a > 0 ? a : 0.0, b);
-      case Function::atan2: return std::atan2(a, b);
+      case Function::exp:
+        return std::exp(a);
+      case Function::exp2:
+        return std::exp2(a);
+      case Function::log:
+        return a > 0 ? std::log(a) : -HUGE_VAL;
+      case Function::sin:
+        return std::sin(a);
+      case Function::cos:
+        return std::cos(a);
+      case Function::pow:
+        return std::pow(a > 0 ? a : 0.0, b);
+      case Function::atan2:
+        return std::atan2(a, b);
     }
     return 0;
   }
@@ -67,13 +74,27 @@ class MpfrOracle {
     mpfr_set_flt(x_, positive_only && !(a > 0) ? 0.0f : a, MPFR_RNDN);
     mpfr_set_flt(y_, b, MPFR_RNDN);
     switch (f) {
-      case Function::exp: mpfr_exp(value_, x_, MPFR_RNDN); break;
-      case Function::exp2: mpfr_exp2(value_, x_, MPFR_RNDN); break;
-      case Function::log: mpfr_log(value_, x_, MPFR_RNDN); break;
-      case Function::sin: mpfr_sin(value_, x_, MPFR_RNDN); break;
-      case Function::cos: mpfr_cos(value_, x_, MPFR_RNDN); break;
-      case Function::pow: mpfr_pow(value_, x_, y_, MPFR_RNDN); break;
-      case Function::atan2: mpfr_atan2(value_, x_, y_, MPFR_RNDN); break;
+      case Function::exp:
+        mpfr_exp(value_, x_, MPFR_RNDN);
+        break;
+      case Function::exp2:
+        mpfr_exp2(value_, x_, MPFR_RNDN);
+        break;
+      case Function::log:
+        mpfr_log(value_, x_, MPFR_RNDN);
+        break;
+      case Function::sin:
+        mpfr_sin(value_, x_, MPFR_RNDN);
+        break;
+      case Function::cos:
+        mpfr_cos(value_, x_, MPFR_RNDN);
+        break;
+      case Function::pow:
+        mpfr_pow(value_, x_, y_, MPFR_RNDN);
+        break;
+      case Function::atan2:
+        mpfr_atan2(value_, x_, y_, MPFR_RNDN);
+        break;
     }
   }
 

