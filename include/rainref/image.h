@@ -9,21 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "rainref/storage.h"
+
 namespace rainref {
 
 /// Storage formats, named as graphics APIs name them. Unorm values are code / 255.
 enum class Format : std::uint8_t { r8, rg8, rgba8, rgba8_srgb, r16f, rg16f, rgba16f, r32f, rg32f, rgba32f, r32ui };
-
-/// How a float becomes a stored value: to nearest (ties to even) or toward zero, as many GPUs do.
-enum class Rounding : std::uint8_t { rne, rtz };
-
-/// One channel's storage. Strong types, so that an overload of load or store picks the conversion.
-struct Half {
-  std::uint16_t bits;
-};
-struct Unorm8 {
-  std::uint8_t code;
-};
 
 struct FormatInfo {
   std::string_view name;
@@ -36,7 +27,6 @@ struct FormatInfo {
 const FormatInfo& info(Format format);
 /// The format of this name; throws Error(usage) naming the nearest one.
 Format format_from_name(std::string_view name);
-const char* name(Rounding rounding);
 
 /// A two-dimensional array of texels, channels interleaved, row 0 = v 0 of the pass that writes it.
 ///

@@ -1,5 +1,7 @@
 #include "base/floating_point.h"
 
+#include <bit>
+
 #if defined(__x86_64__) || defined(_M_X64)
 #include <xmmintrin.h>
 #endif
@@ -30,21 +32,23 @@ FloatingPointGuard::~FloatingPointGuard() { set_floating_point_control(saved_); 
 
 FloatingPointReport probe_floating_point() {
   // volatile keeps the compiler from folding, not from fusing: the products and sums below are ordinary expressions.
-  volatile float va = 1.0f + 0x1p-12f, vc = -(1.0f + 0x1p-11f), tiny = 0x1p-126f, half = 0.5f, subnormal = 0x1p-127f, big = 0x1p20f,
-                 one = 1.0f, third = 3.0f;
+  volatile float va = 1.0f + 0x1p-12f, vc = -(1.0f + 0x1p-11f), smallest_normal = 0x1p-126f, half = 0.5f, subnormal = 0x1p-127f,
+                 big = 0x1p20f, one = 1.0f, little = 0x1p-26f;
   FloatingPointReport report;
   const float a = va, c = vc;
-  const float sum = a * a + c;  // exactly 2^-24; the product alone rounds to 1 + 2^-11, so unfused gives 0
-  report.contracts = sum != 0.0f;
-  const float small = tiny;
-  const float product = small * half;
-  report.flushes_results = product == 0.0f;
+  const float sum = a * a + c;  // exactly 2^-24 when fused, in every rounding; the product alone rounds to a multiple of 2^-23
+  report.contracts = sum == 0x1p-24f;
+  const float normal = smallest_normal;
+  const float product = normal * half;
+  // By its bits: with denormals-are-zero a comparison takes a subnormal for zero.
+  report.flushes_results = std::bit_cast<std::uint32_t>(product) == 0;
   const float operand = subnormal;
   const float scaled = operand * big;
   report.flushes_operands = scaled == 0.0f;
-  const float o = one, t = third;
-  const float quotient = o / t, negative = -o / t;
-  report.rounds_to_nearest = quotient == 0x1.555556p-2f && negative == -0x1.555556p-2f;
+  // Each direction but the nearest moves one of these away from 1.
+  const float o = one, l = little;
+  const float above = o + l, below = o - l;
+  report.rounds_to_nearest = above == 1.0f && below == 1.0f;
   return report;
 }
 

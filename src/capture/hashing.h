@@ -32,8 +32,9 @@ struct HashLine {
 /// Hashes every output of every pass, and adds up the passes' times.
 class HashRecorder : public Recorder {
  public:
-  /// With hashing off only the times are kept.
   explicit HashRecorder(bool hashing = true) : hashing_(hashing) {}
+  /// With hashing off only the times are kept.
+  void set_hashing(bool on) { hashing_ = on; }
   void pass(const PassCall& call) override;
   /// The lines of the frame so far, in the order of the passes, which are then forgotten; they also enter the scene's hash.
   std::vector<HashLine> take_lines();

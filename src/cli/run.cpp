@@ -42,7 +42,6 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<In
   for (const capture::HashLine& line : last) {
     out["last_frame"].push_back({{"frame", line.frame}, {"pass", line.pass}, {"buffer", line.buffer}, {"xxh3", line.hash.text()}});
   }
-  out["scene_hash"] = recorder.scene_hash().text();
   return out;
 }
 
@@ -64,6 +63,7 @@ int run(const RunOptions& options) {
   {
     Progress progress(config.effect(), frames);
     for (int frame = 0; frame < frames; ++frame) {
+      recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
       simulation->frame(&recorder);
       last = recorder.take_lines();
       if (options.every > 0 ? frame % options.every == 0 : frame == frames - 1) {

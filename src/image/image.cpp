@@ -47,8 +47,6 @@ Format format_from_name(std::string_view name) {
   throw Error(ExitCode::usage, fmt::format("unknown format '{}'{}", name, did_you_mean(name, names)));
 }
 
-const char* name(Rounding rounding) { return rounding == Rounding::rne ? "rne" : "rtz"; }
-
 void Image::Free::operator()(std::byte* p) const { std::free(p); }
 
 std::size_t Image::memory_bytes(Format format, int width, int height) {

@@ -69,15 +69,33 @@ RAINREF_FN Int texel_index(Address address, Int i, Int size) {
   return address == Address::repeat ? wrap_index(i, size) : clamp_index(i, size);
 }
 
-/// Channels First ... First + Count - 1 of texel (x, y), by the address rules.
-template <int First, int Count, class N>
-RAINREF_FN Channels<N, Count> load_texel(const Texture& t, const Level<N>& l, typename N::Int x, typename N::Int y) {
-  const auto xi = texel_index(t.address_u, x, l.width), yi = texel_index(t.address_v, y, l.height);
-  const auto offset = (texel_offset(xi, yi, l.width) + l.offset) * t.channels;
+/// A column or a row of texels by the address rules: what it adds to a texel's place in the array, and whether the
+/// index was inside the image.
+template <class Int, class M>
+struct Line {
+  Int place;
+  M in;
+};
+template <class N>
+RAINREF_FN auto texel_column(const Texture& t, const Level<N>& l, typename N::Int x) {
+  auto place = texel_index(t.address_u, x, l.width);
+  if (t.channels != 1) place = place * t.channels;
+  return Line<typename N::Int, typename N::Mask>{place, inside(x, l.width)};
+}
+template <class N>
+RAINREF_FN auto texel_row(const Texture& t, const Level<N>& l, typename N::Int y) {
+  auto place = texel_index(t.address_v, y, l.height) * l.width + l.offset;
+  if (t.channels != 1) place = place * t.channels;
+  return Line<typename N::Int, typename N::Mask>{place, inside(y, l.height)};
+}
+/// Channels First ... First + Count - 1 of the texel where a column meets a row.
+template <int First, int Count, class N, class Line>
+RAINREF_FN Channels<N, Count> load_texel(const Texture& t, const Line& column, const Line& row) {
+  const auto place = row.place + column.place;
   Channels<N, Count> out;
-  for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels, offset + (First + c), N());
+  for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
   if (t.address_u == Address::border || t.address_v == Address::border) {
-    const auto in = inside(x, l.width) & inside(y, l.height);
+    const auto in = column.in & row.in;
     for (int c = 0; c < Count; ++c) out[c] = select(in, out[c], N(t.border[First + c]));
   }
   return out;
@@ -89,7 +107,7 @@ RAINREF_FN Channels<N, Count> sample_nearest(const Texture& t, N u, N v) {
   // Held within one texel of the image before the cut to integers; the index rule does the rest.
   const N x = clamp(address_coordinate(t.address_u, u) * l.width_number, N(-1.0f), l.width_number);
   const N y = clamp(address_coordinate(t.address_v, v) * l.height_number, N(-1.0f), l.height_number);
-  return load_texel<First, Count, N>(t, l, to_int(floor(x)), to_int(floor(y)));
+  return load_texel<First, Count, N>(t, texel_column<N>(t, l, to_int(floor(x))), texel_row<N>(t, l, to_int(floor(y))));
 }
 
 template <int First, int Count, class N>
@@ -97,8 +115,10 @@ RAINREF_FN Channels<N, Count> sample_level(const Texture& t, const Level<N>& l, 
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
   const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
   const auto xi = to_int(x0), yi = to_int(y0);
-  const auto a = load_texel<First, Count, N>(t, l, xi, yi), b = load_texel<First, Count, N>(t, l, xi + 1, yi);
-  const auto c = load_texel<First, Count, N>(t, l, xi, yi + 1), d = load_texel<First, Count, N>(t, l, xi + 1, yi + 1);
+  const auto left = texel_column<N>(t, l, xi), right = texel_column<N>(t, l, xi + 1);
+  const auto low = texel_row<N>(t, l, yi), high = texel_row<N>(t, l, yi + 1);
+  const auto a = load_texel<First, Count, N>(t, left, low), b = load_texel<First, Count, N>(t, right, low);
+  const auto c = load_texel<First, Count, N>(t, left, high), d = load_texel<First, Count, N>(t, right, high);
   Channels<N, Count> out;
   for (int k = 0; k < Count; ++k) out[k] = mix(mix(a[k], b[k], fx), mix(c[k], d[k], fx), fy);
   return out;
@@ -107,12 +127,16 @@ template <int First, int Count, class N>
 RAINREF_FN Channels<N, Count> sample_bilinear(const Texture& t, N u, N v, int level = 0) {
   return sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
 }
+/// Where lod is whole the finer level alone counts, so that lanes which all lie on it need not read the other.
 template <int First, int Count, class N>
 RAINREF_FN Channels<N, Count> sample_trilinear(const Texture& t, N u, N v, N lod) {
-  const N last(static_cast<float>(t.levels - 1)), l = clamp(lod, N(0.0f), last), l0 = floor(l), g = l - l0;
-  const auto a = sample_level<First, Count, N>(t, level_of<N>(t, to_int(l0)), u, v);
-  const auto b = sample_level<First, Count, N>(t, level_of<N>(t, to_int(min(l0 + N(1.0f), last))), u, v);
-  Channels<N, Count> out;
-  for (int k = 0; k < Count; ++k) out[k] = mix(a[k], b[k], g);
+  const N last(static_cast<float>(t.levels - 1)), l = clamp(lod, N(0.0f), last), l0 = floor(l), g = l - l0, zero(0.0f);
+  const Level<N> fine = any(l0 > zero) ? level_of<N>(t, to_int(l0)) : uniform_level<N>(t, 0);
+  Channels<N, Count> out = sample_level<First, Count, N>(t, fine, u, v);
+  const auto between = g > zero;
+  if (any(between)) {
+    const auto coarse = sample_level<First, Count, N>(t, level_of<N>(t, to_int(min(l0 + N(1.0f), last))), u, v);
+    for (int k = 0; k < Count; ++k) out[k] = select(between, mix(out[k], coarse[k], g), out[k]);
+  }
   return out;
 }

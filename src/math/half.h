@@ -12,7 +12,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "rainref/image.h"
+#include "rainref/storage.h"
 
 namespace rainref {
 

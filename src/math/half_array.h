@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "rainref/image.h"
+#include "rainref/storage.h"
 
 namespace rainref {
 

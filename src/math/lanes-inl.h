@@ -13,7 +13,7 @@
 
 #include "hwy/highway.h"
 #include "math/real64_lanes-inl.h"
-#include "rainref/image.h"
+#include "rainref/storage.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rainref {
@@ -52,7 +52,7 @@ struct Lanes {
       return {hn::RebindMask(D(), hn::And(hn::Not(hn::Lt(a.i, hn::Zero(DI()))), hn::Lt(a.i, size.i)))};
     }
     friend HWY_INLINE Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }
-    friend HWY_INLINE Int texel_offset(Int x, Int y, Int width) { return {hn::Add(hn::Mul(y.i, width.i), x.i)}; }
+    friend HWY_INLINE Int operator*(Int a, Int b) { return {hn::Mul(a.i, b.i)}; }
     friend HWY_INLINE Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
     friend HWY_INLINE Int operator*(Int a, std::int32_t b) { return {hn::Mul(a.i, hn::Set(DI(), b))}; }
   };
@@ -140,7 +140,8 @@ struct Lanes {
     if (rounding == Rounding::rne) return hn::DemoteTo(DH(), hn::BitCast(DI(), codes));
     const auto finite = hn::BitCast(D(), hn::ShiftLeft<13>(code));
     const V scaled = hn::Mul(finite, hn::Set(D(), 0x1p112f));
-    const V back = hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), hn::Set(D(), 0x1p16f), scaled);
+    const V infinity = hn::BitCast(D(), hn::Set(DU(), 0x7f800000u));
+    const V back = hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), infinity, scaled);
 #endif
     // Toward zero: one code less where the nearest lies further out.
     const auto out = hn::Gt(hn::Abs(back), hn::Abs(x));

@@ -32,8 +32,7 @@ struct Plain {
     friend Int wrap_index(Int a, Int size) { return {a.i < 0 ? a.i + size.i : a.i < size.i ? a.i : a.i - size.i}; }
     friend bool inside(Int a, Int size) { return 0 <= a.i && a.i < size.i; }
     friend Int lookup(const std::int32_t* table, Int a) { return {table[a.i]}; }
-    /// y * width + x
-    friend Int texel_offset(Int x, Int y, Int width) { return {y.i * width.i + x.i}; }
+    friend Int operator*(Int a, Int b) { return {a.i * b.i}; }
   };
   static constexpr int size() { return 1; }
 

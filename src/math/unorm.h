@@ -1,7 +1,7 @@
 // 8-bit unsigned normalized values: code / 255.
 #pragma once
 
-#include "rainref/image.h"
+#include "rainref/storage.h"
 
 namespace rainref {
 

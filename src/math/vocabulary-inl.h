@@ -3,6 +3,9 @@
 // Text only: no guard, no includes, no namespace. plain.h and lanes-inl.h include it inside theirs, with RAINREF_FN as
 // the linkage of a function and RAINREF_LAMBDA as the attribute of a lambda.
 
+// any(mask) says whether the mask is set in some lane. It may guard work whose result a select of the same mask takes,
+// so that it saves time and never chooses a value.
+
 // ---- sums ----------------------------------------------------------------------------------------------------------
 // The order of these sums is free to a GPU. The reference adds from left to right.
 template <class N>

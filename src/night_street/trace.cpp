@@ -81,7 +81,7 @@ Hit trace(const City& city, const Ray& ray, bool with_lamps) {
   hit.t = nothing;
   trace_ground(ray, hit);
   // Big things first: they shorten the walk through the small ones.
-  trace_buildings(city, ray, ray.direction.x < 0 ? 0 : 1, hit);
+  for (const int side : {0, 1}) trace_buildings(city, ray, side, hit);
   trace_skyline(city, ray, hit);
   double farthest = hit.t;
   city.hierarchy.walk(ray, farthest, [&](int index, double& limit) {

@@ -18,12 +18,11 @@
 namespace rainref::parallel {
 
 struct Executor::Pool {
-  // The scheduler starts no more workers than the machine has processors unless told to; a proof over 8 threads on
-  // 2 processors needs 8.
-  oneapi::tbb::global_control limit;
   mutable oneapi::tbb::task_arena arena;
-  explicit Pool(int threads)
-      : limit(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)), arena(threads) {
+  explicit Pool(int threads) : arena(threads) {
+    // The scheduler starts no more workers than the machine has processors unless told to, and a proof over 8 threads on
+    // 2 processors needs 8. One limit for the process: of several, the smallest would hold for every pool.
+    static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, max_threads);
     // An arena hands its workers the floating-point state of the thread that starts it.
     FloatingPointGuard guard;
     arena.initialize();

@@ -34,7 +34,8 @@ void wave_step_rows(const WaveJob& job, const parallel::Tile& tile);
 void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile);
 /// Decodes rows of a single-channel plane to floats, `width` to a row.
 void decode_rows(const Image& plane, float* out, const parallel::Tile& tile);
-/// Largest |s - rest| of the rows, and largest difference of neighbours inside the plane, both of stored values.
+/// Largest |s - rest| of the rows, and largest difference of neighbours, both of stored values; beyond the edge of the
+/// plane the neighbour is rest.
 struct Extent {
   float height, difference;
 };

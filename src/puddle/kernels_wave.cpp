@@ -171,6 +171,11 @@ Extent ExtentOfRows(const float* decoded, int width, int height, float rest, con
   const auto magnitude = [](float x) { return x < 0 ? -x : x; };
   for (int y = tile.y0; y < tile.y1; ++y) {
     const float *row = decoded + static_cast<std::size_t>(y) * width, *next = y + 1 < height ? row + width : row;
+    // The water falls to the rest level beyond its edge.
+    tail_step = std::max({tail_step, magnitude(row[0] - rest), magnitude(row[width - 1] - rest)});
+    if (y == 0 || y + 1 == height) {
+      for (int x = 0; x < width; ++x) tail_step = std::max(tail_step, magnitude(row[x] - rest));
+    }
     int x = 0;
     for (; x + n < width; x += n) {
       const Lanes here = Lanes::load(row + x);

@@ -109,9 +109,13 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
 
   const N distance = length(p - Vec3<N>(u.camera.position));
   const N lod = log(max(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)), one)) * N(0x1.715476p+0f);  // 1 / ln 2
-  const auto tilt = sample_trilinear<0, 2, N>(relief, p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
-  const Vec3<N> rough(tilt[0], one, tilt[1]);
-  const Vec3<N> normal = normalize(mix(rough, s.normal, water));
+  Vec3<N> normal = s.normal;
+  const auto emerges = water < one;
+  if (any(emerges)) {
+    const auto tilt = sample_trilinear<0, 2, N>(relief, p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
+    const Vec3<N> rough(tilt[0], one, tilt[1]);
+    normal = select(emerges, normalize(mix(rough, s.normal, water)), normal);
+  }
 
   const N cosine = clamp(-dot(view, normal), N(1e-3f), one);
   const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));

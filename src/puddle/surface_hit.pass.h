@@ -89,10 +89,13 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
     t_in = max(t_in, min(a, b));
     t_out = min(t_out, max(a, b));
   };
-  N t_in = max((origin.y - N(u.surface_top)) / fall, zero), t_out = min((origin.y + N(u.surface_top)) / fall, far);
+  N t_in = zero, t_out = min((origin.y + N(u.surface_top)) / fall, far);
   slab(origin.x, d.x, u.half_size[0], t_in, t_out);
   slab(origin.z, d.z, u.half_size[2], t_in, t_out);
-  const auto enters = (t_in < t_out) & down;
+  // A ray that meets the sheet before the rectangle goes no further.
+  const auto over_rectangle = t_in <= t_plane;
+  t_in = max(t_in, (origin.y - N(u.surface_top)) / fall);
+  const auto enters = (t_in < t_out) & over_rectangle & down;
   const N speed = fall + N(u.surface_slope) * length(d.x, d.z);
   // position.x carries t; the other components stay zero.
   MarchState<N> state{Vec3<N>(select(enters, t_in, t_plane), zero, zero), one, zero};

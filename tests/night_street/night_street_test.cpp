@@ -26,9 +26,13 @@ const Image& small_panorama() {
 }
 
 TEST(NightStreet, HasTheSameBitsOnAnyNumberOfThreadsInAnyOrder) {
-  const parallel::Executor one(1);
-  const std::string panorama = hash_of(street().panorama(96, 48, puddle_eye, one));
-  const std::string view = hash_of(street().view(driver(), 96, 54, 400, one));
+  // The executor of one thread is gone before the others come: while it lives, it limits them too.
+  std::string panorama, view;
+  {
+    const parallel::Executor one(1);
+    panorama = hash_of(street().panorama(96, 48, puddle_eye, one));
+    view = hash_of(street().view(driver(), 96, 54, 400, one));
+  }
   for (const int threads : {2, 3, 8}) {
     for (const std::uint64_t shuffle : {0u, 1u, 977u}) {
       parallel::Executor executor(threads);
@@ -43,8 +47,8 @@ TEST(NightStreet, HasTheSameBitsOnAnyNumberOfThreadsInAnyOrder) {
 
 TEST(NightStreet, HasTheRecordedBits) {
   const parallel::Executor executor(2);
-  EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), "GOLDEN_PANORAMA");
-  EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), "GOLDEN_VIEW");
+  EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), "90914cab538c82f30c14e95969d9c77a");
+  EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), "6d95f8095914344642c3e33e0b126e86");
 }
 
 TEST(NightStreet, IsAnotherStreetForAnotherSeed) {
@@ -95,10 +99,11 @@ TEST(NightStreet, NormalsAreUnitOnSurfacesAndZeroOnSky) {
 }
 
 TEST(NightStreet, DepthOfTheRoadIsThatOfThePlane) {
-  // Straight down at the empty road before the camera: depth follows from the height alone.
+  // Down at the road before the camera, which is empty for 6 m: depth follows from the height alone.
   const double height = 1.4;
   const scene::Camera camera{{0.3, height, 0}, {0.3, 0, -2.5}, {0, 1, 0}, 50};
   const int width = 64, rows = 48;
+  int judged = 0;
   const Street::View view = street().view(camera, width, rows, 100, parallel::Executor(2));
   const scene::Camera::Basis basis = camera.basis();
   for (int y = 0; y < rows; ++y) {
@@ -108,10 +113,13 @@ TEST(NightStreet, DepthOfTheRoadIsThatOfThePlane) {
       const scene::Vector3 ray = basis.forward + across * basis.right + upward * basis.up;
       const double expected = height / -ray[1];  // the ray advances 1 m along the axis for each unit of its parameter
       if (std::fabs(camera.position[0] + expected * ray[0]) > 4.4) continue;  // the kerb and what lies behind it
+      if (expected * ray[2] < -6) continue;                                   // a car may stand there
+      ++judged;
       ASSERT_NEAR(view.depth.row<float>(y)[x], expected, 1e-6 * expected) << x << ' ' << y;
       ASSERT_EQ(view.normal.row<float>(y)[4 * x + 1], 1);
     }
   }
+  EXPECT_GT(judged, width * rows / 2);
 }
 
 TEST(NightStreet, DepthOfTheSkyIsFar) {
@@ -187,7 +195,7 @@ TEST(NightStreet, PanoramaAndViewAgree) {
       ++judged;
     }
   }
-  EXPECT_GT(judged, 300);
+  EXPECT_GT(judged, 200);
 }
 
 TEST(NightStreet, LampsShineWhereTheyAreListed) {

@@ -1,0 +1,48 @@
+# Shared by the scripts: what must be installed, and how to build. Sourced, not run.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=(cmake ninja-build g++ ccache pkg-config git
+  libhwy-dev libtbb-dev libglm-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
+  libopenimageio-dev libgtest-dev libgmock-dev libbenchmark-dev libmpfr-dev)
+
+say() { printf '%s\n' "$*" >&2; }
+die() { say "$*"; exit 1; }
+
+# Installs the named Debian packages that are not there yet. Quick when nothing is missing.
+need() {
+  local missing=() name
+  for name in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null || true)" = installed ] || missing+=("$name")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  command -v apt-get >/dev/null || die "Missing: ${missing[*]} (this machine has no apt-get; install them and run again)"
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || die "Missing: ${missing[*]} (install them as root and run again; there is no sudo)"
+    as_root=(sudo)
+  fi
+  say "Installing ${#missing[@]} packages: ${missing[*]}"
+  local log
+  log=$(mktemp)
+  if ! { "${as_root[@]}" apt-get update -qq && DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 5 "$log" >&2
+    die "Could not install: ${missing[*]} (whole log: $log)"
+  fi
+  rm -f "$log"
+}
+
+# build PRESET [TARGET...]: configures when needed and builds with a progress line.
+build() {
+  local preset=$1
+  shift
+  local folder="build/$preset"
+  if [ ! -f "$folder/build.ninja" ]; then
+    say "Configuring $folder"
+    cmake --preset "$preset" "${configure_options[@]}" >"$folder.log" 2>&1 || { mkdir -p build; cmake --preset "$preset" "${configure_options[@]}" >&2 || die "Configuration of $folder failed"; }
+  fi
+  say "Building $folder"
+  NINJA_STATUS="[%f/%t] " cmake --build "$folder" ${1:+--target "$@"} >&2 || die "Build of $folder failed"
+}
+configure_options=()
+mkdir -p build

@@ -1,0 +1,88 @@
+#include "puddle/oracle.h"
+
+#include <algorithm>
+
+#include "puddle/plain.h"
+
+namespace rainref::puddle {
+namespace {
+
+constexpr int ghosts = Image::left_margin;  // as many as the planes of the reference have
+
+template <class Storage>
+using Number = scalar::Plain<std::conditional_t<std::is_same_v<Storage, double>, double, float>>;
+
+// The texel that stands for index i outside [0, size); fixed boundaries have none.
+int inner_index(int i, int size, Boundary boundary) {
+  return boundary == Boundary::periodic ? ((i % size) + size) % size : std::clamp(i, 0, size - 1);
+}
+
+}  // namespace
+
+template <class Storage>
+ScalarWave<Storage>::ScalarWave(const Settings& settings) : ScalarWave(settings, wave_step_uniforms(settings)) {}
+
+template <class Storage>
+ScalarWave<Storage>::ScalarWave(const Settings& s, const WaveStepUniforms& uniforms)
+    : corrected_(s.variant == Variant::corrected), rounding_(s.rounding), boundary_(s.boundary), width_(wave_size(s)[0]),
+      height_(wave_size(s)[1]), uniforms_(uniforms) {
+  store(&rest_, Number<Storage>(uniforms.rest), rounding_);
+  newest.assign(static_cast<std::size_t>(width_) * height_, rest_);
+  previous = newest;
+  padded_.resize(static_cast<std::size_t>(width_ + 2 * ghosts) * (height_ + 2 * ghosts));
+}
+
+template <class Storage>
+void ScalarWave<Storage>::fill_padded() {
+  Storage* to = padded_.data();
+  for (int y = -ghosts; y < height_ + ghosts; ++y) {
+    const bool outside = y < 0 || y >= height_;
+    const Storage* from = newest.data() + static_cast<std::size_t>(inner_index(y, height_, boundary_)) * width_;
+    for (int x = -ghosts; x < width_ + ghosts; ++x) {
+      const bool rest = boundary_ == Boundary::fixed && (outside || x < 0 || x >= width_);
+      *to++ = rest ? rest_ : from[inner_index(x, width_, boundary_)];
+    }
+  }
+}
+
+template <class Storage>
+void ScalarWave<Storage>::step(std::span<const Drop> drops) {
+  using N = Number<Storage>;
+  fill_padded();
+  WaveStepUniforms u = uniforms_;
+  const int drop_count = static_cast<int>(drops.size());
+  u.drop_count = drop_count;
+  const std::ptrdiff_t stride = width_ + 2 * ghosts;
+  scalar::WaveRows<Storage> rows{};
+  rows.reach = corrected_ ? 1 : static_cast<int>(u.step);
+  rows.fraction = corrected_ ? 0.0f : u.step - static_cast<float>(rows.reach);
+  for (int y = 0; y < height_; ++y) {
+    const Storage* here = padded_.data() + (y + ghosts) * stride + ghosts;
+    Storage* out = previous.data() + static_cast<std::size_t>(y) * width_;
+    rows.here = here;
+    rows.below = here - rows.reach * stride;
+    rows.above = here + rows.reach * stride;
+    rows.below_next = rows.below - stride;
+    rows.above_next = rows.above + stride;
+    rows.previous = out;
+    for (int x = 0; x < width_; ++x) {
+      const N next = corrected_ ? scalar::wave_step_corrected<N>(u, rows, drops.data(), drop_count, x, y)
+                                : scalar::wave_step_as_published<N>(u, rows, drops.data(), drop_count, x, y);
+      store(out + x, next, rounding_);
+    }
+    if (corrected_ && drop_count > 0) {
+      Storage* level = newest.data() + static_cast<std::size_t>(y) * width_;
+      for (int x = 0; x < width_; ++x) {
+        store(level + x, scalar::wave_previous_corrected<N>(level, drops.data(), drop_count, x, y), rounding_);
+      }
+    }
+  }
+  newest.swap(previous);
+}
+
+template class ScalarWave<double>;
+template class ScalarWave<float>;
+template class ScalarWave<Half>;
+template class ScalarWave<Unorm8>;
+
+}  // namespace rainref::puddle

@@ -1,0 +1,11 @@
+// Prints every golden line; scripts/accept_golden writes them to tests/golden/hashes.txt.
+#include <fmt/format.h>
+
+#include "puddle/golden_scenes.h"
+
+int main() {
+  const rainref::parallel::Executor executor;
+  for (const auto& scene : rainref::puddle::golden_scenes()) {
+    for (const std::string& line : rainref::puddle::golden_lines(scene, executor)) fmt::print("{}\n", line);
+  }
+}

@@ -1,0 +1,53 @@
+#include "math/simd_target.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "math/half_array.h"
+#include "rainref/error.h"
+
+namespace rainref {
+namespace {
+
+TEST(SimdTarget, TheBestComesFirstAndScalarIsAlwaysThere) {
+  const std::vector<std::string> targets = simd_targets();
+  ASSERT_FALSE(targets.empty());
+  EXPECT_EQ(targets.back() == "scalar" || targets.back() == "neon", true) << targets.back();
+  EXPECT_EQ(std::count(targets.begin(), targets.end(), targets.front()), 1);
+  select_simd_target("");
+  EXPECT_EQ(selected_simd_target(), targets.front());
+}
+
+TEST(SimdTarget, CanBeSelectedAgainAndAgain) {
+  const std::vector<std::string> targets = simd_targets();
+  const float x[3] = {1, 2, 3};
+  for (int round = 0; round < 2; ++round) {
+    for (const std::string& target : targets) {
+      select_simd_target(target);
+      EXPECT_EQ(selected_simd_target(), target);
+      EXPECT_EQ(simd_targets(), targets) << "a selection hides no target";
+      Half h[3] = {};
+      to_half_array(x, h, 3, Rounding::rne);
+      EXPECT_EQ(h[2].bits, 0x4200);
+    }
+  }
+  select_simd_target("");
+  EXPECT_EQ(selected_simd_target(), targets.front());
+}
+
+TEST(SimdTarget, ARefusalNamesTheOnesThatAreHereAndKeepsTheSelection) {
+  select_simd_target("scalar");
+  try {
+    select_simd_target("scaler");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::usage);
+    EXPECT_THAT(e.what(), testing::HasSubstr("SIMD target 'scaler': this machine has "));
+    EXPECT_THAT(e.what(), testing::HasSubstr("did you mean 'scalar'?"));
+  }
+  EXPECT_EQ(selected_simd_target(), "scalar");
+  select_simd_target("");
+}
+
+}  // namespace
+}  // namespace rainref

@@ -1,0 +1,197 @@
+// The determinism proof of the puddle's kernels: every SIMD target, 1, 2, 3 and 8 threads, shuffled tiles, widths 1 to 33
+// give the bits of one plain float after another.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "capture/hashing.h"
+#include "math/simd_target.h"
+#include "parallel/parallel.h"
+#include "puddle/ground.h"
+#include "puddle/host.h"
+#include "puddle/kernels.h"
+#include "puddle/plain.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+namespace {
+
+using F = plain::Plain<float>;
+
+// An environment and a ground with structure, small enough to be made for every case.
+Image pattern(int width, int height, float scale) {
+  Image image(Format::rgba32f, width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 4; ++c) image.row<float>(y)[4 * x + c] = scale * static_cast<float>(1 + (7 * x + 13 * y + 5 * c) % 17);
+    }
+  }
+  return image;
+}
+Surroundings surroundings() {
+  Surroundings s;
+  s.environment = pattern(16, 8, 0.05f);
+  s.ground = pattern(8, 8, 0.02f);
+  return s;
+}
+
+Settings settings(Variant variant, int width, Format storage = Format::rg16f) {
+  Settings s;
+  s.variant = variant;
+  s.storage = storage;
+  s.width = width;
+  s.height = 5;
+  s.seed = 3;
+  s.fog_depth = 0.02;
+  s.vignette = 0.3;
+  s.tint = {0.05, 0.04, 0.03};
+  if (variant == Variant::as_published) {
+    s.drop_count = 10;
+    s.rain_speed = 7;
+    s.ground_scale = 0.15;
+    s.water_turbidity = 0.05;
+    s.puddle_depth = 5;
+    s.reflectivity = 0.6;
+    s.camera_position = {20, 18, 14};
+    s.camera_target = {-6, -4, 10};
+    s.vertical_fov_deg = 60;
+  } else {
+    s.grid = {width + 1, 7};
+    s.cell_size = 0.05;
+    s.shape = Shape::basin;
+    s.rain_rate = 60;
+    s.camera_position = {0.2, 0.5, 0.9};
+    s.camera_target = {0, 0, 0};
+  }
+  return s;
+}
+
+std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, int frames = 3) {
+  parallel::Executor executor(threads);
+  executor.shuffle_tiles(shuffle);
+  Puddle puddle(s, surroundings(), executor);
+  capture::HashRecorder recorder;
+  for (int frame = 0; frame < frames; ++frame) {
+    puddle.simulate(&recorder);
+    puddle.render(&recorder);
+    recorder.take_lines();
+  }
+  return recorder.scene_hash().text();
+}
+
+class Determinism : public testing::TestWithParam<Variant> {
+ protected:
+  ~Determinism() override { select_simd_target(""); }
+};
+
+TEST_P(Determinism, EveryTargetThreadCountOrderAndWidth) {
+  for (int width = 1; width <= 33; ++width) {
+    const Settings s = settings(GetParam(), width);
+    select_simd_target("scalar");
+    const std::string expected = hash_of_run(s, 1, 0);
+    for (const std::string& target : simd_targets()) {
+      select_simd_target(target);
+      for (const int threads : {1, 2, 3, 8}) {
+        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected) << target << ", " << threads << " threads, width " << width;
+      }
+    }
+  }
+}
+
+TEST_P(Determinism, EveryStorageAndRounding) {
+  for (const Format storage : {Format::rg16f, Format::rg32f, Format::rgba8}) {
+    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+      Settings s = settings(GetParam(), 45, storage);
+      s.rounding = rounding;
+      s.height = 70;  // several tiles
+      if (GetParam() == Variant::corrected) s.grid = {47, 71};
+      select_simd_target("scalar");
+      const std::string expected = hash_of_run(s, 1, 0);
+      for (const std::string& target : simd_targets()) {
+        select_simd_target(target);
+        EXPECT_EQ(hash_of_run(s, 3, 99), expected) << target << " " << info(storage).name << " " << name(rounding);
+      }
+    }
+  }
+}
+
+TEST_P(Determinism, TwoRunsAndTwoPuddlesAgree) {
+  const Settings s = settings(GetParam(), 29);
+  EXPECT_EQ(hash_of_run(s, 2, 0, 10), hash_of_run(s, 2, 0, 10));
+}
+
+TEST_P(Determinism, OtherSeedOrRainOtherBits) {
+  // The hashes above would also agree if nothing happened.
+  Settings s = settings(GetParam(), 33);
+  const std::string before = hash_of_run(s, 1, 0);
+  if (GetParam() == Variant::corrected) s.seed = 4;
+  else s.rain_speed = 8;
+  EXPECT_NE(hash_of_run(s, 1, 0), before);
+}
+
+void expect_same(const float found, F expected, const char* what, int x, int y) {
+  ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected.v + 0.0f)) << what << " at " << x << "," << y;
+}
+void expect_same(Half found, F expected, const char* what, int x, int y) {
+  ASSERT_EQ(found.bits, to_half(expected.v + 0.0f).bits) << what << " at " << x << "," << y;
+}
+
+// Each picture pass of a run against the plain reading of the same text, from the same stored inputs.
+TEST_P(Determinism, LanesEqualThePlainReading) {
+  const bool corrected = GetParam() == Variant::corrected;
+  Settings s = settings(GetParam(), 37);
+  s.height = 23;
+  if (corrected) s.grid = {31, 29};
+  if (corrected) s.shape = Shape::natural;
+  const Surroundings around = surroundings();
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    const parallel::Executor executor(2);
+    Puddle puddle(s, around, executor);
+    for (int frame = 0; frame < 6; ++frame) puddle.simulate();
+    puddle.render();
+
+    const Image& shown = corrected ? puddle.newest() : puddle.previous();
+    std::vector<float> decoded(static_cast<std::size_t>(shown.width()) * shown.height());
+    for (int y = 0; y < shown.height(); ++y) {
+      for (int x = 0; x < shown.width(); ++x) decoded[static_cast<std::size_t>(y) * shown.width() + x] = to_float(shown.row<Half>(y)[x]);
+    }
+    SurfaceHitUniforms u = surface_hit_uniforms(s);
+    if (corrected) set_bounds(u, s, extent_of_rows(decoded.data(), shown.width(), shown.height(), encoding(s).rest, {0, 0, shown.width(), shown.height()}));
+    const Address edge = corrected ? Address::border : Address::clamp;
+    TextureData water(decoded, 1, shown.width(), shown.height(), edge, edge);
+    water.set_border(encoding(s).rest, 0, 0, 0);
+    for (int y = 0; y < s.height; ++y) {
+      for (int x = 0; x < s.width; ++x) {
+        const auto hit = corrected ? scalar::surface_hit_corrected<F>(u, water.view(), x, y) : scalar::surface_hit_as_published<F>(u, water.view(), x, y);
+        const float* stored = puddle.hit().row<float>(y) + 4 * x;
+        expect_same(stored[0], hit.position.x, "hit.x", x, y);
+        expect_same(stored[1], hit.position.y, "hit.y", x, y);
+        expect_same(stored[2], hit.position.z, "hit.z", x, y);
+        expect_same(stored[3], hit.iterations, "iterations", x, y);
+        const Half* normal = puddle.normal().row<Half>(y) + 4 * x;
+        expect_same(normal[0], hit.normal.x, "normal.x", x, y);
+        expect_same(normal[1], hit.normal.y, "normal.y", x, y);
+        expect_same(normal[2], hit.normal.z, "normal.z", x, y);
+        expect_same(normal[3], hit.flag, "flag", x, y);
+
+        // display reads what shade stored.
+        const Half* colour = puddle.colour().row<Half>(y) + 4 * x;
+        const scalar::Vec3<F> linear(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2])));
+        const DisplayUniforms d = display_uniforms(s);
+        const auto shown_colour = corrected ? scalar::display_corrected<F>(d, linear, x, y) : scalar::display_as_published<F>(d, linear, x, y);
+        const Unorm8* code = puddle.picture().row<Unorm8>(y) + 4 * x;
+        ASSERT_EQ(code[0].code, to_unorm8(shown_colour.x.v).code) << target << " " << x << "," << y;
+        ASSERT_EQ(code[1].code, to_unorm8(shown_colour.y.v).code);
+        ASSERT_EQ(code[2].code, to_unorm8(shown_colour.z.v).code);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Puddle, Determinism, testing::Values(Variant::as_published, Variant::corrected),
+                         [](const auto& param) { return param.param == Variant::corrected ? "corrected" : "as_published"; });
+
+}  // namespace
+}  // namespace rainref::puddle

@@ -1,0 +1,86 @@
+// The scenes behind tests/golden/hashes.txt: every pass, variant and storage, at frames 0, 1, 2 and 59.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "capture/hashing.h"
+#include "night_street/night_street.h"
+#include "parallel/parallel.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+
+struct GoldenScene {
+  std::string name;
+  Settings settings;
+};
+
+inline std::vector<GoldenScene> golden_scenes() {
+  std::vector<GoldenScene> scenes;
+  for (const Variant variant : {Variant::as_published, Variant::corrected}) {
+    for (const Format storage : {Format::rg16f, Format::rg32f, Format::rgba8}) {
+      for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+        if (rounding == Rounding::rtz && storage != Format::rg16f) continue;
+        Settings s;
+        s.variant = variant;
+        s.storage = storage;
+        s.rounding = rounding;
+        s.width = 97;
+        s.height = 61;
+        s.seed = 11;
+        if (variant == Variant::as_published) {
+          s.drop_count = 10;
+          s.rain_speed = 3;
+          s.damping = 0.98;
+          s.reflectivity = 0.6;
+          s.vignette = 0.4;
+          s.fog_depth = 0.01;
+          s.use_checkerboard = true;
+          s.ground_scale = 0.15;
+          s.water_turbidity = 0.05;
+          s.puddle_depth = 5;
+          s.tint = {0.02, 0.05, 0.06};
+          s.camera_position = {20, 18, 14};
+          s.camera_target = {-6, -4, 10};
+          s.vertical_fov_deg = 60;
+        } else {
+          s.grid = {89, 57};
+          s.cell_size = 0.02;
+          s.rain_rate = 20;
+          s.damping = 0.97;
+          s.fog_depth = 0.02;
+          s.vignette = 0.2;
+          s.tint = {0.05, 0.045, 0.04};
+          s.camera_position = {0.2, 0.5, 1.6};
+          s.camera_target = {0, 0, 0};
+        }
+        scenes.push_back({fmt::format("puddle/{}/{}{}", variant == Variant::as_published ? "as-published" : "corrected", info(storage).name,
+                                      rounding == Rounding::rtz ? "/rtz" : ""),
+                          s});
+      }
+    }
+  }
+  return scenes;
+}
+
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
+  Surroundings around;
+  around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
+  Puddle puddle(scene.settings, around, executor);
+  std::vector<std::string> lines;
+  for (int frame = 0; frame < 60; ++frame) {
+    capture::HashRecorder recorder;
+    const bool golden = frame <= 2 || frame == 59;
+    puddle.simulate(golden ? &recorder : nullptr);
+    if (!golden) continue;
+    puddle.render(&recorder);
+    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
+  }
+  return lines;
+}
+
+}  // namespace rainref::puddle

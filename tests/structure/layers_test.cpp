@@ -1,0 +1,140 @@
+// The floors: an include points down or stays in its room, and each library is named in one room only.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = RAINREF_SOURCE_DIR;
+
+// Rooms and their floors; ARCHITECTURE.md has the same table.
+const std::map<std::string, int> floors{{"base", 0},         {"math", 1},    {"image", 2},   {"parallel", 3}, {"random", 3},       {"scene", 4},
+                                        {"capture", 4},      {"image_io", 4}, {"rain", 4},    {"drops", 4},    {"blur_pyramid", 4}, {"night_street", 4},
+                                        {"puddle", 5},       {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5},
+                                        {"compositor", 6},   {"conformance", 6}, {"cli", 7}};
+// Public headers, by the floor that implements them.
+const std::map<std::string, int> public_floors{{"version", 0}, {"error", 0}, {"storage", 1}, {"image", 2}, {"recorder", 2}, {"puddle", 5}};
+// On floor 4 a room may include these; every other pair of rooms on one floor keeps apart.
+const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"scene"}}, {"night_street", {"scene"}}};
+
+struct Library {
+  const char* pattern;
+  const char* room;
+};
+const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"}, {"^hwy/", "math"},         {"^OpenImageIO/|^Imath/|^OpenEXR/", "image_io"},
+                                     {"^embree", "compositor"},       {"^toml", "scene"},        {"^CLI/", "cli"},
+                                     {"^xxhash", "base"}};
+
+struct Include {
+  fs::path file;
+  int line;
+  std::string target;
+};
+std::vector<Include> includes_below(const fs::path& folder) {
+  std::vector<Include> found;
+  const std::regex pattern("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path());
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+      ++number;
+      std::smatch match;
+      if (std::regex_search(line, match, pattern)) found.push_back({entry.path(), number, match[1]});
+    }
+  }
+  return found;
+}
+std::string room_of(const fs::path& file) { return fs::relative(file, root / "src").begin()->string(); }
+std::string at(const Include& i) { return fs::relative(i.file, root).string() + ":" + std::to_string(i.line) + " includes " + i.target; }
+
+// The room and floor of an include, or floor -1 for a system header.
+std::pair<std::string, int> target_of(const std::string& target) {
+  if (target.starts_with("rainref/")) {
+    const std::string stem = fs::path(target).stem().string();
+    const auto found = public_floors.find(stem);
+    return {stem, found == public_floors.end() ? 99 : found->second};
+  }
+  const std::string first = fs::path(target).begin()->string();
+  const auto found = floors.find(first);
+  return found == floors.end() || first == target ? std::pair<std::string, int>{"", -1} : std::pair<std::string, int>{first, found->second};
+}
+
+// Why this include breaks the rules, or "".
+std::string broken_rule(const std::string& room, const std::string& target) {
+  const auto from = floors.find(room);
+  if (from == floors.end()) return "room without a floor";
+  const auto [to_room, to_floor] = target_of(target);
+  if (to_floor < 0 || to_room == room) return "";
+  if (to_floor == 99) return "public header without a floor";
+  if (to_floor > from->second) return "upward include";
+  if (to_floor == from->second && !target.starts_with("rainref/")) {
+    const auto allowed = neighbours.find(room);
+    if (allowed == neighbours.end() || std::find(allowed->second.begin(), allowed->second.end(), to_room) == allowed->second.end()) {
+      return "rooms of one floor keep apart";
+    }
+  }
+  return "";
+}
+
+TEST(Layers, IncludesPointDown) {
+  int checked = 0;
+  for (const Include& include : includes_below(root / "src")) {
+    EXPECT_EQ(broken_rule(room_of(include.file), include.target), "") << at(include);
+    ++checked;
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(Layers, PublicHeadersIncludePublicHeadersOnly) {
+  for (const Include& include : includes_below(root / "include")) {
+    const auto [room, floor] = target_of(include.target);
+    EXPECT_TRUE(floor < 0 || include.target.starts_with("rainref/")) << at(include);
+  }
+}
+
+TEST(Layers, EachLibraryIsNamedInOneRoom) {
+  for (const Include& include : includes_below(root / "src")) {
+    for (const Library& library : libraries) {
+      if (std::regex_search(include.target, std::regex(library.pattern))) {
+        EXPECT_EQ(room_of(include.file), library.room) << at(include);
+      }
+    }
+  }
+}
+
+// The checker itself: it must refuse what it is there to refuse.
+TEST(Layers, TheRulesRefuse) {
+  EXPECT_EQ(broken_rule("math", "puddle/host.h"), "upward include");
+  EXPECT_EQ(broken_rule("image", "rainref/puddle.h"), "upward include");
+  EXPECT_EQ(broken_rule("puddle", "windshield/host.h"), "rooms of one floor keep apart");
+  EXPECT_EQ(broken_rule("scene", "image_io/read.h"), "rooms of one floor keep apart");
+  EXPECT_EQ(broken_rule("attic", "base/hash.h"), "room without a floor");
+  EXPECT_EQ(broken_rule("puddle", "image/texture.h"), "");
+  EXPECT_EQ(broken_rule("cli", "vector"), "");
+}
+
+TEST(Layers, KernelsHaveNoForbiddenWords) {
+  // What would change bits between machines; comments aside.
+  const std::regex forbidden(
+      "std::(sin|cos|tan|exp|exp2|log|log2|pow|atan|atan2|hypot|fma|cbrt)\\(|MulAdd|NegMulAdd|ApproximateReciprocal|SumOfLanes|MinOfLanes|MaxOfLanes|"
+      "parallel_reduce|std::hash|unordered_map|unordered_set|random_device|mt19937|long double|march=native|ffast-math");
+  for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path());
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+      ++number;
+      const std::string code = line.find("#error") == std::string::npos ? line.substr(0, line.find("//")) : "";
+      EXPECT_FALSE(std::regex_search(code, forbidden)) << fs::relative(entry.path(), root).string() << ":" << number << ": " << line;
+    }
+  }
+}
+
+}  // namespace
