@@ -1,7 +1,10 @@
 #include "cli/cli.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <new>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,7 +20,8 @@ namespace {
 
 /// What `run` and `hash` take besides the scene, before it becomes overrides.
 struct SceneFlags {
-  std::string scene, size, simd, frames, threads;
+  std::string scene;
+  std::optional<std::string> size, simd, frames, threads;
   std::vector<std::string> set;
 };
 
@@ -48,29 +52,64 @@ SceneOptions resolve(const SceneFlags& flags) {
   SceneOptions options;
   options.scene = flags.scene;
   options.overrides = flags.set;
-  if (!flags.frames.empty()) options.overrides.push_back(fmt::format("run.frames={}", whole_number(flags.frames, "--frames", 1, 1000000)));
-  if (!flags.size.empty()) {
-    const std::size_t x = flags.size.find('x');
-    if (x == std::string::npos) throw Error(ExitCode::usage, fmt::format("--size: expected WxH such as 1280x720, found '{}'", flags.size));
-    options.overrides.push_back(fmt::format("run.size=[{}, {}]", whole_number(flags.size.substr(0, x), "--size", 1, 65536),
-                                            whole_number(flags.size.substr(x + 1), "--size", 1, 65536)));
+  if (flags.frames) options.overrides.push_back(fmt::format("run.frames={}", whole_number(*flags.frames, "--frames", 1, 1000000)));
+  if (flags.size) {
+    const std::string& size = *flags.size;
+    const std::size_t x = size.find('x');
+    if (x == std::string::npos) throw Error(ExitCode::usage, fmt::format("--size: expected WxH such as 1280x720, found '{}'", size));
+    options.overrides.push_back(fmt::format("run.size=[{}, {}]", whole_number(size.substr(0, x), "--size", 1, 65536),
+                                            whole_number(size.substr(x + 1), "--size", 1, 65536)));
   }
-  if (!flags.threads.empty()) options.threads = whole_number(flags.threads, "--threads", 1, parallel::Executor::max_threads);
-  select_simd_target(flags.simd);
+  if (flags.threads) options.threads = whole_number(*flags.threads, "--threads", 1, parallel::Executor::max_threads);
+  if (flags.simd && flags.simd->empty()) throw Error(ExitCode::usage, fmt::format("--simd: expected one of {}, found ''", fmt::join(simd_targets(), ", ")));
+  select_simd_target(flags.simd.value_or(""));
   return options;
+}
+
+// The parser knows no nearest name, and speaks of what is missing before what is misspelt: so misspelt verbs and
+// options are looked for first.
+void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* verb = nullptr;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") return;
+    const bool is_long = word.starts_with("--");
+    if (is_long || (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])))) {
+      const CLI::App& scope = verb ? *verb : app;
+      const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+      const CLI::Option* option = scope.get_option_no_throw(name);
+      if (!option) {
+        std::vector<std::string> names;
+        for (const CLI::Option* o : scope.get_options()) {
+          for (const std::string& known : o->get_lnames()) names.push_back("--" + known);
+        }
+        throw Error(ExitCode::usage, fmt::format("{}: unknown option{}{}", name, verb ? fmt::format(" of '{}'", verb->get_name()) : "", did_you_mean(name, names)));
+      }
+      if (option->get_items_expected_max() > 0 && word == name) ++i;  // its value
+    } else if (!verb) {
+      std::vector<std::string> names;
+      for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+        names.push_back(known->get_name());
+        if (word == known->get_name()) verb = known;
+      }
+      if (!verb) throw Error(ExitCode::usage, fmt::format("expected one of {}, found '{}'{}", fmt::join(names, ", "), word, did_you_mean(word, names)));
+    }
+  }
 }
 
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{"rainref: the deterministic CPU reference for real-time rain"};
   app.set_version_flag("--version", std::string("rainref ") + version());
   app.require_subcommand(1);
+  app.footer("Example: rainref run scenes/puddle/default.toml");
 
   bool list_json = false, describe_json = false;
   CLI::App& list_verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
   list_verb.add_flag("--json", list_json, "As JSON");
   list_verb.footer("Example: rainref list --json");
 
-  std::string described, layout;
+  std::string described;
+  std::optional<std::string> layout;
   CLI::App& describe_verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
   describe_verb.add_option("EFFECT", described, "Effect")->required();
   describe_verb.add_flag("--json", describe_json, "As JSON");
@@ -79,10 +118,11 @@ int parse_and_run(int argc, const char* const* argv) {
 
   SceneFlags run_flags, hash_flags;
   RunOptions run_options;
-  std::string image = "png", every;
+  std::string image = "png";
+  std::optional<std::string> output, every;
   CLI::App& run_verb = *app.add_subcommand("run", "Simulate and render a scene");
   add_scene_flags(run_verb, run_flags);
-  run_verb.add_option("-o,--output", run_options.output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)");
+  run_verb.add_option("-o,--output", output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)");
   run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none");
   run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)");
   run_verb.add_flag("--json", run_options.json, "Print the summary as JSON");
@@ -95,12 +135,12 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App& selftest_verb = *app.add_subcommand("selftest", "Prove determinism on this machine, in seconds");
   selftest_verb.footer("Example: rainref selftest");
 
+  refuse_unknown(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    fmt::print(stderr, "rainref: {} (see `rainref --help`)\n", e.what());
-    return static_cast<int>(ExitCode::usage);
+    throw Error(ExitCode::usage, fmt::format("{} (see `rainref --help`)", e.what()));
   }
   if (list_verb.parsed()) return list(list_json);
   if (describe_verb.parsed()) return describe(described, describe_json, layout);
@@ -111,7 +151,9 @@ int parse_and_run(int argc, const char* const* argv) {
     }
     run_options.png = image == "png" || image == "both";
     run_options.exr = image == "exr" || image == "both";
-    if (!every.empty()) run_options.every = whole_number(every, "--every", 1, 1000000);
+    if (output && output->empty()) throw Error(ExitCode::usage, "--output: expected a folder, found ''");
+    run_options.output = output.value_or("");
+    if (every) run_options.every = whole_number(*every, "--every", 1, 1000000);
     run_options.scene = resolve(run_flags);
     return run(run_options);
   }
@@ -137,9 +179,12 @@ int main(int argc, const char* const* argv) {
     code = ExitCode::usage;
     message = "this scene needs more memory than can be had";
   } catch (const std::exception& e) {
-    message = fmt::format("internal error: {}", e.what());
+    // fmt throws when a full disk shows before the end.
+    if (std::ferror(stdout)) code = ExitCode::io;
+    message = std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());
   }
-  fmt::print(stderr, "rainref: {}\n", message);
+  std::replace(message.begin(), message.end(), '\n', ' ');  // one line, whatever a file is called
+  std::fputs(fmt::format("rainref: {}\n", message).c_str(), stderr);  // fmt::print would throw if this fails too
   return static_cast<int>(code);
 }
 

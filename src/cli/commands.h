@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct RunOptions {
 };
 
 int list(bool json);
-int describe(const std::string& effect, bool json, const std::string& layout);
+int describe(const std::string& effect, bool json, const std::optional<std::string>& layout);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);
 int selftest();

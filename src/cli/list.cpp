@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_text.h"
 #include "cli/registry.h"
 #include "math/simd_target.h"
 #include "rainref/version.h"
@@ -20,7 +21,7 @@ std::vector<std::string> scenes() {
   std::vector<std::string> found;
   for (const char* root : {"scenes", RAINREF_SCENES}) {
     std::error_code none;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, std::filesystem::directory_options::skip_permission_denied, none)) {
       if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
     }
     if (!found.empty()) break;
@@ -47,7 +48,7 @@ int list(bool json) {
     out["scenes"] = scenes();
     out["simd_targets"] = simd_targets();
     out["threads"] = parallel::Executor().threads();
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
     return 0;
   }
   fmt::print("rainref {}\n\nEffects\n", version());
@@ -66,11 +67,11 @@ int list(bool json) {
   return 0;
 }
 
-int describe(const std::string& name, bool json, const std::string& layout) {
+int describe(const std::string& name, bool json, const std::optional<std::string>& layout) {
   const EffectEntry& e = effect(name);
   const std::vector<scene::Parameter> parameters = scene::scene_parameters(effect_table().find(name), effect_table());
-  if (!layout.empty()) {
-    const scene::Language language = scene::language_from_name(layout);
+  if (layout) {
+    const scene::Language language = scene::language_from_name(*layout);
     for (const scene::UniformBlock& record : e.info->records) fmt::print("{}\n", scene::record_layout(record, language));
     for (const capture::PassInfo& pass : e.info->passes) {
       for (const scene::UniformBlock& block : pass.uniforms) fmt::print("// Pass {}\n{}\n", pass.name, scene::layout(block, language));
@@ -88,7 +89,7 @@ int describe(const std::string& name, bool json, const std::string& layout) {
     }
     for (const capture::BufferInfo& b : e.info->buffers) out["buffers"].push_back({{"name", b.name}, {"format", b.format}, {"sentence", b.sentence}});
     for (const scene::UniformBlock& record : e.info->records) out["records"].push_back(scene::uniform_block_json(record));
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
     return 0;
   }
   fmt::print("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "), scene::describe_text(parameters));

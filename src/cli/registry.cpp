@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "cli/pictures.h"
 #include "image_io/read.h"
 #include "image_io/write.h"
@@ -19,7 +21,13 @@ image_io::Picture read_input(const scene::Config& config, const std::string& key
   // A file that the scene names lies beside the scene; one from the command line where the user stands.
   const auto& origin = config.entry(key).origin;
   if (path.is_relative() && origin.kind == scene::Origin::file) path = config.directory() / path;
-  image_io::Picture picture = image_io::read(path);
+  image_io::Picture picture;
+  try {
+    picture = image_io::read(path);
+  } catch (const Error& e) {
+    if (origin.kind == scene::Origin::file) throw Error(e.code(), origin.at, fmt::format("{}: {}", key, e.what()));
+    throw Error(e.code(), fmt::format("--set {}: {}", key, e.what()));
+  }
   inputs.push_back({key, config.text(key), picture.decoded_hash.text(), picture.lossy});
   return picture;
 }

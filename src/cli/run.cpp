@@ -7,6 +7,7 @@
 #include "base/atomic_file.h"
 #include "capture/hashing.h"
 #include "cli/commands.h"
+#include "cli/json_text.h"
 #include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
@@ -19,13 +20,33 @@
 namespace rainref::cli {
 namespace {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
+/// The folder of the results, made before the work: an unwritable place should not cost a run. Unless keep() is called,
+/// the folders that were made go again, if nothing lies in them.
+class OutputFolder {
+ public:
+  explicit OutputFolder(const std::filesystem::path& folder) {
+    std::error_code error;
+    for (std::filesystem::path p = folder; !p.empty() && !std::filesystem::exists(p, error); p = p.parent_path()) {
+      made_.push_back(p);
+      if (p == p.parent_path()) break;
+    }
+    std::filesystem::create_directories(folder, error);
+    if (!error && std::filesystem::is_directory(folder, error)) return;
+    remove();
     throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", folder.string(), error ? error.message() : "a file of that name exists"));
   }
-}
+  ~OutputFolder() { remove(); }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  void keep() { made_.clear(); }
+
+ private:
+  void remove() noexcept {
+    std::error_code ignored;
+    for (const std::filesystem::path& p : made_) std::filesystem::remove(p, ignored);
+  }
+  std::vector<std::filesystem::path> made_;  // innermost first
+};
 
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<InputFile>& inputs, const parallel::Executor& executor,
                                const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds, int frames) {
@@ -51,7 +72,7 @@ int run(const RunOptions& options) {
   const scene::Config config = scene::load(options.scene.scene, options.scene.overrides, effect_table());
   const parallel::Executor executor(options.scene.threads);
   const std::filesystem::path folder = options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
-  make_folder(folder);  // before the work: an unwritable place should not cost a run
+  OutputFolder made(folder);
 
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
@@ -77,8 +98,9 @@ int run(const RunOptions& options) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
-  write_file(folder / "summary.json", report.dump(2) + "\n");
-  if (options.json) fmt::print("{}\n", report.dump(2));
+  write_file(folder / "summary.json", json_text(report) + "\n");
+  made.keep();
+  if (options.json) fmt::print("{}\n", json_text(report));
   else fmt::print("{} frames in {}, {} picture{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s", folder.string());
   return 0;
 }

