@@ -12,7 +12,10 @@
 #include "math/half.h"
 #include "math/half_array.h"
 #include "math/simd_target.h"
+#include "night_street/night_street.h"
+#include "puddle/parameters.h"
 #include "rainref/error.h"
+#include "rainref/puddle.h"
 #include "scene/toml.h"
 
 namespace rainref::cli {
@@ -67,11 +70,13 @@ Hash128 scene_hash(const std::string& variant, int threads, std::uint64_t shuffl
                                             effect_table());
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
-  std::vector<InputFile> inputs;
-  const auto simulation = effect("puddle").make(config, executor, inputs);
+  puddle::Surroundings around;
+  around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);  // the default's size costs a second
+  puddle::Puddle puddle(puddle::settings_from(config), around, executor);
   capture::HashRecorder recorder;
   for (int frame = 0; frame < 3; ++frame) {
-    simulation->frame(&recorder);
+    puddle.simulate(&recorder);
+    puddle.render(&recorder);
     recorder.take_lines();
   }
   return recorder.scene_hash();

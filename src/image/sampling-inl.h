@@ -70,7 +70,7 @@ RAINREF_FN Int texel_index(Address address, Int i, Int size) {
 }
 
 /// A column or a row of texels by the address rules: what it adds to a texel's place in the array, and whether the
-/// index was inside the image.
+/// index was inside the image; by a rule other than border it always is.
 template <class Int, class M>
 struct Line {
   Int place;
@@ -78,15 +78,16 @@ struct Line {
 };
 template <class N>
 RAINREF_FN auto texel_column(const Texture& t, const Level<N>& l, typename N::Int x) {
-  auto place = texel_index(t.address_u, x, l.width);
-  if (t.channels != 1) place = place * t.channels;
-  return Line<typename N::Int, typename N::Mask>{place, inside(x, l.width)};
+  const auto index = texel_index(t.address_u, x, l.width);
+  const auto in = inside(t.address_u == Address::border ? x : index, l.width);
+  return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? index : index * t.channels, in};
 }
 template <class N>
 RAINREF_FN auto texel_row(const Texture& t, const Level<N>& l, typename N::Int y) {
-  auto place = texel_index(t.address_v, y, l.height) * l.width + l.offset;
-  if (t.channels != 1) place = place * t.channels;
-  return Line<typename N::Int, typename N::Mask>{place, inside(y, l.height)};
+  const auto index = texel_index(t.address_v, y, l.height);
+  const auto in = inside(t.address_v == Address::border ? y : index, l.height);
+  const auto place = index * l.width + l.offset;
+  return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? place : place * t.channels, in};
 }
 /// Channels First ... First + Count - 1 of the texel where a column meets a row.
 template <int First, int Count, class N, class Line>

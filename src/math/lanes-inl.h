@@ -69,11 +69,14 @@ struct Lanes {
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
     return hn::PromoteTo(D(), hn::LoadU(hn::Rebind<hwy::float16_t, D>(), reinterpret_cast<const hwy::float16_t*>(p)));
 #else
-    // The exponent moves by a multiplication with 2^112: exact, subnormals included. Infinities never get here.
+    // The exponent moves by a multiplication with 2^112: exact, subnormals included. An infinity, which an overflowing
+    // store leaves, would come out as 2^16.
     const auto bits = hn::PromoteTo(DU(), hn::LoadU(DH(), reinterpret_cast<const std::uint16_t*>(p)));
-    const auto magnitude = hn::BitCast(D(), hn::ShiftLeft<13>(hn::And(bits, hn::Set(DU(), 0x7fffu))));
+    const auto code = hn::And(bits, hn::Set(DU(), 0x7fffu));
     const auto sign = hn::BitCast(D(), hn::ShiftLeft<16>(hn::And(bits, hn::Set(DU(), 0x8000u))));
-    return hn::Or(hn::Mul(magnitude, hn::Set(D(), 0x1p112f)), sign);
+    const V scaled = hn::Mul(hn::BitCast(D(), hn::ShiftLeft<13>(code)), hn::Set(D(), 0x1p112f));
+    const V infinity = hn::BitCast(D(), hn::Set(DU(), 0x7f800000u));
+    return hn::Or(hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), infinity, scaled), sign);
 #endif
   }
   static HWY_INLINE Lanes load(const Unorm8* p) {

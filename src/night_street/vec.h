@@ -10,22 +10,12 @@
 namespace rainref::night_street {
 
 /// A point or direction in metres, or a linear RGB colour (x, y, z = red, green, blue).
-struct Vec {
-  double x = 0, y = 0, z = 0;
-};
+using Vec = glm::dvec3;
 
-inline Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec operator*(const Vec& a, const Vec& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline double length(const Vec& a) { return std::sqrt(dot(a, a)); }
 /// a / |a|; a must not be zero.
 inline Vec unit(const Vec& a) { return (1 / length(a)) * a; }
 inline Vec mix(const Vec& a, const Vec& b, double t) { return a + t * (b - a); }
-/// d mirrored at the plane of unit normal n.
-inline Vec reflect(const Vec& d, const Vec& n) { return d - (2 * dot(d, n)) * n; }
-inline Vec from(const scene::Vector3& a) { return {a[0], a[1], a[2]}; }
+inline Vec from(const scene::Vector3& a) { return a; }
 inline double luminance(const Vec& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 inline double mix(double a, double b, double t) { return a + t * (b - a); }

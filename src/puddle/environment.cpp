@@ -1,5 +1,6 @@
 #include "puddle/environment.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ std::vector<float> recode(const Image& image, bool is_encoded, Variant variant) 
   const float* in = decoded.view().texels;
   for (std::size_t i = 0; i < out.size() / 4; ++i) {
     for (int k = 0; k < 3; ++k) {
-      const float x = in[i * c + (k < c ? k : 0)];
+      // Resampled panoramas have slightly negative texels; radiance has none.
+      const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
       if (is_encoded == (variant == Variant::as_published)) out[i * 4 + k] = x;
       else out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
     }
@@ -91,9 +93,11 @@ std::array<float, 3> ambient_radiance(const Texture& t, bool is_cube) {
         for (int k = 0; k < 3; ++k) row[k] += weight * texels[x * t.channels + k];
       }
     } else {
-      const double elevation = ((y + 0.5) / h - 0.5) * pi;
-      if (elevation <= 0) continue;
-      const double weight = sin_real(Real64(elevation)).v * cos_real(Real64(elevation)).v * (pi / h) * (2 * pi / w);
+      // The integral of sin cos over the row's elevations, exactly: half the difference of the squared sines.
+      const double low = std::max(0.0, (static_cast<double>(y) / h - 0.5) * pi), high = ((y + 1.0) / h - 0.5) * pi;
+      if (high <= low) continue;
+      const double sine_low = sin_real(Real64(low)).v, sine_high = sin_real(Real64(high)).v;
+      const double weight = 0.5 * (sine_high * sine_high - sine_low * sine_low) * (2 * pi / w);
       for (int x = 0; x < w; ++x) {
         for (int k = 0; k < 3; ++k) row[k] += weight * texels[x * t.channels + k];
       }

@@ -1,6 +1,7 @@
 #include "puddle/host.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,8 @@ constexpr double box_half_side = 42, box_half_height = 5;  // the article's box 
 
 bool corrected(const Settings& s) { return s.variant == Variant::corrected; }
 
-void put(const std::array<double, 3>& from, float (&to)[3]) {
+template <class Vector>
+void put(const Vector& from, float (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
 
@@ -55,8 +57,8 @@ void check(const Settings& s) {
   if (corrected(s) && !(courant <= stability_limit)) {
     throw Error(ExitCode::usage,
                 fmt::format("puddle.wave_speed / (puddle.step_rate * puddle.cell_size) = {:.6g}: the wave step is unstable above the Courant "
-                            "number sqrt(1/2) = 0.707107; raise puddle.step_rate to {:.6g} or more",
-                            courant, s.wave_speed / (stability_limit * s.cell_size)));
+                            "number sqrt(1/2) = 0.707107; raise puddle.step_rate to {:.0f} or more",
+                            courant, std::ceil(s.wave_speed / (stability_limit * s.cell_size))));
   }
   const std::size_t need = memory_bytes(s), have = physical_memory();
   if (need > have) {
@@ -83,15 +85,20 @@ WaveStepUniforms wave_step_uniforms(const Settings& s) {
   u.damping = static_cast<float>(gamma);
   u.step = corrected(s) ? 1.0f : static_cast<float>(s.step);
   u.rest = encoding(s).rest;
-  u.courant_sq = corrected(s) ? static_cast<float>(courant * courant * (1 + gamma) / 2) : 0.0f;
+  if (corrected(s)) {
+    u.courant_sq = static_cast<float>(courant * courant * (1 + gamma) / 2);
+    // Above (1 + gamma) / 4 of the rounded gamma the shortest wave would grow; the two roundings pass it by less than an ulp.
+    if (4.0 * u.courant_sq > 1.0 + u.damping) u.courant_sq = std::nextafter(u.courant_sq, 0.0f);
+  }
   return u;
 }
 
 CameraUniforms camera_uniforms(const Settings& s) {
   scene::Camera camera;
-  camera.position = s.camera_position;
-  camera.target = s.camera_target;
-  camera.up = s.camera_up;
+  const auto vector = [](const std::array<double, 3>& a) { return scene::Vector3(a[0], a[1], a[2]); };
+  camera.position = vector(s.camera_position);
+  camera.target = vector(s.camera_target);
+  camera.up = vector(s.camera_up);
   camera.vertical_fov_deg = s.vertical_fov_deg;
   const scene::Camera::Basis basis = camera.basis();
   const double half = camera.half_height();

@@ -103,10 +103,11 @@ void previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile)
     drops_in_row(job.drops, y, in_row);
     if (in_row.empty()) continue;
     Storage* row = plane.row<Storage>(y);
+    const float* shore = job.shore ? job.shore->row<float>(y) : nullptr;
     for (int x = 0; x < width; x += n) {
       const int count = std::min(n, width - x), drop_count = near_drops(job.drops, in_row, x, x + count, near);
       if (drop_count == 0) continue;
-      store(row + x, wave_previous_corrected<Lanes>(row, near.data(), drop_count, x, y), job.rounding, count);
+      store(row + x, wave_previous_corrected<Lanes>(row, shore, near.data(), drop_count, x, y), job.rounding, count);
     }
     fill_row_ghosts(row, width, job.boundary, encode_one<Storage>(job.uniforms.rest, job.rounding));
   }

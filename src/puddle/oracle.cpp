@@ -7,8 +7,6 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr int ghosts = Image::left_margin;  // as many as the planes of the reference have
-
 template <class Storage>
 using Number = scalar::Plain<std::conditional_t<std::is_same_v<Storage, double>, double, float>>;
 
@@ -25,20 +23,20 @@ ScalarWave<Storage>::ScalarWave(const Settings& settings) : ScalarWave(settings,
 template <class Storage>
 ScalarWave<Storage>::ScalarWave(const Settings& s, const WaveStepUniforms& uniforms)
     : corrected_(s.variant == Variant::corrected), rounding_(s.rounding), boundary_(s.boundary), width_(wave_size(s)[0]),
-      height_(wave_size(s)[1]), uniforms_(uniforms) {
+      height_(wave_size(s)[1]), ghosts_(static_cast<int>(uniforms.step) + 1), uniforms_(uniforms) {
   store(&rest_, Number<Storage>(uniforms.rest), rounding_);
   newest.assign(static_cast<std::size_t>(width_) * height_, rest_);
   previous = newest;
-  padded_.resize(static_cast<std::size_t>(width_ + 2 * ghosts) * (height_ + 2 * ghosts));
+  padded_.resize(static_cast<std::size_t>(width_ + 2 * ghosts_) * (height_ + 2 * ghosts_));
 }
 
 template <class Storage>
 void ScalarWave<Storage>::fill_padded() {
   Storage* to = padded_.data();
-  for (int y = -ghosts; y < height_ + ghosts; ++y) {
+  for (int y = -ghosts_; y < height_ + ghosts_; ++y) {
     const bool outside = y < 0 || y >= height_;
     const Storage* from = newest.data() + static_cast<std::size_t>(inner_index(y, height_, boundary_)) * width_;
-    for (int x = -ghosts; x < width_ + ghosts; ++x) {
+    for (int x = -ghosts_; x < width_ + ghosts_; ++x) {
       const bool rest = boundary_ == Boundary::fixed && (outside || x < 0 || x >= width_);
       *to++ = rest ? rest_ : from[inner_index(x, width_, boundary_)];
     }
@@ -52,12 +50,12 @@ void ScalarWave<Storage>::step(std::span<const Drop> drops) {
   WaveStepUniforms u = uniforms_;
   const int drop_count = static_cast<int>(drops.size());
   u.drop_count = drop_count;
-  const std::ptrdiff_t stride = width_ + 2 * ghosts;
+  const std::ptrdiff_t stride = width_ + 2 * ghosts_;
   scalar::WaveRows<Storage> rows{};
   rows.reach = corrected_ ? 1 : static_cast<int>(u.step);
   rows.fraction = corrected_ ? 0.0f : u.step - static_cast<float>(rows.reach);
   for (int y = 0; y < height_; ++y) {
-    const Storage* here = padded_.data() + (y + ghosts) * stride + ghosts;
+    const Storage* here = padded_.data() + (y + ghosts_) * stride + ghosts_;
     Storage* out = previous.data() + static_cast<std::size_t>(y) * width_;
     rows.here = here;
     rows.below = here - rows.reach * stride;
@@ -73,7 +71,7 @@ void ScalarWave<Storage>::step(std::span<const Drop> drops) {
     if (corrected_ && drop_count > 0) {
       Storage* level = newest.data() + static_cast<std::size_t>(y) * width_;
       for (int x = 0; x < width_; ++x) {
-        store(level + x, scalar::wave_previous_corrected<N>(level, drops.data(), drop_count, x, y), rounding_);
+        store(level + x, scalar::wave_previous_corrected<N>(level, nullptr, drops.data(), drop_count, x, y), rounding_);
       }
     }
   }

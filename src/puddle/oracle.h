@@ -32,7 +32,7 @@ class ScalarWave {
   bool corrected_;
   Rounding rounding_;
   Boundary boundary_;
-  int width_, height_;
+  int width_, height_, ghosts_;  // ghosts_: texels on every side that a step may read
   WaveStepUniforms uniforms_;
   Storage rest_;
   std::vector<Storage> padded_;  // the newest level inside a frame of ghost texels

@@ -71,6 +71,7 @@ RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Stora
 }
 /// The second output: what becomes the previous level.
 template <class N, class Storage>
-RAINREF_FN N wave_previous_corrected(const Storage* here, const Drop* drops, int drop_count, int x, int y) {
-  return N::load(here + x) + impulse_corrected<N>(drops, drop_count, x, y);
+RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, const Drop* drops, int drop_count, int x, int y) {
+  const N impulse = impulse_corrected<N>(drops, drop_count, x, y);
+  return N::load(here + x) + (shore ? N::load(shore + x) * impulse : impulse);
 }

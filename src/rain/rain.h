@@ -22,7 +22,8 @@ class DropSizes {
   double flux() const { return flux_; }
   /// Lambda [1/mm].
   double lambda() const { return lambda_; }
-  /// The water that these drops bring [mm/h]. Above the rate asked for by 5 to 18 %: that is the model, not an error.
+  /// The water that these drops bring [mm/h]. From 1 to 100 mm/h it is above the rate asked for by 3 to 19 %: that is the
+  /// model, not an error.
   double water_mm_per_h() const;
   /// Diameters [mm] at the quantiles (i + 1/2) / n of the drops that arrive, increasing.
   std::vector<double> quantiles(int n) const;

@@ -29,17 +29,7 @@ bool is_finite(const Vector3& a) { return std::isfinite(a[0]) && std::isfinite(a
 
 }  // namespace
 
-Vector3 operator+(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vector3 operator-(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector3 operator*(double s, const Vector3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector3 normalized(const Vector3& a) {
-  const double length = std::sqrt(dot(a, a));
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
+Vector3 normalized(const Vector3& a) { return a / std::sqrt(glm::dot(a, a)); }
 
 Camera::Basis Camera::basis() const {
   // normalized() yields NaN for a zero vector and for one that is not finite, or whose square is not.

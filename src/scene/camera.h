@@ -1,11 +1,13 @@
 // A pinhole camera, and the basis that a pass takes as uniforms.
 #pragma once
 
-#include <array>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 namespace rainref::scene {
 
-using Vector3 = std::array<double, 3>;
+/// Packed, and GLM_FORCE_PURE is set for every file: sums run from x to z, nothing is fused or estimated.
+using Vector3 = glm::dvec3;
 
 /// Pinhole camera in the effect's world (right-handed, y up, metres unless the effect says otherwise).
 struct Camera {
@@ -25,12 +27,7 @@ struct Camera {
   double half_height() const;
 };
 
-Vector3 operator+(const Vector3& a, const Vector3& b);
-Vector3 operator-(const Vector3& a, const Vector3& b);
-Vector3 operator*(double s, const Vector3& a);
-double dot(const Vector3& a, const Vector3& b);
-Vector3 cross(const Vector3& a, const Vector3& b);
-/// a / |a|; a must not be zero.
+/// a / |a|, each component by one division (glm::normalize multiplies by a rounded reciprocal); a must not be zero.
 Vector3 normalized(const Vector3& a);
 
 }  // namespace rainref::scene

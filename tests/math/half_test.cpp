@@ -90,8 +90,9 @@ TEST(Half, KnownValues) {
   EXPECT_EQ(to_half(1.0f / 3).bits, 0x3555);
   EXPECT_EQ(to_half(0.1f).bits, 0x2e66);
   EXPECT_EQ(to_half(0.1f, Rounding::rtz).bits, 0x2e66);
-  EXPECT_EQ(to_half(0x1.ffcp-15f).bits, 0x03ff);
-  EXPECT_EQ(to_half(0x1.ffep-15f).bits, 0x0400);      // the largest subnormal and the tie above it
+  EXPECT_EQ(to_half(0x1.ff8p-15f).bits, 0x03ff);      // the largest subnormal
+  EXPECT_EQ(to_half(0x1.ffbffep-15f).bits, 0x03ff);
+  EXPECT_EQ(to_half(0x1.ffcp-15f).bits, 0x0400);      // a tie, to even
   EXPECT_EQ(to_half(-0.0f).bits, 0x8000);
 }
 

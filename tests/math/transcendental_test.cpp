@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -26,44 +27,15 @@ float step(float x, int n) { return std::bit_cast<float>(bits_of(x) + static_cas
 
 /// Thresholds, breakpoints and hard arguments, each with its neighbours, in both signs.
 std::vector<float> special_values() {
-  std::vector<float> centres = {
-      0x1p-126f,
-      0x1p-100f,
-      0x1p-25f,
-      0x1p-24f,
-      0x1p-12f,
-      0.25f,
-      0.5f,
-      1.0f,
-      2.0f,
-      3.0f,
-      10.0f,
-      0x1p22f,
-      0x1p23f,
-      0x1p24f,
-      0x1p63f,
-      0x1p100f,
-      0x1p127f,
-      0x1.6a09e6p-1f,
-      0x1.6a09e6p0f,  // sqrt(1/2), sqrt(2): where log splits
-      0x1.62e42ep-2f,
-      0x1.62e430p-1f,
-      0x1.0a2b24p1f,  // ln 2 times 1/2, 1, 3: where exp splits
-      0x1.62e42ep6f,
-      0x1.5d58a0p6f,
-      0x1.9fe368p6f,
-      120.0f,  // exp: largest, normal, 0, limit
-      126.0f,
-      127.0f,
-      128.0f,
-      149.0f,
-      150.0f,
-      200.0f,
-      0.5f * 0x1.fffffep0f,  // exp2
-      0x1.a8279ap-2f,        // tan(pi/8): where atan2 splits
-      0x1.33333p+13f,
-      0x1.921fb6p+100f,
-  };
+  std::vector<float> centres = {0x1p-126f, 0x1p-100f, 0x1p-25f, 0x1p-24f, 0x1p-12f, 0.25f,   0.5f,     1.0f,
+                                2.0f,      3.0f,      10.0f,    0x1p22f,  0x1p24f,  0x1p63f, 0x1p100f, 0x1p127f};
+  const auto also = [&](std::initializer_list<float> more) { centres.insert(centres.end(), more); };
+  also({0x1.62e42ep-2f, 0x1.62e43p-1f, 0x1.0a2b24p1f});                      // exp: ln 2 times 1/2, 1, 3
+  also({0x1.62e42ep6f, 0x1.5d58ap6f, 0x1.9d1d9p6f, 0x1.9fe368p6f, 120.0f});  // exp: largest, normal, least, 0, limit
+  also({126.0f, 127.0f, 128.0f, 149.0f, 150.0f, 200.0f});                    // exp2, likewise
+  also({0x1.6a09e6p-1f, 0x1.6a09e6p0f});                                     // log: sqrt(1/2), sqrt(2)
+  also({0x1.a8279ap-2f, 0x1.3504f4p1f});                                     // atan2: tan(pi/8), tan(3 pi/8)
+  also({0x1.33333p13f, 0x1.921fb6p100f, 0x1.f37c8ap95f});                    // sin, cos: hard, large, nearly 0
   for (int k = 1; k <= 64; ++k) {
     centres.push_back(static_cast<float>(k * 0x1.921fb54442d18p-1));  // pi/4: where sin and cos split or vanish
     centres.push_back(static_cast<float>(k * 1000003 * 0x1.921fb54442d18p-1));

@@ -12,8 +12,6 @@
 namespace rainref::night_street {
 namespace {
 
-// A Vector3 is an array: its operators are not found by themselves.
-using scene::operator+, scene::operator-, scene::operator*;
 
 const Street& street() {
   static const Street one({1});

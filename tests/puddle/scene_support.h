@@ -129,6 +129,18 @@ inline double colour_of(const Puddle& p, int x, int y, int channel) { return to_
 /// A half keeps 11 bits: the relative error of a stored colour.
 constexpr double half_error = 0x1p-11;
 
+/// Water that keeps all of its energy, joined at its edges.
+inline Settings undamped(Settings s) {
+  s.damping = 1;
+  s.boundary = Boundary::periodic;
+  return s;
+}
+inline Settings published_water(int width, int height) { return undamped(as_published(width, height)); }
+inline Settings corrected_water() { return undamped(corrected(1, 1)); }
+
+/// A drop in the middle of texel (x, y): as published 1 at that texel, smaller further out.
+inline Drop published_drop(float x, float y, float amplitude) { return {x + 0.5f, y + 0.5f, amplitude, 4}; }
+
 /// Water without a picture: wave_step on chosen levels (stored values, row-major) and chosen drops.
 struct Water {
   Settings settings;

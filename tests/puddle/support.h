@@ -176,20 +176,22 @@ struct Mode {
 /// Mode (p, q), 0 <= p < width, 0 <= q < height. Reflecting: cos kx (i + 1/2), kx = p pi / N. Periodic: a plane wave and its
 /// quadrature, kx = 2 pi p / N. Fixed: sin kx (i + 1), kx = (p + 1) pi / (N + 1).
 inline Mode mode(Boundary boundary, int width, int height, int p, int q) {
+  // cos and sin of n pi / d, the phase reduced in integers first: shapes to a few roundings everywhere.
+  const auto angle = [](int n, int d) { return n % (2 * d) * pi / d; };
   if (boundary == Boundary::reflecting) {
-    const double kx = p * pi / width, ky = q * pi / height;
-    return {kx, ky, make_field(width, height, [&](int x, int y) { return std::cos(kx * (x + 0.5)) * std::cos(ky * (y + 0.5)); })};
+    return {p * pi / width, q * pi / height, make_field(width, height, [&](int x, int y) {
+              return std::cos(angle(p * (2 * x + 1), 2 * width)) * std::cos(angle(q * (2 * y + 1), 2 * height));
+            })};
   }
   if (boundary == Boundary::periodic) {
-    const double kx = 2 * pi * p / width, ky = 2 * pi * q / height;
-    return {kx, ky, make_field(width, height, [&](int x, int y) {
-              // Reduced modulo the period first, so that the shape is accurate far from the origin too.
-              const double phase = 2 * pi * ((p * x % width) / double(width) + (q * y % height) / double(height));
+    return {2 * pi * p / width, 2 * pi * q / height, make_field(width, height, [&](int x, int y) {
+              const double phase = angle(2 * p * x, width) + angle(2 * q * y, height);
               return std::sqrt(0.5) * (std::cos(phase) + std::sin(phase));
             })};
   }
-  const double kx = (p + 1) * pi / (width + 1), ky = (q + 1) * pi / (height + 1);
-  return {kx, ky, make_field(width, height, [&](int x, int y) { return std::sin(kx * (x + 1)) * std::sin(ky * (y + 1)); })};
+  return {(p + 1) * pi / (width + 1), (q + 1) * pi / (height + 1), make_field(width, height, [&](int x, int y) {
+            return std::sin(angle((p + 1) * (x + 1), width + 1)) * std::sin(angle((q + 1) * (y + 1), height + 1));
+          })};
 }
 
 /// Roots of z^2 - b z + gamma = 0; the first is the one that lasts, or the upper one of a pair.

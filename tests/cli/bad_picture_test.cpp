@@ -1,0 +1,84 @@
+// Pictures of the surroundings that cannot be used.
+#include <limits>
+
+#include "cli/support.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class BadPicture : public CommandLine {
+ protected:
+  void expect_picture_refused(const std::string& file, int code, const std::string& message, const std::string& layout = "latlong") {
+    before = folder.names();
+    const auto matcher = [&](const std::string& place) { return AllOf(StartsWith(place + "environment.image: "), HasSubstr(message)); };
+    expect_refusal({"hash", "corrected.toml", "--set", "environment.layout=" + layout, "--set", "environment.image=" + file}, code,
+                   layout == "cube" ? matcher("") : matcher("--set "));
+    expect_refusal({"run", "published.toml", "-o", "new/deep", "--set", "environment.layout=" + layout, "--set", "environment.image=" + file}, code,
+                   layout == "cube" ? matcher("") : matcher("--set "));
+  }
+};
+
+TEST_F(BadPicture, Missing) {
+  expect_picture_refused("none.png", 4, "'none.png': No such file or directory");
+  std::filesystem::create_directory(folder / "sub");
+  expect_picture_refused("sub", 4, "'sub': Is a directory");
+}
+
+TEST_F(BadPicture, OfASceneFileNamesItsPlace) {
+  std::filesystem::remove(folder / "sky.png");
+  before = folder.names();
+  expect_refusal({"hash", "corrected.toml"}, 4, AllOf(StartsWith("corrected.toml:7:9: environment.image: "), HasSubstr("No such file or directory")));
+}
+
+TEST_F(BadPicture, EmptyTruncatedOrNone) {
+  put(folder / "empty.png", "");
+  expect_picture_refused("empty.png", 2, "'empty.png': empty file");
+  put(folder / "text.png", "no picture");
+  expect_picture_refused("text.png", 2, "'text.png': not an EXR, PNG, Radiance HDR or JPEG file");
+  const std::string whole = contents(folder / "sky.png");
+  for (const std::size_t bytes : {whole.size() / 4, whole.size() / 2, whole.size() - 20}) {
+    put(folder / "cut.png", whole.substr(0, bytes));
+    expect_picture_refused("cut.png", 2, "'cut.png'");
+  }
+}
+
+TEST_F(BadPicture, NotFinite) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Image image(Format::rgba32f, 8, 4);
+    image.row<float>(2)[4 * 5 + 1] = bad;
+    image_io::write_exr(folder / "bad.exr", {{"", {"R", "G", "B"}, &image}});
+    expect_picture_refused("bad.exr", 2, bad != bad ? "NaN at x 5, y 2 (from the top), channel 'G'" : "infinity at x 5, y 2 (from the top), channel 'G'");
+    std::filesystem::remove(folder / "bad.exr");
+  }
+}
+
+TEST_F(BadPicture, ACubeOfTheWrongAspect) {
+  expect_picture_refused("sky.png", 2, "a cube needs six square faces in a row or a column, found 8x4", "cube");
+}
+
+TEST_F(BadPicture, ACubeInARowEqualsOneInAColumn) {
+  Image row(Format::rgba8, 12, 2), column(Format::rgba8, 2, 12);
+  for (int y = 0; y < 12; ++y) {
+    for (int i = 0; i < 8; ++i) {
+      const auto code = static_cast<std::uint8_t>(20 * y + i);
+      column.row<std::uint8_t>(y)[i] = row.row<std::uint8_t>(y % 2)[8 * (y / 2) + i] = code;
+    }
+  }
+  image_io::write_png(folder / "row.png", row);
+  image_io::write_png(folder / "column.png", column);
+  const std::vector<std::string> lines = hash({"corrected.toml", "--set", "environment.layout=cube", "--set", "environment.image=row.png"});
+  EXPECT_EQ(lines, hash({"corrected.toml", "--set", "environment.layout=cube", "--set", "environment.image=column.png"}));
+  EXPECT_NE(lines, hash({"corrected.toml"}));
+}
+
+TEST_F(BadPicture, AGroundImageIsReadAlike) {
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.ground_image=none.png"}, 4, StartsWith("--set puddle.ground_image: cannot read 'none.png'"));
+  EXPECT_NE(hash({"corrected.toml", "--set", "puddle.ground_image=sky.png"}), hash({"corrected.toml"}));
+}
+
+}  // namespace
+}  // namespace rainref::cli

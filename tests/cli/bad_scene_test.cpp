@@ -1,0 +1,99 @@
+// Scenes that cannot run: which exit code, which message, and nothing left behind.
+#include "base/memory.h"
+#include "cli/support.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+using BadScene = CommandLine;
+
+TEST_F(BadScene, MissingOrNoFile) {
+  std::filesystem::create_directory(folder / "sub");
+  before = folder.names();
+  for (const std::string verb : {"hash", "run"}) {
+    expect_refusal({verb, "none.toml"}, 4, "none.toml: cannot be read: No such file or directory");
+    expect_refusal({verb, "sub"}, 4, "sub: expected a scene file, found a directory");
+    expect_refusal({verb, "sky.png/x.toml"}, 4, "sky.png/x.toml: cannot be read: Not a directory");
+  }
+  expect_refusal({"hash", ""}, 4, HasSubstr("cannot be read"));
+  expect_refusal({"hash", "two\nlines"}, 4, StartsWith("two lines: cannot be read"));
+}
+
+TEST_F(BadScene, NoToml) {
+  expect_scene_refused("effect = 'puddle'\nvariant = = 1\n", StartsWith("x.toml:2:11: "));
+  expect_scene_refused("", "x.toml: effect: missing; expected 'puddle'");
+  expect_refusal({"hash", "sky.png"}, 2, StartsWith("sky.png:1:1: "));
+}
+
+TEST_F(BadScene, UnknownAndUnusedKeys) {
+  expect_scene_refused(scene("corrected", "[puddle]\ndampng = 0.9\n"), "x.toml:9:1: puddle.dampng: unknown key; did you mean 'puddle.damping'?");
+  expect_scene_refused(scene("corrected", "[puddle]\nstep = 2\n"), "x.toml:9:1: puddle.step: not used by variant 'corrected', only by 'as-published'");
+  expect_scene_refused(scene("as-published", "[rain]\nrate = 2\n"), "x.toml:9:1: rain.rate: not used by variant 'as-published', only by 'corrected'");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.dampng=1"}, 2, "--set puddle.dampng: unknown key; did you mean 'puddle.damping'?");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.step=1"}, 2, "--set puddle.step: not used by variant 'corrected', only by 'as-published'");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.damping"}, 2, "--set puddle.damping: expected key=value");
+}
+
+TEST_F(BadScene, UnknownEffectOrVariant) {
+  expect_refusal({"hash", "corrected.toml", "--set", "effect=pudle"}, 2, AllOf(StartsWith("--set effect: expected "), EndsWith("did you mean 'puddle'?")));
+  expect_refusal({"hash", "corrected.toml", "--set", "variant=corected"}, 2,
+                 "--set variant: expected one of 'as-published', 'corrected', found \"corected\"; did you mean 'corrected'?");
+}
+
+TEST_F(BadScene, WrongTypeRangeOrNoNumber) {
+  const std::string range = "expected a number from 0.5 to 1 [1], found ";
+  for (const auto& [given, found] : std::vector<std::pair<std::string, std::string>>{
+           {"'much'", "\"much\""}, {"true", "true"}, {"2", "2"}, {"0.25", "0.25"}, {"nan", "nan"}, {"inf", "inf"}, {"-inf", "-inf"}}) {
+    expect_scene_refused(scene("as-published", "[puddle]\ndamping = " + given + "\n"), "x.toml:9:11: puddle.damping: " + range + found);
+    expect_refusal({"hash", "published.toml", "--set", "puddle.damping=" + given}, 2, "--set puddle.damping: " + range + found);
+  }
+  expect_scene_refused(scene("as-published", "[camera]\nposition = [0, nan, 0]\n"), StartsWith("x.toml:9:16: camera.position: expected 3 numbers"));
+  expect_scene_refused(scene("as-published", "[puddle]\ndrop_count = 2.5\n"), StartsWith("x.toml:9:14: puddle.drop_count: expected an integer from 1 to 10"));
+}
+
+TEST_F(BadScene, ZeroSize) {
+  expect_refusal({"hash", "corrected.toml", "--set", "run.size=[0, 5]"}, 2, "--set run.size: expected 2 integers from 1 to 65536 [texel], found [0, 5]");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.grid=[1, 5]"}, 2, StartsWith("--set puddle.grid: expected 2 integers from 2 to 8192"));
+}
+
+TEST_F(BadScene, AHugeSizeNamesTheMemoryItNeedsAndTakesNone) {
+  Circumstances c;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  c.memory_bytes = rlim_t{16} << 30;  // in case this machine really has as much
+#endif
+  const Outcome o = rainref({"hash", "published.toml", "--size", "65536x65536"}, c);
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_LT(o.peak_kib, 512 * 1024);
+  if (physical_memory() < std::size_t{64} << 30) {
+    EXPECT_THAT(o.err, MatchesRegex("rainref: run\\.size 65536x65536 with a wave of 65536x65536 needs [0-9.]+ GiB of memory; this machine has [0-9.]+ [GM]iB\n"));
+  } else {
+    EXPECT_THAT(o.err, HasSubstr("memory"));
+  }
+}
+
+TEST_F(BadScene, AnUnstableWaveNamesTheLimit) {
+  const auto message = AllOf(HasSubstr("puddle.wave_speed"), HasSubstr("puddle.step_rate"), HasSubstr("puddle.cell_size"), HasSubstr("sqrt(1/2) = 0.707107"));
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
+  expect_refusal({"run", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
+  // The step rate that the message names is enough.
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=5"}, 2, EndsWith("raise puddle.step_rate to 353.553 or more"));
+  EXPECT_EQ(hash({"corrected.toml", "--set", "puddle.wave_speed=5", "--set", "puddle.step_rate=353.6"}).size(), 13u);
+}
+
+TEST_F(BadScene, ACameraThatLooksNowhere) {
+  expect_refusal({"hash", "corrected.toml", "--set", "camera.position=[1,2,3]", "--set", "camera.target=[1,2,3]"}, 2,
+                 AllOf(HasSubstr("camera"), HasSubstr("position and target coincide")));
+  expect_refusal({"hash", "corrected.toml", "--set", "camera.up=[0,0,0]"}, 2, AllOf(HasSubstr("camera"), HasSubstr("up is zero")));
+  expect_refusal({"hash", "corrected.toml", "--set", "camera.position=[0,9,0]", "--set", "camera.target=[0,0,0]"}, 2,
+                 AllOf(HasSubstr("camera"), HasSubstr("parallel to the view")));
+}
+
+}  // namespace
+}  // namespace rainref::cli

@@ -1,0 +1,136 @@
+// `rainref run`: what it writes, and where.
+#include "cli/support.h"
+#include "image_io/read.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsSupersetOf;
+using testing::MatchesRegex;
+
+class RunVerb : public CommandLine {
+ protected:
+  Outcome run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "run");
+    const Outcome o = rainref(arguments);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return o;
+  }
+  std::vector<std::string> names(const std::string& in) const {
+    std::vector<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / in)) out.push_back(entry.path().filename());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+  nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
+};
+
+TEST_F(RunVerb, WritesTheLastFrameAndASummary) {
+  const Outcome o = run({"corrected.toml", "-o", "a/b"});
+  EXPECT_THAT(o.out, MatchesRegex("2 frames in [^\n]*, 1 picture and summary\\.json in a/b\n"));
+  EXPECT_THAT(names("a/b"), ElementsAre("puddle.0001.png", "summary.json"));
+  const image_io::Picture picture = image_io::read(folder / "a/b/puddle.0001.png");
+  EXPECT_EQ(picture.image.width(), 24);
+  EXPECT_EQ(picture.image.height(), 16);
+  EXPECT_THAT(picture.channel_names, ElementsAre("R", "G", "B"));
+}
+
+TEST_F(RunVerb, KindsOfPictures) {
+  run({"corrected.toml", "-o", "exr", "--image", "exr"});
+  EXPECT_THAT(names("exr"), ElementsAre("puddle.0001.exr", "summary.json"));
+  run({"published.toml", "-o", "both", "--image", "both"});
+  EXPECT_THAT(names("both"), ElementsAre("puddle.0001.exr", "puddle.0001.png", "summary.json"));
+  EXPECT_THAT(run({"corrected.toml", "-o", "none", "--image", "none"}).out, MatchesRegex(".*, 0 pictures and summary\\.json in none\n"));
+  EXPECT_THAT(names("none"), ElementsAre("summary.json"));
+  const image_io::Picture exr = image_io::read(folder / "exr/puddle.0001.exr");
+  EXPECT_EQ(exr.image.format(), Format::rgba16f);
+  EXPECT_THAT(exr.channel_names, IsSupersetOf({"R", "G", "B", "normal.X", "normal.Y", "normal.Z", "position.X", "position.Y", "position.Z"}));
+  EXPECT_FALSE(exr.lossy);
+}
+
+TEST_F(RunVerb, EveryKthFrame) {
+  run({"corrected.toml", "-o", "o", "--frames", "5", "--every", "2"});
+  EXPECT_THAT(names("o"), ElementsAre("puddle.0000.png", "puddle.0002.png", "puddle.0004.png", "summary.json"));
+  run({"corrected.toml", "-o", "p", "--frames", "5"});
+  EXPECT_EQ(contents(folder / "o/puddle.0004.png"), contents(folder / "p/puddle.0004.png"));
+}
+
+TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
+  run({"corrected.toml", "-o", "o", "--set", "rain.rate=40", "--threads", "2", "--simd", "scalar"});
+  const nlohmann::json s = summary("o");
+  EXPECT_EQ(s["config"]["rain.rate"], 40.0);
+  EXPECT_EQ(s["config"]["run.size"], (std::vector<int>{24, 16}));
+  EXPECT_EQ(s["origins"]["rain.rate"], "--set");
+  EXPECT_EQ(s["origins"]["run.frames"], "corrected.toml:4:10");
+  EXPECT_EQ(s["threads"], 2);
+  EXPECT_EQ(s["simd"], "scalar");
+  EXPECT_EQ(s["frames"], 2);
+  EXPECT_GT(s["seconds"].get<double>(), 0);
+  EXPECT_EQ(s["inputs"][0]["key"], "environment.image");
+  EXPECT_EQ(s["inputs"][0]["file"], "sky.png");
+  EXPECT_EQ(s["inputs"][0]["lossy"], false);
+  EXPECT_EQ(s["inputs"][0]["decoded_hash"], image_io::read(folder / "sky.png").decoded_hash.text());
+  std::vector<std::string> passes;
+  for (const auto& pass : s["passes"]) {
+    passes.push_back(pass["name"]);
+    EXPECT_GE(pass["ms_per_frame"].get<double>(), 0);
+    EXPECT_EQ(pass["calls"], passes.size() <= 2 ? 8 : 2);  // four steps in a frame
+  }
+  EXPECT_THAT(passes, ElementsAre("raindrops", "wave_step", "surface_hit", "shade", "display"));
+  const std::vector<std::string> lines = hash({"corrected.toml", "--set", "rain.rate=40"});
+  ASSERT_EQ(s["last_frame"].size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    const auto& line = s["last_frame"][i];
+    EXPECT_EQ(fmt::format("{} {} {} {}", line["frame"].get<int>(), line["pass"].get<std::string>(), line["buffer"].get<std::string>(), line["xxh3"].get<std::string>()),
+              lines[static_cast<std::size_t>(6 + i)]);
+  }
+  EXPECT_EQ("scene " + s["scene_hash"].get<std::string>(), lines.back());
+}
+
+TEST_F(RunVerb, JsonGoesToStandardOutput) {
+  const Outcome o = run({"corrected.toml", "-o", "o", "--json"});
+  EXPECT_EQ(o.out, contents(folder / "o/summary.json"));
+}
+
+TEST_F(RunVerb, TheDefaultFolderIsNamedByEffectAndScene) {
+  run({"corrected.toml"});
+  EXPECT_THAT(names("out/puddle/corrected"), ElementsAre("puddle.0001.png", "summary.json"));
+}
+
+TEST_F(RunVerb, TwiceGivesTheSameBytes) {
+  run({"corrected.toml", "-o", "a", "--image", "both", "--threads", "1"});
+  run({"corrected.toml", "-o", "b", "--image", "both", "--threads", "3"});
+  for (const std::string name : {"puddle.0001.png", "puddle.0001.exr"}) {
+    EXPECT_NE(contents(folder / ("a/" + name)), "");
+    EXPECT_EQ(contents(folder / ("a/" + name)), contents(folder / ("b/" + name)));
+  }
+}
+
+TEST_F(RunVerb, AnExistingFolderKeepsWhatElseIsInIt) {
+  std::filesystem::create_directory(folder / "o");
+  put(folder / "o/puddle.0001.png", "old");
+  put(folder / "o/mine.txt", "mine");
+  run({"corrected.toml", "-o", "o"});
+  EXPECT_THAT(names("o"), ElementsAre("mine.txt", "puddle.0001.png", "summary.json"));
+  EXPECT_EQ(contents(folder / "o/mine.txt"), "mine");
+  EXPECT_EQ(image_io::read(folder / "o/puddle.0001.png").image.width(), 24);
+}
+
+TEST_F(RunVerb, TheSummaryIsASceneThatGivesTheSame) {
+  run({"corrected.toml", "-o", "o"});
+  std::string text;
+  for (const auto& [key, value] : summary("o")["config"].items()) text += key + " = " + value.dump() + "\n";
+  put(folder / "again.toml", text);
+  EXPECT_EQ(hash({"again.toml"}), hash({"corrected.toml"}));
+}
+
+TEST_F(RunVerb, AFileNameThatIsNoUtf8Runs) {
+  std::filesystem::rename(folder / "corrected.toml", folder / "\xff.toml");
+  run({"\xff.toml", "-o", "o"});
+  EXPECT_EQ(summary("o")["origins"]["effect"], "\uFFFD.toml:1:10");
+}
+
+}  // namespace
+}  // namespace rainref::cli

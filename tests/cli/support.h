@@ -1,0 +1,156 @@
+// Runs the program as a user does, in a folder of its own, and says what it printed and left behind.
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/temporary_folder.h"
+#include "image_io/write.h"
+
+namespace rainref::cli {
+
+struct Outcome {
+  int code = -1;  ///< exit code, or minus the signal that ended it
+  std::string out, err;
+  long peak_kib = 0;  ///< most memory held
+};
+
+/// What is unusual about the process.
+struct Circumstances {
+  std::string standard_output;                    ///< a file instead of the test's pipe
+  bool closed_error = false;                      ///< standard error takes no byte
+  rlim_t file_bytes = RLIM_INFINITY;              ///< no file may become longer, as on a full disk
+  rlim_t memory_bytes = RLIM_INFINITY;            ///< address space
+};
+
+inline Outcome run_rainref(const std::filesystem::path& folder, std::vector<std::string> arguments, const Circumstances& c = {}) {
+  arguments.insert(arguments.begin(), RAINREF_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& a : arguments) argv.push_back(a.data());
+  argv.push_back(nullptr);
+  int out[2], err[2];
+  if (::pipe(out) != 0 || ::pipe(err) != 0) throw std::runtime_error("no pipe");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const auto limit = [](auto resource, rlim_t bytes) {
+      if (bytes == RLIM_INFINITY) return;
+      const rlimit both{bytes, bytes};
+      ::setrlimit(resource, &both);
+    };
+    if (c.file_bytes != RLIM_INFINITY) ::signal(SIGXFSZ, SIG_IGN);
+    limit(RLIMIT_FSIZE, c.file_bytes);
+    limit(RLIMIT_AS, c.memory_bytes);
+    const int instead = c.standard_output.empty() ? -1 : ::open(c.standard_output.c_str(), O_WRONLY);
+    ::dup2(instead >= 0 ? instead : out[1], STDOUT_FILENO);
+    ::dup2(c.closed_error ? ::open("/dev/full", O_WRONLY) : err[1], STDERR_FILENO);
+    for (const int descriptor : {out[0], out[1], err[0], err[1]}) ::close(descriptor);
+    if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  ::close(out[1]);
+  ::close(err[1]);
+  Outcome result;
+  std::string* const text[2] = {&result.out, &result.err};
+  pollfd waiting[2] = {{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
+  for (int open = 2; open > 0;) {
+    ::poll(waiting, 2, -1);
+    for (int i = 0; i < 2; ++i) {
+      if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
+      char buffer[4096];
+      const ssize_t count = ::read(waiting[i].fd, buffer, sizeof buffer);
+      if (count > 0) {
+        text[i]->append(buffer, static_cast<std::size_t>(count));
+      } else {
+        waiting[i].fd = -1;  // poll passes over it
+        --open;
+      }
+    }
+  }
+  ::close(out[0]);
+  ::close(err[0]);
+  int status = 0;
+  rusage usage{};
+  ::wait4(child, &status, 0, &usage);
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  result.peak_kib = usage.ru_maxrss;
+  return result;
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+/// A folder with `corrected.toml` and `published.toml`, tiny and under a tiny sky: the street costs a second.
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    Image sky(Format::rgba8, 8, 4);
+    for (int y = 0; y < 4; ++y) {
+      for (int i = 0; i < 32; ++i) sky.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : 20 + 5 * i + 9 * y);
+    }
+    image_io::write_png(folder / "sky.png", sky);
+    put(folder / "corrected.toml", scene("corrected", "[puddle]\ngrid = [40, 30]\ncell_size = 0.02\n"));
+    put(folder / "published.toml", scene("as-published"));
+    before = folder.names();
+  }
+
+  /// Line 7 is the sky's; `rest` starts at line 8.
+  static std::string scene(const std::string& variant, const std::string& rest = "") {
+    return fmt::format("effect = 'puddle'\nvariant = '{}'\n[run]\nframes = 2\nsize = [24, 16]\n[environment]\nimage = 'sky.png'\n{}", variant, rest);
+  }
+
+  Outcome rainref(const std::vector<std::string>& arguments, const Circumstances& c = {}) const { return run_rainref(folder.path(), arguments, c); }
+
+  /// Refused: this exit code, nothing on standard output, one line on standard error, and no new file.
+  void expect_refusal(const std::vector<std::string>& arguments, int code, const testing::Matcher<const std::string&>& message,
+                      const Circumstances& c = {}) const {
+    SCOPED_TRACE(fmt::format("rainref {}", fmt::join(arguments, " ")));
+    const Outcome o = rainref(arguments, c);
+    EXPECT_EQ(o.code, code);
+    EXPECT_EQ(o.out, "");
+    ASSERT_THAT(o.err, testing::StartsWith("rainref: "));
+    EXPECT_EQ(o.err.find('\n'), o.err.size() - 1) << o.err;
+    EXPECT_THAT(o.err.substr(9, o.err.size() - 10), message);
+    EXPECT_EQ(folder.names(), before);
+  }
+  /// `hash` and `run` of a scene file with this text, which is refused with this message (file.toml: as its name).
+  void expect_scene_refused(const std::string& text, const testing::Matcher<const std::string&>& message) {
+    put(folder / "x.toml", text);
+    before = folder.names();
+    expect_refusal({"hash", "x.toml"}, 2, message);
+    expect_refusal({"run", "x.toml", "-o", "new/deep"}, 2, message);
+  }
+
+  /// Hash lines of a scene; fails the test when they cannot be had.
+  std::vector<std::string> hash(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "hash");
+    const Outcome o = rainref(arguments);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return lines_of(o.out);
+  }
+
+  TemporaryFolder folder;
+  std::vector<std::string> before;
+};
+
+}  // namespace rainref::cli

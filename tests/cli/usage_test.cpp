@@ -1,0 +1,110 @@
+// What a user sees who asks for help or slips on the keyboard.
+#include "cli/support.h"
+#include "math/simd_target.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+using Usage = CommandLine;
+
+TEST_F(Usage, HelpShowsAnExample) {
+  for (const std::string verb : {"list", "describe", "run", "hash", "selftest"}) {
+    const Outcome o = rainref({verb, "--help"});
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.err, "");
+    EXPECT_THAT(o.out, HasSubstr("\nExample: rainref " + verb));
+    EXPECT_THAT(rainref({"--help"}).out, HasSubstr("\n  " + verb + " "));
+  }
+  EXPECT_EQ(rainref({"-h"}).out, rainref({"--help"}).out);
+}
+
+TEST_F(Usage, VersionIsOneLine) {
+  const Outcome o = rainref({"--version"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_THAT(o.out, MatchesRegex("rainref [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_F(Usage, AVerbIsNeeded) {
+  expect_refusal({}, 2, HasSubstr("required"));
+  expect_refusal({"lst"}, 2, "expected one of list, describe, run, hash, selftest, found 'lst'; did you mean 'list'?");
+  expect_refusal({"Run", "corrected.toml"}, 2, EndsWith("found 'Run'; did you mean 'run'?"));
+  expect_refusal({"zebra"}, 2, EndsWith("found 'zebra'"));
+}
+
+TEST_F(Usage, AnUnknownOptionNamesTheNearest) {
+  expect_refusal({"list", "--jsn"}, 2, "--jsn: unknown option of 'list'; did you mean '--json'?");
+  expect_refusal({"hash", "--frmes", "3", "corrected.toml"}, 2, "--frmes: unknown option of 'hash'; did you mean '--frames'?");
+  expect_refusal({"hash", "corrected.toml", "--simd=avx2", "--thread=2"}, 2, "--thread: unknown option of 'hash'; did you mean '--threads'?");
+  expect_refusal({"run", "--outptu", "x"}, 2, "--outptu: unknown option of 'run'; did you mean '--output'?");
+  expect_refusal({"run", "-x"}, 2, "-x: unknown option of 'run'");
+  expect_refusal({"--vresion"}, 2, "--vresion: unknown option; did you mean '--version'?");
+  expect_refusal({"hash", "corrected.toml", "--every", "2"}, 2, "--every: unknown option of 'hash'");
+  expect_refusal({"hash", "corrected.toml", "--zebra"}, 2, "--zebra: unknown option of 'hash'");
+}
+
+TEST_F(Usage, AnOptionsValueIsNoOption) {
+  expect_refusal({"hash", "corrected.toml", "--simd", "--zebra"}, 2, StartsWith("--simd: "));
+}
+
+TEST_F(Usage, MissingAndSpareArguments) {
+  expect_refusal({"hash"}, 2, StartsWith("SCENE is required"));
+  expect_refusal({"describe"}, 2, StartsWith("EFFECT is required"));
+  expect_refusal({"hash", "corrected.toml", "spare"}, 2, HasSubstr("spare"));
+  expect_refusal({"hash", "corrected.toml", "--frames"}, 2, StartsWith("--frames: "));
+  expect_refusal({"hash", "corrected.toml", "--set"}, 2, StartsWith("--set: "));
+  expect_refusal({"hash", "corrected.toml", "--frames", "1", "--frames", "2"}, 2, StartsWith("--frames: "));
+}
+
+TEST_F(Usage, UnknownEffectOrLayout) {
+  expect_refusal({"describe", "pudle"}, 2, "effect: expected one of 'puddle', found 'pudle'; did you mean 'puddle'?");
+  expect_refusal({"describe", "puddle", "--layout", "glls"}, 2,
+                 "layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found 'glls'; did you mean 'glsl'?");
+  expect_refusal({"describe", "puddle", "--layout", ""}, 2, StartsWith("layout: expected one of 'c', "));
+}
+
+TEST_F(Usage, Size) {
+  const std::string range = "--size: expected a whole number from 1 to 65536, found ";
+  expect_refusal({"hash", "corrected.toml", "--size", "12"}, 2, "--size: expected WxH such as 1280x720, found '12'");
+  expect_refusal({"hash", "corrected.toml", "--size", ""}, 2, "--size: expected WxH such as 1280x720, found ''");
+  for (const auto& [size, found] : std::vector<std::pair<std::string, std::string>>{
+           {"0x5", "'0'"}, {"5x", "''"}, {"x5", "''"}, {"5x5x5", "'5x5'"}, {"-3x5", "'-3'"}, {"70000x3", "'70000'"}, {"1.5x2", "'1.5'"}, {"axb", "'a'"}}) {
+    expect_refusal({"hash", "corrected.toml", "--size", size}, 2, range + found);
+  }
+}
+
+TEST_F(Usage, NumbersOfFramesThreadsAndPictures) {
+  for (const std::string threads : {"0", "-1", "x", "", "1025", "2.0", "99999999999999999999"}) {
+    expect_refusal({"hash", "corrected.toml", "--threads", threads}, 2, "--threads: expected a whole number from 1 to 1024, found '" + threads + "'");
+  }
+  for (const std::string frames : {"0", "-5", "1.5", "", "1000001"}) {
+    expect_refusal({"run", "corrected.toml", "--frames", frames}, 2, "--frames: expected a whole number from 1 to 1000000, found '" + frames + "'");
+    expect_refusal({"run", "corrected.toml", "--every", frames}, 2, "--every: expected a whole number from 1 to 1000000, found '" + frames + "'");
+  }
+}
+
+TEST_F(Usage, AnUnknownSimdTargetNamesThoseOfThisMachine) {
+  expect_refusal({"hash", "corrected.toml", "--simd", "zebra"}, 2, fmt::format("SIMD target 'zebra': this machine has {}", fmt::join(simd_targets(), ", ")));
+  expect_refusal({"hash", "corrected.toml", "--simd", "scaler"}, 2, EndsWith("did you mean 'scalar'?"));
+  expect_refusal({"hash", "corrected.toml", "--simd", ""}, 2, HasSubstr(fmt::format("{}", fmt::join(simd_targets(), ", "))));
+}
+
+TEST_F(Usage, AnUnknownKindOfPicture) {
+  expect_refusal({"run", "corrected.toml", "--image", "pgn"}, 2, "--image: expected exr, png, both or none, found 'pgn'; did you mean 'png'?");
+  expect_refusal({"run", "corrected.toml", "-o", ""}, 2, "--output: expected a folder, found ''");
+}
+
+TEST_F(Usage, AStandardErrorThatTakesNothingChangesNothing) {
+  Circumstances c;
+  c.closed_error = true;
+  EXPECT_EQ(rainref({"zebra"}, c).code, 2);
+  EXPECT_EQ(rainref({"hash", "none.toml"}, c).code, 4);
+}
+
+}  // namespace
+}  // namespace rainref::cli

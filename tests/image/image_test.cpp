@@ -1,0 +1,158 @@
+#include "rainref/image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "rainref/error.h"
+
+namespace rainref {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Format formats[] = {Format::r8,    Format::rg8,     Format::rgba8, Format::rgba8_srgb, Format::r16f, Format::rg16f,
+                              Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f,    Format::r32ui};
+
+template <class F>
+std::string refusal(F f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::usage);
+    return e.what();
+  }
+  return "not refused";
+}
+
+TEST(Format, NamesAndSizes) {
+  const struct {
+    Format format;
+    const char* name;
+    int channels, channel_bytes;
+    FormatInfo::Kind kind;
+  } table[] = {{Format::r8, "r8", 1, 1, FormatInfo::unorm8},         {Format::rg8, "rg8", 2, 1, FormatInfo::unorm8},
+               {Format::rgba8, "rgba8", 4, 1, FormatInfo::unorm8},   {Format::rgba8_srgb, "rgba8_srgb", 4, 1, FormatInfo::srgb8},
+               {Format::r16f, "r16f", 1, 2, FormatInfo::float16},    {Format::rg16f, "rg16f", 2, 2, FormatInfo::float16},
+               {Format::rgba16f, "rgba16f", 4, 2, FormatInfo::float16}, {Format::r32f, "r32f", 1, 4, FormatInfo::float32},
+               {Format::rg32f, "rg32f", 2, 4, FormatInfo::float32},  {Format::rgba32f, "rgba32f", 4, 4, FormatInfo::float32},
+               {Format::r32ui, "r32ui", 1, 4, FormatInfo::uint32}};
+  for (const auto& row : table) {
+    EXPECT_EQ(info(row.format).name, row.name);
+    EXPECT_EQ(info(row.format).channels, row.channels) << row.name;
+    EXPECT_EQ(info(row.format).channel_bytes, row.channel_bytes) << row.name;
+    EXPECT_EQ(info(row.format).texel_bytes(), row.channels * row.channel_bytes) << row.name;
+    EXPECT_EQ(info(row.format).kind, row.kind) << row.name;
+    EXPECT_EQ(format_from_name(row.name), row.format);
+  }
+}
+
+TEST(Format, AnUnknownNameIsRefusedWithTheNearestOne) {
+  EXPECT_EQ(refusal([] { format_from_name("rgba16"); }), "unknown format 'rgba16'; did you mean 'rgba16f'?");
+  EXPECT_EQ(refusal([] { format_from_name("bc7"); }), "unknown format 'bc7'");
+  EXPECT_EQ(refusal([] { format_from_name(""); }), "unknown format ''");
+  EXPECT_EQ(refusal([] { format_from_name("R8"); }), "unknown format 'R8'; did you mean 'r8'?");
+}
+
+TEST(Rounding, Names) {
+  EXPECT_STREQ(name(Rounding::rne), "rne");
+  EXPECT_STREQ(name(Rounding::rtz), "rtz");
+}
+
+TEST(Image, IsZeroWithItsMarginsAndRowsDoNotOverlap) {
+  for (const Format format : formats) {
+    for (const int width : {1, 2, 15, 16, 17, 33, 100}) {
+      Image image(format, width, 3);
+      const int texel = info(format).texel_bytes();
+      EXPECT_EQ(image.width(), width);
+      EXPECT_EQ(image.height(), 3);
+      EXPECT_EQ(image.format(), format);
+      EXPECT_EQ(image.channels(), info(format).channels);
+      EXPECT_FALSE(image.empty());
+      const int row = (Image::left_margin + width + Image::right_margin) * texel;
+      EXPECT_GE(image.stride(), row);
+      EXPECT_EQ(Image::memory_bytes(format, width, 3), static_cast<std::size_t>(image.stride()) * 3);
+      for (int y = 0; y < 3; ++y) {
+        EXPECT_EQ(image.row_bytes(y) - image.row_bytes(0), y * image.stride());
+        std::byte* first = image.row_bytes(y) - Image::left_margin * texel;
+        for (int i = 0; i < row; ++i) ASSERT_EQ(first[i], std::byte{0});
+        std::memset(first, y + 1, static_cast<std::size_t>(row));  // the sanitizers watch the ends
+      }
+      for (int y = 0; y < 3; ++y) {
+        const std::byte* first = image.row_bytes(y) - Image::left_margin * texel;
+        for (int i = 0; i < row; ++i) ASSERT_EQ(first[i], static_cast<std::byte>(y + 1));
+      }
+    }
+  }
+}
+
+TEST(Image, RowsAreAlignedToWholeVectors) {
+  for (const Format format : formats) {
+    const Image image(format, 37, 4);
+    // 16 texels, and never more than a cache line.
+    const std::size_t alignment = std::min<std::size_t>(64, 16 * static_cast<std::size_t>(info(format).texel_bytes()));
+    for (int y = 0; y < 4; ++y) {
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(image.row_bytes(y)) % alignment, 0u) << info(format).name << ' ' << y;
+    }
+    EXPECT_EQ(image.stride() % 64, 0);
+  }
+}
+
+TEST(Image, SizesOutsideTheRangeAreRefused) {
+  for (const auto& [w, h] : {std::pair{0, 5}, {5, 0}, {-1, 5}, {5, -7}, {65537, 1}, {1, 65537}, {2147483647, 2147483647}}) {
+    EXPECT_EQ(refusal([w = w, h = h] { Image(Format::r8, w, h); }),
+              "image size " + std::to_string(w) + "x" + std::to_string(h) + ": each side must be from 1 to 65536");
+  }
+  EXPECT_NO_THROW(Image(Format::r8, 65536, 1));
+  EXPECT_NO_THROW(Image(Format::r8, 1, 65536));
+}
+
+TEST(Image, CanBeEmptyAndMoved) {
+  Image none;
+  EXPECT_TRUE(none.empty());
+  Image image(Format::r32f, 5, 2);
+  image.row<float>(1)[4] = 3.5f;
+  none = std::move(image);
+  EXPECT_EQ(none.row<float>(1)[4], 3.5f);
+}
+
+TEST(BufferView, OfOneImageCopiesRowsWithoutPadding) {
+  Image image(Format::rg16f, 3, 2);
+  for (int y = 0; y < 2; ++y) {
+    for (int i = -10; i < 16; ++i) image.row<Half>(y)[i] = {static_cast<std::uint16_t>(100 * y + i + 10)};  // margins too
+  }
+  const BufferView view(image);
+  ASSERT_EQ(view.row_bytes(), 12u);
+  EXPECT_EQ(view.width(), 3);
+  EXPECT_EQ(view.height(), 2);
+  std::uint16_t row[6];
+  view.copy_row(1, reinterpret_cast<std::byte*>(row));
+  EXPECT_THAT(row, testing::ElementsAre(110, 111, 112, 113, 114, 115));
+}
+
+TEST(BufferView, InterleavesChannelPlanesAndFillsTheRestWithZero) {
+  Image red(Format::r8, 3, 2), green(Format::r8, 3, 2);
+  for (int x = 0; x < 3; ++x) {
+    red.row<Unorm8>(1)[x] = {static_cast<std::uint8_t>(x + 1)};
+    green.row<Unorm8>(1)[x] = {static_cast<std::uint8_t>(x + 11)};
+  }
+  const BufferView view(Format::rgba8, {&red, &green});
+  ASSERT_EQ(view.row_bytes(), 12u);
+  std::uint8_t row[12];
+  std::memset(row, 0xee, sizeof row);
+  view.copy_row(1, reinterpret_cast<std::byte*>(row));
+  EXPECT_THAT(row, testing::ElementsAre(1, 11, 0, 0, 2, 12, 0, 0, 3, 13, 0, 0));
+}
+
+TEST(BufferView, OnePlaneMayStandForAWiderFormat) {
+  Image plane(Format::r32f, 2, 1);
+  plane.row<float>(0)[0] = 1.5f;
+  plane.row<float>(0)[1] = -2.5f;
+  float row[4];
+  BufferView(Format::rg32f, {&plane}).copy_row(0, reinterpret_cast<std::byte*>(row));
+  EXPECT_THAT(row, testing::ElementsAre(1.5f, 0.0f, -2.5f, 0.0f));
+}
+
+}  // namespace
+}  // namespace rainref

@@ -1,0 +1,25 @@
+// Texture lookups by the SIMD target in use and by the plain reading, for comparison.
+#pragma once
+
+#include <cstddef>
+
+#include "image/texture.h"
+
+namespace rainref::test {
+
+enum class Lookup { nearest, bilinear, bilinear_of_level_1, trilinear, middle_channels, latlong, latlong_mip, cube };
+
+/// Coordinates u and v, or a direction (u, v, w); lod where the lookup has one.
+struct Place {
+  float u, v, w, lod;
+};
+/// Channels that the lookup does not give are zero.
+struct Texel {
+  float c[4];
+};
+
+/// out[i] = lookup at place i. The count is a multiple of 16.
+void look_up_by_lanes(Lookup lookup, const Texture& texture, const Place* places, Texel* out, std::size_t count);
+Texel look_up_by_plain(Lookup lookup, const Texture& texture, const Place& place);
+
+}  // namespace rainref::test

@@ -1,0 +1,89 @@
+// Corrected raindrops: how many, where, how large, and the energy of the crater each leaves.
+#include <gmock/gmock.h>
+
+#include "puddle/rainfall.h"
+#include "puddle/scene_support.h"
+#include "rain/rain.h"
+
+namespace rainref::puddle::test {
+namespace {
+
+Settings raining(double rate, double smallest) {
+  Settings s = corrected(1, 1);
+  s.rain_rate = rate;
+  s.smallest_drop = smallest;
+  return s;
+}
+
+TEST(PuddleRainfall, CraterHoldsAHundredthOfTheImpact) {
+  // rho g / 2 times the integral of h^2 against 1 % of rho pi D^3 / 6 * v^2 / 2; density cancels. Midpoint rule in the
+  // crater of the pass itself, 400 cells to the radius: error O(1e-5).
+  constexpr double gravity = 9.80665;
+  for (const auto& [diameter, speed] : {std::pair{1e-3, 4.03}, {2e-3, 6.49}, {5e-3, 9.09}}) {
+    const double radius = 7 * diameter, depth = crater_depth(diameter, speed, radius);
+    constexpr int n = 400;
+    const Drop drop{0, 0, static_cast<float>(-depth), static_cast<float>(radius)};
+    double squares = 0, volume = 0;
+    for (int y = -n; y < n; ++y) {
+      for (int x = -n; x < n; ++x) {
+        const double h = scalar::drop_corrected(drop, Double((x + 0.5) / n * radius), Double((y + 0.5) / n * radius)).v;
+        squares += h * h;
+        volume += h;
+      }
+    }
+    const double cell = radius / n * (radius / n);
+    EXPECT_NEAR(0.5 * gravity * squares * cell / (0.01 * pi / 6 * diameter * diameter * diameter * speed * speed / 2), 1, 1e-4);
+    EXPECT_NEAR(volume * cell / (depth * pi * radius * radius), 0, 1e-6);
+  }
+}
+
+TEST(PuddleRainfall, CratersOfTheSizeClasses) {
+  const Settings s = raining(20, 0.5);
+  const Rainfall rain(s, 1);
+  const std::vector<double> diameters = rain::DropSizes(20, 0.5).quantiles(Rainfall::sizes);
+  for (int k = 0; k < Rainfall::sizes; ++k) {
+    const double d = diameters[static_cast<std::size_t>(k)], radius = std::max(7e-3 * d, 3 * s.cell_size);
+    EXPECT_NEAR(rain.crater(k).radius, radius / s.cell_size, 1e-6 * radius / s.cell_size) << k;
+    const double depth = crater_depth(d * 1e-3, rain::terminal_velocity(d), radius);
+    EXPECT_NEAR(rain.crater(k).amplitude, -depth, 1e-6 * depth) << k;
+  }
+  // Intensity scales the depth and nothing else.
+  Settings strong = s;
+  strong.drop_intensity = 3;
+  EXPECT_FLOAT_EQ(Rainfall(strong, 1).crater(500).amplitude, 3 * rain.crater(500).amplitude);
+  EXPECT_EQ(Rainfall(strong, 1).crater(500).radius, rain.crater(500).radius);
+}
+
+TEST(PuddleRainfall, CountsArePoissonWithTheFluxOfTheRain) {
+  const Settings s = raining(30, 0.2);
+  const Rainfall rain(s, 1);
+  const double mean = rain::DropSizes(30, 0.2).flux() * 0.8 * 0.6 / s.step_rate;
+  EXPECT_NEAR(rain.mean(), mean, 1e-12 * mean);
+  constexpr int steps = 4000;
+  double sum = 0, squares = 0, x = 0, y = 0;
+  for (int k = 0; k < steps; ++k) {
+    const std::vector<Drop> drops = rain.drops(k);
+    const double n = static_cast<double>(drops.size());
+    sum += n;
+    squares += n * n;
+    for (const Drop& d : drops) {
+      ASSERT_TRUE(0 <= d.x && d.x < 40 && 0 <= d.y && d.y < 30);
+      ASSERT_EQ(d.x * 256, std::floor(d.x * 256)) << "multiples of 1/256 texel";
+      x += d.x;
+      y += d.y;
+    }
+  }
+  // Four standard deviations: of the mean sqrt(m / N), of the ratio of variance to mean sqrt(2 / N), of uniform places.
+  EXPECT_NEAR(sum / steps, mean, 4 * std::sqrt(mean / steps));
+  EXPECT_NEAR((squares / steps - sum / steps * (sum / steps)) / (sum / steps), 1, 4 * std::sqrt(2.0 / steps));
+  EXPECT_NEAR(x / sum, 20, 4 * 40 / std::sqrt(12 * sum));
+  EXPECT_NEAR(y / sum, 15, 4 * 30 / std::sqrt(12 * sum));
+}
+
+TEST(PuddleRainfall, NoRainNoDrops) {
+  const Rainfall dry(raining(0, 0.5), 1);
+  for (int k = 0; k < 100; ++k) EXPECT_TRUE(dry.drops(k).empty());
+}
+
+}  // namespace
+}  // namespace rainref::puddle::test
