@@ -3,6 +3,7 @@
 // Coordinates are normalized; texel i of a side of W texels has its centre at (i + 1/2) / W. With x = a(u) W - 1/2:
 //   nearest    texel floor(a(u) W)
 //   bilinear   texels floor(x) and floor(x) + 1, weights 1 - f and f with f = x - floor(x); rows likewise
+//   mip        bilinear in level floor(lod + 1/2)
 //   trilinear  two levels floor(lod) and floor(lod) + 1, weights 1 - g and g with g = lod - floor(lod)
 // The address rule a: clamp holds x in [0, W - 1]; repeat takes fract(u); mirror takes 1 - |2 fract(u / 2) - 1|;
 // border lets x run to [-1, W] and gives the border colour for texels outside. mix is a (1 - t) + b t throughout.
@@ -37,8 +38,10 @@ RAINREF_FN Level<N> uniform_level(const Texture& t, int level) {
 template <class N>
 RAINREF_FN Level<N> level_of(const Texture& t, typename N::Int level) {
   Level<N> l;
-  l.width = lookup(t.width, level);
-  l.height = lookup(t.height, level);
+  // Each level halves the side above it, rounded down, to no less than 1.
+  const auto one = N::uniform_int(1);
+  l.width = max_index(shift_right(N::uniform_int(t.width[0]), level), one);
+  l.height = max_index(shift_right(N::uniform_int(t.height[0]), level), one);
   l.offset = lookup(t.offset, level);
   l.width_number = to_number(l.width);
   l.height_number = to_number(l.height);
@@ -127,6 +130,31 @@ RAINREF_FN Channels<N, Count> sample_level(const Texture& t, const Level<N>& l, 
 template <int First, int Count, class N>
 RAINREF_FN Channels<N, Count> sample_bilinear(const Texture& t, N u, N v, int level = 0) {
   return sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+}
+/// Four bilinear lookups of one channel of level 0, each one texel from (u, v) along an axis (textureOffset).
+template <class N>
+struct Neighbours {
+  N left, right, down, up;
+};
+template <int Channel, class N>
+RAINREF_FN Neighbours<N> sample_neighbours(const Texture& t, N u, N v) {
+  const Level<N> l = uniform_level<N>(t, 0);
+  const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
+  const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
+  const auto xi = to_int(x0), yi = to_int(y0);
+  const auto a = texel_column<N>(t, l, xi + -1), b = texel_column<N>(t, l, xi), c = texel_column<N>(t, l, xi + 1), d = texel_column<N>(t, l, xi + 2);
+  const auto p = texel_row<N>(t, l, yi + -1), q = texel_row<N>(t, l, yi), r = texel_row<N>(t, l, yi + 1), s = texel_row<N>(t, l, yi + 2);
+  const auto texel = [&](const auto& column, const auto& row) RAINREF_LAMBDA { return load_texel<Channel, 1, N>(t, column, row)[0]; };
+  const N bq = texel(b, q), cq = texel(c, q), br = texel(b, r), cr = texel(c, r);
+  const N low = mix(bq, cq, fx), high = mix(br, cr, fx);
+  return {mix(mix(texel(a, q), bq, fx), mix(texel(a, r), br, fx), fy), mix(mix(cq, texel(d, q), fx), mix(cr, texel(d, r), fx), fy),
+          mix(mix(texel(b, p), texel(c, p), fx), low, fy), mix(high, mix(texel(b, s), texel(c, s), fx), fy)};
+}
+
+template <int First, int Count, class N>
+RAINREF_FN Channels<N, Count> sample_mip(const Texture& t, N u, N v, N lod) {
+  const N last(static_cast<float>(t.levels - 1)), l = floor(clamp(lod, N(0.0f), last) + N(0.5f)), zero(0.0f);
+  return sample_level<First, Count, N>(t, any(l > zero) ? level_of<N>(t, to_int(l)) : uniform_level<N>(t, 0), u, v);
 }
 /// Where lod is whole the finer level alone counts, so that lanes which all lie on it need not read the other.
 template <int First, int Count, class N>

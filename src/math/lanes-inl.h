@@ -40,9 +40,7 @@ struct Lanes {
     hn::Vec<DI> i;
     friend HWY_INLINE Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
     friend HWY_INLINE Int clamp_index(Int a, Int size) {
-      const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
-      const auto last = hn::Sub(size.i, hn::Set(DI(), 1));
-      return {hn::IfThenElse(below, hn::Zero(DI()), hn::IfThenElse(within, a.i, last))};
+      return {hn::Max(hn::Min(a.i, hn::Sub(size.i, hn::Set(DI(), 1))), hn::Zero(DI()))};
     }
     friend HWY_INLINE Int wrap_index(Int a, Int size) {
       const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
@@ -51,6 +49,9 @@ struct Lanes {
     friend HWY_INLINE Mask inside(Int a, Int size) {
       return {hn::RebindMask(D(), hn::And(hn::Not(hn::Lt(a.i, hn::Zero(DI()))), hn::Lt(a.i, size.i)))};
     }
+    friend HWY_INLINE Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
+    /// a / 2^b, rounded down; b in [0, 31].
+    friend HWY_INLINE Int shift_right(Int a, Int b) { return {hn::Shr(a.i, b.i)}; }
     friend HWY_INLINE Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }
     friend HWY_INLINE Int operator*(Int a, Int b) { return {hn::Mul(a.i, b.i)}; }
     friend HWY_INLINE Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
@@ -96,8 +97,15 @@ struct Lanes {
   friend HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
   friend HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
   friend HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
+  // b < a ? b : a and a < b ? b : a, which MINPS and MAXPS compute exactly, signed zeros included. Other targets' own
+  // minimum and maximum differ there.
+#if HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86
+  friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return hn::Min(b.v, a.v); }
+  friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return hn::Max(b.v, a.v); }
+#else
   friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(b.v, a.v), b.v, a.v); }
   friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(a.v, b.v), b.v, a.v); }
+#endif
   friend HWY_INLINE Lanes abs(Lanes a) { return hn::IfThenElse(hn::Lt(a.v, hn::Zero(D())), hn::Neg(a.v), a.v); }
   friend HWY_INLINE Lanes sqrt(Lanes a) { return hn::Sqrt(a.v); }
   friend HWY_INLINE Lanes square(Lanes a) { return a * a; }
@@ -213,7 +221,7 @@ HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
 }
 
 #define RAINREF_FN HWY_INLINE
-#define RAINREF_LAMBDA HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/vocabulary-inl.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

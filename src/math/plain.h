@@ -31,6 +31,9 @@ struct Plain {
     friend Int clamp_index(Int a, Int size) { return {a.i < 0 ? 0 : a.i < size.i ? a.i : size.i - 1}; }
     friend Int wrap_index(Int a, Int size) { return {a.i < 0 ? a.i + size.i : a.i < size.i ? a.i : a.i - size.i}; }
     friend bool inside(Int a, Int size) { return 0 <= a.i && a.i < size.i; }
+    friend Int max_index(Int a, Int b) { return {a.i < b.i ? b.i : a.i}; }
+    /// a / 2^b, rounded down; b in [0, 31].
+    friend Int shift_right(Int a, Int b) { return {a.i >> b.i}; }
     friend Int lookup(const std::int32_t* table, Int a) { return {table[a.i]}; }
     friend Int operator*(Int a, Int b) { return {a.i * b.i}; }
   };

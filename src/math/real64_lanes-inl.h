@@ -93,6 +93,58 @@ struct Real64Lanes {
   }
 };
 
+/// Two vectors of doubles, the halves of a vector of floats, operation by operation in turn. A formula is one long chain
+/// of dependent operations; two chains side by side keep the processor busy where one after the other would not.
+struct Real64Pair {
+  struct Mask {
+    Real64Lanes::Mask lower, upper;
+  };
+  Real64Lanes lower, upper;
+
+  HWY_INLINE HWY_ATTR Real64Pair(Real64Lanes low, Real64Lanes high) : lower(low), upper(high) {}
+  HWY_INLINE HWY_ATTR Real64Pair(double x) : lower(x), upper(x) {}
+
+#define RAINREF_PAIRWISE(op)                                                          \
+  friend HWY_INLINE HWY_ATTR Real64Pair operator op(Real64Pair a, Real64Pair b) {     \
+    return {a.lower op b.lower, a.upper op b.upper};                                  \
+  }
+  RAINREF_PAIRWISE(+)
+  RAINREF_PAIRWISE(-)
+  RAINREF_PAIRWISE(*)
+  RAINREF_PAIRWISE(/)
+#undef RAINREF_PAIRWISE
+#define RAINREF_PAIRWISE(op)                                                          \
+  friend HWY_INLINE HWY_ATTR Mask operator op(Real64Pair a, Real64Pair b) {           \
+    return {a.lower op b.lower, a.upper op b.upper};                                  \
+  }
+  RAINREF_PAIRWISE(<)
+  RAINREF_PAIRWISE(<=)
+  RAINREF_PAIRWISE(>)
+  RAINREF_PAIRWISE(>=)
+#undef RAINREF_PAIRWISE
+#define RAINREF_PAIRWISE(function)                                                    \
+  friend HWY_INLINE HWY_ATTR Real64Pair function(Real64Pair a, Real64Pair b) {        \
+    return {function(a.lower, b.lower), function(a.upper, b.upper)};                  \
+  }
+  RAINREF_PAIRWISE(flip_sign)
+  RAINREF_PAIRWISE(flip_sign_in_half_turn)
+  RAINREF_PAIRWISE(scale_by_power_of_two)
+#undef RAINREF_PAIRWISE
+  friend HWY_INLINE HWY_ATTR Real64Pair operator-(Real64Pair a) { return {-a.lower, -a.upper}; }
+  friend HWY_INLINE HWY_ATTR Real64Pair select(Mask m, Real64Pair a, Real64Pair b) {
+    return {select(m.lower, a.lower, b.lower), select(m.upper, a.upper, b.upper)};
+  }
+  static HWY_INLINE HWY_ATTR bool any(Mask m) { return Real64Lanes::any(m.lower) || Real64Lanes::any(m.upper); }
+  friend HWY_INLINE HWY_ATTR Real64Pair abs(Real64Pair a) { return {abs(a.lower), abs(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Real64Pair binary_exponent(Real64Pair a) { return {binary_exponent(a.lower), binary_exponent(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Mask has_sign_bit(Real64Pair a) { return {has_sign_bit(a.lower), has_sign_bit(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Mask is_odd(Real64Pair a) { return {is_odd(a.lower), is_odd(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR void reduce_large_angles(Real64Pair x, Real64Pair& turns, Real64Pair& rest) {
+    reduce_large_angles(x.lower, turns.lower, rest.lower);
+    reduce_large_angles(x.upper, turns.upper, rest.upper);
+  }
+};
+
 #pragma push_macro("RAINREF_FN")
 #undef RAINREF_FN
 #define RAINREF_FN HWY_INLINE
@@ -118,9 +170,8 @@ HWY_INLINE FloatVector in_double(FloatVector x, Formula formula) {
   return round_to_float(formula(widen(x)));
 #else
   const NarrowTag half;
-  const Real64Lanes lower = formula(widen(hn::LowerHalf(half, x)));
-  const Real64Lanes upper = formula(widen(hn::UpperHalf(half, x)));
-  return hn::Combine(FloatTag(), round_to_float(upper), round_to_float(lower));
+  const Real64Pair y = formula(Real64Pair(widen(hn::LowerHalf(half, x)), widen(hn::UpperHalf(half, x))));
+  return hn::Combine(FloatTag(), round_to_float(y.upper), round_to_float(y.lower));
 #endif
 }
 template <class Formula>
@@ -129,33 +180,34 @@ HWY_INLINE FloatVector in_double(FloatVector x, FloatVector y, Formula formula) 
   return round_to_float(formula(widen(x), widen(y)));
 #else
   const NarrowTag half;
-  const Real64Lanes lower = formula(widen(hn::LowerHalf(half, x)), widen(hn::LowerHalf(half, y)));
-  const Real64Lanes upper = formula(widen(hn::UpperHalf(half, x)), widen(hn::UpperHalf(half, y)));
-  return hn::Combine(FloatTag(), round_to_float(upper), round_to_float(lower));
+  const Real64Pair z = formula(Real64Pair(widen(hn::LowerHalf(half, x)), widen(hn::UpperHalf(half, x))),
+                               Real64Pair(widen(hn::LowerHalf(half, y)), widen(hn::UpperHalf(half, y))));
+  return hn::Combine(FloatTag(), round_to_float(z.upper), round_to_float(z.lower));
 #endif
 }
 
-/// The functions of transcendental-inl.h, where their domain and accuracy stand, for a vector of floats.
-HWY_INLINE FloatVector exp_lanes(FloatVector x) {
-  return in_double(x, [](Real64Lanes a) HWY_ATTR { return exp_real(a); });
+/// The functions of transcendental-inl.h, where their domain and accuracy stand, for a vector of floats. Not inlined:
+/// a pass calls several of them, and a call costs little beside what they do.
+inline HWY_NOINLINE FloatVector exp_lanes(FloatVector x) {
+  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return exp_real(a); });
 }
-HWY_INLINE FloatVector exp2_lanes(FloatVector x) {
-  return in_double(x, [](Real64Lanes a) HWY_ATTR { return exp2_real(a); });
+inline HWY_NOINLINE FloatVector exp2_lanes(FloatVector x) {
+  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return exp2_real(a); });
 }
-HWY_INLINE FloatVector log_lanes(FloatVector x) {
-  return in_double(x, [](Real64Lanes a) HWY_ATTR { return log_real(a); });
+inline HWY_NOINLINE FloatVector log_lanes(FloatVector x) {
+  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return log_real(a); });
 }
-HWY_INLINE FloatVector pow_lanes(FloatVector x, FloatVector y) {
-  return in_double(x, y, [](Real64Lanes a, Real64Lanes b) HWY_ATTR { return pow_real(a, b); });
+inline HWY_NOINLINE FloatVector pow_lanes(FloatVector x, FloatVector y) {
+  return in_double(x, y, [](auto a, auto b) HWY_ATTR __attribute__((always_inline)) { return pow_real(a, b); });
 }
-HWY_INLINE FloatVector sin_lanes(FloatVector x) {
-  return in_double(x, [](Real64Lanes a) HWY_ATTR { return sin_real(a); });
+inline HWY_NOINLINE FloatVector sin_lanes(FloatVector x) {
+  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return sin_real(a); });
 }
-HWY_INLINE FloatVector cos_lanes(FloatVector x) {
-  return in_double(x, [](Real64Lanes a) HWY_ATTR { return cos_real(a); });
+inline HWY_NOINLINE FloatVector cos_lanes(FloatVector x) {
+  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return cos_real(a); });
 }
-HWY_INLINE FloatVector atan2_lanes(FloatVector y, FloatVector x) {
-  return in_double(y, x, [](Real64Lanes a, Real64Lanes b) HWY_ATTR { return atan2_real(a, b); });
+inline HWY_NOINLINE FloatVector atan2_lanes(FloatVector y, FloatVector x) {
+  return in_double(y, x, [](auto a, auto b) HWY_ATTR __attribute__((always_inline)) { return atan2_real(a, b); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -126,7 +126,9 @@ SurfaceHitUniforms surface_hit_uniforms(const Settings& s) {
   if (corrected(s)) {
     u.half_size[0] = static_cast<float>(0.5 * columns * s.cell_size);
     u.half_size[2] = static_cast<float>(0.5 * rows * s.cell_size);
-    u.epsilon = 1e-5f;
+    u.inverse_size[0] = static_cast<float>(1 / (columns * s.cell_size));
+    u.inverse_size[1] = static_cast<float>(1 / (rows * s.cell_size));
+    u.epsilon = 1e-4f;
     u.normal_gain = static_cast<float>(0.5 / s.cell_size);
   } else {
     u.half_size[0] = u.half_size[2] = static_cast<float>(box_half_side);
@@ -156,12 +158,14 @@ ShadeUniforms shade_uniforms(const Settings& s) {
   u.puddle_depth = static_cast<float>(s.puddle_depth);
   u.fog_depth = static_cast<float>(s.fog_depth);
   u.use_checkerboard = s.use_checkerboard;
-  u.half_size[0] = static_cast<float>(0.5 * s.grid[0] * s.cell_size);
-  u.half_size[1] = static_cast<float>(0.5 * s.grid[1] * s.cell_size);
+  u.inverse_size[0] = static_cast<float>(1 / (s.grid[0] * s.cell_size));
+  u.inverse_size[1] = static_cast<float>(1 / (s.grid[1] * s.cell_size));
   u.shore_width = static_cast<float>(s.shore_width);
-  u.gloss_level = 3.5f;
+  u.gloss_level = 4.0f;
   u.wetness = 0.45f;
   u.background_level = 0.0f;
+  // A pixel of rippled water sees a patch of the environment, not a point.
+  u.mirror_level = 1.0f;
   u.exact_fresnel = s.exact_fresnel;
   return u;
 }

@@ -47,7 +47,8 @@ capture::EffectInfo make() {
                    member<&SurfaceHitUniforms::height_scale>("height_scale", "m", "corrected: height = scale * stored + bias."),
                    member<&SurfaceHitUniforms::height_bias>("height_bias", "m", "corrected: see height_scale."),
                    member<&SurfaceHitUniforms::surface_top>("surface_top", "m", "corrected: no height lies above this, or below its negative."),
-                   member<&SurfaceHitUniforms::surface_slope>("surface_slope", "1", "corrected: no slope of the surface is above this.")}));
+                   member<&SurfaceHitUniforms::surface_slope>("surface_slope", "1", "corrected: no slope of the surface is above this."),
+                   member<&SurfaceHitUniforms::inverse_size>("inverse_size", "1/m", "corrected: 1 over the puddle's extent in x and z.")}));
   const UniformBlock ground_noise = uniform_block<GroundNoiseUniforms>(
       "GroundNoiseUniforms", with_camera(nested<&GroundNoiseUniforms::camera>("camera", camera()),
                                          {member<&GroundNoiseUniforms::puddle_depth>("puddle_depth", "m", "Depth of the ground under y = 0.")}));
@@ -65,13 +66,14 @@ capture::EffectInfo make() {
                    member<&ShadeUniforms::environment_is_cube>("environment_is_cube", "1", "1: cube faces, 0: latitude/longitude."),
                    member<&ShadeUniforms::ambient>("ambient", "1", "corrected: radiance of a white diffuse level ground."),
                    member<&ShadeUniforms::gloss_level>("gloss_level", "1", "corrected: mip level of the environment in wet ground."),
-                   member<&ShadeUniforms::half_size>("half_size", "m", "corrected: half the puddle's extent in x and z."),
+                   member<&ShadeUniforms::inverse_size>("inverse_size", "1/m", "corrected: 1 over the puddle's extent in x and z."),
                    member<&ShadeUniforms::shore_width>("shore_width", "m", "corrected: depth over which wet ground turns into water."),
                    member<&ShadeUniforms::ground_footprint>("ground_footprint", "1/m", "corrected: texels of the ground under a pixel at distance 1."),
                    member<&ShadeUniforms::fog_colour>("fog_colour", "1", "corrected: radiance of the fog."),
                    member<&ShadeUniforms::exact_fresnel>("exact_fresnel", "1", "corrected: 1: Fresnel's equations, 0: Schlick."),
                    member<&ShadeUniforms::wetness>("wetness", "1", "corrected: reflectance of the wet ground over that of water."),
-                   member<&ShadeUniforms::background_level>("background_level", "1", "corrected: mip level of the environment behind the scene.")}));
+                   member<&ShadeUniforms::background_level>("background_level", "1", "corrected: mip level of the environment behind the scene."),
+                   member<&ShadeUniforms::mirror_level>("mirror_level", "1", "corrected: mip level of the environment in the water.")}));
   const UniformBlock display =
       uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::vignette>("vignette", "1", "Loss at distance 1 from the centre."),
                                                          member<&DisplayUniforms::exposure>("exposure", "1", "corrected: factor of the radiance."),

@@ -77,7 +77,8 @@ struct Puddle::State {
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
     if (!corrected) noise = Image(Format::r32f, s.width, s.height);
-    const Address edge = corrected ? Address::border : s.boundary == Boundary::periodic ? Address::repeat : Address::clamp;
+    // On a natural shore the edge is at rest, so that its texels and the border say the same.
+    const Address edge = corrected ? (shore.empty() ? Address::border : Address::clamp) : s.boundary == Boundary::periodic ? Address::repeat : Address::clamp;
     water = TextureData(std::vector<float>(static_cast<std::size_t>(columns) * rows), 1, columns, rows, edge, edge);
     water.set_border(encoding.rest, 0, 0, 0);
   }

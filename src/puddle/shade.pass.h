@@ -103,16 +103,16 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const N zero(0.0f), one(1.0f), half(0.5f);
   const auto hit = s.flag > half;
   const Vec3<N>& p = s.position;
-  const N bed_u = half * (p.x / N(u.half_size[0]) + one), bed_v = half * (p.z / N(u.half_size[1]) + one);
+  const N bed_u = p.x * N(u.inverse_size[0]) + half, bed_v = p.z * N(u.inverse_size[1]) + half;
   const N depth = sample_bilinear<0, 1, N>(bed, bed_u, bed_v)[0];
   const N water = smoothstep(0.0f, u.shore_width, depth);
+  const auto emerges = hit & (water < one);
 
   const N distance = length(p - Vec3<N>(u.camera.position));
   const N lod = log(max(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)), one)) * N(0x1.715476p+0f);  // 1 / ln 2
   Vec3<N> normal = s.normal;
-  const auto emerges = water < one;
   if (any(emerges)) {
-    const auto tilt = sample_trilinear<0, 2, N>(relief, p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
+    const auto tilt = sample_mip<0, 2, N>(relief, p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
     const Vec3<N> rough(tilt[0], one, tilt[1]);
     normal = select(emerges, normalize(mix(rough, s.normal, water)), normal);
   }
@@ -125,22 +125,26 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   // A mirror ray that dips below the horizon would meet the water again: it is turned up.
   const Vec3<N> up_mirrored(mirrored.x, abs(mirrored.y), mirrored.z);
   const Vec3<N> look = rotate_y(select(hit, up_mirrored, view), u.rotation);
-  const N gloss = select(hit, (one - water) * N(u.gloss_level), N(u.background_level));
+  const N gloss = select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level));
   const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);
 
-  const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
-  const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
-  const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
-  Vec3<N> albedo;
-  if (u.use_checkerboard != 0) {
-    albedo = checkerboard(gx, gz, u.ground_scale);
-  } else {
-    const auto texel = sample_trilinear<0, 3, N>(ground, gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
-    albedo = Vec3<N>(texel[0], texel[1], texel[2]);
+  Vec3<N> colour = reflected;
+  if (any(hit)) {
+    const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
+    const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
+    const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
+    Vec3<N> albedo;
+    if (u.use_checkerboard != 0) {
+      albedo = checkerboard(gx, gz, u.ground_scale);
+    } else {
+      const auto texel = sample_mip<0, 3, N>(ground, gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
+      albedo = Vec3<N>(texel[0], texel[1], texel[2]);
+    }
+    const N seen = transmittance(N(u.water_turbidity), path + column);
+    const Vec3<N> body = mix(Vec3<N>(u.tint), albedo, seen) * Vec3<N>(u.ambient);
+    const Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
+    const N clear = transmittance(N(u.fog_depth), distance);
+    colour = select(hit, mix(Vec3<N>(u.fog_colour), surface, clear), colour);
   }
-  const N seen = transmittance(N(u.water_turbidity), path + column);
-  const Vec3<N> body = mix(Vec3<N>(u.tint), albedo, seen) * Vec3<N>(u.ambient);
-  const Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
-  const N clear = transmittance(N(u.fog_depth), distance);
-  return select(hit, mix(Vec3<N>(u.fog_colour), surface, clear), reflected);
+  return colour;
 }

@@ -66,57 +66,70 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
 // An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. With no height above `top`
-// and no slope above S, a ray that is e above the water may advance e / (-d_y + S |d_xz|) without crossing it.
+// and no slope above S, a ray that is e above the water may advance e / (-d_y + S |d_xz|) without crossing it. Closer
+// than epsilon, one step of Newton's method along the ray ends the march: its error is of the order of epsilon squared.
 template <class N>
-RAINREF_FN N water_height(const SurfaceHitUniforms& u, const Texture& wave, N x, N z) {
-  const N s = N(0.5f) * (x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (z / N(u.half_size[2]) + N(1.0f));
+RAINREF_FN N water_height(const SurfaceHitUniforms& u, const Texture& wave, N s, N t) {
   return N(u.height_scale) * sample_bilinear<0, 1, N>(wave, s, t)[0] + N(u.height_bias);
 }
+
+template <class N>
+struct DescentState {
+  N t, above, iterations;
+  template <class M>
+  friend RAINREF_FN DescentState select(M m, const DescentState& a, const DescentState& b) {
+    return {select(m, a.t, b.t), select(m, a.above, b.above), select(m, a.iterations, b.iterations)};
+  }
+};
 
 template <class N>
 RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& wave, int px, int py) {
   const Vec3<N> origin(u.camera.position);
   const Vec3<N> d = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
-  const N zero(0.0f), one(1.0f), epsilon(u.epsilon), far(1e4f);
+  const N zero(0.0f), one(1.0f), half(0.5f), epsilon(u.epsilon), far(1e4f);
   // Rays that do not go down meet nothing.
-  const N fall = max(-d.y, N(1e-4f));
+  const N fall = max(-d.y, N(1e-4f)), inverse_fall = one / fall;
   const auto down = -d.y > N(1e-4f);
-  const N t_plane = origin.y / fall;
+  const N t_plane = origin.y * inverse_fall;
   // The stretch of the ray over the rectangle and under `top`.
-  const auto slab = [&](N o, N dir, float half, N& t_in, N& t_out) RAINREF_LAMBDA {
-    const N safe = select(abs(dir) < N(1e-8f), N(1e-8f), dir);
-    const N a = (N(-half) - o) / safe, b = (N(half) - o) / safe;
+  const auto slab = [&](N o, N dir, float half_side, N& t_in, N& t_out) RAINREF_LAMBDA {
+    const N inverse = one / select(abs(dir) < N(1e-8f), N(1e-8f), dir);
+    const N a = (N(-half_side) - o) * inverse, b = (N(half_side) - o) * inverse;
     t_in = max(t_in, min(a, b));
     t_out = min(t_out, max(a, b));
   };
-  N t_in = zero, t_out = min((origin.y + N(u.surface_top)) / fall, far);
+  N t_in = zero, t_out = min((origin.y + N(u.surface_top)) * inverse_fall, far);
   slab(origin.x, d.x, u.half_size[0], t_in, t_out);
   slab(origin.z, d.z, u.half_size[2], t_in, t_out);
   // A ray that meets the sheet before the rectangle goes no further.
   const auto over_rectangle = t_in <= t_plane;
-  t_in = max(t_in, (origin.y - N(u.surface_top)) / fall);
+  t_in = max(t_in, (origin.y - N(u.surface_top)) * inverse_fall);
   const auto enters = (t_in < t_out) & over_rectangle & down;
-  const N speed = fall + N(u.surface_slope) * length(d.x, d.z);
-  // position.x carries t; the other components stay zero.
-  MarchState<N> state{Vec3<N>(select(enters, t_in, t_plane), zero, zero), one, zero};
-  state = advance_while(u.max_steps, state, enters, [&](int round, const MarchState<N>& s) RAINREF_LAMBDA {
-    const N t = s.position.x;
-    const N above = (origin.y + t * d.y) - water_height(u, wave, origin.x + t * d.x, origin.z + t * d.z);
+
+  // Texture coordinates grow linearly along the ray.
+  const N s0 = origin.x * N(u.inverse_size[0]) + half, ds = d.x * N(u.inverse_size[0]);
+  const N r0 = origin.z * N(u.inverse_size[1]) + half, dr = d.z * N(u.inverse_size[1]);
+  const N stride = one / (fall + N(u.surface_slope) * length(d.x, d.z));
+  DescentState<N> state{select(enters, t_in, t_plane), one, zero};
+  state = advance_while(u.max_steps, state, enters, [&](int round, const DescentState<N>& now) RAINREF_LAMBDA {
+    const N t = now.t;
+    const N above = (origin.y + t * d.y) - water_height(u, wave, s0 + t * ds, r0 + t * dr);
     const auto go = (above >= epsilon) & (t < t_out);
-    const MarchState<N> next{Vec3<N>(select(go, t + above / speed, t), zero, zero), above, N(static_cast<float>(round))};
-    return Round<decltype(go), MarchState<N>>{go, next};
+    const DescentState<N> next{select(go, t + above * stride, t), above, N(static_cast<float>(round))};
+    return Round<decltype(go), DescentState<N>>{go, next};
   });
-  const auto on_water = enters & (state.position.x < t_out);
-  const N t = select(on_water, state.position.x, t_plane);
+  const auto on_water = enters & (state.t < t_out);
+  const N t = select(on_water, state.t, t_plane);
+  const Neighbours<N> near = sample_neighbours<0, N>(wave, s0 + t * ds, r0 + t * dr);
+  const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
+  // gx and gz are the negative slopes. Where the ray runs along a flank, half its fall bounds the step.
+  const N closing = max(fall - (gx * d.x + gz * d.z), half * fall);
+  const auto close = on_water & (state.above < epsilon);
+  const N hit_t = select(close, t + state.above / closing, t);
   SurfaceHit<N> out;
-  out.position = select(down, origin + t * d, origin);
+  out.position = select(down, origin + hit_t * d, origin);
   out.iterations = state.iterations;
-  const N x = out.position.x, z = out.position.z, dx(2.0f * u.half_size[0] * u.texel[0]), dz(2.0f * u.half_size[2] * u.texel[1]);
-  const N gain(u.normal_gain);
-  const N gx = (water_height(u, wave, x - dx, z) - water_height(u, wave, x + dx, z)) * gain;
-  const N gz = (water_height(u, wave, x, z - dz) - water_height(u, wave, x, z + dz)) * gain;
-  const Vec3<N> up(zero, one, zero);
-  out.normal = select(down, normalize(Vec3<N>(gx, one, gz)), up);
+  out.normal = select(down, normalize(Vec3<N>(gx, one, gz)), Vec3<N>(zero, one, zero));
   out.flag = select(down, one, zero);
   return out;
 }

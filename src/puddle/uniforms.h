@@ -53,6 +53,8 @@ struct SurfaceHitUniforms {
   float height_scale, height_bias;  ///< corrected: height = scale * stored + bias [m]
   float surface_top;                ///< corrected: no height is above this [m]
   float surface_slope;              ///< corrected: no slope is above this [1]
+  float inverse_size[2];            ///< corrected: 1 / extent of the puddle in x and z [1/m]
+  float padding0, padding1;
 };
 
 struct GroundNoiseUniforms {
@@ -74,14 +76,15 @@ struct ShadeUniforms {
   std::int32_t environment_is_cube;
   float ambient[3];  ///< corrected: radiance of a white diffuse ground under the environment
   float gloss_level;  ///< corrected: mip level of the environment that the wet ground mirrors
-  float half_size[2];  ///< corrected: half the puddle's extent in x and z [m]
+  float inverse_size[2];  ///< corrected: 1 / extent of the puddle in x and z [1/m]
   float shore_width;   ///< corrected: water depth over which wet ground turns into water [m]
   float ground_footprint;  ///< corrected: texels of the ground image that a pixel covers at distance 1
   float fog_colour[3];     ///< corrected
   std::int32_t exact_fresnel;
   float wetness;           ///< corrected: reflectance of the wet ground over that of water
   float background_level;  ///< corrected: mip level of the environment behind the scene
-  float padding0, padding1;
+  float mirror_level;      ///< corrected: mip level of the environment in the water
+  float padding0;
 };
 
 struct DisplayUniforms {
@@ -91,7 +94,7 @@ struct DisplayUniforms {
 };
 
 static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(WaveStepUniforms) == 32);
-static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 112 && sizeof(GroundNoiseUniforms) == 80);
+static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 128 && sizeof(GroundNoiseUniforms) == 80);
 static_assert(sizeof(ShadeUniforms) == 176 && sizeof(DisplayUniforms) == 16);
 
 }  // namespace rainref::puddle

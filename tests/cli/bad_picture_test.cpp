@@ -31,7 +31,7 @@ TEST_F(BadPicture, Missing) {
 TEST_F(BadPicture, OfASceneFileNamesItsPlace) {
   std::filesystem::remove(folder / "sky.png");
   before = folder.names();
-  expect_refusal({"hash", "corrected.toml"}, 4, AllOf(StartsWith("corrected.toml:7:9: environment.image: "), HasSubstr("No such file or directory")));
+  expect_refusal({"hash", "corrected.toml"}, 4, AllOf(StartsWith("corrected.toml:7:1: environment.image: "), HasSubstr("No such file or directory")));
 }
 
 TEST_F(BadPicture, EmptyTruncatedOrNone) {
@@ -77,7 +77,7 @@ TEST_F(BadPicture, ACubeInARowEqualsOneInAColumn) {
 
 TEST_F(BadPicture, AGroundImageIsReadAlike) {
   expect_refusal({"hash", "corrected.toml", "--set", "puddle.ground_image=none.png"}, 4, StartsWith("--set puddle.ground_image: cannot read 'none.png'"));
-  EXPECT_NE(hash({"corrected.toml", "--set", "puddle.ground_image=sky.png"}), hash({"corrected.toml"}));
+  EXPECT_NE(hash({"corrected.toml", "--set", "puddle.ground_image="}), hash({"corrected.toml"}));
 }
 
 }  // namespace

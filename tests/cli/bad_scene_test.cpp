@@ -27,7 +27,7 @@ TEST_F(BadScene, MissingOrNoFile) {
 
 TEST_F(BadScene, NoToml) {
   expect_scene_refused("effect = 'puddle'\nvariant = = 1\n", StartsWith("x.toml:2:11: "));
-  expect_scene_refused("", "x.toml: effect: missing; expected 'puddle'");
+  expect_scene_refused("", "x.toml: effect: missing; expected one of 'puddle'");
   expect_refusal({"hash", "sky.png"}, 2, StartsWith("sky.png:1:1: "));
 }
 
@@ -83,8 +83,8 @@ TEST_F(BadScene, AnUnstableWaveNamesTheLimit) {
   expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
   expect_refusal({"run", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
   // The step rate that the message names is enough.
-  expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=5"}, 2, EndsWith("raise puddle.step_rate to 353.553 or more"));
-  EXPECT_EQ(hash({"corrected.toml", "--set", "puddle.wave_speed=5", "--set", "puddle.step_rate=353.6"}).size(), 13u);
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=5"}, 2, EndsWith("raise puddle.step_rate to 354 or more"));
+  EXPECT_EQ(hash({"corrected.toml", "--set", "puddle.wave_speed=5", "--set", "puddle.step_rate=354"}).size(), 13u);
 }
 
 TEST_F(BadScene, ACameraThatLooksNowhere) {

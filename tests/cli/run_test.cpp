@@ -63,7 +63,7 @@ TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
   EXPECT_EQ(s["config"]["rain.rate"], 40.0);
   EXPECT_EQ(s["config"]["run.size"], (std::vector<int>{24, 16}));
   EXPECT_EQ(s["origins"]["rain.rate"], "--set");
-  EXPECT_EQ(s["origins"]["run.frames"], "corrected.toml:4:10");
+  EXPECT_EQ(s["origins"]["run.frames"], "corrected.toml:4:1");
   EXPECT_EQ(s["threads"], 2);
   EXPECT_EQ(s["simd"], "scalar");
   EXPECT_EQ(s["frames"], 2);
@@ -86,7 +86,6 @@ TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
     EXPECT_EQ(fmt::format("{} {} {} {}", line["frame"].get<int>(), line["pass"].get<std::string>(), line["buffer"].get<std::string>(), line["xxh3"].get<std::string>()),
               lines[static_cast<std::size_t>(6 + i)]);
   }
-  EXPECT_EQ("scene " + s["scene_hash"].get<std::string>(), lines.back());
 }
 
 TEST_F(RunVerb, JsonGoesToStandardOutput) {
@@ -121,7 +120,8 @@ TEST_F(RunVerb, AnExistingFolderKeepsWhatElseIsInIt) {
 TEST_F(RunVerb, TheSummaryIsASceneThatGivesTheSame) {
   run({"corrected.toml", "-o", "o"});
   std::string text;
-  for (const auto& [key, value] : summary("o")["config"].items()) text += key + " = " + value.dump() + "\n";
+  const nlohmann::json s = summary("o");
+  for (const auto& [key, value] : s["config"].items()) text += key + " = " + value.dump() + "\n";
   put(folder / "again.toml", text);
   EXPECT_EQ(hash({"again.toml"}), hash({"corrected.toml"}));
 }
@@ -129,7 +129,7 @@ TEST_F(RunVerb, TheSummaryIsASceneThatGivesTheSame) {
 TEST_F(RunVerb, AFileNameThatIsNoUtf8Runs) {
   std::filesystem::rename(folder / "corrected.toml", folder / "\xff.toml");
   run({"\xff.toml", "-o", "o"});
-  EXPECT_EQ(summary("o")["origins"]["effect"], "\uFFFD.toml:1:10");
+  EXPECT_EQ(summary("o")["origins"]["effect"], "\uFFFD.toml:1:1");
 }
 
 }  // namespace

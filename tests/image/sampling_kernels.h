@@ -7,7 +7,7 @@
 
 namespace rainref::test {
 
-enum class Lookup { nearest, bilinear, bilinear_of_level_1, trilinear, middle_channels, latlong, latlong_mip, cube };
+enum class Lookup { nearest, bilinear, bilinear_of_level_1, trilinear, mip, middle_channels, latlong, latlong_mip, cube };
 
 /// Coordinates u and v, or a direction (u, v, w); lod where the lookup has one.
 struct Place {

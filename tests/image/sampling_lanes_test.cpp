@@ -51,6 +51,7 @@ TEST(SamplingLanes, HaveTheBitsOfThePlainReadingUnderEveryAddressRule) {
         check(lookup, four, places);
       }
       check(Lookup::bilinear_of_level_1, one, places);
+      check(Lookup::mip, one, places);
       check(Lookup::middle_channels, four, places);
     }
   }

@@ -86,6 +86,15 @@ TEST(Sampling, AWholeLevelIsThatLevelAlone) {
   }
 }
 
+TEST(Sampling, MipIsTheNearestLevel) {
+  const TextureData data = noise_texture(37, 18, 1, Address::repeat, Address::clamp);
+  for (const Place& p : places(1.0f, 12)) {
+    if (std::fabs(p.lod - std::floor(p.lod) - 0.5f) < 1e-5f) continue;
+    const double level = std::clamp(std::round(double{p.lod}), 0.0, data.view().levels - 1.0);
+    EXPECT_NEAR(look_up_by_plain(Lookup::mip, data.view(), p).c[0], trilinear_at(data.view(), p.u, p.v, level, 0), tolerance(data.view(), p));
+  }
+}
+
 TEST(Sampling, TheMiddleChannelsAreThoseOfTheWholeTexel) {
   const TextureData data = noise_texture(7, 5, 4, Address::border, Address::mirror);
   for (const Place& p : places(2.0f, 9)) {

@@ -54,6 +54,8 @@
   X(int_clamped, small, to_number(clamp_index(to_int(a), N::uniform_int(37))))                             \
   X(int_clamped_each, small, to_number(clamp_index(to_int(a), to_int(abs(b)) + 1)))                        \
   X(int_wrapped, small, to_number(wrap_index(to_int(a), N::uniform_int(37))))                              \
+  X(int_larger, small, to_number(max_index(to_int(a), to_int(b))))                                         \
+  X(int_shifted, small, to_number(shift_right(to_int(a), to_int(fract(b) * N(31.9f)))))                    \
   X(int_inside, small, select(inside(to_int(a), N::uniform_int(37)), a, N(-0.0f)))                         \
   X(int_product, small, to_number(to_int(a) * to_int(b * N(0x1p-16f)) + to_int(c)))                        \
   X(table_entry, index, to_number(lookup(lookup_table, to_int(a))))                                        \

@@ -37,7 +37,7 @@ inline constexpr Case cases[] = {
     {"pow_1/2.4", Function::pow, 3, Second::fixed, 1 / 2.4f},
     {"pow", Function::pow, 1, Second::moderate},
     {"atan2", Function::atan2, 0, Second::any},
-    {"atan2_alike", Function::atan2, 0, Second::alike},
+    {"atan2_alike", Function::atan2, 5, Second::alike},
 };
 
 inline bool has_two_arguments(Function f) { return f == Function::pow || f == Function::atan2; }
