@@ -89,7 +89,7 @@ class Puddle {
   int frame() const;
   /// Wave steps made so far.
   std::int64_t steps() const;
-  /// c dt / dx; as-published exactly sqrt(1/2) / step.
+  /// c dt / dx; as-published sqrt(1/2) times the offset of the neighbours.
   double courant() const;
 
   /// Water: the newest and the previous level, in the storage type; single-channel planes.

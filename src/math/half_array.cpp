@@ -12,11 +12,15 @@ RAINREF_TARGET_BEGIN(half_array)
 void ToHalfArray(const float* x, Half* half, std::size_t count, Rounding rounding) {
   const auto n = static_cast<std::size_t>(Lanes::size());
   std::size_t i = 0;
-  for (; i + n <= count; i += n) store(half + i, Lanes::load(x + i), rounding, Lanes::size());
+  for (; i + n <= count; i += n) {
+    hn::StoreU(Lanes::load(x + i).half_codes(rounding), Lanes::DH(), reinterpret_cast<std::uint16_t*>(half + i));
+  }
   if (i == count) return;
   float rest[HWY_MAX_BYTES / sizeof(float)] = {};
   std::memcpy(rest, x + i, (count - i) * sizeof(float));
-  store(half + i, Lanes::load(rest), rounding, static_cast<int>(count - i));
+  std::uint16_t codes[HWY_MAX_BYTES / sizeof(std::uint16_t)];
+  hn::StoreU(Lanes::load(rest).half_codes(rounding), Lanes::DH(), codes);
+  std::memcpy(half + i, codes, (count - i) * sizeof(Half));
 }
 void ToFloatArray(const Half* half, float* x, std::size_t count) {
   const auto n = static_cast<std::size_t>(Lanes::size());

@@ -176,9 +176,15 @@ HWY_INLINE void store(float* p, Lanes x, Rounding, int count) {
   hn::Store(v, d, lanes);
   for (int k = 0; k < count; ++k) p[k] = lanes[k];
 }
+/// Half codes as they are stored: a small negative number that rounds to zero becomes +0, so that adding nothing to a
+/// stored value never changes its bits.
+HWY_INLINE hn::Vec<Lanes::DH> stored_half(Lanes x, Rounding rounding) {
+  const auto codes = x.half_codes(rounding);
+  return hn::IfThenZeroElse(hn::Eq(codes, hn::Set(Lanes::DH(), std::uint16_t{0x8000})), codes);
+}
 HWY_INLINE void store(Half* p, Lanes x, Rounding rounding, int count) {
   const Lanes::DH d;
-  const auto codes = x.half_codes(rounding);
+  const auto codes = stored_half(x, rounding);
   if (HWY_LIKELY(count == Lanes::size())) return hn::StoreU(codes, d, reinterpret_cast<std::uint16_t*>(p));
   HWY_ALIGN std::uint16_t lanes[HWY_MAX_BYTES / sizeof(std::uint16_t)];
   hn::StoreU(codes, d, lanes);
@@ -212,7 +218,7 @@ HWY_INLINE void store4(float* p, const Lanes (&c)[4], Rounding) {
   hn::StoreInterleaved4(hn::Add(c[0].v, zero), hn::Add(c[1].v, zero), hn::Add(c[2].v, zero), hn::Add(c[3].v, zero), d, p);
 }
 HWY_INLINE void store4(Half* p, const Lanes (&c)[4], Rounding rounding) {
-  hn::StoreInterleaved4(c[0].half_codes(rounding), c[1].half_codes(rounding), c[2].half_codes(rounding), c[3].half_codes(rounding),
+  hn::StoreInterleaved4(stored_half(c[0], rounding), stored_half(c[1], rounding), stored_half(c[2], rounding), stored_half(c[3], rounding),
                         Lanes::DH(), reinterpret_cast<std::uint16_t*>(p));
 }
 HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {

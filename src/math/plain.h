@@ -105,7 +105,11 @@ inline bool any(bool m) { return m; }
 
 /// Stores one value in the storage type's own rounding.
 inline void store(float* p, Plain<float> x, Rounding) { *p = x.v + 0.0f; }
-inline void store(Half* p, Plain<float> x, Rounding rounding) { *p = to_half(x.v + 0.0f, rounding); }
+/// A small negative number that rounds to zero is stored as +0.
+inline void store(Half* p, Plain<float> x, Rounding rounding) {
+  const Half rounded = to_half(x.v + 0.0f, rounding);
+  *p = rounded.bits == 0x8000u ? Half{0} : rounded;
+}
 inline void store(Unorm8* p, Plain<float> x, Rounding rounding) { *p = to_unorm8(x.v, rounding); }
 inline void store(double* p, Plain<double> x, Rounding) { *p = x.v; }
 

@@ -12,6 +12,9 @@ template <class N>
 RAINREF_FN N sum_any_order(N a, N b, N c) { return (a + b) + c; }
 template <class N>
 RAINREF_FN N sum_any_order(N a, N b, N c, N d) { return ((a + b) + c) + d; }
+/// (a + b) + (c + d): symmetric in the pairs and within each.
+template <class N>
+RAINREF_FN N sum_any_order_in_pairs(N a, N b, N c, N d) { return (a + b) + (c + d); }
 
 // ---- shaping -------------------------------------------------------------------------------------------------------
 template <class N>

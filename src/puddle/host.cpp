@@ -43,7 +43,7 @@ double gamma_of_step(const Settings& s) {
 }
 
 double courant_number(const Settings& s) {
-  return corrected(s) ? s.wave_speed / (s.step_rate * s.cell_size) : stability_limit / s.step;
+  return corrected(s) ? s.wave_speed / (s.step_rate * s.cell_size) : stability_limit * s.step;
 }
 
 std::int64_t steps_until(const Settings& s, int frames) {

@@ -1,6 +1,7 @@
 #include "puddle/rainfall.h"
 
 #include <algorithm>
+#include <array>
 
 #include "rain/rain.h"
 #include "random/counter.h"
@@ -20,7 +21,7 @@ double crater_depth(double diameter, double speed, double radius) {
 }
 
 Rainfall::Rainfall(const Settings& s, double stored_per_metre)
-    : seed_(s.seed), width_(static_cast<std::uint32_t>(s.grid[0])), height_(static_cast<std::uint32_t>(s.grid[1])) {
+    : seed_(s.seed), width_(static_cast<std::uint32_t>(s.grid[0])), height_(static_cast<std::uint32_t>(s.grid[1])), boundary_(s.boundary) {
   const rain::DropSizes sizes_of_rain(s.rain_rate, s.smallest_drop);
   const double area = s.grid[0] * s.cell_size * (s.grid[1] * s.cell_size);
   mean_ = sizes_of_rain.flux() * area / s.step_rate;
@@ -44,9 +45,26 @@ std::vector<Drop> Rainfall::drops(std::int64_t step) const {
     Drop drop = craters_[r[2] >> 22];
     drop.x = static_cast<float>(((r[0] >> 16) * width_) >> 8) * 0x1p-8f;
     drop.y = static_cast<float>(((r[1] >> 16) * height_) >> 8) * 0x1p-8f;
-    out.push_back(drop);
+    add_with_images(drop, out);
   }
   return out;
+}
+
+void Rainfall::add_with_images(const Drop& drop, std::vector<Drop>& out) const {
+  out.push_back(drop);
+  if (boundary_ == Boundary::fixed) return;
+  // The place, and its image beyond the lower and the upper edge of a side; exact, because places have few bits.
+  const auto images = [&](float at, std::uint32_t size) {
+    const auto side = static_cast<float>(size);
+    return boundary_ == Boundary::periodic ? std::array{at, at - side, at + side} : std::array{at, -at, 2 * side - at};
+  };
+  const auto reaches = [&](float at, std::uint32_t size) { return at + drop.radius > 0 && at - drop.radius < static_cast<float>(size); };
+  const auto xs = images(drop.x, width_), ys = images(drop.y, height_);
+  for (std::size_t j = 0; j < ys.size(); ++j) {
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      if ((i > 0 || j > 0) && reaches(xs[i], width_) && reaches(ys[j], height_)) out.push_back({xs[i], ys[j], drop.amplitude, drop.radius});
+    }
+  }
 }
 
 }  // namespace rainref::puddle

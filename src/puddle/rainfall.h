@@ -16,7 +16,9 @@ class Rainfall {
   /// stored_per_metre: stored units in a metre of height.
   Rainfall(const Settings& settings, double stored_per_metre);
 
-  /// Places are multiples of 1/256 texel: x = ((word >> 16) * width >> 8) / 256, exact in float.
+  /// Places are multiples of 1/256 texel: x = ((word >> 16) * width >> 8) / 256, exact in float. A crater that reaches
+  /// over an edge comes with its mirror images (reflecting) or its copies on the other side (periodic), so that the edge
+  /// takes no water away.
   std::vector<Drop> drops(std::int64_t step) const;
 
   /// Expected drops in a step.
@@ -28,6 +30,8 @@ class Rainfall {
  private:
   std::uint64_t seed_;
   std::uint32_t width_, height_;
+  Boundary boundary_;
+  void add_with_images(const Drop& drop, std::vector<Drop>& out) const;
   double mean_ = 0;
   random::PoissonTable count_;
   std::vector<Drop> craters_;

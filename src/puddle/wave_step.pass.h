@@ -63,7 +63,8 @@ RAINREF_FN N impulse_corrected(const Drop* drops, int drop_count, int x, int y) 
 template <class N, class Storage>
 RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Storage>& in, const Drop* drops, int drop_count, int x, int y) {
   const N here = N::load(in.here + x);
-  const N around = sum_any_order(N::load(in.below + x), N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.above + x));
+  // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
+  const N around = sum_any_order_in_pairs(N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.below + x), N::load(in.above + x));
   const N laplacian = around - N(4.0f) * here;
   const N moving = here + N(u.damping) * (here - N::load(in.previous + x));
   const N next = (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, drop_count, x, y);

@@ -134,7 +134,9 @@ void expect_same(const float found, F expected, const char* what, int x, int y) 
   ASSERT_EQ(std::bit_cast<std::uint32_t>(found), std::bit_cast<std::uint32_t>(expected.v + 0.0f)) << what << " at " << x << "," << y;
 }
 void expect_same(Half found, F expected, const char* what, int x, int y) {
-  ASSERT_EQ(found.bits, to_half(expected.v + 0.0f).bits) << what << " at " << x << "," << y;
+  Half stored;
+  store(&stored, expected, Rounding::rne);
+  ASSERT_EQ(found.bits, stored.bits) << what << " at " << x << "," << y;
 }
 
 // Each picture pass of a run against the plain reading of the same text, from the same stored inputs.
