@@ -1,7 +1,7 @@
 // Looking up radiance by direction, written once over a number N. Text only; needs sampling-inl.h before it.
 //
 // Latitude/longitude: u = 1/2 + atan2(z, x) / 2 pi, v = 1/2 + asin(y) / pi; row 0 (v = 0) looks straight down. Address
-// repeat in u, clamp in v.
+// repeat in u, clamp in v; four channels.
 // Cube: six square faces above each other in one image, in the order +x -x +y -y +z -z, each oriented as graphics APIs
 // orient the faces of a cube map (s, t from the table below, t = 0 at the face's first row). Lookups stay inside the
 // face: no filtering over its edges.
@@ -10,23 +10,23 @@
 //   +y    +x    +z           -y    +x    -z
 //   +z    +x    -y           -z    -x    -y
 
-template <class N>
-RAINREF_FN Vec3<N> sample_latlong(const Texture& t, const Vec3<N>& d, N lod) {
+template <class N, class T>
+RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d, N lod) {
   const N u = N(0.5f) + atan2(d.z, d.x) * N(0x1.45f306p-3f);                                          // 1 / (2 pi)
   const N v = N(0.5f) + atan2(d.y, sqrt(square(d.x) + square(d.z))) * N(0x1.45f306p-2f);  // 1 / pi
   const auto texel = sample_trilinear<0, 3, N>(t, u, v, lod);
   return Vec3<N>(texel[0], texel[1], texel[2]);
 }
-template <class N>
-RAINREF_FN Vec3<N> sample_latlong(const Texture& t, const Vec3<N>& d) {
+template <class N, class T>
+RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d) {
   const N u = N(0.5f) + atan2(d.z, d.x) * N(0x1.45f306p-3f);
   const N v = N(0.5f) + atan2(d.y, sqrt(square(d.x) + square(d.z))) * N(0x1.45f306p-2f);
   const auto texel = sample_bilinear<0, 3, N>(t, u, v);
   return Vec3<N>(texel[0], texel[1], texel[2]);
 }
 
-template <class N>
-RAINREF_FN Vec3<N> sample_cube(const Texture& t, const Vec3<N>& d, N lod) {
+template <class N, class T>
+RAINREF_FN Vec3<N> sample_cube(const T& t, const Vec3<N>& d, N lod) {
   const N ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero(0.0f), one(1.0f);
   const auto x_major = (ax >= ay) & (ax >= az), y_major = (ay >= az) & !x_major;
   const auto negative_x = d.x < zero, negative_y = d.y < zero, negative_z = d.z < zero;
@@ -47,5 +47,6 @@ RAINREF_FN Vec3<N> sample_cube(const Texture& t, const Vec3<N>& d, N lod) {
 
 template <class N>
 RAINREF_FN Vec3<N> sample_environment(const Texture& t, bool is_cube, const Vec3<N>& d, N lod) {
-  return is_cube ? sample_cube(t, d, lod) : sample_latlong(t, d, lod);
+  return is_cube ? sample_cube(fixed_texture<Address::clamp, Address::clamp, 4>(t), d, lod)
+                 : sample_latlong(fixed_texture<Address::repeat, Address::clamp, 4>(t), d, lod);
 }

@@ -8,6 +8,9 @@
 // The address rule a: clamp holds x in [0, W - 1]; repeat takes fract(u); mirror takes 1 - |2 fract(u / 2) - 1|;
 // border lets x run to [-1, W] and gives the border colour for texels outside. mix is a (1 - t) + b t throughout.
 
+// Every lookup takes a Texture, or a FixedTexture where the pass knows the address rules and the number of channels: the
+// same lookup, without the decisions.
+
 template <class N, int Count>
 struct Channels {
   N value[Count];
@@ -24,8 +27,8 @@ struct Level {
   RAINREF_FN Level() {}
 };
 /// The same level for every element.
-template <class N>
-RAINREF_FN Level<N> uniform_level(const Texture& t, int level) {
+template <class N, class T>
+RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   Level<N> l;
   l.width = N::uniform_int(t.width[level]);
   l.height = N::uniform_int(t.height[level]);
@@ -35,8 +38,8 @@ RAINREF_FN Level<N> uniform_level(const Texture& t, int level) {
   return l;
 }
 /// A level of each element's own.
-template <class N>
-RAINREF_FN Level<N> level_of(const Texture& t, typename N::Int level) {
+template <class N, class T>
+RAINREF_FN Level<N> level_of(const T& t, typename N::Int level) {
   Level<N> l;
   // Each level halves the side above it, rounded down, to no less than 1.
   const auto one = N::uniform_int(1);
@@ -79,22 +82,22 @@ struct Line {
   Int place;
   M in;
 };
-template <class N>
-RAINREF_FN auto texel_column(const Texture& t, const Level<N>& l, typename N::Int x) {
+template <class N, class T>
+RAINREF_FN auto texel_column(const T& t, const Level<N>& l, typename N::Int x) {
   const auto index = texel_index(t.address_u, x, l.width);
   const auto in = inside(t.address_u == Address::border ? x : index, l.width);
   return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? index : index * t.channels, in};
 }
-template <class N>
-RAINREF_FN auto texel_row(const Texture& t, const Level<N>& l, typename N::Int y) {
+template <class N, class T>
+RAINREF_FN auto texel_row(const T& t, const Level<N>& l, typename N::Int y) {
   const auto index = texel_index(t.address_v, y, l.height);
   const auto in = inside(t.address_v == Address::border ? y : index, l.height);
   const auto place = index * l.width + l.offset;
   return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? place : place * t.channels, in};
 }
 /// Channels First ... First + Count - 1 of the texel where a column meets a row.
-template <int First, int Count, class N, class Line>
-RAINREF_FN Channels<N, Count> load_texel(const Texture& t, const Line& column, const Line& row) {
+template <int First, int Count, class N, class T, class Line>
+RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const auto place = row.place + column.place;
   Channels<N, Count> out;
   for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
@@ -105,8 +108,8 @@ RAINREF_FN Channels<N, Count> load_texel(const Texture& t, const Line& column, c
   return out;
 }
 
-template <int First, int Count, class N>
-RAINREF_FN Channels<N, Count> sample_nearest(const Texture& t, N u, N v) {
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
   const Level<N> l = uniform_level<N>(t, 0);
   // Held within one texel of the image before the cut to integers; the index rule does the rest.
   const N x = clamp(address_coordinate(t.address_u, u) * l.width_number, N(-1.0f), l.width_number);
@@ -114,8 +117,8 @@ RAINREF_FN Channels<N, Count> sample_nearest(const Texture& t, N u, N v) {
   return load_texel<First, Count, N>(t, texel_column<N>(t, l, to_int(floor(x))), texel_row<N>(t, l, to_int(floor(y))));
 }
 
-template <int First, int Count, class N>
-RAINREF_FN Channels<N, Count> sample_level(const Texture& t, const Level<N>& l, N u, N v) {
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
   const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
   const auto xi = to_int(x0), yi = to_int(y0);
@@ -127,8 +130,8 @@ RAINREF_FN Channels<N, Count> sample_level(const Texture& t, const Level<N>& l, 
   for (int k = 0; k < Count; ++k) out[k] = mix(mix(a[k], b[k], fx), mix(c[k], d[k], fx), fy);
   return out;
 }
-template <int First, int Count, class N>
-RAINREF_FN Channels<N, Count> sample_bilinear(const Texture& t, N u, N v, int level = 0) {
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_bilinear(const T& t, N u, N v, int level = 0) {
   return sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
 }
 /// Four bilinear lookups of one channel of level 0, each one texel from (u, v) along an axis (textureOffset).
@@ -136,8 +139,8 @@ template <class N>
 struct Neighbours {
   N left, right, down, up;
 };
-template <int Channel, class N>
-RAINREF_FN Neighbours<N> sample_neighbours(const Texture& t, N u, N v) {
+template <int Channel, class N, class T>
+RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   const Level<N> l = uniform_level<N>(t, 0);
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
   const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
@@ -151,14 +154,14 @@ RAINREF_FN Neighbours<N> sample_neighbours(const Texture& t, N u, N v) {
           mix(mix(texel(b, p), texel(c, p), fx), low, fy), mix(high, mix(texel(b, s), texel(c, s), fx), fy)};
 }
 
-template <int First, int Count, class N>
-RAINREF_FN Channels<N, Count> sample_mip(const Texture& t, N u, N v, N lod) {
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
   const N last(static_cast<float>(t.levels - 1)), l = floor(clamp(lod, N(0.0f), last) + N(0.5f)), zero(0.0f);
   return sample_level<First, Count, N>(t, any(l > zero) ? level_of<N>(t, to_int(l)) : uniform_level<N>(t, 0), u, v);
 }
 /// Where lod is whole the finer level alone counts, so that lanes which all lie on it need not read the other.
-template <int First, int Count, class N>
-RAINREF_FN Channels<N, Count> sample_trilinear(const Texture& t, N u, N v, N lod) {
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   const N last(static_cast<float>(t.levels - 1)), l = clamp(lod, N(0.0f), last), l0 = floor(l), g = l - l0, zero(0.0f);
   const Level<N> fine = any(l0 > zero) ? level_of<N>(t, to_int(l0)) : uniform_level<N>(t, 0);
   Channels<N, Count> out = sample_level<First, Count, N>(t, fine, u, v);

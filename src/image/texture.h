@@ -28,6 +28,22 @@ struct Texture {
   float border[4] = {0, 0, 0, 0};
 };
 
+/// A view of a Texture whose address rules and channels are fixed when compiling.
+template <Address U, Address V, int Count>
+struct FixedTexture {
+  static constexpr Address address_u = U, address_v = V;
+  static constexpr int channels = Count;
+  const float* texels;
+  int levels;
+  const std::int32_t *width, *height, *offset;
+  const float* border;
+};
+/// The texture, which must have these rules and channels.
+template <Address U, Address V, int Count>
+inline FixedTexture<U, V, Count> fixed_texture(const Texture& t) {
+  return {t.texels, t.levels, t.width, t.height, t.offset, t.border};
+}
+
 /// Owns the texels of a Texture. Made from an Image by exact decoding: half and float keep their values, unorm8 is
 /// code / 255 correctly rounded. No colour conversion.
 class TextureData {

@@ -28,6 +28,16 @@ RAINREF_FN N smoothstep(float edge0, float edge1, N x) {
   return t * t * (N(3.0f) - N(2.0f) * t);
 }
 
+/// floor(log2(x) + 1/2), but not below 0 or above 12: the mip level of x texels to a pixel. By comparison with the powers
+/// of two halfway between whole levels, so that it is exact.
+template <class N>
+RAINREF_FN N nearest_octave(N x) {
+  N level(0.0f);
+  float threshold = 0x1.6a09e6p+0f;  // sqrt(2)
+  for (int k = 0; k < 12; ++k, threshold *= 2.0f) level = level + select(x >= N(threshold), N(1.0f), N(0.0f));
+  return level;
+}
+
 // ---- vectors -------------------------------------------------------------------------------------------------------
 template <class N>
 struct Vec3 {

@@ -2,6 +2,8 @@
 #include "rainref/puddle.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <vector>
 
@@ -24,6 +26,22 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Time that tiles spend in one pass, over all threads.
+class PassClock {
+ public:
+  template <class Body>
+  void add(const Body& body) {
+    const Stopwatch watch;
+    body();
+    nanoseconds_ += static_cast<std::int64_t>(watch.seconds() * 1e9);
+  }
+  /// The pass's share of the wall clock with this many threads at work.
+  double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
+
+ private:
+  std::atomic<std::int64_t> nanoseconds_ = 0;
 };
 
 Format channel_format(Format storage) {
@@ -77,8 +95,7 @@ struct Puddle::State {
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
     if (!corrected) noise = Image(Format::r32f, s.width, s.height);
-    // On a natural shore the edge is at rest, so that its texels and the border say the same.
-    const Address edge = corrected ? (shore.empty() ? Address::border : Address::clamp) : s.boundary == Boundary::periodic ? Address::repeat : Address::clamp;
+    const Address edge = !corrected && s.boundary == Boundary::periodic ? Address::repeat : Address::clamp;
     water = TextureData(std::vector<float>(static_cast<std::size_t>(columns) * rows), 1, columns, rows, edge, edge);
     water.set_border(encoding.rest, 0, 0, 0);
   }
@@ -165,31 +182,30 @@ void Puddle::render(Recorder* recorder) {
     for (const Extent& e : extents) all = {std::max(all.height, e.height), std::max(all.difference, e.difference)};
     set_bounds(u, s.settings, all);
   }
-  s.picture_tiles([&](const parallel::Tile& tile) {
-    surface_hit_rows(u, s.corrected, s.settings.rounding, s.water.view(), s.hit, s.normal, tile);
-  });
-  s.report(recorder, last_step, "surface_hit", {{"hit", s.hit}, {"normal", s.normal}}, hit_time.seconds());
+  const double prepared = hit_time.seconds();
 
-  if (!s.corrected) {
-    Stopwatch noise_time;
-    const GroundNoiseUniforms noise = ground_noise_uniforms(s.settings);
-    s.picture_tiles([&](const parallel::Tile& tile) { ground_noise_rows(noise, s.settings.rounding, s.hit, s.normal, s.noise, tile); });
-    s.report(recorder, last_step, "ground_noise", {{"noise", s.noise}}, noise_time.seconds());
-  }
-
-  Stopwatch shade_time;
+  const GroundNoiseUniforms noise = ground_noise_uniforms(s.settings);
   ShadeUniforms shade = shade_uniforms(s.settings);
   shade.environment_is_cube = s.environment_is_cube;
   shade.ground_footprint = ground_footprint(s.settings, s.ground.view().width[0]);
   for (int k = 0; k < 3; ++k) shade.ambient[k] = shade.fog_colour[k] = s.ambient[k];
-  const ShadeInputs in{&s.environment.view(), &s.ground.view(), &s.relief.view(), &s.bed.view(), &s.hit, &s.normal, &s.noise};
-  s.picture_tiles([&](const parallel::Tile& tile) { shade_rows(shade, s.corrected, s.settings.rounding, in, s.colour, tile); });
-  s.report(recorder, last_step, "shade", {{"colour", s.colour}}, shade_time.seconds());
-
-  Stopwatch display_time;
   const DisplayUniforms display = display_uniforms(s.settings);
-  s.picture_tiles([&](const parallel::Tile& tile) { display_rows(display, s.corrected, s.settings.rounding, s.colour, s.picture, tile); });
-  s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_time.seconds());
+  const ShadeInputs in{&s.environment.view(), &s.ground.view(), &s.relief.view(), &s.bed.view(), &s.hit, &s.normal, &s.noise};
+  const Rounding rounding = s.settings.rounding;
+
+  // These passes read no neighbours, so that a tile goes through all of them while it lies in the cache.
+  std::array<PassClock, 4> clocks;
+  s.picture_tiles([&](const parallel::Tile& tile) {
+    clocks[0].add([&] { surface_hit_rows(u, s.corrected, rounding, s.water.view(), s.hit, s.normal, tile); });
+    if (!s.corrected) clocks[1].add([&] { ground_noise_rows(noise, rounding, s.hit, s.normal, s.noise, tile); });
+    clocks[2].add([&] { shade_rows(shade, s.corrected, rounding, in, s.colour, tile); });
+    clocks[3].add([&] { display_rows(display, s.corrected, rounding, s.colour, s.picture, tile); });
+  });
+  const int threads = s.executor.threads();
+  s.report(recorder, last_step, "surface_hit", {{"hit", s.hit}, {"normal", s.normal}}, prepared + clocks[0].seconds(threads));
+  if (!s.corrected) s.report(recorder, last_step, "ground_noise", {{"noise", s.noise}}, clocks[1].seconds(threads));
+  s.report(recorder, last_step, "shade", {{"colour", s.colour}}, clocks[2].seconds(threads));
+  s.report(recorder, last_step, "display", {{"picture", s.picture}}, clocks[3].seconds(threads));
   s.frame = recorded_frame;
 }
 

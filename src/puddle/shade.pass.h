@@ -75,7 +75,7 @@ RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& env
     const N wobble = (noise - N(0.5f)) * N(0.05f);
     base = checkerboard(gx, gz, u.ground_scale) + Vec3<N>(wobble, wobble, wobble);
   } else {
-    const auto texel = sample_bilinear<0, 3, N>(ground, gx * N(u.ground_scale), gz * N(u.ground_scale));
+    const auto texel = sample_bilinear<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale));
     base = N(0.6f) * decode_gamma(Vec3<N>(texel[0], texel[1], texel[2]));
   }
   const Vec3<N> tint(u.tint);
@@ -103,16 +103,17 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const N zero(0.0f), one(1.0f), half(0.5f);
   const auto hit = s.flag > half;
   const Vec3<N>& p = s.position;
-  const N bed_u = p.x * N(u.inverse_size[0]) + half, bed_v = p.z * N(u.inverse_size[1]) + half;
-  const N depth = sample_bilinear<0, 1, N>(bed, bed_u, bed_v)[0];
+  N depth = zero;
+  if (any(hit)) depth = sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(bed), p.x * N(u.inverse_size[0]) + half, p.z * N(u.inverse_size[1]) + half)[0];
   const N water = smoothstep(0.0f, u.shore_width, depth);
   const auto emerges = hit & (water < one);
 
   const N distance = length(p - Vec3<N>(u.camera.position));
-  const N lod = log(max(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)), one)) * N(0x1.715476p+0f);  // 1 / ln 2
+  // Texels of the ground to a pixel.
+  const N lod = nearest_octave(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)));
   Vec3<N> normal = s.normal;
   if (any(emerges)) {
-    const auto tilt = sample_mip<0, 2, N>(relief, p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
+    const auto tilt = sample_mip<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(relief), p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
     const Vec3<N> rough(tilt[0], one, tilt[1]);
     normal = select(emerges, normalize(mix(rough, s.normal, water)), normal);
   }
@@ -137,7 +138,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
     if (u.use_checkerboard != 0) {
       albedo = checkerboard(gx, gz, u.ground_scale);
     } else {
-      const auto texel = sample_mip<0, 3, N>(ground, gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
+      const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
       albedo = Vec3<N>(texel[0], texel[1], texel[2]);
     }
     const N seen = transmittance(N(u.water_turbidity), path + column);

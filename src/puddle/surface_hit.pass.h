@@ -68,8 +68,8 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
 // An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. With no height above `top`
 // and no slope above S, a ray that is e above the water may advance e / (-d_y + S |d_xz|) without crossing it. Closer
 // than epsilon, one step of Newton's method along the ray ends the march: its error is of the order of epsilon squared.
-template <class N>
-RAINREF_FN N water_height(const SurfaceHitUniforms& u, const Texture& wave, N s, N t) {
+template <class N, class T>
+RAINREF_FN N water_height(const SurfaceHitUniforms& u, const T& wave, N s, N t) {
   return N(u.height_scale) * sample_bilinear<0, 1, N>(wave, s, t)[0] + N(u.height_bias);
 }
 
@@ -83,7 +83,8 @@ struct DescentState {
 };
 
 template <class N>
-RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& wave, int px, int py) {
+RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, int px, int py) {
+  const auto wave = fixed_texture<Address::clamp, Address::clamp, 1>(water);
   const Vec3<N> origin(u.camera.position);
   const Vec3<N> d = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N zero(0.0f), one(1.0f), half(0.5f), epsilon(u.epsilon), far(1e4f);
@@ -120,16 +121,22 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
   });
   const auto on_water = enters & (state.t < t_out);
   const N t = select(on_water, state.t, t_plane);
-  const Neighbours<N> near = sample_neighbours<0, N>(wave, s0 + t * ds, r0 + t * dr);
-  const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
-  // gx and gz are the negative slopes. Where the ray runs along a flank, half its fall bounds the step.
-  const N closing = max(fall - (gx * d.x + gz * d.z), half * fall);
-  const auto close = on_water & (state.above < epsilon);
-  const N hit_t = select(close, t + state.above / closing, t);
+  N hit_t = t;
   SurfaceHit<N> out;
+  out.normal = Vec3<N>(zero, one, zero);
+  if (any(on_water)) {
+    const Neighbours<N> near = sample_neighbours<0, N>(wave, s0 + t * ds, r0 + t * dr);
+    const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
+    // gx and gz are the negative slopes. A ray that runs along a flank keeps its place, and so does one that enters
+    // through the side under the water. Twice the safe stride bounds the step: it ends no more than epsilon under and
+    // three epsilon above the water, whatever the water does between its texels.
+    const N closing = fall - (gx * d.x + gz * d.z), least = half * fall;
+    const auto close = on_water & (state.above < epsilon) & (state.above >= zero) & (closing >= least);
+    hit_t = select(close, t + state.above * min(one / max(closing, least), N(2.0f) * stride), t);
+    out.normal = select(on_water, normalize(Vec3<N>(gx, one, gz)), out.normal);
+  }
   out.position = select(down, origin + hit_t * d, origin);
   out.iterations = state.iterations;
-  out.normal = select(down, normalize(Vec3<N>(gx, one, gz)), Vec3<N>(zero, one, zero));
   out.flag = select(down, one, zero);
   return out;
 }
