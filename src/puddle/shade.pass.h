@@ -102,9 +102,10 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N zero(0.0f), one(1.0f), half(0.5f);
   const auto hit = s.flag > half;
+  if (!any(hit)) return sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
   const Vec3<N>& p = s.position;
-  N depth = zero;
-  if (any(hit)) depth = sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(bed), p.x * N(u.inverse_size[0]) + half, p.z * N(u.inverse_size[1]) + half)[0];
+  const N depth = sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(bed), p.x * N(u.inverse_size[0]) + half,
+                                           p.z * N(u.inverse_size[1]) + half)[0];
   const N water = smoothstep(0.0f, u.shore_width, depth);
   const auto emerges = hit & (water < one);
 
@@ -129,23 +130,19 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const N gloss = select(hit, mix(N(u.gloss_level), N(u.mirror_level), water), N(u.background_level));
   const Vec3<N> reflected = sample_environment(environment, u.environment_is_cube != 0, look, gloss);
 
-  Vec3<N> colour = reflected;
-  if (any(hit)) {
-    const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
-    const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
-    const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
-    Vec3<N> albedo;
-    if (u.use_checkerboard != 0) {
-      albedo = checkerboard(gx, gz, u.ground_scale);
-    } else {
-      const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
-      albedo = Vec3<N>(texel[0], texel[1], texel[2]);
-    }
-    const N seen = transmittance(N(u.water_turbidity), path + column);
-    const Vec3<N> body = mix(Vec3<N>(u.tint), albedo, seen) * Vec3<N>(u.ambient);
-    const Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
-    const N clear = transmittance(N(u.fog_depth), distance);
-    colour = select(hit, mix(Vec3<N>(u.fog_colour), surface, clear), colour);
+  const Vec3<N> bent = refract(view, normal, 1.0f / water_ior);
+  const N column = max(depth, zero), path = column / max(-bent.y, N(0.05f));
+  const N gx = p.x + path * bent.x, gz = p.z + path * bent.z;
+  Vec3<N> albedo;
+  if (u.use_checkerboard != 0) {
+    albedo = checkerboard(gx, gz, u.ground_scale);
+  } else {
+    const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
+    albedo = Vec3<N>(texel[0], texel[1], texel[2]);
   }
-  return colour;
+  const N seen = transmittance(N(u.water_turbidity), path + column);
+  const Vec3<N> body = mix(Vec3<N>(u.tint), albedo, seen) * Vec3<N>(u.ambient);
+  const Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
+  const N clear = transmittance(N(u.fog_depth), distance);
+  return select(hit, mix(Vec3<N>(u.fog_colour), surface, clear), reflected);
 }

@@ -91,6 +91,11 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
   // Rays that do not go down meet nothing.
   const N fall = max(-d.y, N(1e-4f)), inverse_fall = one / fall;
   const auto down = -d.y > N(1e-4f);
+  SurfaceHit<N> out;
+  out.position = origin;
+  out.iterations = out.flag = zero;
+  out.normal = Vec3<N>(zero, one, zero);
+  if (!any(down)) return out;
   const N t_plane = origin.y * inverse_fall;
   // The stretch of the ray over the rectangle and under `top`.
   const auto slab = [&](N o, N dir, float half_side, N& t_in, N& t_out) RAINREF_LAMBDA {
@@ -122,8 +127,6 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
   const auto on_water = enters & (state.t < t_out);
   const N t = select(on_water, state.t, t_plane);
   N hit_t = t;
-  SurfaceHit<N> out;
-  out.normal = Vec3<N>(zero, one, zero);
   if (any(on_water)) {
     const Neighbours<N> near = sample_neighbours<0, N>(wave, s0 + t * ds, r0 + t * dr);
     const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
