@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 
 namespace rainref::bench {
 

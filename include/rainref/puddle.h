@@ -8,12 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
-
-namespace rainref::parallel {
-class Executor;
-}
 
 namespace rainref::puddle {
 

@@ -11,7 +11,7 @@
 
 #include "cli/commands.h"
 #include "math/simd_target.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "capture/pass_info.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "rainref/recorder.h"
 #include "scene/effect_table.h"
 #include "scene/config.h"

@@ -66,7 +66,7 @@ bool half_conversion() {
 
 Hash128 scene_hash(const std::string& variant, int threads, std::uint64_t shuffle) {
   const scene::Config config = scene::parse(fmt::format("effect = \"puddle\"\nvariant = \"{}\"\n[run]\nframes = 3\nsize = [93, 61]\n", variant), "selftest",
-                                            variant == "corrected" ? std::vector<std::string>{"puddle.grid=[61, 45]", "rain.rate=80"} : std::vector<std::string>{},
+                                            variant == "corrected" ? std::vector<std::string>{"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"} : std::vector<std::string>{},
                                             effect_table());
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);

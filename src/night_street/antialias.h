@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "night_street/shade.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "rainref/image.h"
 
 namespace rainref::night_street {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "rainref/image.h"
 #include "scene/camera.h"
 

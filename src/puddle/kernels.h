@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/texture.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "puddle/uniforms.h"
 #include "rainref/image.h"
 #include "rainref/puddle.h"

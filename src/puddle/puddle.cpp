@@ -7,7 +7,7 @@
 #include <chrono>
 #include <vector>
 
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "puddle/environment.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
@@ -81,7 +81,8 @@ struct Puddle::State {
     set_rest();
     environment = prepare_environment(around, s.variant);
     const bool own_ground = around.ground.empty();
-    const Image made = own_ground ? make_asphalt(s.seed) : Image();
+    // A checkerboard hides the ground image of as-published; the corrected ground has relief all the same.
+    const Image made = !own_ground ? Image() : !corrected && s.use_checkerboard ? Image(Format::rgba32f, 1, 1) : make_asphalt(s.seed);
     ground = prepare_ground(own_ground ? made : around.ground, own_ground ? false : around.ground_is_encoded, s.variant);
     if (corrected) {
       relief = make_relief(ground, own_ground);

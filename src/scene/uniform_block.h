@@ -78,7 +78,7 @@ constexpr Scalar scalar_of() {
 
 template <class S, class M>
 std::size_t offset_of(M S::*pointer) {
-  static_assert(std::is_standard_layout_v<S> && std::is_trivially_copyable_v<S>);
+  static_assert(std::is_standard_layout_v<S>);
   const S object{};
   const auto* at = reinterpret_cast<const std::byte*>(&(object.*pointer));
   return static_cast<std::size_t>(at - reinterpret_cast<const std::byte*>(&object));

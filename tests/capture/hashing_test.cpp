@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 
 namespace rainref::capture {
 namespace {

@@ -202,7 +202,7 @@ TEST(NightStreet, LampsShineWhereTheyAreListed) {
   int seen = 0, hidden = 0;
   for (const Lamp& lamp : street().lamps()) {
     const scene::Vector3 towards = lamp.position - eye;
-    const double distance = std::sqrt(scene::dot(towards, towards));
+    const double distance = std::sqrt(glm::dot(towards, towards));
     if (lamp.position[1] < 7 || distance > 60) continue;  // street lamps, before the haze dims them
     const Street::View view = street().view({eye, lamp.position, {0, 1, 0}, 1}, 1, 1, 400, executor);
     const float depth = view.depth.row<float>(0)[0];
@@ -231,7 +231,7 @@ TEST(NightStreet, NothingOutshinesTheLamps) {
                                      std::cos(elevation) * std::sin(azimuth)};
       double best = -1;
       for (const Lamp& lamp : street().lamps())
-        best = std::max(best, scene::dot(direction, scene::normalized(lamp.position - puddle_eye)));
+        best = std::max(best, glm::dot(direction, scene::normalized(lamp.position - puddle_eye)));
       EXPECT_GT(best, std::cos(2.5 * 2 * pi / image.width())) << x << ' ' << y;
     }
   }

@@ -78,7 +78,7 @@ TEST(NightStreetTrace, HitsLieOnTheirSolidsAndFaceTheRay) {
 TEST(NightStreetTrace, RayThatStartsAnywhereHasASoundRadiance) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     Ray ray = some_ray(i);
-    if (i % 4 == 0) ray = Ray(20 * ray.origin, ray.direction);               // far outside, or in a house
+    if (i % 4 == 0) ray = Ray(20.0 * ray.origin, ray.direction);               // far outside, or in a house
     if (i % 4 == 1) ray = Ray(ray.origin, {0, 0, i % 8 == 1 ? 1.0 : -1.0});  // along an axis
     if (i % 4 == 2) ray = Ray(ray.origin, {0, i % 8 == 2 ? 1.0 : -1.0, 0});
     const Vec radiance = look(city(), ray).radiance;

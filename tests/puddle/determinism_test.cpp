@@ -7,7 +7,7 @@
 
 #include "capture/hashing.h"
 #include "math/simd_target.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"

@@ -8,7 +8,7 @@
 
 #include "capture/hashing.h"
 #include "night_street/night_street.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "rainref/puddle.h"
 
 namespace rainref::puddle {

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"

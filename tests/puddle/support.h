@@ -14,7 +14,7 @@
 
 #include "math/half.h"
 #include "math/unorm.h"
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 #include "puddle/host.h"
 #include "puddle/oracle.h"
 #include "rainref/error.h"

@@ -9,7 +9,6 @@ namespace rainref::scene {
 namespace {
 
 using testing::DoubleNear;
-using testing::ElementsAre;
 
 TEST(Camera, HalfHeightIsTheTangentOfHalfTheFieldOfView) {
   constexpr long double pi = 3.14159265358979323846264338327950288L;
@@ -45,9 +44,9 @@ TEST(Camera, RefusesAFieldOfViewOutsideItsRange) {
 
 TEST(Camera, BasisOfTheDefaultCameraIsTheWorlds) {
   const Camera::Basis b = Camera{}.basis();
-  EXPECT_THAT(b.right, ElementsAre(1, 0, 0));
-  EXPECT_THAT(b.up, ElementsAre(0, 1, 0));
-  EXPECT_THAT(b.forward, ElementsAre(0, 0, -1));
+  EXPECT_EQ(b.right, Vector3(1, 0, 0));
+  EXPECT_EQ(b.up, Vector3(0, 1, 0));
+  EXPECT_EQ(b.forward, Vector3(0, 0, -1));
 }
 
 TEST(Camera, BasisIsOrthonormalAndKeepsUpInThePlaneOfViewAndUp) {

@@ -1,4 +1,4 @@
-#include "parallel/parallel.h"
+#include "rainref/executor.h"
 
 #include <algorithm>
 #include <numeric>
