@@ -45,7 +45,7 @@ TEST_F(List, JsonHasTheSchema) {
   EXPECT_EQ(puddle["name"], "puddle");
   EXPECT_EQ(puddle["variants"], (std::vector<std::string>{"as-published", "corrected"}));
   EXPECT_EQ(puddle["passes"], (std::vector<std::string>{"raindrops", "wave_step", "surface_hit", "ground_noise", "shade", "display"}));
-  EXPECT_EQ(json["scenes"].size(), 3u);
+  EXPECT_EQ(json["scenes"].size(), 5u);
   EXPECT_EQ(json["simd_targets"], simd_targets());
   EXPECT_GE(json["threads"].get<int>(), 1);
 }

@@ -24,16 +24,16 @@ TextureData cube(int side) {
   std::vector<float> texels;
   for (int face = 0; face < 6; ++face) {
     for (int i = 0; i < side * side; ++i) {
-      texels.insert(texels.end(), {static_cast<float>(face), static_cast<float>(i % side), static_cast<float>(i / side)});
+      texels.insert(texels.end(), {static_cast<float>(face), static_cast<float>(i % side), static_cast<float>(i / side), 1.0f});
     }
   }
-  TextureData t(std::move(texels), 3, side, 6 * side, Address::clamp, Address::clamp);
+  TextureData t(std::move(texels), 4, side, 6 * side, Address::clamp, Address::clamp);
   t.build_mips(1 + std::countr_zero(static_cast<unsigned>(side)));
   return t;
 }
 
 TEST(LatLong, IsTheTextbookLookup) {
-  const TextureData data = noise_texture(32, 16, 3, Address::repeat, Address::clamp);
+  const TextureData data = noise_texture(32, 16, 4, Address::repeat, Address::clamp);
   for (const Place& p : directions(2000)) {
     const Texel sharp = look_up_by_plain(Lookup::latlong, data.view(), p), soft = look_up_by_plain(Lookup::latlong_mip, data.view(), p);
     for (int c = 0; c < 3; ++c) {
@@ -46,8 +46,8 @@ TEST(LatLong, IsTheTextbookLookup) {
 TEST(LatLong, PolesAndSeam) {
   std::vector<float> texels;
   for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 8; ++x) texels.insert(texels.end(), {static_cast<float>(x), static_cast<float>(y), 0.0f});
-  const TextureData data(std::move(texels), 3, 8, 4, Address::repeat, Address::clamp);
+    for (int x = 0; x < 8; ++x) texels.insert(texels.end(), {static_cast<float>(x), static_cast<float>(y), 0.0f, 1.0f});
+  const TextureData data(std::move(texels), 4, 8, 4, Address::repeat, Address::clamp);
   const auto at = [&](float x, float y, float z) { return look_up_by_plain(Lookup::latlong, data.view(), {x, y, z, 0}); };
   EXPECT_EQ(at(0, -1, 0).c[1], 0.0f);  // row 0 looks straight down
   EXPECT_EQ(at(0, 1, 0).c[1], 3.0f);

@@ -73,7 +73,7 @@ TEST(SamplingLanes, HaveTheBitsOfThePlainReadingByDirection) {
   for (Place& p : places) {  // directions of moderate length, their zeros and signs kept
     for (float* x : {&p.u, &p.v, &p.w}) *x = std::fabs(*x) > 4 ? std::copysign(0.75f, *x) : *x;
   }
-  const TextureData panorama = noise_texture(32, 16, 3, Address::repeat, Address::clamp);
+  const TextureData panorama = noise_texture(32, 16, 4, Address::repeat, Address::clamp);
   check(Lookup::latlong, panorama, places);
   check(Lookup::latlong_mip, panorama, places);
   TextureData faces(std::vector<float>(8 * 48 * 3), 3, 8, 48, Address::clamp, Address::clamp);
