@@ -76,8 +76,8 @@ TEST(SamplingLanes, HaveTheBitsOfThePlainReadingByDirection) {
   const TextureData panorama = noise_texture(32, 16, 4, Address::repeat, Address::clamp);
   check(Lookup::latlong, panorama, places);
   check(Lookup::latlong_mip, panorama, places);
-  TextureData faces(std::vector<float>(8 * 48 * 3), 3, 8, 48, Address::clamp, Address::clamp);
-  for (int i = 0; i < 8 * 48 * 3; ++i) faces.texels()[i] = static_cast<float>(i * 7919 % 1009) / 1009.0f;
+  TextureData faces(std::vector<float>(8 * 48 * 4), 4, 8, 48, Address::clamp, Address::clamp);
+  for (int i = 0; i < 8 * 48 * 4; ++i) faces.texels()[i] = static_cast<float>(i * 7919 % 1009) / 1009.0f;
   faces.build_mips(4);
   check(Lookup::cube, faces, places);
 }
