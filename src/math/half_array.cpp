@@ -40,16 +40,13 @@ namespace rainref {
 namespace half_array {
 RAINREF_EXPORT(ToHalfArray);
 RAINREF_EXPORT(ToFloatArray);
+// Inside this namespace, so that the target's name means the one of this file.
+void encode(const float* x, Half* half, std::size_t count, Rounding rounding) { RAINREF_DISPATCH(ToHalfArray)(x, half, count, rounding); }
+void decode(const Half* half, float* x, std::size_t count) { RAINREF_DISPATCH(ToFloatArray)(half, x, count); }
 }  // namespace half_array
 
-void to_half_array(const float* x, Half* half, std::size_t count, Rounding rounding) {
-  using namespace half_array;
-  RAINREF_DISPATCH(ToHalfArray)(x, half, count, rounding);
-}
-void to_float_array(const Half* half, float* x, std::size_t count) {
-  using namespace half_array;
-  RAINREF_DISPATCH(ToFloatArray)(half, x, count);
-}
+void to_half_array(const float* x, Half* half, std::size_t count, Rounding rounding) { half_array::encode(x, half, count, rounding); }
+void to_float_array(const Half* half, float* x, std::size_t count) { half_array::decode(half, x, count); }
 
 }  // namespace rainref
 #endif

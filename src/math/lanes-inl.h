@@ -38,6 +38,8 @@ struct Lanes {
   /// Texel indices: made by to_int, used to fetch.
   struct Int {
     hn::Vec<DI> i;
+    HWY_INLINE Int() {}  // implicit ones would not be compiled for the target
+    HWY_INLINE Int(hn::Vec<DI> x) : i(x) {}
     friend HWY_INLINE Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
     friend HWY_INLINE Int clamp_index(Int a, Int size) {
       return {hn::Max(hn::Min(a.i, hn::Sub(size.i, hn::Set(DI(), 1))), hn::Zero(DI()))};
