@@ -18,12 +18,7 @@ RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d, N lod) {
   return Vec3<N>(texel[0], texel[1], texel[2]);
 }
 template <class N, class T>
-RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d) {
-  const N u = N(0.5f) + atan2(d.z, d.x) * N(0x1.45f306p-3f);
-  const N v = N(0.5f) + atan2(d.y, sqrt(square(d.x) + square(d.z))) * N(0x1.45f306p-2f);
-  const auto texel = sample_bilinear<0, 3, N>(t, u, v);
-  return Vec3<N>(texel[0], texel[1], texel[2]);
-}
+RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d) { return sample_latlong(t, d, N(0.0f)); }
 
 template <class N, class T>
 RAINREF_FN Vec3<N> sample_cube(const T& t, const Vec3<N>& d, N lod) {
