@@ -11,6 +11,11 @@
 // Every lookup takes a Texture, or a FixedTexture where the pass knows the address rules and the number of channels: the
 // same lookup, without the decisions.
 
+// Channels lie in registers only when the loops over them are unrolled, which -O2 leaves.
+#ifndef RAINREF_UNROLL
+#define RAINREF_UNROLL _Pragma("GCC unroll 4")
+#endif
+
 template <class N, int Count>
 struct Channels {
   N value[Count];
@@ -100,10 +105,10 @@ template <int First, int Count, class N, class T, class Line>
 RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const auto place = row.place + column.place;
   Channels<N, Count> out;
-  for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
+  RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
   if (t.address_u == Address::border || t.address_v == Address::border) {
     const auto in = column.in & row.in;
-    for (int c = 0; c < Count; ++c) out[c] = select(in, out[c], N(t.border[First + c]));
+    RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = select(in, out[c], N(t.border[First + c]));
   }
   return out;
 }
@@ -127,7 +132,7 @@ RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N
   const auto a = load_texel<First, Count, N>(t, left, low), b = load_texel<First, Count, N>(t, right, low);
   const auto c = load_texel<First, Count, N>(t, left, high), d = load_texel<First, Count, N>(t, right, high);
   Channels<N, Count> out;
-  for (int k = 0; k < Count; ++k) out[k] = mix(mix(a[k], b[k], fx), mix(c[k], d[k], fx), fy);
+  RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = mix(mix(a[k], b[k], fx), mix(c[k], d[k], fx), fy);
   return out;
 }
 template <int First, int Count, class N, class T>
@@ -168,7 +173,7 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   const auto between = g > zero;
   if (any(between)) {
     const auto coarse = sample_level<First, Count, N>(t, level_of<N>(t, to_int(min(l0 + N(1.0f), last))), u, v);
-    for (int k = 0; k < Count; ++k) out[k] = select(between, mix(out[k], coarse[k], g), out[k]);
+    RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = select(between, mix(out[k], coarse[k], g), out[k]);
   }
   return out;
 }

@@ -234,6 +234,19 @@ HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
+// The same values as one after the other, sooner.
+HWY_INLINE Vec3<Lanes> pow(const Vec3<Lanes>& a, Lanes b) {
+  Lanes::V x[3] = {a.x.v, a.y.v, a.z.v};
+  pow_lanes(x, b.v);
+  return Vec3<Lanes>(x[0], x[1], x[2]);
+}
+HWY_INLINE Two<Lanes> atan2(const Two<Lanes>& y, const Two<Lanes>& x) {
+  Lanes::V z[2] = {y.a.v, y.b.v};
+  const Lanes::V w[2] = {x.a.v, x.b.v};
+  atan2_lanes(z, w);
+  return Two<Lanes>(z[0], z[1]);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rainref
 HWY_AFTER_NAMESPACE();

@@ -20,9 +20,12 @@ RAINREF_FN N fresnel_dielectric(N cos_i, float eta) {
 template <class N>
 RAINREF_FN N transmittance(N extinction, N path) { return exp(-(extinction * path)); }
 
-/// Linear radiance to the sRGB code value, x in [0, 1] (IEC 61966-2-1).
+/// Linear radiance to sRGB code values, components in [0, 1] (IEC 61966-2-1).
 template <class N>
-RAINREF_FN N encode_srgb(N x) {
-  const N curve = N(1.055f) * pow(max(x, N(0.0031308f)), N(0x1.aaaaaap-2f)) - N(0.055f);  // 1 / 2.4
-  return select(x <= N(0.0031308f), x * N(12.92f), curve);
+RAINREF_FN Vec3<N> encode_srgb(const Vec3<N>& c) {
+  const N knee(0.0031308f), slope(12.92f);
+  const Vec3<N> power = pow(Vec3<N>(max(c.x, knee), max(c.y, knee), max(c.z, knee)), N(0x1.aaaaaap-2f));  // 1 / 2.4
+  const Vec3<N> curve = N(1.055f) * power - Vec3<N>(N(0.055f), N(0.055f), N(0.055f));
+  return Vec3<N>(select(c.x <= knee, c.x * slope, curve.x), select(c.y <= knee, c.y * slope, curve.y),
+                 select(c.z <= knee, c.z * slope, curve.z));
 }

@@ -93,53 +93,52 @@ struct Real64Lanes {
   }
 };
 
-/// Two vectors of doubles, the halves of a vector of floats, operation by operation in turn. A formula is one long chain
-/// of dependent operations; two chains side by side keep the processor busy where one after the other would not.
+/// Several vectors of doubles, operation by operation in turn: the halves of a vector of floats, or pairs of pairs for
+/// several of those. A formula is one long chain of dependent operations; chains side by side keep the processor busy
+/// where one after the other would not.
+template <class A, class B = A>
 struct Real64Pair {
   struct Mask {
-    Real64Lanes::Mask lower, upper;
+    typename A::Mask lower;
+    typename B::Mask upper;
   };
-  Real64Lanes lower, upper;
+  A lower;
+  B upper;
 
-  HWY_INLINE HWY_ATTR Real64Pair(Real64Lanes low, Real64Lanes high) : lower(low), upper(high) {}
+  HWY_INLINE HWY_ATTR Real64Pair(A low, B high) : lower(low), upper(high) {}
   HWY_INLINE HWY_ATTR Real64Pair(double x) : lower(x), upper(x) {}
 
-#define RAINREF_PAIRWISE(op)                                                          \
-  friend HWY_INLINE HWY_ATTR Real64Pair operator op(Real64Pair a, Real64Pair b) {     \
-    return {a.lower op b.lower, a.upper op b.upper};                                  \
+#define RAINREF_PAIRWISE(result, op)                                                               \
+  friend HWY_INLINE HWY_ATTR result operator op(const Real64Pair& a, const Real64Pair& b) {        \
+    return {a.lower op b.lower, a.upper op b.upper};                                               \
   }
-  RAINREF_PAIRWISE(+)
-  RAINREF_PAIRWISE(-)
-  RAINREF_PAIRWISE(*)
-  RAINREF_PAIRWISE(/)
+  RAINREF_PAIRWISE(Real64Pair, +)
+  RAINREF_PAIRWISE(Real64Pair, -)
+  RAINREF_PAIRWISE(Real64Pair, *)
+  RAINREF_PAIRWISE(Real64Pair, /)
+  RAINREF_PAIRWISE(Mask, <)
+  RAINREF_PAIRWISE(Mask, <=)
+  RAINREF_PAIRWISE(Mask, >)
+  RAINREF_PAIRWISE(Mask, >=)
 #undef RAINREF_PAIRWISE
-#define RAINREF_PAIRWISE(op)                                                          \
-  friend HWY_INLINE HWY_ATTR Mask operator op(Real64Pair a, Real64Pair b) {           \
-    return {a.lower op b.lower, a.upper op b.upper};                                  \
-  }
-  RAINREF_PAIRWISE(<)
-  RAINREF_PAIRWISE(<=)
-  RAINREF_PAIRWISE(>)
-  RAINREF_PAIRWISE(>=)
-#undef RAINREF_PAIRWISE
-#define RAINREF_PAIRWISE(function)                                                    \
-  friend HWY_INLINE HWY_ATTR Real64Pair function(Real64Pair a, Real64Pair b) {        \
-    return {function(a.lower, b.lower), function(a.upper, b.upper)};                  \
+#define RAINREF_PAIRWISE(function)                                                                 \
+  friend HWY_INLINE HWY_ATTR Real64Pair function(const Real64Pair& a, const Real64Pair& b) {       \
+    return {function(a.lower, b.lower), function(a.upper, b.upper)};                               \
   }
   RAINREF_PAIRWISE(flip_sign)
   RAINREF_PAIRWISE(flip_sign_in_half_turn)
   RAINREF_PAIRWISE(scale_by_power_of_two)
 #undef RAINREF_PAIRWISE
-  friend HWY_INLINE HWY_ATTR Real64Pair operator-(Real64Pair a) { return {-a.lower, -a.upper}; }
-  friend HWY_INLINE HWY_ATTR Real64Pair select(Mask m, Real64Pair a, Real64Pair b) {
+  friend HWY_INLINE HWY_ATTR Real64Pair operator-(const Real64Pair& a) { return {-a.lower, -a.upper}; }
+  friend HWY_INLINE HWY_ATTR Real64Pair select(const Mask& m, const Real64Pair& a, const Real64Pair& b) {
     return {select(m.lower, a.lower, b.lower), select(m.upper, a.upper, b.upper)};
   }
-  static HWY_INLINE HWY_ATTR bool any(Mask m) { return Real64Lanes::any(m.lower) || Real64Lanes::any(m.upper); }
-  friend HWY_INLINE HWY_ATTR Real64Pair abs(Real64Pair a) { return {abs(a.lower), abs(a.upper)}; }
-  friend HWY_INLINE HWY_ATTR Real64Pair binary_exponent(Real64Pair a) { return {binary_exponent(a.lower), binary_exponent(a.upper)}; }
-  friend HWY_INLINE HWY_ATTR Mask has_sign_bit(Real64Pair a) { return {has_sign_bit(a.lower), has_sign_bit(a.upper)}; }
-  friend HWY_INLINE HWY_ATTR Mask is_odd(Real64Pair a) { return {is_odd(a.lower), is_odd(a.upper)}; }
-  friend HWY_INLINE HWY_ATTR void reduce_large_angles(Real64Pair x, Real64Pair& turns, Real64Pair& rest) {
+  static HWY_INLINE HWY_ATTR bool any(const Mask& m) { return A::any(m.lower) || B::any(m.upper); }
+  friend HWY_INLINE HWY_ATTR Real64Pair abs(const Real64Pair& a) { return {abs(a.lower), abs(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Real64Pair binary_exponent(const Real64Pair& a) { return {binary_exponent(a.lower), binary_exponent(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Mask has_sign_bit(const Real64Pair& a) { return {has_sign_bit(a.lower), has_sign_bit(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Mask is_odd(const Real64Pair& a) { return {is_odd(a.lower), is_odd(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR void reduce_large_angles(const Real64Pair& x, Real64Pair& turns, Real64Pair& rest) {
     reduce_large_angles(x.lower, turns.lower, rest.lower);
     reduce_large_angles(x.upper, turns.upper, rest.upper);
   }
@@ -163,51 +162,43 @@ HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) {
   return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v);
 }
 
-/// formula over the doubles of x, or of x and y, rounded once. The scalar target has one lane and no halves.
-template <class Formula>
-HWY_INLINE FloatVector in_double(FloatVector x, Formula formula) {
+/// The doubles of a vector of floats, and back. The scalar target has one lane and no halves.
 #if HWY_TARGET == HWY_SCALAR
-  return round_to_float(formula(widen(x)));
+using Real64Float = Real64Lanes;
+HWY_INLINE Real64Float to_double(FloatVector x) { return widen(x); }
+HWY_INLINE FloatVector to_float(Real64Float x) { return round_to_float(x); }
 #else
+using Real64Float = Real64Pair<Real64Lanes>;
+HWY_INLINE Real64Float to_double(FloatVector x) {
   const NarrowTag half;
-  const Real64Pair y = formula(Real64Pair(widen(hn::LowerHalf(half, x)), widen(hn::UpperHalf(half, x))));
-  return hn::Combine(FloatTag(), round_to_float(y.upper), round_to_float(y.lower));
-#endif
+  return {widen(hn::LowerHalf(half, x)), widen(hn::UpperHalf(half, x))};
 }
-template <class Formula>
-HWY_INLINE FloatVector in_double(FloatVector x, FloatVector y, Formula formula) {
-#if HWY_TARGET == HWY_SCALAR
-  return round_to_float(formula(widen(x), widen(y)));
-#else
-  const NarrowTag half;
-  const Real64Pair z = formula(Real64Pair(widen(hn::LowerHalf(half, x)), widen(hn::UpperHalf(half, x))),
-                               Real64Pair(widen(hn::LowerHalf(half, y)), widen(hn::UpperHalf(half, y))));
-  return hn::Combine(FloatTag(), round_to_float(z.upper), round_to_float(z.lower));
+HWY_INLINE FloatVector to_float(Real64Float x) { return hn::Combine(FloatTag(), round_to_float(x.upper), round_to_float(x.lower)); }
 #endif
-}
+using Real64Two = Real64Pair<Real64Float>;
+using Real64Three = Real64Pair<Real64Two, Real64Float>;
 
 /// The functions of transcendental-inl.h, where their domain and accuracy stand, for a vector of floats. Not inlined:
 /// a pass calls several of them, and a call costs little beside what they do.
-inline HWY_NOINLINE FloatVector exp_lanes(FloatVector x) {
-  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return exp_real(a); });
+inline HWY_NOINLINE FloatVector exp_lanes(FloatVector x) { return to_float(exp_real(to_double(x))); }
+inline HWY_NOINLINE FloatVector exp2_lanes(FloatVector x) { return to_float(exp2_real(to_double(x))); }
+inline HWY_NOINLINE FloatVector log_lanes(FloatVector x) { return to_float(log_real(to_double(x))); }
+inline HWY_NOINLINE FloatVector sin_lanes(FloatVector x) { return to_float(sin_real(to_double(x))); }
+inline HWY_NOINLINE FloatVector cos_lanes(FloatVector x) { return to_float(cos_real(to_double(x))); }
+inline HWY_NOINLINE FloatVector pow_lanes(FloatVector x, FloatVector y) { return to_float(pow_real(to_double(x), to_double(y))); }
+inline HWY_NOINLINE FloatVector atan2_lanes(FloatVector y, FloatVector x) { return to_float(atan2_real(to_double(y), to_double(x))); }
+/// The same for two or three vectors in place, side by side.
+inline HWY_NOINLINE void atan2_lanes(FloatVector (&y)[2], const FloatVector (&x)[2]) {
+  const Real64Two z = atan2_real(Real64Two(to_double(y[0]), to_double(y[1])), Real64Two(to_double(x[0]), to_double(x[1])));
+  y[0] = to_float(z.lower);
+  y[1] = to_float(z.upper);
 }
-inline HWY_NOINLINE FloatVector exp2_lanes(FloatVector x) {
-  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return exp2_real(a); });
-}
-inline HWY_NOINLINE FloatVector log_lanes(FloatVector x) {
-  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return log_real(a); });
-}
-inline HWY_NOINLINE FloatVector pow_lanes(FloatVector x, FloatVector y) {
-  return in_double(x, y, [](auto a, auto b) HWY_ATTR __attribute__((always_inline)) { return pow_real(a, b); });
-}
-inline HWY_NOINLINE FloatVector sin_lanes(FloatVector x) {
-  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return sin_real(a); });
-}
-inline HWY_NOINLINE FloatVector cos_lanes(FloatVector x) {
-  return in_double(x, [](auto a) HWY_ATTR __attribute__((always_inline)) { return cos_real(a); });
-}
-inline HWY_NOINLINE FloatVector atan2_lanes(FloatVector y, FloatVector x) {
-  return in_double(y, x, [](auto a, auto b) HWY_ATTR __attribute__((always_inline)) { return atan2_real(a, b); });
+inline HWY_NOINLINE void pow_lanes(FloatVector (&x)[3], FloatVector y) {
+  const Real64Float e = to_double(y);
+  const Real64Three z = pow_real(Real64Three({to_double(x[0]), to_double(x[1])}, to_double(x[2])), Real64Three({e, e}, e));
+  x[0] = to_float(z.lower.lower);
+  x[1] = to_float(z.lower.upper);
+  x[2] = to_float(z.upper);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -65,6 +65,17 @@ RAINREF_FN Vec3<N> select(M m, const Vec3<N>& a, const Vec3<N>& b) {
 }
 template <class N>
 RAINREF_FN Vec3<N> mix(const Vec3<N>& a, const Vec3<N>& b, N t) { return Vec3<N>(mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t)); }
+/// Component by component. Lanes evaluate the three side by side.
+template <class N>
+RAINREF_FN Vec3<N> pow(const Vec3<N>& a, N b) { return Vec3<N>(pow(a.x, b), pow(a.y, b), pow(a.z, b)); }
+/// Two numbers for which a function is wanted; lanes evaluate them side by side.
+template <class N>
+struct Two {
+  N a, b;
+  RAINREF_FN Two(N a_, N b_) : a(a_), b(b_) {}
+};
+template <class N>
+RAINREF_FN Two<N> atan2(const Two<N>& y, const Two<N>& x) { return Two<N>(atan2(y.a, x.a), atan2(y.b, x.b)); }
 /// v - 2 (n . v) n
 template <class N>
 RAINREF_FN Vec3<N> reflect(const Vec3<N>& v, const Vec3<N>& n) { return v - (N(2.0f) * dot(n, v)) * n; }

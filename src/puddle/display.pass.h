@@ -9,11 +9,11 @@ RAINREF_FN N vignette(const DisplayUniforms& u, int px, int py) {
 template <class N>
 RAINREF_FN Vec3<N> display_as_published(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
   const Vec3<N> c = vignette<N>(u, px, py) * colour;
-  return Vec3<N>(pow(c.x, N(0.4545f)), pow(c.y, N(0.4545f)), pow(c.z, N(0.4545f)));
+  return pow(c, N(0.4545f));
 }
 /// Corrected: exposure, a vignette that ends at black, sRGB.
 template <class N>
 RAINREF_FN Vec3<N> display_corrected(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
   const Vec3<N> c = (max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour;
-  return Vec3<N>(encode_srgb(saturate(c.x)), encode_srgb(saturate(c.y)), encode_srgb(saturate(c.z)));
+  return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z)));
 }

@@ -179,13 +179,6 @@ DisplayUniforms display_uniforms(const Settings& s) {
   return u;
 }
 
-void set_bounds(SurfaceHitUniforms& u, const Settings& s, const Extent& extent) {
-  const Encoding e = encoding(s);
-  // A bilinear patch is no steeper than sqrt(2) of its largest difference; the sum keeps a flat surface inside.
-  u.surface_top = static_cast<float>(extent.height * e.scale + 1e-4);
-  u.surface_slope = static_cast<float>(extent.difference * e.scale / s.cell_size * 0x1.6a09e667f3bcdp+0 + 1e-3);
-}
-
 float ground_footprint(const Settings& s, int tile_texels) {
   return static_cast<float>(static_cast<double>(camera_uniforms(s).pixel_scale) * s.ground_scale * tile_texels);
 }

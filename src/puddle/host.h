@@ -33,8 +33,6 @@ GroundNoiseUniforms ground_noise_uniforms(const Settings& settings);
 ShadeUniforms shade_uniforms(const Settings& settings);
 DisplayUniforms display_uniforms(const Settings& settings);
 
-/// Sets surface_top and surface_slope from the extent of the stored water.
-void set_bounds(SurfaceHitUniforms& uniforms, const Settings& settings, const Extent& extent);
 /// ShadeUniforms::ground_footprint for a tile of this many texels a side.
 float ground_footprint(const Settings& settings, int tile_texels);
 

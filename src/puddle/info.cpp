@@ -48,7 +48,9 @@ capture::EffectInfo make() {
                    member<&SurfaceHitUniforms::height_bias>("height_bias", "m", "corrected: see height_scale."),
                    member<&SurfaceHitUniforms::surface_top>("surface_top", "m", "corrected: no height lies above this, or below its negative."),
                    member<&SurfaceHitUniforms::surface_slope>("surface_slope", "1", "corrected: no slope of the surface is above this."),
-                   member<&SurfaceHitUniforms::inverse_size>("inverse_size", "1/m", "corrected: 1 over the puddle's extent in x and z.")}));
+                   member<&SurfaceHitUniforms::inverse_size>("inverse_size", "1/m", "corrected: 1 over the puddle's extent in x and z."),
+                   member<&SurfaceHitUniforms::bounds_scale>("bounds_scale", "1", "corrected: texture coordinates of bounds to one of the water."),
+                   member<&SurfaceHitUniforms::bounds_reach>("bounds_reach", "m", "corrected: a texel of bounds holds this far around its points.")}));
   const UniformBlock ground_noise = uniform_block<GroundNoiseUniforms>(
       "GroundNoiseUniforms", with_camera(nested<&GroundNoiseUniforms::camera>("camera", camera()),
                                          {member<&GroundNoiseUniforms::puddle_depth>("puddle_depth", "m", "Depth of the ground under y = 0.")}));

@@ -34,19 +34,21 @@ void wave_step_rows(const WaveJob& job, const parallel::Tile& tile);
 void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile);
 /// Decodes rows of a single-channel plane to floats, `width` to a row.
 void decode_rows(const Image& plane, float* out, const parallel::Tile& tile);
-/// Largest |s - rest| of the rows, and largest difference of neighbours, both of stored values; beyond the edge of the
-/// plane the neighbour is rest.
+/// Largest |s - rest| of a block of cells, and largest difference between one of them and its neighbour to the right or
+/// below, both of stored values; beyond the edge of the plane the neighbour is rest.
 struct Extent {
   float height, difference;
 };
-Extent extent_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile);
+constexpr int extent_block = 32;  ///< cells on a side of a block
+/// The extents of the blocks of one row of blocks, left to right; the tile holds these rows, whole.
+void extents_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile, Extent* blocks);
 
 /// as published: drop i of the frame for i in [0, uniforms.drop_count).
 std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms);
 
-/// hit: rgba32f, normal: rgba16f (flag in alpha).
-void surface_hit_rows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, Image& hit, Image& normal,
-                      const parallel::Tile& tile);
+/// bounds: see bounds.h; as-published does not look at it. hit: rgba32f, normal: rgba16f (flag in alpha).
+void surface_hit_rows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, const Texture& bounds, Image& hit,
+                      Image& normal, const parallel::Tile& tile);
 /// noise: r32f.
 void ground_noise_rows(const GroundNoiseUniforms& uniforms, Rounding rounding, const Image& hit, const Image& normal, Image& noise,
                        const parallel::Tile& tile);

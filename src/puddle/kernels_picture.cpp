@@ -19,11 +19,11 @@ RAINREF_TARGET_BEGIN(puddle)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-void SurfaceHitRows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, Image& hit,
-                    Image& normal, const parallel::Tile& tile) {
+void SurfaceHitRows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, const Texture& bounds,
+                    Image& hit, Image& normal, const parallel::Tile& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      const SurfaceHit<Lanes> s = corrected ? surface_hit_corrected<Lanes>(uniforms, wave, x, y)
+      const SurfaceHit<Lanes> s = corrected ? surface_hit_corrected<Lanes>(uniforms, wave, bounds, x, y)
                                             : surface_hit_as_published<Lanes>(uniforms, wave, x, y);
       const Lanes position[4] = {s.position.x, s.position.y, s.position.z, s.iterations};
       const Lanes direction[4] = {s.normal.x, s.normal.y, s.normal.z, s.flag};
@@ -87,9 +87,9 @@ RAINREF_EXPORT(GroundNoiseRows);
 RAINREF_EXPORT(ShadeRows);
 RAINREF_EXPORT(DisplayRows);
 
-void surface_hit_rows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, Image& hit, Image& normal,
-                      const parallel::Tile& tile) {
-  RAINREF_DISPATCH(SurfaceHitRows)(uniforms, corrected, rounding, wave, hit, normal, tile);
+void surface_hit_rows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, const Texture& bounds, Image& hit,
+                    Image& normal, const parallel::Tile& tile) {
+  RAINREF_DISPATCH(SurfaceHitRows)(uniforms, corrected, rounding, wave, bounds, hit, normal, tile);
 }
 void ground_noise_rows(const GroundNoiseUniforms& uniforms, Rounding rounding, const Image& hit, const Image& normal, Image& noise,
                        const parallel::Tile& tile) {

@@ -165,31 +165,35 @@ float largest(Lanes x) {
   hn::Store(x.v, Lanes::D(), lanes);
   return *std::max_element(lanes, lanes + Lanes::size());
 }
-Extent ExtentOfRows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile) {
+void ExtentsOfRows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile, Extent* blocks) {
   const int n = Lanes::size();
-  Lanes top(0.0f), step(0.0f);
-  float tail_top = 0, tail_step = 0;
   const auto magnitude = [](float x) { return x < 0 ? -x : x; };
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const float *row = decoded + static_cast<std::size_t>(y) * width, *next = y + 1 < height ? row + width : row;
-    // The water falls to the rest level beyond its edge.
-    tail_step = std::max({tail_step, magnitude(row[0] - rest), magnitude(row[width - 1] - rest)});
-    if (y == 0 || y + 1 == height) {
-      for (int x = 0; x < width; ++x) tail_step = std::max(tail_step, magnitude(row[x] - rest));
+  for (int x0 = 0; x0 < width; x0 += extent_block) {
+    const int x1 = std::min(width, x0 + extent_block);
+    Lanes top(0.0f), step(0.0f);
+    float tail_top = 0, tail_step = 0;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const float *row = decoded + static_cast<std::size_t>(y) * width, *next = y + 1 < height ? row + width : row;
+      // The water falls to the rest level beyond its edge.
+      if (x0 == 0) tail_step = std::max(tail_step, magnitude(row[0] - rest));
+      if (x1 == width) tail_step = std::max(tail_step, magnitude(row[width - 1] - rest));
+      if (y == 0 || y + 1 == height) {
+        for (int x = x0; x < x1; ++x) tail_step = std::max(tail_step, magnitude(row[x] - rest));
+      }
+      int x = x0;
+      for (; x + n <= x1 && x + n < width; x += n) {
+        const Lanes here = Lanes::load(row + x);
+        top = max(top, abs(here - Lanes(rest)));
+        step = max(step, max(abs(Lanes::load(row + x + 1) - here), abs(Lanes::load(next + x) - here)));
+      }
+      for (; x < x1; ++x) {
+        tail_top = std::max(tail_top, magnitude(row[x] - rest));
+        if (x + 1 < width) tail_step = std::max(tail_step, magnitude(row[x + 1] - row[x]));
+        tail_step = std::max(tail_step, magnitude(next[x] - row[x]));
+      }
     }
-    int x = 0;
-    for (; x + n < width; x += n) {
-      const Lanes here = Lanes::load(row + x);
-      top = max(top, abs(here - Lanes(rest)));
-      step = max(step, max(abs(Lanes::load(row + x + 1) - here), abs(Lanes::load(next + x) - here)));
-    }
-    for (; x < width; ++x) {
-      tail_top = std::max(tail_top, magnitude(row[x] - rest));
-      if (x + 1 < width) tail_step = std::max(tail_step, magnitude(row[x + 1] - row[x]));
-      tail_step = std::max(tail_step, magnitude(next[x] - row[x]));
-    }
+    *blocks++ = {std::max(tail_top, largest(top)), std::max(tail_step, largest(step))};
   }
-  return {std::max(tail_top, largest(top)), std::max(tail_step, largest(step))};
 }
 
 void RaindropsAsPublished(const RaindropsUniforms& uniforms, Drop* out) {
@@ -212,7 +216,7 @@ RAINREF_EXPORT(StepRows);
 RAINREF_EXPORT(PreviousRows);
 RAINREF_EXPORT(EncodeRows);
 RAINREF_EXPORT(DecodeRows);
-RAINREF_EXPORT(ExtentOfRows);
+RAINREF_EXPORT(ExtentsOfRows);
 RAINREF_EXPORT(RaindropsAsPublished);
 
 void encode_rows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding) {
@@ -223,8 +227,8 @@ void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& 
   RAINREF_DISPATCH(PreviousRows)(job, plane, tile);
 }
 void decode_rows(const Image& plane, float* out, const parallel::Tile& tile) { RAINREF_DISPATCH(DecodeRows)(plane, out, tile); }
-Extent extent_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile) {
-  return RAINREF_DISPATCH(ExtentOfRows)(decoded, width, height, rest, tile);
+void extents_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile, Extent* blocks) {
+  RAINREF_DISPATCH(ExtentsOfRows)(decoded, width, height, rest, tile, blocks);
 }
 std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms) {
   std::vector<Drop> drops(static_cast<std::size_t>(std::max(0, uniforms.drop_count)));

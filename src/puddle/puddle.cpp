@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rainref/executor.h"
+#include "puddle/bounds.h"
 #include "puddle/environment.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
@@ -173,16 +174,8 @@ void Puddle::render(Recorder* recorder) {
   const Image& shown = s.corrected ? s.newest : s.previous;
   float* decoded = s.water.texels();
   s.wave_tiles([&](const parallel::Tile& tile) { decode_rows(shown, decoded, tile); });
-  if (s.corrected) {
-    const int rows = shown.height();
-    std::vector<Extent> extents(static_cast<std::size_t>((rows + wave_tile_rows - 1) / wave_tile_rows));
-    s.wave_tiles([&](const parallel::Tile& tile) {
-      extents[static_cast<std::size_t>(tile.y0 / wave_tile_rows)] = extent_of_rows(decoded, shown.width(), rows, s.encoding.rest, tile);
-    });
-    Extent all{0, 0};
-    for (const Extent& e : extents) all = {std::max(all.height, e.height), std::max(all.difference, e.difference)};
-    set_bounds(u, s.settings, all);
-  }
+  TextureData bounds;
+  if (s.corrected) bounds = surface_bounds(s.settings, decoded, s.executor, u);
   const double prepared = hit_time.seconds();
 
   const GroundNoiseUniforms noise = ground_noise_uniforms(s.settings);
@@ -197,7 +190,7 @@ void Puddle::render(Recorder* recorder) {
   // These passes read no neighbours, so that a tile goes through all of them while it lies in the cache.
   std::array<PassClock, 4> clocks;
   s.picture_tiles([&](const parallel::Tile& tile) {
-    clocks[0].add([&] { surface_hit_rows(u, s.corrected, rounding, s.water.view(), s.hit, s.normal, tile); });
+    clocks[0].add([&] { surface_hit_rows(u, s.corrected, rounding, s.water.view(), bounds.view(), s.hit, s.normal, tile); });
     if (!s.corrected) clocks[1].add([&] { ground_noise_rows(noise, rounding, s.hit, s.normal, s.noise, tile); });
     clocks[2].add([&] { shade_rows(shade, s.corrected, rounding, in, s.colour, tile); });
     clocks[3].add([&] { display_rows(display, s.corrected, rounding, s.colour, s.picture, tile); });

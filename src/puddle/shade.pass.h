@@ -43,7 +43,7 @@ RAINREF_FN Vec3<N> rotate_y(const Vec3<N>& v, const float* rotation) {
 }
 template <class N>
 RAINREF_FN Vec3<N> decode_gamma(const Vec3<N>& c) {
-  return Vec3<N>(pow(c.x, N(2.2f)), pow(c.y, N(2.2f)), pow(c.z, N(2.2f)));
+  return pow(c, N(2.2f));
 }
 template <class N>
 RAINREF_FN Vec3<N> environment_as_published(const ShadeUniforms& u, const Texture& environment, const Vec3<N>& d) {
@@ -140,9 +140,10 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
     const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
     albedo = Vec3<N>(texel[0], texel[1], texel[2]);
   }
-  const N seen = transmittance(N(u.water_turbidity), path + column);
-  const Vec3<N> body = mix(Vec3<N>(u.tint), albedo, seen) * Vec3<N>(u.ambient);
-  const Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
-  const N clear = transmittance(N(u.fog_depth), distance);
-  return select(hit, mix(Vec3<N>(u.fog_colour), surface, clear), reflected);
+  const auto under_water = column > zero;
+  if (any(under_water)) albedo = select(under_water, mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column)), albedo);
+  const Vec3<N> body = albedo * Vec3<N>(u.ambient);
+  Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
+  if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
+  return select(hit, surface, reflected);
 }

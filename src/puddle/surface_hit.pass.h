@@ -65,25 +65,32 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. With no height above `top`
-// and no slope above S, a ray that is e above the water may advance e / (-d_y + S |d_xz|) without crossing it. Closer
-// than epsilon, one step of Newton's method along the ray ends the march: its error is of the order of epsilon squared.
+// An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. `bounds` says for each block
+// of cells that around it no height is above `top` and no slope above S; the uniforms say so of all the water, for rays
+// that run further under `top` than a texel of bounds reaches. With that the gap e between a ray and the water closes by at most fall + S |d_xz| per unit of length and
+// opens by at most S |d_xz| - fall, fall = -d_y. So a step is proven not to cross the water if it is no longer than
+//   e / (fall + S |d_xz|) + e' / (S |d_xz| - fall),
+// e' the gap at its end (over-relaxed sphere tracing: Keinert et al., Enhanced Sphere Tracing, 2014, 3.1). The march
+// tries e / (fall + S |d_xz| / 2), which level water always proves, and where the proof fails goes back and takes the
+// first term alone. Closer than epsilon, one step of Newton's method along the ray ends the march: its error is of the
+// order of epsilon squared.
 template <class N, class T>
 RAINREF_FN N water_height(const SurfaceHitUniforms& u, const T& wave, N s, N t) {
   return N(u.height_scale) * sample_bilinear<0, 1, N>(wave, s, t)[0] + N(u.height_bias);
 }
 
+/// The last place that the ray is proven to reach above the water, the gap there, and the step to try next.
 template <class N>
 struct DescentState {
-  N t, above, iterations;
+  N t, above, step, iterations;
   template <class M>
   friend RAINREF_FN DescentState select(M m, const DescentState& a, const DescentState& b) {
-    return {select(m, a.t, b.t), select(m, a.above, b.above), select(m, a.iterations, b.iterations)};
+    return {select(m, a.t, b.t), select(m, a.above, b.above), select(m, a.step, b.step), select(m, a.iterations, b.iterations)};
   }
 };
 
 template <class N>
-RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, int px, int py) {
+RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, const Texture& bounds, int px, int py) {
   const auto wave = fixed_texture<Address::clamp, Address::clamp, 1>(water);
   const Vec3<N> origin(u.camera.position);
   const Vec3<N> d = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
@@ -97,6 +104,13 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
   out.normal = Vec3<N>(zero, one, zero);
   if (!any(down)) return out;
   const N t_plane = origin.y * inverse_fall;
+  // Texture coordinates grow linearly along the ray.
+  const N s0 = origin.x * N(u.inverse_size[0]) + half, ds = d.x * N(u.inverse_size[0]);
+  const N r0 = origin.z * N(u.inverse_size[1]) + half, dr = d.z * N(u.inverse_size[1]);
+  const N s = s0 + t_plane * ds, r = r0 + t_plane * dr, run = length(d.x, d.z);
+  const auto local = sample_nearest<0, 2, N>(fixed_texture<Address::clamp, Address::clamp, 2>(bounds), s * N(u.bounds_scale[0]), r * N(u.bounds_scale[1]));
+  const auto holds = (local[0] * run <= N(u.bounds_reach) * fall) & (s >= zero) & (s <= one) & (r >= zero) & (r <= one);
+  const N top = select(holds, local[0], N(u.surface_top)), slope = select(holds, local[1], N(u.surface_slope));
   // The stretch of the ray over the rectangle and under `top`.
   const auto slab = [&](N o, N dir, float half_side, N& t_in, N& t_out) RAINREF_LAMBDA {
     const N inverse = one / select(abs(dir) < N(1e-8f), N(1e-8f), dir);
@@ -104,24 +118,25 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
     t_in = max(t_in, min(a, b));
     t_out = min(t_out, max(a, b));
   };
-  N t_in = zero, t_out = min((origin.y + N(u.surface_top)) * inverse_fall, far);
+  N t_in = zero, t_out = min((origin.y + top) * inverse_fall, far);
   slab(origin.x, d.x, u.half_size[0], t_in, t_out);
   slab(origin.z, d.z, u.half_size[2], t_in, t_out);
   // A ray that meets the sheet before the rectangle goes no further.
   const auto over_rectangle = t_in <= t_plane;
-  t_in = max(t_in, (origin.y - N(u.surface_top)) * inverse_fall);
+  t_in = max(t_in, (origin.y - top) * inverse_fall);
   const auto enters = (t_in < t_out) & over_rectangle & down;
 
-  // Texture coordinates grow linearly along the ray.
-  const N s0 = origin.x * N(u.inverse_size[0]) + half, ds = d.x * N(u.inverse_size[0]);
-  const N r0 = origin.z * N(u.inverse_size[1]) + half, dr = d.z * N(u.inverse_size[1]);
-  const N stride = one / (fall + N(u.surface_slope) * length(d.x, d.z));
-  DescentState<N> state{select(enters, t_in, t_plane), one, zero};
+  const N climb = slope * run;
+  const N stride = one / (fall + climb), back = one / max(climb - fall, N(1e-4f)), bold = one / (fall + half * climb);
+  DescentState<N> state{select(enters, t_in, t_plane), zero, zero, zero};
   state = advance_while(u.max_steps, state, enters, [&](int round, const DescentState<N>& now) RAINREF_LAMBDA {
-    const N t = now.t;
+    const N t = now.t + now.step;
     const N above = (origin.y + t * d.y) - water_height(u, wave, s0 + t * ds, r0 + t * dr);
-    const auto go = (above >= epsilon) & (t < t_out);
-    const DescentState<N> next{select(go, t + above * stride, t), above, N(static_cast<float>(round))};
+    const N safe = now.above * stride;
+    const auto proven = now.step <= safe + max(above, zero) * back;
+    const DescentState<N> next{select(proven, t, now.t), select(proven, above, now.above), select(proven, above * bold, safe),
+                               N(static_cast<float>(round))};
+    const auto go = ((above >= epsilon) & (t < t_out)) | (!proven);
     return Round<decltype(go), DescentState<N>>{go, next};
   });
   const auto on_water = enters & (state.t < t_out);

@@ -54,7 +54,9 @@ struct SurfaceHitUniforms {
   float surface_top;                ///< corrected: no height is above this [m]
   float surface_slope;              ///< corrected: no slope is above this [1]
   float inverse_size[2];            ///< corrected: 1 / extent of the puddle in x and z [1/m]
-  float padding0, padding1;
+  float bounds_scale[2];            ///< corrected: texture coordinates of `bounds` to one of the water
+  float bounds_reach;               ///< corrected: distance around a point for which its texel of `bounds` holds [m]
+  float padding0, padding1, padding2;
 };
 
 struct GroundNoiseUniforms {
@@ -94,7 +96,7 @@ struct DisplayUniforms {
 };
 
 static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(WaveStepUniforms) == 32);
-static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 128 && sizeof(GroundNoiseUniforms) == 80);
+static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 144 && sizeof(GroundNoiseUniforms) == 80);
 static_assert(sizeof(ShadeUniforms) == 176 && sizeof(DisplayUniforms) == 16);
 
 }  // namespace rainref::puddle

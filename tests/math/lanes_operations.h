@@ -85,7 +85,13 @@
   X(schlick, small, fresnel_schlick(fract(a), 0.02f))                                                      \
   X(dielectric, small, fresnel_dielectric(fract(a), 1.333f))                                               \
   X(beer, small, transmittance(abs(a), abs(b)))                                                            \
-  X(srgb, small, encode_srgb(fract(a)))
+  X(srgb_x, small, encode_srgb(Vec3<N>(fract(a), b, c)).x)                                                 \
+  X(srgb_z, small, encode_srgb(Vec3<N>(a, b, fract(c))).z)                                                 \
+  X(pow_x, any, pow(Vec3<N>(abs(a), abs(b), abs(c)), b).x)                                                 \
+  X(pow_y, any, pow(Vec3<N>(abs(a), abs(b), abs(c)), b).y)                                                 \
+  X(pow_z, any, pow(Vec3<N>(abs(a), abs(b), abs(c)), b).z)                                                 \
+  X(atan2_a, any, atan2(Two<N>(a, b), Two<N>(c, a)).a)                                                     \
+  X(atan2_b, any, atan2(Two<N>(a, b), Two<N>(c, a)).b)
 
 namespace rainref::test {
 

@@ -80,16 +80,19 @@ TEST(Beer, IsExponentialAndMultiplies) {
   }
 }
 
+template <class N>
+auto srgb(N x) { return readings::encode_srgb(readings::Vec3<N>(N(0.5f), x, N(1.0f))).y.v; }
+
 TEST(Srgb, IsTheCurveOfTheStandard) {
   for (int k = 0; k <= 4000; ++k) {
     const double x = k / 4000.0, code = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-    EXPECT_NEAR(readings::encode_srgb(D(x)).v, code, 2e-7) << x;
-    EXPECT_NEAR(readings::encode_srgb(F(static_cast<float>(x))).v, code, 4e-7) << x;
+    EXPECT_NEAR(srgb(D(x)), code, 2e-7) << x;
+    EXPECT_NEAR(srgb(F(static_cast<float>(x))), code, 4e-7) << x;
   }
-  EXPECT_EQ(readings::encode_srgb(F(0.0f)).v, 0.0f);
-  EXPECT_NEAR(readings::encode_srgb(F(1.0f)).v, 1.0f, 0x1p-23);
-  EXPECT_NEAR(readings::encode_srgb(F(0.5f)).v, 0.735357, 1e-6);
-  EXPECT_NEAR(readings::encode_srgb(F(0.18f)).v, 0.461356, 1e-6);
+  EXPECT_EQ(srgb(F(0.0f)), 0.0f);
+  EXPECT_NEAR(srgb(F(1.0f)), 1.0f, 0x1p-23);
+  EXPECT_NEAR(srgb(F(0.5f)), 0.735357, 1e-6);
+  EXPECT_NEAR(srgb(F(0.18f)), 0.461356, 1e-6);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "capture/hashing.h"
 #include "math/simd_target.h"
 #include "rainref/executor.h"
+#include "puddle/bounds.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
@@ -160,13 +161,14 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
       for (int x = 0; x < shown.width(); ++x) decoded[static_cast<std::size_t>(y) * shown.width() + x] = to_float(shown.row<Half>(y)[x]);
     }
     SurfaceHitUniforms u = surface_hit_uniforms(s);
-    if (corrected) set_bounds(u, s, extent_of_rows(decoded.data(), shown.width(), shown.height(), encoding(s).rest, {0, 0, shown.width(), shown.height()}));
+    TextureData bounds;
+    if (corrected) bounds = surface_bounds(s, decoded.data(), executor, u);
     const Address edge = corrected ? Address::border : Address::clamp;
     TextureData water(decoded, 1, shown.width(), shown.height(), edge, edge);
     water.set_border(encoding(s).rest, 0, 0, 0);
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
-        const auto hit = corrected ? scalar::surface_hit_corrected<F>(u, water.view(), x, y) : scalar::surface_hit_as_published<F>(u, water.view(), x, y);
+        const auto hit = corrected ? scalar::surface_hit_corrected<F>(u, water.view(), bounds.view(), x, y) : scalar::surface_hit_as_published<F>(u, water.view(), x, y);
         const float* stored = puddle.hit().row<float>(y) + 4 * x;
         expect_same(stored[0], hit.position.x, "hit.x", x, y);
         expect_same(stored[1], hit.position.y, "hit.y", x, y);

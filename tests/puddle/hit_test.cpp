@@ -210,7 +210,7 @@ int expect_no_crossing_is_missed(const Settings& s, const std::vector<float>& he
         continue;
       }
       ++judged;
-      // The last step, Newton's, starts at most epsilon above the water and is at most two safe strides long; a stride brings the
+      // The last step, Newton's, starts at most epsilon above the water and is at most two safe strides long; a safe stride brings the
       // ray no more than epsilon closer. It takes the slope of central differences: at a crease between two cells it may end under
       // the water by epsilon, or on a slope that falls away three epsilon above it.
       EXPECT_LE(r.t, first + (2 * epsilon + noise) / -r.ray[1]) << "crossed at " << x << " " << y;
@@ -243,6 +243,25 @@ TEST(PuddleHit, CorrectedMarchNeverCrossesACrest) {
     s.camera_position = {0.05, eye, 0.7};
     s.camera_target = {0, 0, 0};
     EXPECT_GT(expect_no_crossing_is_missed(s, rough(s)), 100) << eye;
+  }
+}
+
+TEST(PuddleHit, CorrectedMarchNeverCrossesARoughPatchInCalmWater) {
+  // Steep waves in the middle of level water: rays start with the bounds of calm blocks and run into the patch.
+  for (const double eye : {0.05, 0.2}) {
+    Settings s = corrected(40, 24);
+    s.grid = {150, 110};
+    s.max_steps = 4096;
+    s.camera_position = {0.1, eye, 1.3};
+    s.camera_target = {0, 0, 0};
+    s.vertical_fov_deg = 25;
+    std::vector<float> heights = rough(s);
+    for (int y = 0; y < 110; ++y) {
+      for (int x = 0; x < 150; ++x) {
+        if (std::abs(x - 75) > 20 || std::abs(y - 55) > 20) heights[static_cast<std::size_t>(y) * 150 + x] *= 0.01f;
+      }
+    }
+    EXPECT_GT(expect_no_crossing_is_missed(s, heights), 100) << eye;
   }
 }
 

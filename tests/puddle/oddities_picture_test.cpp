@@ -80,10 +80,12 @@ TEST(PuddleOddities, Oddity09_NormalGainFitsOneResolution) {
     Settings s = corrected(1, 1);
     s.cell_size = cell;
     SurfaceHitUniforms u = surface_hit_uniforms(s);
-    set_bounds(u, s, {0.1f, 0.01f});
+    u.surface_top = 0.2f;
+    u.surface_slope = 2;
+    const TextureData bounds = no_local_bounds();
     u.camera = single_ray({0, 1, 0}, {0, -1, 0});
     const TextureData wave = wave_texture(ramp(40, 30, 0.05 * cell), 40, 30, Address::border);
-    const auto hit = scalar::surface_hit_corrected<Double>(u, wave.view(), 0, 0);
+    const auto hit = scalar::surface_hit_corrected<Double>(u, wave.view(), bounds.view(), 0, 0);
     EXPECT_NEAR(-hit.normal.x.v / hit.normal.y.v, 0.05, 1e-7) << cell;
   }
 }
@@ -198,10 +200,12 @@ TEST(PuddleOddities, Oddity13_PublishedMarchOvershootsCrests) {
     s.cell_size = 0.1;
     s.max_steps = 4096;
     SurfaceHitUniforms v = surface_hit_uniforms(s);
-    set_bounds(v, s, {1, 1});
+    v.surface_top = 1.01f;
+    v.surface_slope = 15;
+    const TextureData bounds = no_local_bounds();
     v.camera = single_ray({start, 1.1, 0}, direction);
     const TextureData water = wave_texture(heights, width, 2, Address::clamp);
-    const auto fixed = scalar::surface_hit_corrected<Double>(v, water.view(), 0, 0);
+    const auto fixed = scalar::surface_hit_corrected<Double>(v, water.view(), bounds.view(), 0, 0);
     const auto below = [&](double t) {
       return 1.1 + t * direction[1] < scalar::water_height<Double>(v, water.view(), Double((start + t * direction[0]) / (0.1 * width) + 0.5), Double(0.5f)).v;
     };

@@ -193,6 +193,9 @@ inline TextureData wave_texture(std::vector<float> texels, int width, int height
   return t;
 }
 
+/// Bounds for surface_hit_corrected that hold nowhere: the uniforms' own count.
+inline TextureData no_local_bounds() { return TextureData({1e6f, 1e6f}, 2, 1, 1, Address::clamp, Address::clamp); }
+
 /// Smallest t in [begin, end] where `below(t)` holds, by steps of `step` and bisection; `end` when there is none.
 inline double first_where(double begin, double end, double step, const std::function<bool(double)>& below) {
   double before = begin;

@@ -1,0 +1,17 @@
+// Bounds of the water's height and slope, which let the march of surface_hit take long steps.
+#pragma once
+
+#include "image/texture.h"
+#include "puddle/uniforms.h"
+#include "rainref/executor.h"
+#include "rainref/puddle.h"
+
+namespace rainref::puddle {
+
+/// The texture `bounds` of surface_hit, corrected: a texel for each block of 32 x 32 cells. Channel 0: no height in the
+/// block or in the eight around it is above this, or below its negative [m]. Channel 1: no slope there is above this [1].
+/// Sets the uniforms that go with it, and those that hold for all of the water. `decoded` holds stored values,
+/// row-major, of the corrected wave; heights beyond its edge are 0.
+TextureData surface_bounds(const Settings& settings, const float* decoded, const parallel::Executor& executor, SurfaceHitUniforms& uniforms);
+
+}  // namespace rainref::puddle
