@@ -20,6 +20,7 @@ namespace rainref {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Its functions name the target (HWY_ATTR): see Real64Lanes.
 struct Lanes {
   using D = hn::ScalableTag<float>;
   using DI = hn::RebindToSigned<D>;
@@ -30,45 +31,45 @@ struct Lanes {
 
   struct Mask {
     hn::Mask<D> m;
-    friend HWY_INLINE Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
-    friend HWY_INLINE Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
-    friend HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+    friend HWY_INLINE HWY_ATTR Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+    friend HWY_INLINE HWY_ATTR Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+    friend HWY_INLINE HWY_ATTR Mask operator!(Mask a) { return {hn::Not(a.m)}; }
   };
 
   /// Texel indices: made by to_int, used to fetch.
   struct Int {
     hn::Vec<DI> i;
-    HWY_INLINE Int() {}  // implicit ones would not be compiled for the target
-    HWY_INLINE Int(hn::Vec<DI> x) : i(x) {}
-    friend HWY_INLINE Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
-    friend HWY_INLINE Int clamp_index(Int a, Int size) {
+    HWY_INLINE HWY_ATTR Int() {}  // implicit ones would not be compiled for the target
+    HWY_INLINE HWY_ATTR Int(hn::Vec<DI> x) : i(x) {}
+    friend HWY_INLINE HWY_ATTR Int operator+(Int a, std::int32_t b) { return {hn::Add(a.i, hn::Set(DI(), b))}; }
+    friend HWY_INLINE HWY_ATTR Int clamp_index(Int a, Int size) {
       return {hn::Max(hn::Min(a.i, hn::Sub(size.i, hn::Set(DI(), 1))), hn::Zero(DI()))};
     }
-    friend HWY_INLINE Int wrap_index(Int a, Int size) {
+    friend HWY_INLINE HWY_ATTR Int wrap_index(Int a, Int size) {
       const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
       return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
     }
-    friend HWY_INLINE Mask inside(Int a, Int size) {
+    friend HWY_INLINE HWY_ATTR Mask inside(Int a, Int size) {
       return {hn::RebindMask(D(), hn::And(hn::Not(hn::Lt(a.i, hn::Zero(DI()))), hn::Lt(a.i, size.i)))};
     }
-    friend HWY_INLINE Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
+    friend HWY_INLINE HWY_ATTR Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
     /// a / 2^b, rounded down; b in [0, 31].
-    friend HWY_INLINE Int shift_right(Int a, Int b) { return {hn::Shr(a.i, b.i)}; }
-    friend HWY_INLINE Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }
-    friend HWY_INLINE Int operator*(Int a, Int b) { return {hn::Mul(a.i, b.i)}; }
-    friend HWY_INLINE Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
-    friend HWY_INLINE Int operator*(Int a, std::int32_t b) { return {hn::Mul(a.i, hn::Set(DI(), b))}; }
+    friend HWY_INLINE HWY_ATTR Int shift_right(Int a, Int b) { return {hn::Shr(a.i, b.i)}; }
+    friend HWY_INLINE HWY_ATTR Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }
+    friend HWY_INLINE HWY_ATTR Int operator*(Int a, Int b) { return {hn::Mul(a.i, b.i)}; }
+    friend HWY_INLINE HWY_ATTR Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
+    friend HWY_INLINE HWY_ATTR Int operator*(Int a, std::int32_t b) { return {hn::Mul(a.i, hn::Set(DI(), b))}; }
   };
 
   V v;
 
-  HWY_INLINE Lanes() {}
-  HWY_INLINE Lanes(V x) : v(x) {}
-  HWY_INLINE Lanes(float x) : v(hn::Set(D(), x)) {}
+  HWY_INLINE HWY_ATTR Lanes() {}
+  HWY_INLINE HWY_ATTR Lanes(V x) : v(x) {}
+  HWY_INLINE HWY_ATTR Lanes(float x) : v(hn::Set(D(), x)) {}
   static constexpr int size() { return static_cast<int>(hn::MaxLanes(D())); }
 
-  static HWY_INLINE Lanes load(const float* p) { return hn::LoadU(D(), p); }
-  static HWY_INLINE Lanes load(const Half* p) {
+  static HWY_INLINE HWY_ATTR Lanes load(const float* p) { return hn::LoadU(D(), p); }
+  static HWY_INLINE HWY_ATTR Lanes load(const Half* p) {
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
     return hn::PromoteTo(D(), hn::LoadU(hn::Rebind<hwy::float16_t, D>(), reinterpret_cast<const hwy::float16_t*>(p)));
 #else
@@ -82,55 +83,55 @@ struct Lanes {
     return hn::Or(hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), infinity, scaled), sign);
 #endif
   }
-  static HWY_INLINE Lanes load(const Unorm8* p) {
+  static HWY_INLINE HWY_ATTR Lanes load(const Unorm8* p) {
     const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
     return hn::Div(hn::ConvertTo(D(), code), hn::Set(D(), 255.0f));
   }
-  static HWY_INLINE Lanes index(int first) { return hn::ConvertTo(D(), hn::Iota(DI(), first)); }
-  static HWY_INLINE Int uniform_int(int value) { return {hn::Set(DI(), value)}; }
+  static HWY_INLINE HWY_ATTR Lanes index(int first) { return hn::ConvertTo(D(), hn::Iota(DI(), first)); }
+  static HWY_INLINE HWY_ATTR Int uniform_int(int value) { return {hn::Set(DI(), value)}; }
 
-  friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
-  friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
-  friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
-  friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
-  friend HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
-  friend HWY_INLINE Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
-  friend HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
-  friend HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
-  friend HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
-  friend HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+  friend HWY_INLINE HWY_ATTR Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+  friend HWY_INLINE HWY_ATTR Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
   // b < a ? b : a and a < b ? b : a, which MINPS and MAXPS compute exactly, signed zeros included. Other targets' own
   // minimum and maximum differ there.
 #if HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86
-  friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return hn::Min(b.v, a.v); }
-  friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return hn::Max(b.v, a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) { return hn::Min(b.v, a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) { return hn::Max(b.v, a.v); }
 #else
-  friend HWY_INLINE Lanes min(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(b.v, a.v), b.v, a.v); }
-  friend HWY_INLINE Lanes max(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(a.v, b.v), b.v, a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(b.v, a.v), b.v, a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) { return hn::IfThenElse(hn::Lt(a.v, b.v), b.v, a.v); }
 #endif
-  friend HWY_INLINE Lanes abs(Lanes a) { return hn::IfThenElse(hn::Lt(a.v, hn::Zero(D())), hn::Neg(a.v), a.v); }
-  friend HWY_INLINE Lanes sqrt(Lanes a) { return hn::Sqrt(a.v); }
-  friend HWY_INLINE Lanes square(Lanes a) { return a * a; }
+  friend HWY_INLINE HWY_ATTR Lanes abs(Lanes a) { return hn::IfThenElse(hn::Lt(a.v, hn::Zero(D())), hn::Neg(a.v), a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes sqrt(Lanes a) { return hn::Sqrt(a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes square(Lanes a) { return a * a; }
   // + 0 makes the zero positive: targets disagree on the sign of floor(-0).
-  friend HWY_INLINE Lanes floor(Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(D())); }
-  friend HWY_INLINE Lanes fract(Lanes a) { return a - floor(a); }
-  friend HWY_INLINE Lanes mix(Lanes a, Lanes b, Lanes t) { return a * (Lanes(1.0f) - t) + b * t; }
-  friend HWY_INLINE Int to_int(Lanes a) { return {hn::ConvertTo(DI(), a.v)}; }
-  friend HWY_INLINE Lanes to_number(Int a) { return hn::ConvertTo(D(), a.i); }
-  friend HWY_INLINE bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
+  friend HWY_INLINE HWY_ATTR Lanes floor(Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(D())); }
+  friend HWY_INLINE HWY_ATTR Lanes fract(Lanes a) { return a - floor(a); }
+  friend HWY_INLINE HWY_ATTR Lanes mix(Lanes a, Lanes b, Lanes t) { return a * (Lanes(1.0f) - t) + b * t; }
+  friend HWY_INLINE HWY_ATTR Int to_int(Lanes a) { return {hn::ConvertTo(DI(), a.v)}; }
+  friend HWY_INLINE HWY_ATTR Lanes to_number(Int a) { return hn::ConvertTo(D(), a.i); }
+  friend HWY_INLINE HWY_ATTR bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
 
-  friend HWY_INLINE Lanes exp(Lanes a) { return exp_lanes(a.v); }
-  friend HWY_INLINE Lanes exp2(Lanes a) { return exp2_lanes(a.v); }
-  friend HWY_INLINE Lanes log(Lanes a) { return log_lanes(a.v); }
-  friend HWY_INLINE Lanes pow(Lanes a, Lanes b) { return pow_lanes(a.v, b.v); }
-  friend HWY_INLINE Lanes sin(Lanes a) { return sin_lanes(a.v); }
-  friend HWY_INLINE Lanes cos(Lanes a) { return cos_lanes(a.v); }
-  friend HWY_INLINE Lanes atan2(Lanes y, Lanes x) { return atan2_lanes(y.v, x.v); }
+  friend HWY_INLINE HWY_ATTR Lanes exp(Lanes a) { return exp_lanes(a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes exp2(Lanes a) { return exp2_lanes(a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes log(Lanes a) { return log_lanes(a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes pow(Lanes a, Lanes b) { return pow_lanes(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes sin(Lanes a) { return sin_lanes(a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes cos(Lanes a) { return cos_lanes(a.v); }
+  friend HWY_INLINE HWY_ATTR Lanes atan2(Lanes y, Lanes x) { return atan2_lanes(y.v, x.v); }
 
-  friend HWY_INLINE Lanes fetch(const float* texels, Int offset, Lanes) { return hn::GatherIndex(D(), texels, offset.i); }
+  friend HWY_INLINE HWY_ATTR Lanes fetch(const float* texels, Int offset, Lanes) { return hn::GatherIndex(D(), texels, offset.i); }
 
   /// Half codes in 16-bit lanes.
-  HWY_INLINE hn::Vec<DH> half_codes(Rounding rounding) const {
+  HWY_INLINE HWY_ATTR hn::Vec<DH> half_codes(Rounding rounding) const {
     const V x = hn::Add(v, hn::Zero(D()));
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
     const auto nearest = hn::DemoteTo(hn::Rebind<hwy::float16_t, D>(), x);
@@ -162,7 +163,7 @@ struct Lanes {
     return hn::DemoteTo(DH(), hn::BitCast(DI(), cut));
   }
   /// 8-bit codes, as to_unorm8.
-  HWY_INLINE hn::Vec<DB> unorm8_codes(Rounding rounding) const {
+  HWY_INLINE HWY_ATTR hn::Vec<DB> unorm8_codes(Rounding rounding) const {
     const Lanes scaled = min(max(*this, Lanes(0.0f)), Lanes(1.0f)) * Lanes(255.0f), magic(0x1p23f);
     const Lanes value = rounding == Rounding::rne ? (scaled + magic) - magic : scaled;
     return hn::DemoteTo(DB(), hn::ConvertTo(DI(), value.v));
@@ -228,7 +229,7 @@ HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
                         c[3].unorm8_codes(rounding), Lanes::DB(), reinterpret_cast<std::uint8_t*>(p));
 }
 
-#define RAINREF_FN HWY_INLINE
+#define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/vocabulary-inl.h"
 #undef RAINREF_FN

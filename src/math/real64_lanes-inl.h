@@ -146,7 +146,7 @@ struct Real64Pair {
 
 #pragma push_macro("RAINREF_FN")
 #undef RAINREF_FN
-#define RAINREF_FN HWY_INLINE
+#define RAINREF_FN HWY_INLINE HWY_ATTR
 #include "math/transcendental-inl.h"
 #pragma pop_macro("RAINREF_FN")
 

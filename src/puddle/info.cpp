@@ -89,7 +89,7 @@ capture::EffectInfo make() {
   info.passes = {
       {"raindrops", "The drops that fall in this step.", {}, {}, {"drops"}, "as-published: input_only; corrected: bits", {raindrops}},
       {"wave_step", "The next level of the water from the newest and the previous one.", {}, {"wave", "drops", "shore"}, {"wave"}, "envelope", {wave_step}},
-      {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {}, {"wave"}, {"hit", "normal"}, "envelope", {surface_hit}},
+      {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {}, {"wave", "bounds"}, {"hit", "normal"}, "envelope", {surface_hit}},
       {"ground_noise", "The sine hash of the ground point, which shade takes as data.", {"as-published"}, {"hit", "normal"}, {"noise"}, "input_only", {ground_noise}},
       {"shade", "Reflection, refraction, water and ground: linear radiance.", {}, {"hit", "normal", "noise", "environment", "ground", "relief", "bed"}, {"colour"}, "envelope", {shade}},
       {"display", "Vignette and display code.", {}, {"colour"}, {"picture"}, "envelope", {display}},
@@ -98,6 +98,7 @@ capture::EffectInfo make() {
       {"drops", "records", "Drop records of this step."},
       {"wave", "puddle.storage", "Newest level, previous level. as-published: u = 2 (s - 1/2); corrected: metres, or for rgba8 0.04 (s - 128/255) m."},
       {"shore", "r32f", "corrected, natural shape: share of the wave that the shore leaves, 1 in the water, 0 on dry ground."},
+      {"bounds", "rg32f", "corrected: for each block of 32 x 32 cells the highest water [m] and the steepest slope [1] in it and the eight around it."},
       {"hit", "rgba32f", "Position x y z [m], march steps."},
       {"normal", "rgba16f", "Unit normal x y z; 1 where the ray hit, 0 where not."},
       {"noise", "r32f", "as-published: noise of the ground point in [0, 1)."},

@@ -8,7 +8,7 @@
 #include "math/lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(puddle)
-#define RAINREF_FN HWY_INLINE
+#define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"

@@ -8,7 +8,7 @@
 #include "math/lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(puddle)
-#define RAINREF_FN HWY_INLINE
+#define RAINREF_FN HWY_INLINE HWY_ATTR
 #include "puddle/raindrops.pass.h"
 #include "puddle/wave_step.pass.h"
 #undef RAINREF_FN

@@ -8,7 +8,7 @@
 #include "math/lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(test)
-#define RAINREF_FN HWY_INLINE
+#define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR
 #include "image/sampling-inl.h"
 #include "image/environment-inl.h"
