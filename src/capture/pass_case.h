@@ -1,0 +1,49 @@
+// One run of one pass with everything it took and gave, as a pack or a dump of a port holds it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "capture/array.h"
+#include "image/texture.h"
+#include "rainref/storage.h"
+
+namespace rainref::capture {
+
+/// How an output is judged (the pack format's `judge`).
+enum class Judge : std::uint8_t { envelope, bits, keyed, input_only };
+
+struct CaseInput {
+  std::string name;
+  Array array;
+  Address address_u = Address::clamp, address_v = Address::clamp;
+  std::array<float, 4> border{};  ///< what a lookup outside gives where the address rule is border
+  bool linear = false;            ///< the pass filters it linearly; else it loads by integer texel
+};
+
+struct CaseOutput {
+  std::string name;
+  Array array;  ///< the expected values
+  Rounding store_rounding = Rounding::rne;
+  Judge judge = Judge::envelope;
+};
+
+struct PassCase {
+  std::string effect, variant, pass;
+  int frame = 0, step = 0, level = -1;  ///< level: -1 where the pass does not run for each mip level
+  std::vector<std::byte> uniforms;      ///< the uniform block, bytes as declared
+  std::vector<CaseInput> inputs;
+  std::vector<CaseOutput> outputs;
+
+  bool corrected() const { return variant == "corrected"; }
+  /// "puddle.wave_step/0001.0": the folder of the case in a pack.
+  std::string folder() const;
+  /// Null where there is none of this name.
+  const CaseInput* input(std::string_view name) const;
+  const CaseOutput* output(std::string_view name) const;
+};
+
+}  // namespace rainref::capture
