@@ -17,26 +17,29 @@ using rainref::to_float;
 inline double to_float(double x) { return x; }
 inline float to_float(float x) { return x; }
 
+/// Texel indices of a number N: made by to_int, used to fetch. One type for each N, so that to_number knows what to give.
+template <class N>
+struct Index {
+  std::int32_t i;
+  friend Index operator+(Index a, std::int32_t b) { return {a.i + b}; }
+  friend Index operator+(Index a, Index b) { return {a.i + b.i}; }
+  friend Index operator*(Index a, std::int32_t b) { return {a.i * b}; }
+  friend Index operator*(Index a, Index b) { return {a.i * b.i}; }
+  /// a moved into [0, size): to the nearer end, or by one period when it is out by less than one.
+  friend Index clamp_index(Index a, Index size) { return {a.i < 0 ? 0 : a.i < size.i ? a.i : size.i - 1}; }
+  friend Index wrap_index(Index a, Index size) { return {a.i < 0 ? a.i + size.i : a.i < size.i ? a.i : a.i - size.i}; }
+  friend bool inside(Index a, Index size) { return 0 <= a.i && a.i < size.i; }
+  friend Index max_index(Index a, Index b) { return {a.i < b.i ? b.i : a.i}; }
+  /// a / 2^b, rounded down; b in [0, 31].
+  friend Index shift_right(Index a, Index b) { return {a.i >> b.i}; }
+  friend Index lookup(const std::int32_t* table, Index a) { return {table[a.i]}; }
+};
+
 template <class T>
 struct Plain {
   static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
   using Mask = bool;
-  /// Texel indices: made by to_int, used to fetch.
-  struct Int {
-    std::int32_t i;
-    friend Int operator+(Int a, std::int32_t b) { return {a.i + b}; }
-    friend Int operator+(Int a, Int b) { return {a.i + b.i}; }
-    friend Int operator*(Int a, std::int32_t b) { return {a.i * b}; }
-    /// a moved into [0, size): to the nearer end, or by one period when it is out by less than one.
-    friend Int clamp_index(Int a, Int size) { return {a.i < 0 ? 0 : a.i < size.i ? a.i : size.i - 1}; }
-    friend Int wrap_index(Int a, Int size) { return {a.i < 0 ? a.i + size.i : a.i < size.i ? a.i : a.i - size.i}; }
-    friend bool inside(Int a, Int size) { return 0 <= a.i && a.i < size.i; }
-    friend Int max_index(Int a, Int b) { return {a.i < b.i ? b.i : a.i}; }
-    /// a / 2^b, rounded down; b in [0, 31].
-    friend Int shift_right(Int a, Int b) { return {a.i >> b.i}; }
-    friend Int lookup(const std::int32_t* table, Int a) { return {table[a.i]}; }
-    friend Int operator*(Int a, Int b) { return {a.i * b.i}; }
-  };
+  using Int = Index<Plain>;
   static constexpr int size() { return 1; }
 
   T v;

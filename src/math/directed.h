@@ -1,0 +1,47 @@
+// Rounding outward, by the bits: the floats beside a number, and the ends that a computed end may move to.
+//
+// Needs the floating-point state of the determinism contract: to nearest, no flush to zero.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace rainref::enclosed {
+
+inline constexpr float infinity = __builtin_inff();
+inline constexpr float largest_finite = 0x1.fffffep127f;
+inline constexpr float smallest_normal = 0x1p-126f;
+
+/// The least float above x; x is not NaN and not +infinity.
+inline float next_up(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);  // -0 is +0
+  return std::bit_cast<float>(x < 0 ? bits - 1 : bits + 1);
+}
+inline float next_down(float x) { return -next_up(-x); }
+
+/// The greatest float that is not above x, and the least that is not below it.
+inline float float_below(double x) {
+  const float f = static_cast<float>(x);
+  return static_cast<double>(f) > x ? next_down(f) : f;
+}
+inline float float_above(double x) { return -float_below(-x); }
+
+/// a + b rounded down and up, from the nearest and its exact error (Knuth, The Art of Computer Programming, 4.2.2).
+inline float sum_error(float a, float b, float sum) {
+  const float part = sum - a;
+  return (a - (sum - part)) + (b - part);
+}
+inline float sum_below(float a, float b) {
+  const float sum = a + b;
+  return sum_error(a, b, sum) < 0 ? next_down(sum) : sum;
+}
+inline float sum_above(float a, float b) { return -sum_below(-a, -b); }
+
+/// The gap between the floats around y; the larger one at a power of two, 0 at 0.
+inline double ulp_of(double y) {
+  if (y == 0) return 0;
+  const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(y) >> 52 & 0x7ff) - 1023;
+  return std::bit_cast<double>(static_cast<std::uint64_t>((exponent < -126 ? -126 : exponent) - 23 + 1023) << 52);
+}
+
+}  // namespace rainref::enclosed

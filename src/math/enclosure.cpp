@@ -1,0 +1,164 @@
+#include "math/enclosure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rainref::enclosed {
+namespace {
+
+// Doubles here carry a relative error below this, from our own functions.
+constexpr double double_error = 0x1p-44;
+
+double error_at(double y, const Accuracy& a, double x_magnitude) {
+  const double size = y < 0 ? -y : y;
+  return (a.ulp + a.ulp_per_x * x_magnitude) * ulp_of(y) + (a.relative + double_error) * size + a.absolute;
+}
+
+// The least that a result for an exact value in [low, high] may be. The error grows with |y|, and by a jump at each power
+// of two, so besides `low` the next power of two above it counts.
+double least(double low, double high, const Accuracy& a, double x_magnitude) {
+  const double at_low = low - error_at(low, a, x_magnitude);
+  if (low <= 0) return at_low;
+  const double power = ulp_of(low) * 0x1p24;
+  return power <= high ? std::min(at_low, power - error_at(power, a, x_magnitude)) : at_low;
+}
+
+bool rounds_products() { return profile().basic == BasicRounding::nearest && !profile().contraction; }
+
+struct Range {
+  double low, high;
+};
+Range products(Enclosure a, Enclosure b) {
+  const double al = a.lo, ah = a.hi;
+  const auto [low, high] = std::minmax({al * b.lo, al * b.hi, ah * b.lo, ah * b.hi});
+  return {low, high};
+}
+Enclosure product(Range r) {
+  if (rounds_products()) return Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high));
+  return Enclosure::checked(float_below(r.low), float_above(r.high));
+}
+
+}  // namespace
+
+Enclosure widened(double low, double high, const Accuracy& accuracy, double x_magnitude) {
+  return Enclosure::checked(float_below(least(low, high, accuracy, x_magnitude)), float_above(-least(-high, -low, accuracy, x_magnitude)));
+}
+
+double Enclosure::width_in_ulp() const {
+  const auto ordered = [](float x) {
+    const auto bits = std::bit_cast<std::int32_t>(x + 0.0f);
+    return static_cast<double>(bits < 0 ? -(bits & 0x7fffffff) : bits);
+  };
+  return ordered(hi) - ordered(lo);
+}
+
+Enclosure Enclosure::load_unorm(float x) {
+  const Accuracy& a = profile().unorm_load;
+  // The ends are exact everywhere: 0 and 1 are floats.
+  return profile().reference || a.is_zero() || x == 0 || x == 1 ? Enclosure(x) : widened(x, x, a, x);
+}
+
+Enclosure operator*(Enclosure a, Enclosure b) {
+  if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
+  if (profile().reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo * b.lo, a.lo * b.lo);
+  return product(products(a, b));
+}
+
+Enclosure square(Enclosure a) {
+  const Enclosure m = abs(a);
+  if (m.is_vacuous()) return m;
+  return product({static_cast<double>(m.lo) * m.lo, static_cast<double>(m.hi) * m.hi});
+}
+
+Enclosure operator/(Enclosure a, Enclosure b) {
+  const Profile& p = profile();
+  if (p.reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo / b.lo, a.lo / b.lo);
+  if (a.is_vacuous() || b.is_vacuous() || (b.lo <= 0 && 0 <= b.hi)) return Enclosure::vacuous();
+  if (p.reference || p.division.is_zero()) {
+    const auto [low, high] = std::minmax({a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi});
+    return Enclosure::checked(low, high);
+  }
+  // Accuracy is promised for divisors in [2^-126, 2^126] only (Vulkan, WGSL, Metal).
+  const double nearest = std::min(std::abs(b.lo), std::abs(b.hi)), furthest = std::max(std::abs(b.lo), std::abs(b.hi));
+  if (nearest < 0x1p-126 || furthest > 0x1p126) return Enclosure::vacuous();
+  const double al = a.lo, ah = a.hi;
+  const auto [low, high] = std::minmax({al / b.lo, al / b.hi, ah / b.lo, ah / b.hi});
+  return widened(low, high, p.division, 0);
+}
+
+Enclosure inverse_sqrt(Enclosure a) {
+  if (a.is_vacuous() || a.lo <= 0) return Enclosure::vacuous();
+  const double low = 1 / __builtin_sqrt(static_cast<double>(a.hi)), high = 1 / __builtin_sqrt(static_cast<double>(a.lo));
+  return widened(low, high, profile().inverse_sqrt, 0);
+}
+
+Enclosure sqrt(Enclosure a) {
+  const Profile& p = profile();
+  if (a.is_vacuous() || a.lo < 0) return Enclosure::vacuous();
+  if (p.reference || (p.sqrt.is_zero() && !p.sqrt_is_inherited)) return Enclosure::checked(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi));
+  // The root of 0 is 0 by every formula: 1 / infinity.
+  const Enclosure positive(a.lo > 0 ? a.lo : std::min(smallest_normal, a.hi), a.hi);
+  if (a.hi == 0) return Enclosure(0.0f);
+  Enclosure root;
+  if (p.sqrt_is_inherited) {
+    root = Enclosure(1.0f) / inverse_sqrt(positive);
+  } else {
+    root = widened(__builtin_sqrt(static_cast<double>(positive.lo)), __builtin_sqrt(static_cast<double>(positive.hi)), p.sqrt, 0);
+  }
+  if (root.is_vacuous()) return root;
+  return {a.lo > 0 ? std::max(root.lo, 0.0f) : 0.0f, root.hi};
+}
+
+Enclosure floor(Enclosure a) {
+  if (a.is_vacuous()) return a;
+  const plain::Plain<float> low = floor(plain::Plain<float>(a.lo)), high = floor(plain::Plain<float>(a.hi));
+  const double count = static_cast<double>(high.v) - low.v + 1;
+  if (count == 1) return {low.v, low.v};
+  if (count > Replay::max_runs) return {low.v, high.v};
+  const float chosen = low.v + static_cast<float>(choose(static_cast<int>(count)));
+  return {chosen, chosen};
+}
+
+Enclosure fract(Enclosure a) {
+  const Enclosure cell = floor(a);
+  if (profile().reference && a.is_point()) return a - cell;
+  if (cell.is_vacuous()) return cell;
+  if (!cell.is_point()) return {0.0f, 1.0f};
+  return {std::max(sum_below(a.lo, -cell.lo), 0.0f), std::min(sum_above(a.hi, -cell.lo), 1.0f)};
+}
+
+Enclosure mix(Enclosure a, Enclosure b, Enclosure t) {
+  const Enclosure one(1.0f);
+  if (profile().reference || (a.is_point() && b.is_point() && t.is_point())) {
+    const Enclosure published = a * (one - t) + b * t;
+    return profile().reference ? published : hull(published, a + (b - a) * t);
+  }
+  if (a.is_vacuous() || b.is_vacuous() || t.is_vacuous()) return Enclosure::vacuous();
+  // The exact function is linear in each argument: its extrema lie at corners. Then the roundings of either formula,
+  // (1 - t), two products and a sum, or (b - a), a product and a sum, each relative to what it rounds.
+  double low = 0x1p1000, high = -0x1p1000;
+  for (const double s : {static_cast<double>(t.lo), static_cast<double>(t.hi)}) {
+    for (const double x : {static_cast<double>(a.lo), static_cast<double>(a.hi)}) {
+      for (const double y : {static_cast<double>(b.lo), static_cast<double>(b.hi)}) {
+        const double value = x * (1 - s) + y * s;
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+  }
+  const double unit = profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
+  const double gap = std::max(std::abs(static_cast<double>(b.hi) - a.lo), std::abs(static_cast<double>(b.lo) - a.hi));
+  const double rest = std::max(std::abs(1.0 - t.lo), std::abs(1.0 - t.hi));
+  const double terms = std::max(2 * a.magnitude() * rest + b.magnitude() * t.magnitude(), 2 * gap * t.magnitude());
+  const double flushed = profile().flush == Flush::never ? 0x1p-147 : 0x1p-124;
+  const double error = unit * (terms + std::max(std::abs(low), std::abs(high))) * (1 + 0x1p-20) + flushed;
+  Enclosure out(float_below(low - error), float_above(high + error));
+  // Between values of one sign both formulas stay on that side, because rounding does.
+  if (0 <= t.lo && t.hi <= 1) {
+    if (a.lo >= 0 && b.lo >= 0) out.lo = std::max(out.lo, 0.0f);
+    if (a.hi <= 0 && b.hi <= 0) out.hi = std::min(out.hi, 0.0f);
+  }
+  return Enclosure::checked(out.lo, out.hi);
+}
+
+}  // namespace rainref::enclosed

@@ -1,0 +1,147 @@
+// The enclosure reading of a pass: a number is a closed interval that holds every result which a conforming GPU may give.
+//
+// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), Replay runs
+// what an interval does not settle (replay.h). Every operation rounds outward, which covers both neighbours of a result
+// and its fusion with a later addition; exact results stay points. Under the profile `ieee` nothing is widened and
+// a point has the bits of Plain<float>.
+//
+// What may be infinite, not a number or undefined is vacuous, the interval of everything; it stays vacuous through all
+// that is computed from it.
+#pragma once
+
+#include "math/directed.h"
+#include "math/plain.h"
+#include "math/replay.h"
+
+namespace rainref::enclosed {
+
+class Enclosure {
+ public:
+  using Mask = bool;
+  using Int = plain::Index<Enclosure>;
+  static constexpr int size() { return 1; }
+
+  float lo, hi;  ///< never NaN; lo <= hi
+
+  Enclosure() : lo(0), hi(0) {}
+  /// A literal or a uniform. A subnormal may count as zero.
+  Enclosure(float x) : Enclosure(checked(x, x)) {}
+  /// The interval as it is; the caller keeps lo <= hi.
+  Enclosure(float low, float high) : lo(low), hi(high) {}
+  static Enclosure vacuous() { return {-infinity, infinity}; }
+
+  bool is_vacuous() const { return lo == -infinity && hi == infinity; }
+  bool is_point() const { return lo == hi; }
+  bool contains(float x) const { return lo <= x && x <= hi; }
+  /// The larger magnitude of the ends.
+  double magnitude() const { return -lo < hi ? hi : -static_cast<double>(lo); }
+  /// Floats from lo to hi, less one: 0 for a point. The zeros count as one.
+  double width_in_ulp() const;
+
+  template <class Storage>
+  static Enclosure load(const Storage* p) {
+    if constexpr (std::is_same_v<Storage, Unorm8>) return load_unorm(to_float(*p));
+    else return Enclosure(to_float(*p));
+  }
+  static Enclosure index(int first) { return {static_cast<float>(first), static_cast<float>(first)}; }
+  static Int uniform_int(int value) { return {value}; }
+
+  friend Enclosure operator+(Enclosure a, Enclosure b) {
+    if (profile().basic == BasicRounding::nearest) return checked(a.lo + b.lo, a.hi + b.hi);
+    return outward_sum(a, b);
+  }
+  friend Enclosure operator-(Enclosure a) { return {-a.hi, -a.lo}; }
+  friend Enclosure operator-(Enclosure a, Enclosure b) { return a + -b; }
+  friend Enclosure operator*(Enclosure a, Enclosure b);
+  friend Enclosure operator/(Enclosure a, Enclosure b);
+  /// The sum with every rounding and with none, whatever the profile's basic rounding.
+  friend Enclosure outward_sum(Enclosure a, Enclosure b) { return checked(sum_below(a.lo, b.lo), sum_above(a.hi, b.hi)); }
+
+  // An exact tie of points is settled.
+  friend bool operator<(Enclosure a, Enclosure b) { return a.hi < b.lo || (a.lo < b.hi && choose(2) != 0); }
+  friend bool operator<=(Enclosure a, Enclosure b) { return a.hi <= b.lo || (a.lo <= b.hi && choose(2) != 0); }
+  friend bool operator>(Enclosure a, Enclosure b) { return b < a; }
+  friend bool operator>=(Enclosure a, Enclosure b) { return b <= a; }
+  friend Enclosure select(bool m, Enclosure a, Enclosure b) { return m ? a : b; }
+  friend Enclosure hull(Enclosure a, Enclosure b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? b.hi : a.hi}; }
+  friend Enclosure min(Enclosure a, Enclosure b) {
+    if (a.is_vacuous() || b.is_vacuous()) return vacuous();
+    return {b.lo < a.lo ? b.lo : a.lo, b.hi < a.hi ? b.hi : a.hi};
+  }
+  friend Enclosure max(Enclosure a, Enclosure b) {
+    if (a.is_vacuous() || b.is_vacuous()) return vacuous();
+    return {a.lo < b.lo ? b.lo : a.lo, a.hi < b.hi ? b.hi : a.hi};
+  }
+  friend Enclosure abs(Enclosure a) {
+    if (a.is_vacuous()) return a;
+    if (a.lo >= 0) return a;
+    if (a.hi <= 0) return -a;
+    return {0.0f, -a.lo < a.hi ? a.hi : -a.lo};
+  }
+  friend Enclosure square(Enclosure a);
+  friend Enclosure sqrt(Enclosure a);
+  /// 1 / sqrt(a) as a GPU has it in one instruction. Passes do not name it; normalize and an inherited sqrt do.
+  friend Enclosure inverse_sqrt(Enclosure a);
+
+  /// Where the integer is open: one candidate of up to Replay::max_runs, else the interval of all of them.
+  friend Enclosure floor(Enclosure a);
+  /// a - floor(a) in [0, 1], of the candidate that floor takes; [0, 1] where there are too many.
+  friend Enclosure fract(Enclosure a);
+  /// Gives the invocation up where a is not one integer.
+  friend Int to_int(Enclosure a) {
+    if (a.is_point()) return {static_cast<std::int32_t>(a.lo)};
+    give_up();
+    return {0};
+  }
+  friend Enclosure to_number(Int a) { return index(a.i); }
+
+  /// By a (1 - t) + b t or by a + (b - a) t: shading languages publish both.
+  friend Enclosure mix(Enclosure a, Enclosure b, Enclosure t);
+
+  friend Enclosure exp(Enclosure a);
+  friend Enclosure exp2(Enclosure a);
+  friend Enclosure log(Enclosure a);
+  friend Enclosure log2(Enclosure a);
+  /// Vacuous where x may be negative; 0 to a positive power is 0.
+  friend Enclosure pow(Enclosure x, Enclosure y);
+  friend Enclosure sin(Enclosure a);
+  friend Enclosure cos(Enclosure a);
+  /// Where y may have either sign and x is negative, the sign is a decision: the function jumps there.
+  friend Enclosure atan2(Enclosure y, Enclosure x);
+
+  friend Enclosure fetch(const float* texels, Int offset, Enclosure) { return Enclosure(texels[offset.i]); }
+
+  /// The interval with its computed ends: vacuous when one is not finite, and with zero in it where a flush may put it.
+  static Enclosure checked(float low, float high) {
+    const Profile& p = profile();
+    if (p.reference) return low == low && high == high ? Enclosure(low, high) : vacuous();
+    if (!(low >= -largest_finite && high <= largest_finite)) return vacuous();
+    if (p.flush != Flush::never) {
+      // The smallest normal itself too: an implementation may look before it rounds.
+      if (0 < low && low <= smallest_normal) low = 0;
+      if (-smallest_normal <= high && high < 0) high = 0;
+    }
+    return {low, high};
+  }
+
+ private:
+  static Enclosure load_unorm(float x);
+};
+
+// Names of the vocabulary that intervals read better than what they are made of. Argument-dependent lookup finds them
+// here, before the templates.
+
+/// By every order of the additions.
+Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c);
+Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c, Enclosure d);
+Enclosure sum_any_order_in_pairs(Enclosure a, Enclosure b, Enclosure c, Enclosure d);
+Enclosure smoothstep(float edge0, float edge1, Enclosure x);
+/// One decision, not one for each octave.
+Enclosure nearest_octave(Enclosure x);
+/// By (1 / length(a)) a, a / length(a) or a inversesqrt(dot(a, a)).
+plain::Vec3<Enclosure> normalize(const plain::Vec3<Enclosure>& a);
+
+/// The interval of reals [low, high] computed with that accuracy and rounded outward.
+Enclosure widened(double low, double high, const Accuracy& accuracy, double x_magnitude);
+
+}  // namespace rainref::enclosed

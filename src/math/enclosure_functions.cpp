@@ -1,0 +1,180 @@
+// Transcendental functions and named mathematics of enclosures: our own functions in double at the ends and at the extrema
+// between them, then the profile's accuracy, then outward.
+#include <algorithm>
+#include <cmath>
+
+#include "math/enclosure.h"
+
+namespace rainref::enclosed {
+namespace {
+
+using Single = plain::Plain<float>;
+
+constexpr double pi = 0x1.921fb54442d18p+1;
+
+Enclosure point(Single x) { return Enclosure::checked(x.v, x.v); }
+// Whether the reference itself answers.
+bool as_reference(Enclosure a) { return profile().reference && a.is_point(); }
+
+double floor_of(double x) { return floor(plain::Plain<double>(plain::Plain<double>(x))).v; }
+
+Enclosure not_negative(Enclosure a) { return a.is_vacuous() ? a : Enclosure(std::max(a.lo, 0.0f), a.hi); }
+
+Enclosure logarithm(Enclosure a, double scale, const Accuracy& far, const Accuracy& near_one) {
+  if (a.is_vacuous() || a.lo <= 0) return Enclosure::vacuous();
+  const double low = scale * log_real(Real64(a.lo)).v, high = scale * log_real(Real64(a.hi)).v;
+  const bool reaches_far = a.lo < 0.5f || a.hi > 2.0f, reaches_near = a.hi >= 0.5f && a.lo <= 2.0f;
+  if (!reaches_near) return widened(low, high, far, 0);
+  const Enclosure near = widened(low, high, near_one, 0);
+  return reaches_far ? hull(near, widened(low, high, far, 0)) : near;
+}
+
+// x > 0.
+Enclosure positive_pow(Enclosure x, Enclosure y) {
+  if (profile().pow_is_inherited) return exp2(y * log2(x));
+  const auto at = [](float base, float exponent) { return pow_real(Real64(base), Real64(exponent)).v; };
+  const auto [low, high] = std::minmax({at(x.lo, y.lo), at(x.lo, y.hi), at(x.hi, y.lo), at(x.hi, y.hi)});
+  return not_negative(widened(low, high, profile().pow, 0));
+}
+
+// sin over [low, high] for phase 0, cos for phase pi / 2: f takes its greatest value at pi / 2 - phase + 2 pi n.
+Enclosure wave(Enclosure a, double (*f)(double), double phase) {
+  const Profile& p = profile();
+  if (a.is_vacuous()) return a;
+  const double size = a.magnitude();
+  Accuracy accuracy = p.sin_cos;
+  if (p.sin_cos_domain > 0 && size > p.sin_cos_domain) {
+    if (p.sin_cos_beyond == 0) return Enclosure::vacuous();
+    accuracy.absolute = std::max(accuracy.absolute, p.sin_cos_beyond * size);
+  }
+  double low = f(a.lo), high = f(a.hi);
+  if (low > high) std::swap(low, high);
+  if (!a.is_point()) {
+    // Far out the reduction of an interval is not worth its trouble.
+    const bool wide = size > 0x1p20;
+    const auto has = [&](double place) {
+      const double margin = 1e-6, turns = floor_of((a.hi + margin - place) / (2 * pi));
+      return wide || place + turns * (2 * pi) >= a.lo - margin;
+    };
+    if (has(pi / 2 - phase)) high = 1;
+    if (has(-pi / 2 - phase)) low = -1;
+  }
+  const Enclosure out = widened(low, high, accuracy, size);
+  return {std::max(out.lo, -1.0f), std::min(out.hi, 1.0f)};
+}
+
+double octave_of(float x) { return nearest_octave(Single(x)).v; }
+
+}  // namespace
+
+Enclosure exp(Enclosure a) {
+  if (as_reference(a)) return point(exp(Single(a.lo)));
+  if (a.is_vacuous()) return a;
+  return not_negative(widened(exp_real(Real64(a.lo)).v, exp_real(Real64(a.hi)).v, profile().exp, a.magnitude()));
+}
+Enclosure exp2(Enclosure a) {
+  if (as_reference(a)) return point(exp2(Single(a.lo)));
+  if (a.is_vacuous()) return a;
+  return not_negative(widened(exp2_real(Real64(a.lo)).v, exp2_real(Real64(a.hi)).v, profile().exp2, a.magnitude()));
+}
+Enclosure log(Enclosure a) {
+  if (as_reference(a)) return point(log(Single(a.lo)));
+  return logarithm(a, 1, profile().log, profile().log_near_one);
+}
+Enclosure log2(Enclosure a) { return logarithm(a, coefficients::log2_e, profile().log2, profile().log2_near_one); }
+
+Enclosure pow(Enclosure x, Enclosure y) {
+  if (as_reference(x) && as_reference(y)) return point(pow(Single(x.lo), Single(y.lo)));
+  if (x.is_vacuous() || y.is_vacuous() || x.lo < 0 || (x.lo == 0 && y.lo <= 0)) return Enclosure::vacuous();
+  if (x.lo > 0) return positive_pow(x, y);
+  // A positive power grows with x, from 0.
+  if (x.hi == 0) return Enclosure(0.0f);
+  const Enclosure top = positive_pow({x.hi, x.hi}, y);
+  return top.is_vacuous() ? top : Enclosure(0.0f, top.hi);
+}
+
+Enclosure sin(Enclosure a) {
+  if (as_reference(a)) return point(sin(Single(a.lo)));
+  return wave(a, [](double x) { return sin_real(Real64(x)).v; }, 0);
+}
+Enclosure cos(Enclosure a) {
+  if (as_reference(a)) return point(cos(Single(a.lo)));
+  return wave(a, [](double x) { return cos_real(Real64(x)).v; }, pi / 2);
+}
+
+Enclosure atan2(Enclosure y, Enclosure x) {
+  if (as_reference(y) && as_reference(x)) return point(atan2(Single(y.lo), Single(x.lo)));
+  if (x.is_vacuous() || y.is_vacuous()) return Enclosure::vacuous();
+  const Accuracy& accuracy = profile().atan2;
+  double y0 = y.lo, y1 = y.hi;
+  if (x.lo <= 0 && y0 <= 0 && 0 <= y1) {
+    if (x.hi >= 0) return widened(-pi, pi, accuracy, 0);  // around the origin
+    // The sign of a zero is not kept by every device: +0 and -0 are the two sides.
+    if (choose(2) != 0) y0 = 0.0;
+    else y1 = -0.0;
+  }
+  // Away from the origin and the cut the extreme angles of a box are at its corners.
+  const auto at = [](double height, double width) { return atan2_real(Real64(height), Real64(width)).v; };
+  const auto [low, high] = std::minmax({at(y0, x.lo), at(y0, x.hi), at(y1, x.lo), at(y1, x.hi)});
+  return widened(low, high, accuracy, 0);
+}
+
+Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c) {
+  if (profile().reference) return plain::sum_any_order<Enclosure>(a, b, c);
+  const auto add = [](Enclosure x, Enclosure y) { return outward_sum(x, y); };
+  return hull(add(add(a, b), c), hull(add(add(a, c), b), add(add(b, c), a)));
+}
+
+namespace {
+
+Enclosure sum_by_all_trees(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
+  const auto add = [](Enclosure x, Enclosure y) { return outward_sum(x, y); };
+  const Enclosure chains = hull(hull(add(sum_any_order(a, b, c), d), add(sum_any_order(a, b, d), c)),
+                                hull(add(sum_any_order(a, c, d), b), add(sum_any_order(b, c, d), a)));
+  return hull(chains, hull(add(add(a, b), add(c, d)), hull(add(add(a, c), add(b, d)), add(add(a, d), add(b, c)))));
+}
+
+}  // namespace
+
+Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
+  return profile().reference ? plain::sum_any_order<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
+}
+Enclosure sum_any_order_in_pairs(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
+  return profile().reference ? plain::sum_any_order_in_pairs<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
+}
+
+Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
+  if (profile().reference) return plain::smoothstep<Enclosure>(edge0, edge1, x);
+  const Enclosure t = plain::saturate((x - Enclosure(edge0)) / (Enclosure(edge1) - Enclosure(edge0)));
+  if (t.is_vacuous()) return t;
+  if (t.is_point() && (t.lo == 0 || t.lo == 1)) return t;
+  // The cubic grows with t; its three roundings are relative to it.
+  const auto cubic = [](double s) { return s * s * (3 - 2 * s); };
+  const double unit = profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
+  return not_negative(widened(cubic(t.lo), cubic(t.hi), {.relative = 3.001 * unit, .absolute = 0x1p-147}, 0));
+}
+
+Enclosure nearest_octave(Enclosure x) {
+  if (x.is_vacuous()) return {0.0f, 12.0f};
+  const double low = octave_of(x.lo), high = octave_of(x.hi), count = high - low + 1;
+  if (count > Replay::max_runs) return {static_cast<float>(low), static_cast<float>(high)};
+  const double level = count == 1 ? low : low + choose(static_cast<int>(count));
+  return {static_cast<float>(level), static_cast<float>(level)};
+}
+
+plain::Vec3<Enclosure> normalize(const plain::Vec3<Enclosure>& a) {
+  const Profile& p = profile();
+  if (p.reference) return plain::normalize<Enclosure>(a);
+  const Enclosure squared = sum_any_order(square(a.x), square(a.y), square(a.z));
+  const Enclosure length = sqrt(squared), inverse = Enclosure(1.0f) / length, direct = inverse_sqrt(squared);
+  // No component is longer than the whole, but for the errors of the formulas: two divisions, a root, a sum and products.
+  const double slack = (10 + 2 * p.division.ulp + p.sqrt.ulp + 2 * p.inverse_sqrt.ulp) * 0x1p-23 + 2 * p.division.relative + p.sqrt.relative + 2 * p.inverse_sqrt.relative;
+  const float limit = float_above(1 + slack);
+  const auto component = [&](Enclosure c) {
+    const Enclosure any = hull(hull(inverse * c, c / length), c * direct);
+    return any.is_vacuous() ? any : Enclosure(std::max(any.lo, -limit), std::min(any.hi, limit));
+  };
+  return {component(a.x), component(a.y), component(a.z)};
+}
+
+}  // namespace rainref::enclosed
