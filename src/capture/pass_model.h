@@ -1,0 +1,67 @@
+// A pass bound to one case, read with every number: what conformance judges by, and all it knows of an effect.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/pass_case.h"
+#include "math/deviant.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+
+namespace rainref::capture {
+
+/// The invocations of a pass on a case: width() x height() of them, each giving values() numbers, which are the channels
+/// of the outputs at its texel, output after output. The case must outlive the model. Evaluation is thread-safe.
+class PassModel {
+ public:
+  PassModel(int width, int height, int values) : width_(width), height_(height), values_(values) {}
+  virtual ~PassModel() = default;
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int values() const { return values_; }
+
+  virtual void evaluate(int x, int y, plain::Plain<float>* out) const = 0;
+  virtual void evaluate(int x, int y, plain::Plain<double>* out) const = 0;
+  virtual void evaluate(int x, int y, deviant::Deviant* out) const = 0;
+  /// Under the profile and replay in force. `port` holds the values that the port stored for this invocation: a pass
+  /// whose result is judged by what it must satisfy (a march by the gap at its end) may take them, others do not.
+  virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
+  /// Whether enclose() depends on `port`.
+  virtual bool needs_port() const { return false; }
+
+ private:
+  int width_, height_, values_;
+};
+
+/// The model of a pass that is one template over its number: Pass has width, height, values and
+///   template <class N> void operator()(int x, int y, N* out) const.
+template <class Pass>
+class ModelOf : public PassModel {
+ public:
+  explicit ModelOf(Pass pass) : PassModel(pass.width, pass.height, pass.values), pass_(std::move(pass)) {}
+  void evaluate(int x, int y, plain::Plain<float>* out) const override { pass_(x, y, out); }
+  void evaluate(int x, int y, plain::Plain<double>* out) const override { pass_(x, y, out); }
+  void evaluate(int x, int y, deviant::Deviant* out) const override { pass_(x, y, out); }
+  void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { pass_(x, y, out); }
+
+ protected:
+  const Pass& pass() const { return pass_; }
+
+ private:
+  Pass pass_;
+};
+template <class Pass>
+std::unique_ptr<PassModel> model_of(Pass pass) {
+  return std::make_unique<ModelOf<Pass>>(std::move(pass));
+}
+
+/// How an effect offers its passes to be judged.
+struct PassReadings {
+  std::string pass;
+  /// Throws Error(port_files) when the case lacks an input or has one of another shape.
+  std::unique_ptr<PassModel> (*bind)(const PassCase&);
+};
+
+}  // namespace rainref::capture

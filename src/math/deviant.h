@@ -1,0 +1,153 @@
+// The perturbed reading: one float, computed as some other machine or some slip of a porter would compute it.
+//
+// Two uses. A *slip* is one realistic mistake, taken everywhere in a pass: `mutate` asks whether it would be caught, the
+// diagnosis whether it explains what a port did. *Liberties* are what a conforming GPU may do, drawn at random: the
+// envelopes are tested with them. Without either, a Deviant is Plain<float>, bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "math/plain.h"
+
+namespace rainref::deviant {
+
+/// One mistake or one legal difference, made throughout a pass.
+enum class Slip : std::uint8_t {
+  none,
+  // arithmetic that many GPUs do
+  fused, reciprocal_division, root_by_inverse, flushed, mix_by_difference, sum_backwards, sum_otherwise_paired,
+  division_by_estimate,
+  // precision
+  half_intermediates, half_constants,
+  // decisions
+  strict_for_weak, weak_for_strict, truncated_floor, rounded_floor, fract_by_truncation, minimum_missing,
+  maximum_missing, abs_missing,
+  // named mathematics
+  normalize_missing, smoothstep_linear, root_missing, square_missing, refract_ratio_inverted, reflect_doubled_missing,
+  exp_base_two, exp2_base_e, pow_squared, mix_swapped, atan2_swapped, degrees,
+  // lookups
+  address_clamped, address_repeated, address_mirrored, nearest_filter, weights_of_8_bits, half_texel_missing,
+  half_texel_twice, texel_after, level_above, level_below,
+  // a literal or a uniform of one value has another
+  constant
+};
+
+struct SlipInfo {
+  Slip slip;
+  std::string_view name;      ///< "fused multiply-add"
+  std::string_view sentence;  ///< what to look for in the port
+};
+/// Every slip but none and constant, in the order in which a diagnosis tries them.
+const std::vector<SlipInfo>& slips();
+
+/// How much a conforming machine may differ, drawn at random at every operation. Errors in ULP of the exact result.
+struct Liberties {
+  bool either_neighbour = false;  ///< basic operations may round either way
+  bool contract = false, reorder = false, flush = false, mix_either = false, reciprocal = false;
+  double division = 0, root = 0, exp = 0, log = 0, power = 0, atan2 = 0;
+  double exp_slope = 0;       ///< of exp and exp2: ULP for each unit of |x|
+  double log_absolute = 0;    ///< of log in [1/2, 2] where it is larger
+  double sine_absolute = 0;   ///< of sin and cos
+  int subtexel_bits = 0;      ///< bits of a filter's weights; 0: computed in float
+};
+
+/// What the calling thread's Deviants do.
+struct Behaviour {
+  Slip slip = Slip::none;
+  float constant = 0, replacement = 0;      ///< of Slip::constant
+  const Liberties* liberties = nullptr;
+  std::uint64_t random = 1;                 ///< state of the liberties' draws
+  std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
+};
+Behaviour& behaviour();
+/// Sets the behaviour for a scope.
+class Scope {
+ public:
+  explicit Scope(const Behaviour& b) : saved_(behaviour()) { behaviour() = b; }
+  ~Scope() { behaviour() = saved_; }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+
+ private:
+  Behaviour saved_;
+};
+
+class Deviant {
+ public:
+  using Mask = bool;
+  using Int = plain::Index<Deviant>;
+  static constexpr int size() { return 1; }
+
+  float v = 0;
+
+  Deviant() = default;
+  Deviant(float constant);
+  /// A value that is no literal and no uniform.
+  static Deviant of(float x) {
+    Deviant d;
+    d.v = x;
+    return d;
+  }
+  template <class Storage>
+  static Deviant load(const Storage* p) { return of(plain::to_float(*p)); }
+  static Deviant index(int first) { return of(static_cast<float>(first)); }
+  static Int uniform_int(int value) { return {value}; }
+
+  friend Deviant operator+(Deviant a, Deviant b) { return add(a, b); }
+  friend Deviant operator-(Deviant a, Deviant b) { return add(a, -b); }
+  friend Deviant operator*(Deviant a, Deviant b);
+  friend Deviant operator/(Deviant a, Deviant b);
+  friend Deviant operator-(Deviant a) {
+    a.v = -a.v;
+    a.factor_ = -a.factor_;
+    return a;
+  }
+  friend bool operator<(Deviant a, Deviant b) { return behaviour().slip == Slip::weak_for_strict ? a.v <= b.v : a.v < b.v; }
+  friend bool operator<=(Deviant a, Deviant b) { return behaviour().slip == Slip::strict_for_weak ? a.v < b.v : a.v <= b.v; }
+  friend bool operator>(Deviant a, Deviant b) { return b < a; }
+  friend bool operator>=(Deviant a, Deviant b) { return b <= a; }
+  friend Deviant select(bool m, Deviant a, Deviant b) { return m ? a : b; }
+  friend Deviant min(Deviant a, Deviant b) { return behaviour().slip == Slip::minimum_missing ? a : b.v < a.v ? b : a; }
+  friend Deviant max(Deviant a, Deviant b) { return behaviour().slip == Slip::maximum_missing ? a : a.v < b.v ? b : a; }
+  friend Deviant abs(Deviant a) { return a.v < 0 && behaviour().slip != Slip::abs_missing ? -a : a; }
+  friend Deviant sqrt(Deviant a);
+  friend Deviant square(Deviant a) { return behaviour().slip == Slip::square_missing ? a : a * a; }
+  friend Deviant floor(Deviant a);
+  friend Deviant fract(Deviant a);
+  friend Deviant mix(Deviant a, Deviant b, Deviant t);
+  friend Int to_int(Deviant a) { return {plain::to_int(plain::Plain<float>(a.v)).i}; }
+  friend Deviant to_number(Int a) { return of(static_cast<float>(a.i)); }
+  friend Deviant fetch(const float* texels, Int offset, Deviant) { return of(texels[offset.i]); }
+
+  friend Deviant exp(Deviant a);
+  friend Deviant exp2(Deviant a);
+  friend Deviant log(Deviant a);
+  friend Deviant pow(Deviant a, Deviant b);
+  friend Deviant sin(Deviant a);
+  friend Deviant cos(Deviant a);
+  friend Deviant atan2(Deviant y, Deviant x);
+
+ private:
+  static Deviant add(Deviant a, Deviant b);
+
+  // A product that the next addition may fuse: v = factor_ times other_, rounded.
+  float factor_ = 0, other_ = 0;
+  bool product_ = false;
+};
+
+// Found by argument before the vocabulary's templates.
+Deviant sum_any_order(Deviant a, Deviant b, Deviant c);
+Deviant sum_any_order(Deviant a, Deviant b, Deviant c, Deviant d);
+Deviant sum_any_order_in_pairs(Deviant a, Deviant b, Deviant c, Deviant d);
+Deviant smoothstep(float edge0, float edge1, Deviant x);
+plain::Vec3<Deviant> normalize(const plain::Vec3<Deviant>& a);
+plain::Vec3<Deviant> reflect(const plain::Vec3<Deviant>& v, const plain::Vec3<Deviant>& n);
+plain::Vec3<Deviant> refract(const plain::Vec3<Deviant>& v, const plain::Vec3<Deviant>& n, float eta);
+Deviant nearest_octave(Deviant x);
+
+/// A texel coordinate as a texture unit with the granted bits of precision may take it.
+float filtered_coordinate(float x);
+
+}  // namespace rainref::deviant
