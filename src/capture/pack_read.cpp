@@ -73,7 +73,11 @@ Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
     throw Error(ExitCode::io, fmt::format("{}: {}", folder_.string(), fs::exists(folder_, error) ? "expected a pack's folder, found a file" : "there is no such folder"));
   }
   const fs::path path = folder_ / manifest_name;
-  if (!fs::is_regular_file(path, error)) refuse(folder_, fmt::format("no pack: there is no {}", manifest_name));
+  if (!fs::is_regular_file(path, error)) {
+    // `run --capture` makes a folder of its own in that of the run.
+    const fs::path inner = folder_ / "capture";
+    refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name, fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
+  }
   const std::vector<std::byte> bytes = whole_file(path, fs::file_size(path));
   nlohmann::ordered_json json;
   try {
