@@ -49,13 +49,17 @@ scene::UniformBlock read_block(const JsonField& from) {
   return block;
 }
 
-PackArray read_array(const JsonField& from) {
+using Records = std::vector<scene::UniformBlock>;
+
+PackArray read_array(const JsonField& from, const Records& records) {
   PackArray out;
   out.name = from["name"].text();
   const JsonField format = from["format"];
   if (format.text() == "records") {
     out.shape.is_records = true;
-    out.shape.record = read_block(from["record"]);
+    std::vector<std::string> names;
+    for (const scene::UniformBlock& r : records) names.push_back(r.name);
+    out.shape.record = records[static_cast<std::size_t>(from["record"].one_of(names))];
     out.shape.width = static_cast<int>(from["count"].whole(0, largest_count));
     out.shape.height = 1;
   } else {
@@ -83,8 +87,8 @@ PackArray read_array(const JsonField& from) {
   return out;
 }
 
-PackInput read_input(const JsonField& from) {
-  PackInput input{read_array(from), {}};
+PackInput read_input(const JsonField& from, const Records& records) {
+  PackInput input{read_array(from, records), {}};
   CaseInput& rules = input.rules;
   rules.name = input.name;
   rules.array = input.shape;
@@ -102,8 +106,8 @@ PackInput read_input(const JsonField& from) {
   return input;
 }
 
-PackOutput read_output(const JsonField& from) {
-  PackOutput output{read_array(from), {}};
+PackOutput read_output(const JsonField& from, const Records& records) {
+  PackOutput output{read_array(from, records), {}};
   output.rules.name = output.name;
   output.rules.array = output.shape;
   output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
@@ -118,7 +122,7 @@ float read_float(const JsonField& from) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16)));
 }
 
-PackCase read_case(const JsonField& from) {
+PackCase read_case(const JsonField& from, const Records& records) {
   PackCase c;
   c.id = from["id"].text();
   c.pass = from["pass"].text();
@@ -128,8 +132,8 @@ PackCase read_case(const JsonField& from) {
   c.time = read_float(from["time"]);
   c.dt = read_float(from["dt"]);
   c.uniforms = read_file_entry(from["uniform_block"]);
-  for (const JsonField& input : from["inputs"].elements()) c.inputs.push_back(read_input(input));
-  for (const JsonField& output : from["outputs"].elements()) c.outputs.push_back(read_output(output));
+  for (const JsonField& input : from["inputs"].elements()) c.inputs.push_back(read_input(input, records));
+  for (const JsonField& output : from["outputs"].elements()) c.outputs.push_back(read_output(output, records));
   return c;
 }
 
@@ -159,10 +163,12 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
                            read_block(pass["uniform_block"])});
     names.push_back(pack.passes.back().name);
   }
+  Records records;
+  for (const JsonField& record : manifest["records"].elements()) records.push_back(read_block(record));
   std::set<std::string> ids;
   for (const JsonField& c : manifest["cases"].elements()) {
     c["pass"].one_of(names);
-    pack.cases.push_back(read_case(c));
+    pack.cases.push_back(read_case(c, records));
     const PackCase& read = pack.cases.back();
     if (!ids.insert(read.id).second) c["id"].refuse(fmt::format("'{}' is there twice", read.id));
     PassCase run;

@@ -91,7 +91,7 @@ Json storage_json(const std::string& name, const Array& array, const BufferInfo&
   if (array.is_records) {
     out["format"] = "records";
     out["count"] = array.width;
-    out["record"] = scene::uniform_block_json(array.record);
+    out["record"] = array.record.name;
   } else {
     const FormatInfo& format = info(array.format);
     out["format"] = format.name;
@@ -154,6 +154,8 @@ Json manifest_head(const EffectInfo& effect, const scene::Config& config, const 
   out["graph"] = graph_json(effect, variant);
   out["passes"] = Json::array();
   for (const std::string& name : passes) out["passes"].push_back(pass_json(effect, effect.pass(name), variant));
+  out["records"] = Json::array();
+  for (const scene::UniformBlock& record : effect.records) out["records"].push_back(scene::uniform_block_json(record));
   out["cases"] = Json::array();
   return out;
 }
