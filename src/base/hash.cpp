@@ -16,9 +16,10 @@ struct Hasher::State {
   ~State() { XXH3_freeState(xxh); }
 };
 
-Hasher::Hasher() : state_(std::make_unique<State>()) {
+Hasher::Hasher() : Hasher(golden_generation) {}
+Hasher::Hasher(std::uint64_t seed) : state_(std::make_unique<State>()) {
   if (!state_->xxh) throw std::bad_alloc();
-  XXH3_128bits_reset_withSeed(state_->xxh, golden_generation);
+  XXH3_128bits_reset_withSeed(state_->xxh, seed);
 }
 
 Hasher::~Hasher() = default;
@@ -28,6 +29,12 @@ void Hasher::add(std::span<const std::byte> bytes) { XXH3_128bits_update(state_-
 Hash128 Hasher::finish() const {
   const XXH128_hash_t h = XXH3_128bits_digest(state_->xxh);
   return {h.high64, h.low64};
+}
+
+Hash128 file_hash(std::span<const std::byte> bytes) {
+  Hasher hasher(0);
+  hasher.add(bytes);
+  return hasher.finish();
 }
 
 }  // namespace rainref

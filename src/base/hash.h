@@ -22,6 +22,8 @@ struct Hash128 {
 class Hasher {
  public:
   Hasher();
+  /// Another seed than the golden generation; 0 hashes as `xxhsum -H2` does.
+  explicit Hasher(std::uint64_t seed);
   ~Hasher();
   Hasher(const Hasher&) = delete;
   Hasher& operator=(const Hasher&) = delete;
@@ -33,5 +35,8 @@ class Hasher {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Unseeded hash of a file's bytes: what `xxhsum -H2` prints for the file.
+Hash128 file_hash(std::span<const std::byte> bytes);
 
 }  // namespace rainref

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "capture/array.h"
-#include "image/texture.h"
+#include "rainref/recorder.h"
 #include "rainref/storage.h"
 
 namespace rainref::capture {
@@ -21,7 +21,8 @@ struct CaseInput {
   Array array;
   Address address_u = Address::clamp, address_v = Address::clamp;
   std::array<float, 4> border{};  ///< what a lookup outside gives where the address rule is border
-  bool linear = false;            ///< the pass filters it linearly; else it loads by integer texel
+  bool linear = false;            ///< the pass filters it linearly
+  Filter filter = Filter::none, mip_filter = Filter::none;  ///< `none`: loads by integer texel; one level only
 };
 
 struct CaseOutput {
@@ -34,6 +35,7 @@ struct CaseOutput {
 struct PassCase {
   std::string effect, variant, pass;
   int frame = 0, step = 0, level = -1;  ///< level: -1 where the pass does not run for each mip level
+  float time = 0, dt = 0;               ///< [s] of the frame's start, and that this run advances
   std::vector<std::byte> uniforms;      ///< the uniform block, bytes as declared
   std::vector<CaseInput> inputs;
   std::vector<CaseOutput> outputs;

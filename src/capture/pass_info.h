@@ -1,34 +1,83 @@
 // What a pass is, for people, packs and reports: declared once by each effect.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "capture/pass_case.h"
 #include "scene/uniform_block.h"
 
 namespace rainref::capture {
 
-/// A buffer that passes read or write.
+/// A buffer that passes read or write. One whose meaning differs between variants has an entry for each of them.
 struct BufferInfo {
   std::string name;
   std::string format;    ///< a storage format's name, "records", or the scene key that chooses it
   std::string sentence;  ///< meaning of the channels, with units
+  std::string unit = "1";
+  std::array<double, 2> range{0, 1};  ///< of the stored values; an unorm format always has 0 to 1
+  std::string encoding = "none";      ///< from the stored to the meant value
+  std::string colour_space = "none", alpha = "none";
+  std::string orientation = "";  ///< of panoramas and cubes
+  std::string record = "";       ///< the layout in EffectInfo::records, where the format is "records"
+  std::string variant = "";      ///< "": every one
+};
+
+/// What a pass reads and where that comes from.
+struct ReadInfo {
+  std::string buffer;
+  std::string from = "";     ///< the pass that wrote it; "": the host
+  bool previous = false;     ///< from the run of that pass before this one, in this frame or the one before
+  std::string variant = "";  ///< "": every one
+};
+
+/// A pass as one variant runs it.
+struct PassVariant {
+  std::string name;
+  int revision;          ///< counts up whenever the order of operations or a constant changes
+  Judge judge;           ///< of every output
+  std::string uniforms;  ///< the block in PassInfo::uniforms
 };
 
 struct PassInfo {
   std::string name;
   std::string sentence;
-  std::vector<std::string> variants;  ///< empty: every variant runs it
-  std::vector<std::string> reads, writes;
-  std::string judge;  ///< envelope, bits, keyed or input_only; with the variant where it differs
+  std::vector<PassVariant> variants;
+  std::vector<ReadInfo> reads;
+  std::vector<std::string> writes;
   std::vector<scene::UniformBlock> uniforms;
+  std::string independence = "gather";       ///< gather, ordered_scatter, unordered_scatter or compaction
+  std::vector<std::string> order_free_sums = {};  ///< sums whose terms a port may add in any order
+
+  /// Null where this variant does not run the pass.
+  const PassVariant* variant(std::string_view variant_name) const;
+  /// The uniform block of a variant that runs the pass.
+  const scene::UniformBlock& block(std::string_view variant_name) const;
 };
 
 /// An effect's passes in the order of execution, its buffers, and the records among them.
 struct EffectInfo {
+  std::string name;
   std::vector<PassInfo> passes;
   std::vector<BufferInfo> buffers;
   std::vector<scene::UniformBlock> records;
+  std::string up_axis = "y", handedness = "right", depth = "none";
+
+  // What is not declared is a defect: Error(internal).
+  const PassInfo& pass(std::string_view pass_name) const;
+  const BufferInfo& buffer(std::string_view buffer_name, std::string_view variant) const;
+  const scene::UniformBlock& record(std::string_view record_name) const;
+  /// Names of the passes that a variant runs, in the order of execution.
+  std::vector<std::string> pass_names(std::string_view variant) const;
 };
+
+/// "puddle.wave_step.corrected/1": name and revision of the order of operations.
+std::string formula(const EffectInfo& effect, const PassInfo& pass, const PassVariant& variant);
+/// "envelope", "bits", "keyed" or "input_only".
+const char* name(Judge judge);
+/// "as-published: input_only; corrected: bits", or one word where they agree.
+std::string judge_text(const PassInfo& pass);
 
 }  // namespace rainref::capture

@@ -25,9 +25,9 @@ struct SceneFlags {
   std::vector<std::string> set;
 };
 
-void add_scene_flags(CLI::App& verb, SceneFlags& flags) {
+void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames = true) {
   verb.add_option("SCENE", flags.scene, "Scene file (TOML)")->required();
-  verb.add_option("--frames", flags.frames, "Number of frames");
+  if (with_frames) verb.add_option("--frames", flags.frames, "Number of frames");
   verb.add_option("--size", flags.size, "Picture size, WxH");
   verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them");
   verb.add_option("--simd", flags.simd, "SIMD target; the result does not depend on it (see `rainref list`)");
@@ -46,6 +46,16 @@ int whole_number(const std::string& text, const char* option, int low, int high)
     throw Error(ExitCode::usage, fmt::format("{}: expected a whole number from {} to {}, found '{}'", option, low, high, text));
   }
   return static_cast<int>(value);
+}
+
+// "a,b,c"
+std::vector<std::string> list_of(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == ',') parts.emplace_back();
+    else parts.back() += c;
+  }
+  return parts;
 }
 
 SceneOptions resolve(const SceneFlags& flags) {
@@ -116,21 +126,37 @@ int parse_and_run(int argc, const char* const* argv) {
   describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda");
   describe_verb.footer("Example: rainref describe puddle --layout glsl");
 
-  SceneFlags run_flags, hash_flags;
+  SceneFlags run_flags, hash_flags, pack_flags;
   RunOptions run_options;
   std::string image = "png";
-  std::optional<std::string> output, every;
+  std::optional<std::string> output, every, captured;
   CLI::App& run_verb = *app.add_subcommand("run", "Simulate and render a scene");
   add_scene_flags(run_verb, run_flags);
   run_verb.add_option("-o,--output", output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)");
   run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none");
   run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)");
+  run_verb.add_option("--capture", captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)");
   run_verb.add_flag("--json", run_options.json, "Print the summary as JSON");
   run_verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
 
   CLI::App& hash_verb = *app.add_subcommand("hash", "Hash every buffer that every pass writes");
   add_scene_flags(hash_verb, hash_flags);
   hash_verb.footer("Example: rainref hash scenes/puddle/default.toml --frames 60 --threads 2 --simd avx2");
+
+  std::string pack_output, at = "0,1,12";
+  std::optional<std::string> passes;
+  CLI::App& pack_verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
+  add_scene_flags(pack_verb, pack_flags, false);
+  pack_verb.add_option("-o,--output", pack_output, "Folder of the pack; an older pack there is replaced")->required();
+  pack_verb.add_option("--at", at, "Frames to take, such as 0,1,12");
+  pack_verb.add_option("--passes", passes, "Passes to take, such as wave_step,shade (default: all)");
+  pack_verb.footer("Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack");
+
+  std::string diff_a, diff_b;
+  CLI::App& diff_verb = *app.add_subcommand("diff", "The first difference between two captures or packs");
+  diff_verb.add_option("A", diff_a, "Folder of a capture or pack")->required();
+  diff_verb.add_option("B", diff_b, "Folder of another")->required();
+  diff_verb.footer("Example: rainref diff out/a/capture out/b/capture");
 
   CLI::App& selftest_verb = *app.add_subcommand("selftest", "Prove determinism on this machine, in seconds");
   selftest_verb.footer("Example: rainref selftest");
@@ -154,10 +180,28 @@ int parse_and_run(int argc, const char* const* argv) {
     if (output && output->empty()) throw Error(ExitCode::usage, "--output: expected a folder, found ''");
     run_options.output = output.value_or("");
     if (every) run_options.every = whole_number(*every, "--every", 1, 1000000);
+    if (captured) {
+      const std::vector<std::string> what{"passes", "all"};
+      if (std::find(what.begin(), what.end(), *captured) == what.end()) {
+        throw Error(ExitCode::usage, fmt::format("--capture: expected passes or all, found '{}'{}", *captured, did_you_mean(*captured, what)));
+      }
+      run_options.capture = *captured == "all" ? RunOptions::all : RunOptions::passes;
+    }
     run_options.scene = resolve(run_flags);
     return run(run_options);
   }
   if (hash_verb.parsed()) return hash(resolve(hash_flags));
+  if (pack_verb.parsed()) {
+    PackOptions options;
+    if (pack_output.empty()) throw Error(ExitCode::usage, "--output: expected a folder, found ''");
+    options.output = pack_output;
+    for (const std::string& frame : list_of(at)) options.frames.push_back(whole_number(frame, "--at", 0, 1000000));
+    std::sort(options.frames.begin(), options.frames.end());
+    if (passes) options.passes = list_of(*passes);
+    options.scene = resolve(pack_flags);
+    return pack(options);
+  }
+  if (diff_verb.parsed()) return diff(diff_a, diff_b);
   return selftest();
 }
 

@@ -9,7 +9,7 @@
 
 namespace rainref::cli {
 
-/// Options that `run` and `hash` share.
+/// Options that `run`, `hash` and `pack` share.
 struct SceneOptions {
   std::filesystem::path scene;
   std::vector<std::string> overrides;  ///< of --set, then of --frames and --size
@@ -22,12 +22,22 @@ struct RunOptions {
   int every = 0;                 ///< 0: the last frame only
   bool png = true, exr = false;
   bool json = false;
+  enum Capture : std::uint8_t { none, passes, all } capture = none;
+};
+
+struct PackOptions {
+  SceneOptions scene;
+  std::filesystem::path output;
+  std::vector<int> frames;          ///< ascending
+  std::vector<std::string> passes;  ///< empty: every pass of the variant
 };
 
 int list(bool json);
 int describe(const std::string& effect, bool json, const std::optional<std::string>& layout);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);
+int pack(const PackOptions& options);
+int diff(const std::filesystem::path& a, const std::filesystem::path& b);
 int selftest();
 
 }  // namespace rainref::cli

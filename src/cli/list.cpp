@@ -30,8 +30,17 @@ std::vector<std::string> scenes() {
   return found;
 }
 
-bool used(const capture::PassInfo& pass, const std::string& variant) {
-  return pass.variants.empty() || std::find(pass.variants.begin(), pass.variants.end(), variant) != pass.variants.end();
+std::string reads_text(const capture::PassInfo& pass) {
+  std::string text;
+  for (const capture::ReadInfo& r : pass.reads) {
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", r.buffer, r.variant.empty() ? "" : fmt::format(" ({})", r.variant));
+  }
+  return text.empty() ? "nothing" : text;
+}
+std::vector<std::string> variants_of(const capture::PassInfo& pass) {
+  std::vector<std::string> out;
+  for (const capture::PassVariant& v : pass.variants) out.push_back(v.name);
+  return out;
 }
 
 }  // namespace
@@ -55,9 +64,7 @@ int list(bool json) {
   for (const EffectEntry& e : effects()) {
     for (const std::string& variant : e.variants) {
       fmt::print("  {:<14} {:<13}", e.name, variant);
-      for (const capture::PassInfo& pass : e.info->passes) {
-        if (used(pass, variant)) fmt::print(" {}", pass.name);
-      }
+      for (const std::string& pass : e.info->pass_names(variant)) fmt::print(" {}", pass);
       fmt::print("\n");
     }
   }
@@ -82,23 +89,31 @@ int describe(const std::string& name, bool json, const std::optional<std::string
     nlohmann::ordered_json out{{"effect", e.name}, {"variants", e.variants}, {"parameters", scene::parameters_json(parameters)}};
     out["passes"] = nlohmann::ordered_json::array();
     for (const capture::PassInfo& p : e.info->passes) {
-      nlohmann::ordered_json pass{{"name", p.name}, {"sentence", p.sentence}, {"reads", p.reads}, {"writes", p.writes}, {"judge", p.judge}};
-      if (!p.variants.empty()) pass["variants"] = p.variants;
+      nlohmann::ordered_json pass{{"name", p.name}, {"sentence", p.sentence}, {"variants", variants_of(p)}, {"writes", p.writes}, {"judge", capture::judge_text(p)}};
+      pass["reads"] = nlohmann::ordered_json::array();
+      for (const capture::ReadInfo& r : p.reads) pass["reads"].push_back(r.buffer);
+      for (const capture::PassVariant& v : p.variants) pass["formulas"].push_back(capture::formula(*e.info, p, v));
       for (const scene::UniformBlock& block : p.uniforms) pass["uniforms"].push_back(scene::uniform_block_json(block));
       out["passes"].push_back(pass);
     }
-    for (const capture::BufferInfo& b : e.info->buffers) out["buffers"].push_back({{"name", b.name}, {"format", b.format}, {"sentence", b.sentence}});
+    for (const capture::BufferInfo& b : e.info->buffers) {
+      out["buffers"].push_back({{"name", b.name}, {"format", b.format}, {"sentence", b.sentence}, {"unit", b.unit}, {"range", b.range}, {"encoding", b.encoding}});
+      if (!b.variant.empty()) out["buffers"].back()["variant"] = b.variant;
+    }
     for (const scene::UniformBlock& record : e.info->records) out["records"].push_back(scene::uniform_block_json(record));
     fmt::print("{}\n", json_text(out));
     return 0;
   }
   fmt::print("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "), scene::describe_text(parameters));
   for (const capture::PassInfo& p : e.info->passes) {
-    fmt::print("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, p.variants.empty() ? "" : fmt::format(" ({})", fmt::join(p.variants, ", ")),
-               p.sentence, p.reads.empty() ? "nothing" : fmt::format("{}", fmt::join(p.reads, " ")), fmt::join(p.writes, " "), p.judge);
+    const bool all = p.variants.size() == e.variants.size();
+    fmt::print("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, all ? "" : fmt::format(" ({})", fmt::join(variants_of(p), ", ")), p.sentence,
+               reads_text(p), fmt::join(p.writes, ", "), capture::judge_text(p));
   }
   fmt::print("\nBuffers\n\n");
-  for (const capture::BufferInfo& b : e.info->buffers) fmt::print("{:<13} {:<15} {}\n", b.name, b.format, b.sentence);
+  for (const capture::BufferInfo& b : e.info->buffers) {
+    fmt::print("{:<16} {:<15} {}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence);
+  }
   return 0;
 }
 

@@ -1,11 +1,15 @@
 // `rainref run` and `rainref hash`.
 #include <chrono>
+#include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "capture/capture_recorder.h"
 #include "capture/hashing.h"
+#include "capture/pack_write.h"
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/pictures.h"
@@ -48,6 +52,22 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // innermost first
 };
 
+/// The passes' buffers of the frames that are written, in a folder of their own.
+struct Capture {
+  capture::PackWriter writer;
+  capture::CaptureRecorder recorder;
+
+  Capture(const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder, const std::function<bool(int)>& written)
+      : Capture(*effect(config.effect()).info, options, config, folder, written) {}
+
+ private:
+  Capture(const capture::EffectInfo& info, const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
+          const std::function<bool(int)>& written)
+      : writer(folder, info, config, options.scene.scene.filename().string(), options.capture == RunOptions::all, info.pass_names(config.variant())),
+        recorder(info, config.variant(), options.capture == RunOptions::all, [written](int frame, std::string_view) { return written(frame); },
+                 [this](const capture::PassCase& c) { writer.add(c); }) {}
+};
+
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<InputFile>& inputs, const parallel::Executor& executor,
                                const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds, int frames) {
   nlohmann::ordered_json out{{"rainref", version()}, {"golden_generation", golden_generation}, {"config", scene::config_json(config)}, {"origins", scene::origins_json(config)}};
@@ -77,7 +97,11 @@ int run(const RunOptions& options) {
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
   const int frames = static_cast<int>(config.integer("run.frames"));
+  const auto written = [&](int frame) { return options.every > 0 ? frame % options.every == 0 : frame == frames - 1; };
   capture::HashRecorder recorder;
+  std::optional<Capture> capture;
+  if (options.capture != RunOptions::none) capture.emplace(options, config, folder / "capture", written);
+  capture::RecorderList recorders(capture ? std::vector<Recorder*>{&recorder, &capture->recorder} : std::vector<Recorder*>{&recorder});
   std::vector<capture::HashLine> last;
   int pictures = 0;
   const auto start = std::chrono::steady_clock::now();
@@ -85,9 +109,9 @@ int run(const RunOptions& options) {
     Progress progress(config.effect(), frames);
     for (int frame = 0; frame < frames; ++frame) {
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
-      simulation->frame(&recorder);
+      simulation->frame(&recorders);
       last = recorder.take_lines();
-      if (options.every > 0 ? frame % options.every == 0 : frame == frames - 1) {
+      if (written(frame)) {
         const std::string stem = fmt::format("{}.{:04}", config.effect(), frame);
         if (options.png) write_picture(folder / (stem + ".png"), simulation->picture());
         if (options.exr) simulation->write_exr(folder / (stem + ".exr"));
@@ -98,10 +122,12 @@ int run(const RunOptions& options) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
+  if (capture) capture->writer.finish();
   write_file(folder / "summary.json", json_text(report) + "\n");
   made.keep();
   if (options.json) fmt::print("{}\n", json_text(report));
-  else fmt::print("{} frames in {}, {} picture{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s", folder.string());
+  else fmt::print("{} frames in {}, {} picture{}{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s",
+                  capture ? ", capture/" : "", folder.string());
   return 0;
 }
 

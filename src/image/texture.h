@@ -1,32 +1,13 @@
-// Decoded images that passes sample.
+// Owners and fixed views of the textures that passes sample; sampling-inl.h reads them.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "rainref/image.h"
+#include "rainref/texture.h"
 
 namespace rainref {
-
-/// What a lookup outside the image gives.
-enum class Address : std::uint8_t {
-  clamp,   ///< the nearest texel of the edge
-  repeat,  ///< the image is a tile
-  mirror,  ///< the image and its mirror image alternate
-  border   ///< a constant (zero by default)
-};
-
-/// A view of float texels with mip levels, as sampling-inl.h reads it. Level l has width[l] x height[l] texels,
-/// row-major, channels interleaved, starting at texel offset[l]. Row 0 is v = 0.
-struct Texture {
-  static constexpr int max_levels = 17;
-  const float* texels = nullptr;
-  int channels = 0;
-  int levels = 0;
-  std::int32_t width[max_levels] = {}, height[max_levels] = {}, offset[max_levels] = {};
-  Address address_u = Address::clamp, address_v = Address::clamp;
-  float border[4] = {0, 0, 0, 0};
-};
 
 /// A view of a Texture whose address rules and channels are fixed when compiling.
 template <Address U, Address V, int Count>

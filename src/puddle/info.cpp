@@ -1,11 +1,15 @@
 #include "puddle/info.h"
 
+#include "puddle/host.h"
 #include "puddle/uniforms.h"
 
 namespace rainref::puddle {
 namespace {
 
 using namespace rainref::scene;
+using namespace rainref::capture;
+
+constexpr const char *published = "as-published", *correct = "corrected";
 
 std::vector<Member> camera() {
   return {member<&CameraUniforms::position>("position", "m", "Eye."),
@@ -21,7 +25,7 @@ std::vector<Member> with_camera(std::vector<Member> head, std::vector<Member> re
   return head;
 }
 
-capture::EffectInfo make() {
+EffectInfo make() {
   const UniformBlock raindrops = uniform_block<RaindropsUniforms>(
       "RaindropsUniforms", {member<&RaindropsUniforms::time>("time", "s", "Frame number over frame rate, rounded once."),
                             member<&RaindropsUniforms::rain_speed>("rain_speed", "1/s", "Pulses of each drop a second."),
@@ -85,31 +89,71 @@ capture::EffectInfo make() {
                                                   member<&Drop::y>("y", "texel", "Centre."),
                                                   member<&Drop::amplitude>("amplitude", "1", "as-published: strength times activation; corrected: stored height at the centre."),
                                                   member<&Drop::radius>("radius", "texel", "Nothing is added from this distance on.")});
-  capture::EffectInfo info;
+  const UniformBlock rainfall = uniform_block<RainfallUniforms>(
+      "RainfallUniforms", {member<&RainfallUniforms::seed>("seed", "1", "Low and high word of the seed."),
+                           member<&RainfallUniforms::step>("step", "1", "Wave steps made before this one, modulo 2^32."),
+                           member<&RainfallUniforms::first_count>("first_count", "1", "Drops where the word is below every threshold."),
+                           member<&RainfallUniforms::columns>("columns", "texel", "Columns of the wave."),
+                           member<&RainfallUniforms::rows>("rows", "texel", "Rows of the wave."),
+                           member<&RainfallUniforms::boundary>("boundary", "1", "0: reflecting, 1: periodic, 2: fixed."),
+                           member<&RainfallUniforms::threshold_count>("threshold_count", "1", "Thresholds in the list.")});
+  const UniformBlock threshold = record<CountThreshold>(
+      "CountThreshold", {member<&CountThreshold::threshold>("threshold", "1", "A word not below k thresholds draws first_count + k drops.")});
+
+  constexpr auto envelope = Judge::envelope, input_only = Judge::input_only, bits = Judge::bits;
+  constexpr bool from_previous_run = true;
+  // Both variants, at these revisions of their formulas.
+  const auto both = [](int published_revision, int corrected_revision, const char* block) {
+    return std::vector<PassVariant>{{published, published_revision, envelope, block}, {correct, corrected_revision, envelope, block}};
+  };
+  const std::vector<std::string> lengths{"dot", "length", "normalize"};
+  EffectInfo info;
+  info.name = "puddle";
   info.passes = {
-      {"raindrops", "The drops that fall in this step.", {}, {}, {"drops"}, "as-published: input_only; corrected: bits", {raindrops}},
-      {"wave_step", "The next level of the water from the newest and the previous one.", {}, {"wave", "drops", "shore"}, {"wave"}, "envelope", {wave_step}},
-      {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {}, {"wave", "bounds"}, {"hit", "normal"}, "envelope", {surface_hit}},
-      {"ground_noise", "The sine hash of the ground point, which shade takes as data.", {"as-published"}, {"hit", "normal"}, {"noise"}, "input_only", {ground_noise}},
-      {"shade", "Reflection, refraction, water and ground: linear radiance.", {}, {"hit", "normal", "noise", "environment", "ground", "relief", "bed"}, {"colour"}, "envelope", {shade}},
-      {"display", "Vignette and display code.", {}, {"colour"}, {"picture"}, "envelope", {display}},
+      {"raindrops", "The drops that fall in this step.",
+       {{published, 1, input_only, "RaindropsUniforms"}, {correct, 1, bits, "RainfallUniforms"}},
+       {{"craters", "", false, correct}, {"count_thresholds", "", false, correct}}, {"drops"}, {raindrops, rainfall}},
+      {"wave_step", "The next level of the water from the newest and the previous one.", both(1, 1, "WaveStepUniforms"),
+       {{"wave", "wave_step", from_previous_run}, {"drops", "raindrops"}, {"shore", "", false, correct}}, {"wave"}, {wave_step}, "gather",
+       {"the four neighbours", "length"}},
+      {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", both(1, 2, "SurfaceHitUniforms"),
+       {{"wave", "wave_step"}, {"bounds", "", false, correct}}, {"hit", "normal"}, {surface_hit}, "gather", lengths},
+      {"ground_noise", "The sine hash of the ground point, which shade takes as data.", {{published, 1, input_only, "GroundNoiseUniforms"}},
+       {{"hit", "surface_hit"}, {"normal", "surface_hit"}}, {"noise"}, {ground_noise}, "gather", lengths},
+      {"shade", "Reflection, refraction, water and ground: linear radiance.", both(1, 1, "ShadeUniforms"),
+       {{"hit", "surface_hit"}, {"normal", "surface_hit"}, {"noise", "ground_noise", false, published}, {"environment"}, {"ground"},
+        {"relief", "", false, correct}, {"bed", "", false, correct}}, {"colour"}, {shade}, "gather", lengths},
+      {"display", "Vignette and display code.", both(1, 1, "DisplayUniforms"), {{"colour", "shade"}}, {"picture"}, {display}, "gather", {"length"}},
   };
+  const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
+  const std::string around =
+      "latitude/longitude, width not height / 6: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + asin(y) / pi, row 0 looks straight down; "
+      "cube, height = 6 width: faces +x -x +y -y +z -z below each other, each from its first row as graphics APIs orient it";
   info.buffers = {
-      {"drops", "records", "Drop records of this step."},
-      {"wave", "puddle.storage", "Newest level, previous level. as-published: u = 2 (s - 1/2); corrected: metres, or for rgba8 0.04 (s - 128/255) m."},
-      {"shore", "r32f", "corrected, natural shape: share of the wave that the shore leaves, 1 in the water, 0 on dry ground."},
-      {"bounds", "rg32f", "corrected: for each block of 32 x 32 cells the highest water [m] and the steepest slope [1] in it and the eight around it."},
-      {"hit", "rgba32f", "Position x y z [m], march steps."},
-      {"normal", "rgba16f", "Unit normal x y z; 1 where the ray hit, 0 where not."},
-      {"noise", "r32f", "as-published: noise of the ground point in [0, 1)."},
-      {"environment", "rgba32f", "Radiance by direction; as-published encoded by the power 1/2.2, corrected linear with mips."},
-      {"ground", "rgba32f", "Tile of the ground; as-published encoded by the power 1/2.2, corrected linear albedo with mips."},
-      {"relief", "rg32f", "corrected: slopes of the ground tile, with mips."},
-      {"bed", "r32f", "corrected: depth of the water over the puddle's rectangle [m], negative where dry."},
-      {"colour", "rgba16f", "Linear radiance, alpha 1."},
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture."},
+      {"craters", "records", "The size classes of drops, smallest first: amplitude and radius; x and y are 0.", "1", one, "none", "none", "none", "", "Drop", correct},
+      {"count_thresholds", "records", "Thresholds of the number of drops in a step, ascending.", "1", {0, 4294967295.0}, "none", "none", "none", "", "CountThreshold", correct},
+      {"drops", "records", "Drop records of this step.", "1", one, "none", "none", "none", "", "Drop"},
+      {"wave", "puddle.storage", "Newest level, previous level.", "1", one, "u = 2 (s - 1/2)", "none", "none", "", "", published},
+      {"wave", "puddle.storage", "Newest level, previous level.", "m", {-rgba8_range, rgba8_range}, "floats: height = s; rgba8: height = 0.04 (s - 128/255)",
+       "none", "none", "", "", correct},
+      {"shore", "r32f", "Natural shape: share of the wave that the shore leaves, 1 in the water, 0 on dry ground.", "1", one, "none", "none", "none", "", "", correct},
+      {"bounds", "rg32f", "For each block of 32 x 32 cells the highest water [m] and the steepest slope [1] in it and the eight around it.", "m, 1", one,
+       "none", "none", "none", "", "", correct},
+      {"hit", "rgba32f", "Position x y z [m], march steps.", "m, m, m, 1", {-42, 42}, "none", "none", "none", "", "", published},
+      {"hit", "rgba32f", "Position x y z [m], march steps.", "m, m, m, 1", {-2, 2}, "none", "none", "none", "", "", correct},
+      {"normal", "rgba16f", "Unit normal x y z; 1 where the ray hit, 0 where not.", "1", signed_one},
+      {"noise", "r32f", "Noise of the ground point in [0, 1).", "1", one, "none", "none", "none", "", "", published},
+      {"environment", "rgba32f", "Radiance by direction.", "1", one, "radiance = s^2.2", "Rec. 709 primaries, encoded by the power 1/2.2", "unused", around, "", published},
+      {"environment", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused", around, "", correct},
+      {"ground", "rgba32f", "Tile of the ground.", "1", one, "albedo = s^2.2", "Rec. 709 primaries, encoded by the power 1/2.2", "unused", "", "", published},
+      {"ground", "rgba32f", "Tile of the ground, with mips.", "1", one, "none", "linear Rec. 709", "unused", "", "", correct},
+      {"relief", "rg32f", "Slopes of the ground tile, with mips.", "1", signed_one, "none", "none", "none", "", "", correct},
+      {"bed", "r32f", "Depth of the water over the puddle's rectangle, negative where dry.", "m", signed_one, "none", "none", "none", "", "", correct},
+      {"colour", "rgba16f", "Linear radiance, alpha 1.", "1", one, "none", "linear Rec. 709", "1"},
+      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "code = power 0.4545 of the radiance", "Rec. 709 primaries", "1", "", "", published},
+      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1", "", "", correct},
   };
-  info.records = {drop};
+  info.records = {drop, threshold};
   return info;
 }
 

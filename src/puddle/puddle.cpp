@@ -54,6 +54,11 @@ Format channel_format(Format storage) {
   }
 }
 
+template <class T>
+RecordView records(const std::vector<T>& all) {
+  return {all.data(), all.size(), sizeof(T)};
+}
+
 }  // namespace
 
 struct Puddle::State {
@@ -64,6 +69,7 @@ struct Puddle::State {
   int frame = 0;
   std::int64_t steps = 0;
   Image newest, previous, rest_row, shore;
+  float stored_rest = 0;  // encoding.rest as the storage rounds it
   Rainfall rainfall;
 
   TextureData environment, ground, relief, bed;
@@ -115,6 +121,7 @@ struct Puddle::State {
     encode(level, newest);
     encode(level, previous);
     encode(std::vector<float>(static_cast<std::size_t>(p.width()), encoding.rest), rest_row);
+    stored_rest = TextureData(rest_row, Address::clamp, Address::clamp).texels()[0];
   }
   // Stored values, row-major, into a plane with its ghosts.
   void encode(const std::vector<float>& stored, Image& plane) const { encode_rows(stored.data(), plane, settings.boundary, encoding.rest, settings.rounding); }
@@ -126,6 +133,28 @@ struct Puddle::State {
     executor.for_tiles(settings.width, settings.height, settings.width, picture_tile_rows, body);
   }
 
+  double frame_time() const { return 1 / settings.fps; }
+  double step_time() const { return corrected ? 1 / settings.step_rate : frame_time(); }
+  /// Uniforms and inputs of a pass that advances by dt.
+  template <class Uniforms>
+  void announce(Recorder* recorder, int step, std::string_view pass, double dt, const Uniforms& uniforms, std::initializer_list<PassInput> inputs) const {
+    if (!recorder) return;
+    recorder->before({frame, step, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)),
+                      static_cast<float>(frame / settings.fps), static_cast<float>(dt), settings.rounding});
+  }
+  /// The wave as wave_step loads it: the boundary rule is an address rule, the border the stored rest value.
+  PassInput loaded_wave(BufferView wave) const {
+    constexpr Address rules[] = {Address::clamp, Address::repeat, Address::border};
+    return {"wave", std::move(wave), Filter::none, Filter::none, rules[static_cast<int>(settings.boundary)], {stored_rest, stored_rest, 0, 0}};
+  }
+  PassInput sampled_wave(BufferView wave) const {
+    return {"wave", std::move(wave), Filter::linear, Filter::none, water.view().address_u};
+  }
+  PassInput environment_input() const {
+    // A cube's level is the nearest one.
+    return {"environment", &environment.view(), Filter::linear, !corrected ? Filter::none : environment_is_cube ? Filter::nearest : Filter::linear};
+  }
+  PassInput ground_input() const { return {"ground", &ground.view(), Filter::linear, corrected ? Filter::nearest : Filter::none}; }
   void report(Recorder* recorder, int step, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
     if (recorder) recorder->pass({frame, step, pass, {outputs.begin(), outputs.size()}, seconds});
   }
@@ -142,16 +171,29 @@ void Puddle::simulate(Recorder* recorder) {
   State& s = *state_;
   const std::int64_t end = steps_until(s.settings, s.frame + 1);
   for (int step = 0; s.steps < end; ++step, ++s.steps) {
+    if (s.corrected) {
+      const std::vector<Drop>& craters = s.rainfall.craters();
+      const std::vector<std::uint32_t>& thresholds = s.rainfall.count_thresholds();
+      s.announce(recorder, step, "raindrops", s.step_time(), s.rainfall.uniforms(s.steps),
+                 {{"craters", records(craters)}, {"count_thresholds", records(thresholds)}});
+    } else {
+      s.announce(recorder, step, "raindrops", s.step_time(), raindrops_uniforms(s.settings, s.frame), {});
+    }
     Stopwatch rain_time;
     const std::vector<Drop> drops =
         s.corrected ? s.rainfall.drops(s.steps) : raindrops_as_published(raindrops_uniforms(s.settings, s.frame));
-    s.report(recorder, step, "raindrops", {{"drops", RecordView{drops.data(), drops.size(), sizeof(Drop)}}}, rain_time.seconds());
+    s.report(recorder, step, "raindrops", {{"drops", records(drops)}}, rain_time.seconds());
 
-    Stopwatch wave_time;
     WaveJob job{wave_step_uniforms(s.settings), s.corrected, s.settings.rounding, s.settings.boundary,
                 &s.newest,                      &s.previous, &s.rest_row,         s.shore.empty() ? nullptr : &s.shore,
                 drops};
     job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
+    if (job.shore) {
+      s.announce(recorder, step, "wave_step", s.step_time(), job.uniforms, {s.loaded_wave(wave()), {"drops", records(drops)}, {"shore", s.shore}});
+    } else {
+      s.announce(recorder, step, "wave_step", s.step_time(), job.uniforms, {s.loaded_wave(wave()), {"drops", records(drops)}});
+    }
+    Stopwatch wave_time;
     s.wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
     if (s.corrected && !drops.empty()) {
       s.wave_tiles([&](const parallel::Tile& tile) { wave_previous_rows(job, s.newest, tile); });
@@ -196,9 +238,27 @@ void Puddle::render(Recorder* recorder) {
     clocks[3].add([&] { display_rows(display, s.corrected, rounding, s.colour, s.picture, tile); });
   });
   const int threads = s.executor.threads();
+
+  // What these passes read, none of them overwrites: they may be announced after all have run.
+  const double dt = s.frame_time();
+  if (s.corrected) {
+    s.announce(recorder, last_step, "surface_hit", dt, u, {s.sampled_wave(wave()), {"bounds", &bounds.view(), Filter::nearest}});
+  } else {
+    s.announce(recorder, last_step, "surface_hit", dt, u, {s.sampled_wave(wave())});
+  }
   s.report(recorder, last_step, "surface_hit", {{"hit", s.hit}, {"normal", s.normal}}, prepared + clocks[0].seconds(threads));
-  if (!s.corrected) s.report(recorder, last_step, "ground_noise", {{"noise", s.noise}}, clocks[1].seconds(threads));
+  if (s.corrected) {
+    s.announce(recorder, last_step, "shade", dt, shade,
+               {{"hit", s.hit}, {"normal", s.normal}, s.environment_input(), s.ground_input(),
+                {"relief", &s.relief.view(), Filter::linear, Filter::nearest}, {"bed", &s.bed.view(), Filter::linear}});
+  } else {
+    s.announce(recorder, last_step, "ground_noise", dt, noise, {{"hit", s.hit}, {"normal", s.normal}});
+    s.report(recorder, last_step, "ground_noise", {{"noise", s.noise}}, clocks[1].seconds(threads));
+    s.announce(recorder, last_step, "shade", dt, shade,
+               {{"hit", s.hit}, {"normal", s.normal}, {"noise", s.noise}, s.environment_input(), s.ground_input()});
+  }
   s.report(recorder, last_step, "shade", {{"colour", s.colour}}, clocks[2].seconds(threads));
+  s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
   s.report(recorder, last_step, "display", {{"picture", s.picture}}, clocks[3].seconds(threads));
   s.frame = recorded_frame;
 }

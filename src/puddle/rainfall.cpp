@@ -50,6 +50,19 @@ std::vector<Drop> Rainfall::drops(std::int64_t step) const {
   return out;
 }
 
+RainfallUniforms Rainfall::uniforms(std::int64_t step) const {
+  RainfallUniforms u{};
+  u.seed[0] = static_cast<std::uint32_t>(seed_);
+  u.seed[1] = static_cast<std::uint32_t>(seed_ >> 32);
+  u.step = static_cast<std::uint32_t>(step);
+  u.first_count = count_.first();
+  u.columns = width_;
+  u.rows = height_;
+  u.boundary = boundary_ == Boundary::reflecting ? 0 : boundary_ == Boundary::periodic ? 1 : 2;
+  u.threshold_count = static_cast<std::int32_t>(count_.thresholds().size());
+  return u;
+}
+
 void Rainfall::add_with_images(const Drop& drop, std::vector<Drop>& out) const {
   out.push_back(drop);
   if (boundary_ == Boundary::fixed) return;

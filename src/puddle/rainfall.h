@@ -27,6 +27,11 @@ class Rainfall {
   /// Crater amplitude (stored units) and radius (texels) of the size class; class 0 holds the smallest drops.
   const Drop& crater(int size_class) const { return craters_[static_cast<std::size_t>(size_class)]; }
 
+  /// What drops(step) depends on, for those who draw them elsewhere.
+  RainfallUniforms uniforms(std::int64_t step) const;
+  const std::vector<Drop>& craters() const { return craters_; }
+  const std::vector<std::uint32_t>& count_thresholds() const { return count_.thresholds(); }
+
  private:
   std::uint64_t seed_;
   std::uint32_t width_, height_;

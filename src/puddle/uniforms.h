@@ -23,6 +23,20 @@ struct RaindropsUniforms {
   std::int32_t padding1;
 };
 
+/// raindrops, corrected: with the records CountThreshold and the Drop records of the craters all that it depends on.
+struct RainfallUniforms {
+  std::uint32_t seed[2];      ///< low word, high word
+  std::uint32_t step;         ///< wave steps made before, modulo 2^32
+  std::int32_t first_count;   ///< the count of a word below the first threshold
+  std::uint32_t columns, rows;  ///< cells of the wave
+  std::int32_t boundary;      ///< 0 reflecting, 1 periodic, 2 fixed
+  std::int32_t threshold_count;
+};
+/// A word not below k thresholds draws first_count + k drops.
+struct CountThreshold {
+  std::uint32_t threshold;
+};
+
 struct WaveStepUniforms {
   float damping;     ///< as-published: factor of the new level; corrected: gamma of one step
   float step;        ///< as-published: offset of the neighbours [texels]
@@ -95,7 +109,7 @@ struct DisplayUniforms {
   float width, height;
 };
 
-static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(WaveStepUniforms) == 32);
+static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(RainfallUniforms) == 32 && sizeof(WaveStepUniforms) == 32);
 static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 144 && sizeof(GroundNoiseUniforms) == 80);
 static_assert(sizeof(ShadeUniforms) == 176 && sizeof(DisplayUniforms) == 16);
 

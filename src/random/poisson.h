@@ -18,6 +18,8 @@ class PoissonTable {
   /// The count of this random word.
   int count(std::uint32_t word) const;
   int largest() const { return first_ + static_cast<int>(thresholds_.size()); }
+  int first() const { return first_; }
+  const std::vector<std::uint32_t>& thresholds() const { return thresholds_; }
 
  private:
   int first_ = 0;                          // counts below this have no weight

@@ -1,0 +1,186 @@
+#include "capture/manifest_read.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "capture/manifest_write.h"
+#include "rainref/error.h"
+
+namespace rainref::capture {
+namespace {
+
+constexpr std::int64_t largest_side = 65536, largest_count = INT32_MAX, largest_file = std::int64_t{1} << 40;
+
+template <class Enum, int Count>
+Enum named(const JsonField& field) {
+  std::vector<std::string> names;
+  for (int i = 0; i < Count; ++i) names.emplace_back(name(static_cast<Enum>(i)));
+  return static_cast<Enum>(field.one_of(names));
+}
+
+PackFileEntry read_file_entry(const JsonField& from) {
+  PackFileEntry file;
+  const JsonField path = from["file"];
+  file.path = path.text();
+  const std::filesystem::path p(file.path);
+  const bool leaves = p.is_absolute() || std::any_of(p.begin(), p.end(), [](const auto& part) { return part == ".." || part == "." || part.empty(); });
+  if (file.path.empty() || leaves || file.path.find_first_of(std::string("\\\0", 2)) != std::string::npos) {
+    path.fail("the path of a file below the pack's folder");
+  }
+  file.bytes = static_cast<std::size_t>(from["bytes"].whole(0, largest_file));
+  file.xxh3 = from["xxh3"].text();
+  return file;
+}
+
+scene::UniformBlock read_block(const JsonField& from) {
+  scene::UniformBlock block;
+  block.name = from["name"].text();
+  block.size = static_cast<std::size_t>(from["size"].whole(4, largest_side));
+  const std::vector<std::string> scalars{"float", "int", "uint"};
+  for (const JsonField& m : from["members"].elements()) {
+    scene::Member member{m["name"].text(), static_cast<scene::Scalar>(m["type"].one_of(scalars)), static_cast<int>(m["components"].whole(1, 4)),
+                         static_cast<std::size_t>(m["offset"].whole(0, largest_side)), m["unit"].text(), m["sentence"].text()};
+    if (member.offset + member.size() > block.size) m["offset"].refuse(fmt::format("the member ends beyond the {} bytes of {}", block.size, block.name));
+    block.members.push_back(std::move(member));
+  }
+  return block;
+}
+
+using Records = std::vector<scene::UniformBlock>;
+
+PackArray read_array(const JsonField& from, const Records& records) {
+  PackArray out;
+  out.name = from["name"].text();
+  const JsonField format = from["format"];
+  if (format.text() == "records") {
+    out.shape.is_records = true;
+    std::vector<std::string> names;
+    for (const scene::UniformBlock& r : records) names.push_back(r.name);
+    out.shape.record = records[static_cast<std::size_t>(from["record"].one_of(names))];
+    out.shape.width = static_cast<int>(from["count"].whole(0, largest_count));
+    out.shape.height = 1;
+  } else {
+    try {
+      out.shape.format = format_from_name(format.text());
+    } catch (const Error& e) {
+      format.refuse(e.what());
+    }
+    out.shape.width = static_cast<int>(from["width"].whole(1, largest_side));
+    out.shape.height = static_cast<int>(from["height"].whole(1, largest_side));
+    from["channels"].whole(info(out.shape.format).channels, info(out.shape.format).channels);
+  }
+  out.levels.push_back(read_file_entry(from));
+  const std::int64_t levels = from["levels"].whole(1, Texture::max_levels);
+  if (levels > 1) {
+    const std::vector<JsonField> mips = from["mips"].elements();
+    if (static_cast<std::int64_t>(mips.size()) != levels - 1) from["mips"].refuse(fmt::format("expected {} levels below the first, found {}", levels - 1, mips.size()));
+    for (const JsonField& mip : mips) out.levels.push_back(read_file_entry(mip));
+  }
+  const std::vector<JsonField> range = from["range"].elements();
+  if (range.size() != 2) from["range"].fail("two numbers");
+  out.range = {range[0].number(), range[1].number()};
+  out.unit = from["unit"].text();
+  out.meaning = from["channel_meaning"].text();
+  return out;
+}
+
+PackInput read_input(const JsonField& from, const Records& records) {
+  PackInput input{read_array(from, records), {}};
+  CaseInput& rules = input.rules;
+  rules.name = input.name;
+  rules.array = input.shape;
+  if (input.shape.is_records) return input;
+  rules.address_u = named<Address, 4>(from["address_u"]);
+  rules.address_v = named<Address, 4>(from["address_v"]);
+  if (!from.is_null("border")) {
+    const std::vector<JsonField> border = from["border"].elements();
+    if (border.size() != 4) from["border"].fail("four numbers");
+    for (std::size_t k = 0; k < 4; ++k) rules.border[k] = static_cast<float>(border[k].number());
+  }
+  rules.filter = named<Filter, 3>(from["min_filter"]);
+  rules.mip_filter = named<Filter, 3>(from["mip_filter"]);
+  rules.linear = rules.filter == Filter::linear;
+  return input;
+}
+
+PackOutput read_output(const JsonField& from, const Records& records) {
+  PackOutput output{read_array(from, records), {}};
+  output.rules.name = output.name;
+  output.rules.array = output.shape;
+  output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
+  output.rules.judge = named<Judge, 4>(from["judge"]);
+  return output;
+}
+
+float read_float(const JsonField& from) {
+  const JsonField field = from["bits"];
+  const std::string bits = field.text();
+  if (bits.size() != 10 || !bits.starts_with("0x") || bits.find_first_not_of("0123456789abcdef", 2) != std::string::npos) field.fail("eight hexadecimal digits behind 0x");
+  return std::bit_cast<float>(static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16)));
+}
+
+PackCase read_case(const JsonField& from, const Records& records) {
+  PackCase c;
+  c.id = from["id"].text();
+  c.pass = from["pass"].text();
+  c.frame = static_cast<int>(from["frame"].whole(0, largest_count));
+  c.step = static_cast<int>(from["step"].whole(0, largest_count));
+  c.level = from.is_null("level") ? -1 : static_cast<int>(from["level"].whole(0, Texture::max_levels - 1));
+  c.time = read_float(from["time"]);
+  c.dt = read_float(from["dt"]);
+  c.uniforms = read_file_entry(from["uniform_block"]);
+  for (const JsonField& input : from["inputs"].elements()) c.inputs.push_back(read_input(input, records));
+  for (const JsonField& output : from["outputs"].elements()) c.outputs.push_back(read_output(output, records));
+  return c;
+}
+
+}  // namespace
+
+void read_manifest(const JsonField& manifest, Pack& pack) {
+  if (!manifest.has("format") || manifest["format"].dump() != fmt::format("\"{}\"", pack_format)) {
+    manifest.refuse(fmt::format("this is no manifest of a pack: expected \"format\": \"{}\"", pack_format));
+  }
+  const std::int64_t version = manifest["version"].whole(1, INT32_MAX);
+  if (version > pack_version) manifest.refuse(fmt::format("version {} is newer than this rainref reads, which is {}", version, pack_version));
+  pack.producer = manifest["rainref"]["version"].text();
+  pack.golden_generation = static_cast<int>(manifest["rainref"]["golden_generation"].whole(0, INT32_MAX));
+  const std::vector<std::string> contents{"outputs", "all"};
+  pack.with_inputs = manifest["contents"].one_of(contents) == 1;
+  pack.effect = manifest["effect"].text();
+  pack.variant = manifest["variant"].text();
+  pack.scene = manifest["scene"].text();
+  for (const auto& [key, value] : manifest["config"].members()) pack.config.emplace_back(key, value.dump());
+  for (const JsonField& edge : manifest["graph"]["edges"].elements()) {
+    const std::vector<std::string> runs{"this", "previous"};
+    pack.edges.push_back({edge["pass"].text(), edge["input"].text(), edge["from"].text(), !edge.is_null("run") && edge["run"].one_of(runs) == 1});
+  }
+  std::vector<std::string> names;
+  for (const JsonField& pass : manifest["passes"].elements()) {
+    pack.passes.push_back({pass["name"].text(), pass["formula"].text(), pass["sentence"].text(), pass["reads"].texts(), pass["writes"].texts(),
+                           read_block(pass["uniform_block"])});
+    names.push_back(pack.passes.back().name);
+  }
+  Records records;
+  for (const JsonField& record : manifest["records"].elements()) records.push_back(read_block(record));
+  std::set<std::string> ids;
+  for (const JsonField& c : manifest["cases"].elements()) {
+    c["pass"].one_of(names);
+    pack.cases.push_back(read_case(c, records));
+    const PackCase& read = pack.cases.back();
+    if (!ids.insert(read.id).second) c["id"].refuse(fmt::format("'{}' is there twice", read.id));
+    PassCase run;
+    run.effect = pack.effect;
+    run.pass = read.pass;
+    run.frame = read.frame;
+    run.step = read.step;
+    run.level = read.level;
+    if (read.id != run.folder()) c["id"].refuse(fmt::format("expected '{}', found '{}'", run.folder(), read.id));
+    const std::size_t size = pack.pass(read.pass).block.size;
+    if (read.uniforms.bytes != size) c["uniform_block"]["bytes"].fail(fmt::format("the {} bytes of {}", size, pack.pass(read.pass).block.name));
+  }
+}
+
+}  // namespace rainref::capture

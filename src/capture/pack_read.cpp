@@ -1,0 +1,169 @@
+#include "capture/pack_read.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "base/memory.h"
+#include "capture/manifest_read.h"
+#include "capture/manifest_write.h"
+#include "capture/npy_read.h"
+#include "rainref/error.h"
+
+namespace rainref::capture {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+  throw Error(ExitCode::port_files, fmt::format("{}: {}", file.string(), why));
+}
+
+std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
+  if (bytes > physical_memory()) refuse(path, fmt::format("{} do not fit into the {} of this machine", memory_text(bytes), memory_text(physical_memory())));
+  const auto unreadable = [&] { throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno))); };
+  const auto close = [](std::FILE* f) { std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> in(std::fopen(path.c_str(), "rbe"), close);
+  if (!in) unreadable();
+  std::vector<std::byte> out(bytes);
+  const std::size_t got = std::fread(out.data(), 1, out.size(), in.get());
+  if (std::ferror(in.get())) unreadable();
+  if (got != bytes) refuse(path, "the file became shorter while it was read");
+  return out;
+}
+
+// What the bytes of a level are when its header says so; else the reason why not.
+std::string header_mismatch(const NpyHeader& header, const Array& shape, int level) {
+  if (shape.is_records) {
+    if (header.fields.size() != shape.record.members.size() || header.record_bytes != shape.record.size) {
+      return fmt::format("expected records {} of {} fields and {} bytes", shape.record.name, shape.record.members.size(), shape.record.size);
+    }
+    for (std::size_t i = 0; i < header.fields.size(); ++i) {
+      const NpyField& found = header.fields[i];
+      const scene::Member& expected = shape.record.members[i];
+      const char* type = expected.scalar == scene::Scalar::float32 ? "<f4" : expected.scalar == scene::Scalar::uint32 ? "<u4" : "<i4";
+      if (found.name != expected.name || found.offset != expected.offset || found.type != type || found.components != static_cast<std::size_t>(expected.components)) {
+        return fmt::format("expected field '{}' of type {} at offset {}, found '{}' of type {} at {}", expected.name, type, expected.offset, found.name, found.type, found.offset);
+      }
+    }
+    if (header.shape != std::vector<std::size_t>{static_cast<std::size_t>(shape.width)}) return fmt::format("expected {} records", shape.width);
+    return "";
+  }
+  const FormatInfo& format = info(shape.format);
+  const char* type = format.kind == FormatInfo::float16 ? "<f2" : format.kind == FormatInfo::float32 ? "<f4" : format.kind == FormatInfo::uint32 ? "<u4" : "|u1";
+  std::vector<std::size_t> expected{static_cast<std::size_t>(shape.level_height(level)), static_cast<std::size_t>(shape.level_width(level))};
+  if (format.channels > 1) expected.push_back(static_cast<std::size_t>(format.channels));
+  if (header.type == type && header.shape == expected) return "";
+  return fmt::format("expected type {} and shape ({}), found '{}' and ({})", type, fmt::join(expected, ", "), header.type, fmt::join(header.shape, ", "));
+}
+
+}  // namespace
+
+Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  if (!fs::is_directory(folder_, error)) {
+    throw Error(ExitCode::io, fmt::format("{}: {}", folder_.string(), fs::exists(folder_, error) ? "expected a pack's folder, found a file" : "there is no such folder"));
+  }
+  const fs::path path = folder_ / manifest_name;
+  if (!fs::is_regular_file(path, error)) {
+    // `run --capture` makes a folder of its own in that of the run.
+    const fs::path inner = folder_ / "capture";
+    refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name, fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
+  }
+  const std::vector<std::byte> bytes = whole_file(path, fs::file_size(path));
+  nlohmann::ordered_json json;
+  try {
+    json = nlohmann::ordered_json::parse(reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<const char*>(bytes.data() + bytes.size()));
+  } catch (const nlohmann::json::exception& e) {
+    std::string why = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    refuse(path, fmt::format("no JSON: {}", why.substr(std::min(why.size(), why.find("] ") + 2))));
+  }
+  read_manifest(JsonField(json, path.string()), *this);
+}
+
+const PackPass& Pack::pass(std::string_view name) const {
+  std::vector<std::string> names;
+  for (const PackPass& p : passes) {
+    if (p.name == name) return p;
+    names.push_back(p.name);
+  }
+  throw Error(ExitCode::usage, fmt::format("{}: expected one of the passes {}, found '{}'{}", folder_.string(), fmt::join(names, ", "), name, did_you_mean(name, names)));
+}
+
+std::vector<std::byte> Pack::read_file(const PackFileEntry& file) const {
+  const fs::path path = folder_ / file.path;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) refuse(path, "the manifest names this file, but it is missing");
+  // A link may lead anywhere.
+  const fs::path real = fs::canonical(path, error), root = fs::canonical(folder_, error);
+  if (error || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end()) refuse(path, "the file lies outside the pack");
+  const std::uintmax_t found = fs::file_size(path);
+  if (found != file.bytes) refuse(path, fmt::format("damaged: expected {} bytes, found {}", file.bytes, found));
+  std::vector<std::byte> bytes = whole_file(path, found);
+  const std::string hash = file_hash(bytes).text();
+  if (hash != file.xxh3) refuse(path, fmt::format("damaged: expected hash {}, found {}", file.xxh3, hash));
+  return bytes;
+}
+
+Array Pack::read(const PackArray& array) const {
+  Array out = array.shape;
+  for (std::size_t level = 0; level < array.levels.size(); ++level) {
+    const fs::path path = folder_ / array.levels[level].path;
+    const std::vector<std::byte> file = read_file(array.levels[level]);
+    const NpyHeader header = parse_npy_header(file, path.string());
+    const std::string why = header_mismatch(header, out, static_cast<int>(level));
+    if (!why.empty()) refuse(path, why);
+    out.levels.emplace_back(file.begin() + static_cast<std::ptrdiff_t>(header.data_offset), file.end());
+  }
+  return out;
+}
+
+PassCase Pack::read(const PackCase& entry) const {
+  PassCase c;
+  c.effect = effect;
+  c.variant = variant;
+  c.pass = entry.pass;
+  c.frame = entry.frame;
+  c.step = entry.step;
+  c.level = entry.level;
+  c.time = entry.time;
+  c.dt = entry.dt;
+  c.uniforms = read_file(entry.uniforms);
+  for (const PackInput& input : entry.inputs) {
+    c.inputs.push_back(input.rules);
+    c.inputs.back().array = read(input);
+  }
+  for (const PackOutput& output : entry.outputs) {
+    c.outputs.push_back(output.rules);
+    c.outputs.back().array = read(output);
+  }
+  return c;
+}
+
+std::string Pack::file_beside() const {
+  std::set<std::string> named{manifest_name};
+  for (const PackCase& c : cases) {
+    named.insert(c.uniforms.path);
+    const auto add = [&](const PackArray& array) {
+      for (const PackFileEntry& f : array.levels) named.insert(f.path);
+    };
+    for (const PackInput& input : c.inputs) add(input);
+    for (const PackOutput& output : c.outputs) add(output);
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    if (entry.is_directory() && !entry.is_symlink()) continue;
+    std::string path = fs::relative(entry.path(), folder_).generic_string();
+    if (!named.contains(path)) return path;
+  }
+  return "";
+}
+
+}  // namespace rainref::capture

@@ -1,0 +1,42 @@
+// Packs and captures on disk: a folder of arrays and the manifest that describes them (docs/packs.md).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/new_folder.h"
+#include "capture/pass_case.h"
+#include "capture/pass_info.h"
+#include "scene/config.h"
+
+namespace rainref::capture {
+
+/// Writes a pack case by case; arrays are not kept. The folder appears with finish(), whole. An older pack of rainref
+/// that lies there is replaced, if it holds nothing else; any other folder that is not empty is Error(io).
+///
+/// An input that is equal to an array already written, of this case or another, is not written again: its manifest
+/// entry names that file. Outputs always have files of their own.
+class PackWriter {
+ public:
+  /// `passes`: those that cases may be of. `effect` must outlive the writer.
+  PackWriter(std::filesystem::path folder, const EffectInfo& effect, const scene::Config& config, const std::string& scene_name, bool with_inputs,
+             const std::vector<std::string>& passes);
+  ~PackWriter();
+  void add(const PassCase& c);
+
+  struct Total {
+    int cases = 0, files = 0;
+    std::size_t bytes = 0;
+  };
+  /// Writes the manifest and gives the folder its name. Call once, last.
+  Total finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rainref::capture

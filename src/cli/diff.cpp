@@ -1,0 +1,165 @@
+// `rainref diff`.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "capture/difference.h"
+#include "capture/pack_read.h"
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "rainref/error.h"
+
+namespace rainref::cli {
+namespace {
+
+using capture::Pack;
+using capture::PackCase;
+
+constexpr std::size_t most_listed = 10;
+
+// What differs between the two besides the values of buffers they both have.
+struct Findings {
+  std::vector<std::string> lines;
+  void add(std::string line) { lines.push_back(std::move(line)); }
+  void print() const {
+    for (std::size_t i = 0; i < std::min(lines.size(), most_listed); ++i) fmt::print("{}\n", lines[i]);
+    if (lines.size() > most_listed) fmt::print("... and {} more\n", lines.size() - most_listed);
+  }
+};
+
+std::string run_text(const PackCase& c) {
+  std::string text = fmt::format("frame {}, pass {}, step {}", c.frame, c.pass, c.step);
+  return c.level < 0 ? text : fmt::format("{}, level {}", text, c.level);
+}
+
+std::string difference_text(const std::string& where, const std::string& a, const std::string& b) {
+  return fmt::format("first difference: {}\n  A  {}\n  B  {}\n", where, a, b);
+}
+
+// The first difference of two arrays of one name, or "".
+std::string difference(const std::string& where, const capture::Array& a, const capture::Array& b) {
+  if (!capture::same_shape(a, b)) return difference_text(where, capture::shape_text(a), capture::shape_text(b));
+  const auto found = capture::first_difference(a, b);
+  if (!found) return "";
+  return difference_text(fmt::format("{} ({}), {}", where, capture::shape_text(a), found->place), found->a, found->b) +
+         fmt::format("  {} of {} elements of this buffer differ\n", found->count, found->of);
+}
+
+std::string difference(const std::string& where, const scene::UniformBlock& block, const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
+  if (a.size() != b.size()) return difference_text(fmt::format("{}, {}", where, block.name), fmt::format("{} bytes", a.size()), fmt::format("{} bytes", b.size()));
+  for (const scene::Member& m : scene::with_padding(block)) {
+    for (std::size_t at = m.offset; at < m.offset + m.size(); at += 4) {
+      if (std::equal(&a[at], &a[at] + 4, &b[at])) continue;
+      const std::string index = m.components == 1 ? "" : fmt::format("[{}]", (at - m.offset) / 4);
+      return difference_text(fmt::format("{}, uniform {}{} of {}", where, m.name, index, block.name), capture::scalar_text(&a[at], m.scalar),
+                             capture::scalar_text(&b[at], m.scalar));
+    }
+  }
+  return "";
+}
+
+/// Compares the runs that both have, in the order of A, until a value differs.
+class Comparison {
+ public:
+  Comparison(const Pack& a, const Pack& b) : a_(a), b_(b), both_inputs_(a.with_inputs && b.with_inputs) {
+    for (const PackCase& c : b.cases) in_b_[c.id] = &c;
+  }
+
+  /// What to print about it, or "".
+  std::string first_difference() {
+    std::map<std::string, bool> in_a;
+    Progress progress("diff", static_cast<int>(a_.cases.size()));
+    std::string found;
+    for (const PackCase& c : a_.cases) {
+      in_a[c.id] = true;
+      const auto other = in_b_.find(c.id);
+      if (other == in_b_.end()) findings.add(fmt::format("only in A: {}", run_text(c)));
+      else if (found.empty()) found = difference_of(c, *other->second);
+      progress.advance();
+    }
+    for (const PackCase& c : b_.cases) {
+      if (!in_a.contains(c.id)) findings.add(fmt::format("only in B: {}", run_text(c)));
+    }
+    return found;
+  }
+
+  Findings findings;
+  int runs = 0, buffers = 0;
+
+ private:
+  std::string difference_of(const PackCase& entry_a, const PackCase& entry_b) {
+    const capture::PassCase a = a_.read(entry_a), b = b_.read(entry_b);
+    const std::string where = run_text(entry_a);
+    ++runs;
+    std::string found;
+    if (both_inputs_) found = difference_of_all(a.inputs, b.inputs, where, "input");
+    if (found.empty()) found = difference(where, a_.pass(a.pass).block, a.uniforms, b.uniforms);
+    if (found.empty()) found = difference_of_all(a.outputs, b.outputs, where, "output");
+    return found;
+  }
+
+  // A buffer that one side lacks is a finding; the first value that differs is worth more.
+  template <class All>
+  std::string difference_of_all(const All& a, const All& b, const std::string& where, const char* kind) {
+    const auto find = [](const All& all, const std::string& name) { return std::find_if(all.begin(), all.end(), [&](const auto& x) { return x.name == name; }); };
+    for (const auto& y : b) {
+      if (find(a, y.name) == a.end()) findings.add(fmt::format("only in B: {}, {} {}", where, kind, y.name));
+    }
+    for (const auto& x : a) {
+      const auto y = find(b, x.name);
+      if (y == b.end()) {
+        findings.add(fmt::format("only in A: {}, {} {}", where, kind, x.name));
+        continue;
+      }
+      ++buffers;
+      std::string found = difference(fmt::format("{}, {} {}", where, kind, x.name), x.array, y->array);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  const Pack &a_, &b_;
+  bool both_inputs_;
+  std::map<std::string, const PackCase*> in_b_;
+};
+
+// Keys of the configurations that differ; they explain a difference, and are none by themselves.
+void print_configurations(const Pack& a, const Pack& b) {
+  const std::map<std::string, std::string> in_a(a.config.begin(), a.config.end()), in_b(b.config.begin(), b.config.end());
+  const auto value = [](const auto& all, const std::string& key) {
+    const auto found = all.find(key);
+    return found == all.end() ? std::string("absent") : found->second;
+  };
+  Findings notes;
+  for (const auto& [key, text] : a.config) {
+    if (value(in_b, key) != text) notes.add(fmt::format("configuration: {} is {} in A, {} in B", key, text, value(in_b, key)));
+  }
+  for (const auto& [key, text] : b.config) {
+    if (!in_a.contains(key)) notes.add(fmt::format("configuration: {} is absent in A, {} in B", key, text));
+  }
+  if (a.golden_generation != b.golden_generation) notes.add(fmt::format("golden generation: {} in A, {} in B", a.golden_generation, b.golden_generation));
+  notes.print();
+}
+
+}  // namespace
+
+int diff(const std::filesystem::path& folder_a, const std::filesystem::path& folder_b) {
+  const Pack a(folder_a), b(folder_b);
+  print_configurations(a, b);
+  if (a.effect != b.effect || a.variant != b.variant) {
+    fmt::print("different scenes: {} {} in A, {} {} in B\n", a.effect, a.variant, b.effect, b.variant);
+    return static_cast<int>(ExitCode::fail);
+  }
+  Comparison comparison(a, b);
+  const std::string found = comparison.first_difference();
+  fmt::print("{}", found);
+  comparison.findings.print();
+  if (!found.empty() || !comparison.findings.lines.empty()) return static_cast<int>(ExitCode::fail);
+  fmt::print("equal: {} runs of passes, {} buffers\n", comparison.runs, comparison.buffers);
+  return 0;
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,80 @@
+#include "capture/new_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/temporary_folder.h"
+#include "scene/example_effect.h"
+
+namespace rainref::capture {
+namespace {
+
+using scene::error_of;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes(std::span(text)); }
+const NewFolder::MayReplace never = [](const std::filesystem::path&) { return "no"; };
+const NewFolder::MayReplace always = [](const std::filesystem::path&) { return ""; };
+
+TEST(NewFolder, AppearsWithItsNameOnlyWhenCommitted) {
+  TemporaryFolder at;
+  {
+    NewFolder folder(at / "deep/pack", never);
+    folder.write("a/b.txt", bytes("text"));
+    EXPECT_FALSE(std::filesystem::exists(at / "deep/pack"));
+    folder.commit();
+    EXPECT_EQ(contents(at / "deep/pack/a/b.txt"), "text");
+  }
+  EXPECT_EQ(contents(at / "deep/pack/a/b.txt"), "text");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at / "deep"), {}), 1);
+}
+
+TEST(NewFolder, WithoutACommitNothingStaysBehind) {
+  TemporaryFolder at;
+  {
+    NewFolder folder(at / "deep/pack", never);
+    folder.write("a.txt", bytes("text"));
+  }
+  EXPECT_THAT(at.names(), IsEmpty());
+}
+
+TEST(NewFolder, ReplacesWhatItMay) {
+  TemporaryFolder at;
+  std::filesystem::create_directories(at / "pack");
+  {
+    NewFolder empty(at / "pack", never);  // an empty folder is free
+    empty.write("old", bytes("old"));
+    empty.commit();
+  }
+  EXPECT_EQ(error_of([&] { NewFolder(at / "pack", never); }), "4 cannot write '" + (at / "pack").string() + "': no");
+  {
+    NewFolder abandoned(at / "pack", always);
+    abandoned.write("new", bytes("new"));
+  }
+  EXPECT_EQ(contents(at / "pack/old"), "old");
+  NewFolder again((at / "pack").string() + "/", always);
+  again.write("new", bytes("new"));
+  again.commit();
+  EXPECT_THAT(at.names(), ElementsAre("pack"));
+  EXPECT_EQ(contents(at / "pack/new"), "new");
+  EXPECT_FALSE(std::filesystem::exists(at / "pack/old"));
+}
+
+TEST(NewFolder, RefusesAFile) {
+  TemporaryFolder at;
+  put(at / "file", "text");
+  EXPECT_EQ(error_of([&] { NewFolder(at / "file", always); }), "4 cannot write '" + (at / "file").string() + "': a file of that name exists");
+  EXPECT_THAT(error_of([&] { NewFolder(at / "file/pack", always); }), testing::StartsWith("4 cannot write '" + (at / "file/pack").string()));
+  EXPECT_THAT(at.names(), ElementsAre("file"));
+}
+
+TEST(NewFolder, AFileIsWrittenOnce) {
+  TemporaryFolder at;
+  NewFolder folder(at / "pack", never);
+  folder.write("a", bytes("1"));
+  EXPECT_THAT(error_of([&] { folder.write("a", bytes("2")); }), testing::HasSubstr("File exists"));
+}
+
+}  // namespace
+}  // namespace rainref::capture
