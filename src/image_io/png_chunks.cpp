@@ -1,22 +1,47 @@
 #include "image_io/png_chunks.h"
 
-#include <cstdint>
 #include <cstring>
 
 namespace rainref::image_io {
 
-bool png_is_whole(std::span<const std::byte> bytes) {
-  constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
+namespace {
+
+constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
+
+std::uint32_t big_endian(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
+  return value;
+}
+
+/// Calls f(type, offset of its data) for each chunk that lies within the bytes, until f gives true.
+template <class F>
+bool any_chunk(std::span<const std::byte> bytes, F&& f) {
   std::size_t at = signature;
   while (at + length_and_type + checksum <= bytes.size()) {
-    std::uint32_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
-    const std::size_t end = at + length_and_type + length + checksum;
+    const std::size_t end = at + length_and_type + big_endian(bytes, at) + checksum;
     if (end > bytes.size()) return false;
-    if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return true;
+    if (f(reinterpret_cast<const char*>(&bytes[at + 4]), at + length_and_type)) return true;
     at = end;
   }
   return false;
+}
+
+bool is(const char* type, const char* name) { return std::memcmp(type, name, 4) == 0; }
+
+}  // namespace
+
+bool png_is_whole(std::span<const std::byte> bytes) {
+  return any_chunk(bytes, [](const char* type, std::size_t) { return is(type, "IEND"); });
+}
+
+std::optional<PngHeader> parse_png_header(std::span<const std::byte> bytes) {
+  constexpr std::size_t data = signature + length_and_type, data_bytes = 13;
+  if (bytes.size() < data + data_bytes + checksum || big_endian(bytes, signature) != data_bytes) return std::nullopt;
+  if (!is(reinterpret_cast<const char*>(&bytes[signature + 4]), "IHDR")) return std::nullopt;
+  return PngHeader{big_endian(bytes, data), big_endian(bytes, data + 4), std::to_integer<int>(bytes[data + 8]),
+                   std::to_integer<int>(bytes[data + 9]),
+                   any_chunk(bytes, [](const char* type, std::size_t) { return is(type, "tRNS"); })};
 }
 
 }  // namespace rainref::image_io

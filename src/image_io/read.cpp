@@ -1,20 +1,14 @@
 #include "image_io/read.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <system_error>
 
 #include <fmt/format.h>
 
-#include "base/memory.h"
+#include "base/read_file.h"
 #include "image_io/decode.h"
 #include "math/half.h"
 #include "rainref/error.h"
@@ -22,42 +16,6 @@
 namespace rainref::image_io {
 
 namespace {
-
-[[noreturn]] void cannot_read(const std::filesystem::path& path, int error) {
-  throw Error(ExitCode::io, fmt::format("cannot read '{}': {}", path.string(), std::generic_category().message(error)));
-}
-
-/// The whole file. Read by us rather than by OpenImageIO, so that a failing disk and a damaged picture stay apart.
-std::vector<std::byte> file_bytes(const std::filesystem::path& path) {
-  struct Descriptor {
-    int number;
-    ~Descriptor() {
-      if (number >= 0) ::close(number);
-    }
-  } file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};  // opening a pipe must not wait for its writer
-  if (file.number < 0) cannot_read(path, errno);
-  struct stat status;
-  if (::fstat(file.number, &status) != 0) cannot_read(path, errno);
-  if (S_ISDIR(status.st_mode)) cannot_read(path, EISDIR);
-  if (!S_ISREG(status.st_mode))
-    throw Error(ExitCode::io, fmt::format("cannot read '{}': not a regular file", path.string()));
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > physical_memory()) {
-    throw Error(ExitCode::io, fmt::format("cannot read '{}': its {} are more than this machine's memory", path.string(),
-                                          memory_text(size)));
-  }
-  std::vector<std::byte> bytes(size);
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::read(file.number, bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) cannot_read(path, errno);
-    if (count == 0) break;  // it became shorter meanwhile
-    done += static_cast<std::size_t>(count);
-  }
-  bytes.resize(done);
-  return bytes;
-}
 
 std::optional<FileKind> kind_of(std::span<const std::byte> bytes) {
   const auto starts_with = [&](std::string_view signature) {
@@ -177,7 +135,7 @@ Hash128 canonical_hash(const Image& image) {
 }  // namespace
 
 Picture read(const std::filesystem::path& path, std::string_view layer) {
-  const std::vector<std::byte> bytes = file_bytes(path);
+  const std::vector<std::byte> bytes = read_file(path);
   const std::string file = fmt::format("'{}'", path.string());
   if (bytes.empty()) throw Error(ExitCode::usage, file + ": empty file");
   const std::optional<FileKind> kind = kind_of(bytes);

@@ -1,0 +1,182 @@
+#include "image_io/evidence.h"
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "image_io/exr_header.h"
+#include "image_io/openimageio.h"
+#include "image_io/png_chunks.h"
+#include "rainref/error.h"
+
+namespace rainref::image_io {
+namespace {
+
+using Kind = FormatInfo::Kind;
+
+constexpr std::size_t max_side = 65536, most_channels = 4;
+constexpr std::uint32_t largest_tile = 2048;
+
+[[noreturn]] void refuse(std::string_view file, const std::string& why) {
+  throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why));
+}
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+}
+bool is_exr(std::span<const std::byte> bytes) { return starts_with(bytes, "\x76\x2f\x31\x01"); }
+bool is_png(std::span<const std::byte> bytes) { return starts_with(bytes, "\x89PNG\r\n\x1a\n"); }
+
+EvidenceSize exr_size(std::string_view file, std::span<const std::byte> bytes) {
+  const ExrHeader header = parse_exr_header(file, bytes);
+  if (!is_lossless_exr(header.compression)) {
+    refuse(file,
+           fmt::format(
+               "EXR compression '{}' is lossy: its values are not the buffer's; save with none, rle, zips, zip or piz",
+               exr_compression_name(header.compression)));
+  }
+  if (header.data_window != header.display_window) {
+    refuse(file, "its data window differs from its display window; save it uncropped");
+  }
+  if (header.is_tiled && header.tile_mode != 0) refuse(file, "mip levels in one EXR; save one file a level");
+  if (header.is_tiled && (header.tile_width > largest_tile || header.tile_height > largest_tile)) {
+    refuse(file,
+           fmt::format("tiles of {}x{}; expected at most {}", header.tile_width, header.tile_height, largest_tile));
+  }
+  const auto& w = header.data_window;
+  const std::int64_t width = std::int64_t{w[2]} - w[0] + 1, height = std::int64_t{w[3]} - w[1] + 1;
+  if (width < 1 || height < 1) refuse(file, fmt::format("size {}x{}", width, height));
+  return {static_cast<std::size_t>(width), static_cast<std::size_t>(height)};
+}
+
+EvidenceSize png_size(std::string_view file, std::span<const std::byte> bytes) {
+  if (!png_is_whole(bytes)) refuse(file, "truncated: the end mark of the PNG is missing");
+  const auto header = parse_png_header(bytes);
+  if (!header) refuse(file, "damaged: a PNG that does not start with its header");
+  if (header->colour_type == 3) refuse(file, "a PNG with a palette; save its codes as they are");
+  if (header->bit_depth != 8)
+    refuse(file, fmt::format("a PNG of {} bits; a buffer's 8-bit codes need 8", header->bit_depth));
+  if (header->has_transparent_colour) refuse(file, "a PNG with a transparent colour (tRNS); save alpha as a channel");
+  return {header->width, header->height};
+}
+
+Kind kind_of(std::string_view file, const OIIO::ImageSpec& spec, std::size_t channel) {
+  const OIIO::TypeDesc type = spec.channelformat(static_cast<int>(channel));
+  if (type == OIIO::TypeUInt8) return Kind::unorm8;
+  if (type == OIIO::TypeHalf) return Kind::float16;
+  if (type == OIIO::TypeFloat) return Kind::float32;
+  if (type == OIIO::TypeUInt32) return Kind::uint32;
+  refuse(file, fmt::format("channel '{}' is of type {}", spec.channelnames[channel], type.c_str()));
+}
+
+/// OpenImageIO's reason on one line.
+std::string reason(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  text.erase(text.find_last_not_of(" .") + 1);
+  return text.empty() ? "damaged or incomplete" : text;
+}
+
+char letter_of(std::string_view name) {
+  const std::string_view base = name.substr(name.rfind('.') + 1);  // npos + 1 is 0
+  if (base.size() != 1) return '\0';
+  return base[0] >= 'a' && base[0] <= 'z' ? static_cast<char>(base[0] - 'a' + 'A') : base[0];
+}
+
+std::string_view layer_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
+}
+
+/// All names are the first letters of `order`, in some order.
+std::vector<std::size_t> in_order(std::span<const std::string> names, std::string_view order) {
+  std::vector<std::size_t> out;
+  for (std::size_t c = 0; c < names.size() && c < order.size(); ++c) {
+    const auto found = std::ranges::find(names, order[c], letter_of);
+    if (found == names.end()) return {};
+    out.push_back(static_cast<std::size_t>(found - names.begin()));
+  }
+  return out.size() == names.size() ? out : std::vector<std::size_t>();
+}
+
+void take_spec(std::string_view file, const OIIO::ImageSpec& spec, bool exr, EvidenceSize size, Evidence& out) {
+  if (spec.width < 1 || spec.height < 1 || static_cast<std::size_t>(spec.width) != size.width ||
+      static_cast<std::size_t>(spec.height) != size.height || spec.depth > 1 || spec.deep) {
+    refuse(file, "damaged: its header contradicts itself");
+  }
+  if (spec.nchannels < 1 || static_cast<std::size_t>(spec.nchannels) > most_channels) {
+    refuse(file, fmt::format("{} channels; expected 1 to 4", spec.nchannels));
+  }
+  out.width = size.width;
+  out.height = size.height;
+  out.texel_bytes = spec.pixel_bytes(true);
+  std::vector<std::size_t> order;
+  if (exr) order = channel_order(file, spec.channelnames);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(spec.nchannels); ++i) {
+    const std::size_t c = exr ? order[i] : i;
+    out.channels.push_back(
+        {spec.channelnames[c], kind_of(file, spec, c), spec.pixel_bytes(0, static_cast<int>(c), true)});
+  }
+}
+
+}  // namespace
+
+std::vector<std::size_t> channel_order(std::string_view file, std::span<const std::string> names) {
+  for (const std::string& name : names) {
+    if (layer_of(name) != layer_of(names.front()))
+      refuse(file, fmt::format("several layers: {}; save one buffer a file", fmt::join(names, " ")));
+  }
+  if (names.size() == 1) return {0};
+  for (const std::string_view order : {"RGBA", "XYZW", "UV", "YA"}) {
+    if (auto found = in_order(names, order); !found.empty()) return found;
+  }
+  refuse(file,
+         fmt::format("the order of channels {} cannot be told (EXR sorts them by name); name them R G B A or X Y Z W",
+                     fmt::join(names, " ")));
+}
+
+EvidenceSize evidence_size(std::string_view file, std::span<const std::byte> bytes) {
+  if (bytes.empty()) refuse(file, "empty file");
+  if (starts_with(bytes, "\xff\xd8\xff"))
+    refuse(file, "its content is JPEG, which is lossy: no evidence of a buffer's values");
+  if (starts_with(bytes, "#?"))
+    refuse(file, "its content is Radiance HDR, 8 bits and a shared exponent: no evidence of a buffer's values");
+  if (!is_exr(bytes) && !is_png(bytes)) refuse(file, "not an EXR or PNG file");
+  const EvidenceSize size = is_exr(bytes) ? exr_size(file, bytes) : png_size(file, bytes);
+  if (size.width < 1 || size.height < 1 || size.width > max_side || size.height > max_side) {
+    refuse(file, fmt::format("size {}x{}: each side must be from 1 to {}", size.width, size.height, max_side));
+  }
+  return size;
+}
+
+Evidence read_evidence(std::string_view file, std::span<const std::byte> bytes) try {
+  const EvidenceSize size = evidence_size(file, bytes);
+  const bool exr = is_exr(bytes);
+  configure_openimageio();
+  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // outlives its reader
+  const auto input = OIIO::ImageInput::create(exr ? "openexr" : "png");
+  if (!input || !input->set_ioproxy(&memory)) {
+    throw Error(ExitCode::internal, "this OpenImageIO cannot read EXR or PNG from memory");
+  }
+  OIIO::ImageSpec config, spec;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // colour not multiplied by alpha
+  config.attribute("oiio:RawColor", 1);           // no change of colour model
+  if (!input->open("picture", spec, config)) refuse(file, reason(input->geterror()));
+  Evidence out;
+  take_spec(file, spec, exr, size, out);
+  out.texels.resize(out.width * out.height * out.texel_bytes);
+  // The unknown type asks for the file's own types, each channel in its own: no value is converted.
+  const bool whole = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUnknown, out.texels.data());
+  if (!whole || input->has_error()) refuse(file, reason(input->geterror()));
+  return out;
+} catch (const Error&) {
+  throw;
+} catch (const std::exception& error) {
+  refuse(file, reason(error.what()));
+}
+
+}  // namespace rainref::image_io

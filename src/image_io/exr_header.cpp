@@ -1,0 +1,100 @@
+#include "image_io/exr_header.h"
+
+#include <cstring>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
+namespace rainref::image_io {
+namespace {
+
+constexpr std::array<std::string_view, 10> compressions{"none",  "rle", "zips", "zip",  "piz",
+                                                        "pxr24", "b44", "b44a", "dwaa", "dwab"};
+
+class Reader {
+ public:
+  Reader(std::string_view file, std::span<const std::byte> rest) : file_(file), rest_(rest) {}
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw Error(ExitCode::port_files, fmt::format("{}: {}", file_, why));
+  }
+  std::span<const std::byte> take(std::size_t count) {
+    if (count > rest_.size()) refuse("truncated in its EXR header");
+    const auto out = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return out;
+  }
+  template <class T>
+  T number() {
+    T value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+  // Names end in a zero byte and have at most 255 others.
+  std::string_view name() {
+    const std::size_t most = std::min<std::size_t>(rest_.size(), 256);
+    const auto* start = reinterpret_cast<const char*>(rest_.data());
+    const void* end = most == 0 ? nullptr : std::memchr(start, 0, most);
+    if (!end) refuse("truncated or damaged in its EXR header");
+    const std::string_view out(start, static_cast<std::size_t>(static_cast<const char*>(end) - start));
+    rest_ = rest_.subspan(out.size() + 1);
+    return out;
+  }
+  bool empty() const { return rest_.empty(); }
+
+ private:
+  std::string_view file_;
+  std::span<const std::byte> rest_;
+};
+
+void read_attribute(std::string_view name, std::string_view type, Reader value, ExrHeader& out) {
+  if (name == "dataWindow" && type == "box2i") {
+    for (auto& side : out.data_window) side = value.number<std::int32_t>();
+  } else if (name == "displayWindow" && type == "box2i") {
+    for (auto& side : out.display_window) side = value.number<std::int32_t>();
+  } else if (name == "compression" && type == "compression") {
+    out.compression = value.number<std::uint8_t>();
+  } else if (name == "tiles" && type == "tiledesc") {
+    out.tile_width = value.number<std::uint32_t>();
+    out.tile_height = value.number<std::uint32_t>();
+    out.tile_mode = value.number<std::uint8_t>() & 0xf;
+  } else if (type == "preview" || type == "idmanifest") {
+    // OpenEXR allocates what these claim to unpack to.
+    value.refuse(fmt::format("an attribute of type {}; save the image without it", type));
+  }
+}
+
+}  // namespace
+
+ExrHeader parse_exr_header(std::string_view file, std::span<const std::byte> bytes) {
+  Reader in(file, bytes);
+  in.take(4);  // the signature, which the caller knows
+  const auto version = in.number<std::uint32_t>();
+  constexpr std::uint32_t tiled = 0x200, deep = 0x800, several_parts = 0x1000;
+  if ((version & 0xff) != 2) in.refuse(fmt::format("EXR version {}; expected 2", version & 0xff));
+  if (version & deep) in.refuse("deep pixels are not the content of a buffer");
+  if (version & several_parts) in.refuse("several parts; save one image a file");
+  ExrHeader out;
+  out.is_tiled = (version & tiled) != 0;
+  bool has_window = false, has_display = false;
+  for (std::string_view name = in.name(); !name.empty(); name = in.name()) {
+    const std::string_view type = in.name();
+    const auto size = in.number<std::uint32_t>();
+    read_attribute(name, type, Reader(file, in.take(size)), out);
+    has_window = has_window || name == "dataWindow";
+    has_display = has_display || name == "displayWindow";
+  }
+  if (!has_window || !has_display) in.refuse("an EXR header without its windows");
+  return out;
+}
+
+std::string_view exr_compression_name(int compression) {
+  const auto index = static_cast<std::size_t>(compression);
+  return index < compressions.size() ? compressions[index] : "unknown";
+}
+
+bool is_lossless_exr(int compression) { return compression >= 0 && compression <= 4; }
+
+}  // namespace rainref::image_io

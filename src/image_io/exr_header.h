@@ -1,0 +1,30 @@
+// What an EXR file's header claims, read without OpenEXR: the library allocates by these numbers before it checks them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace rainref::image_io {
+
+struct ExrHeader {
+  std::array<std::int32_t, 4> data_window{}, display_window{};  ///< first x and y, last x and y
+  int compression = 0;
+  bool is_tiled = false;
+  std::uint32_t tile_width = 0, tile_height = 0;
+  int tile_mode = 0;  ///< 0: one level; else mip or rip levels
+};
+
+/// The header of a single-part file that is not deep. Source: OpenEXR, "OpenEXR File Layout". Throws Error(port_files)
+/// starting with `file` when it is truncated or damaged, when the file has several parts or deep data, or when an
+/// attribute claims more than its own bytes.
+ExrHeader parse_exr_header(std::string_view file, std::span<const std::byte> bytes);
+
+/// "zip", "dwaa": the name of a compression method, or "unknown".
+std::string_view exr_compression_name(int compression);
+/// Whether decoding gives back the bits that were stored, of halves, floats and integers alike.
+bool is_lossless_exr(int compression);
+
+}  // namespace rainref::image_io

@@ -1,0 +1,104 @@
+#include "port_dump/dump_file.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rainref/error.h"
+
+namespace rainref::port_dump {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 5> extensions{".npy", ".exr", ".dds", ".png", ".bin"};  // by FileType
+// More names than this are no dump of one pass, and each costs a comparison.
+constexpr std::size_t most_names = 1000;
+
+struct RefusedType {
+  const char* extension;
+  const char* reason;
+};
+constexpr std::array<RefusedType, 9> refused_types{
+    {{".jpg", "JPEG is lossy"},
+     {".jpeg", "JPEG is lossy"},
+     {".hdr", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
+     {".rgbe", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
+     {".bmp", "BMP writers change the channels (RenderDoc makes RGB of R8)"},
+     {".tga", "TGA writers change the channels"},
+     {".tif", "TIFF is not read"},
+     {".tiff", "TIFF is not read"},
+     {".ktx2", "KTX2 is not read"}}};
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::port_files, message); }
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> out;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end && out.size() < most_names;
+       i.increment(error)) {
+    out.push_back(i->path().filename().string());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+[[noreturn]] void refuse_missing(const fs::path& folder, const std::string& stem) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+    refuse(fmt::format("no folder '{}'; the port has not dumped this pass", folder.string()));
+  for (const RefusedType& type : refused_types) {
+    const fs::path path = folder / (stem + type.extension);
+    if (is_there(path))
+      refuse(fmt::format("'{}': {}: no evidence of a buffer's values; save NPY, EXR, DDS or raw bytes", path.string(),
+                         type.reason));
+  }
+  if (is_there(folder / (stem + ".json")))
+    refuse(
+        fmt::format("'{}' describes raw bytes, but '{}.bin' is missing", (folder / (stem + ".json")).string(), stem));
+  const std::vector<std::string> names = names_in(folder);
+  std::string hint;
+  for (const char* extension : extensions) {
+    if (hint.empty()) hint = did_you_mean(stem + extension, names);
+  }
+  refuse(fmt::format("'{}': no '{}' as .npy, .exr, .dds, .png or .bin with .json{}", folder.string(), stem, hint));
+}
+
+}  // namespace
+
+std::string DumpFile::quoted() const { return fmt::format("'{}'", path.string()); }
+
+DumpFile find_dump_file(const fs::path& folder, std::string_view stem_view) {
+  const std::string stem(stem_view);
+  std::vector<std::string> found;
+  DumpFile out;
+  for (std::size_t i = 0; i < extensions.size(); ++i) {
+    const fs::path path = folder / (stem + extensions[i]);
+    if (!is_there(path)) continue;
+    found.push_back(stem + extensions[i]);
+    out = {path, static_cast<FileType>(i), {}};
+  }
+  if (found.empty()) refuse_missing(folder, stem);
+  if (found.size() > 1)
+    refuse(fmt::format("'{}': {} hold the same buffer; keep one", folder.string(), fmt::join(found, " and ")));
+  const fs::path sidecar = folder / (stem + ".json");
+  if (out.type == FileType::bin) {
+    if (!is_there(sidecar)) {
+      refuse(fmt::format("{}: raw bytes need '{}.json' beside them with format, width and height", out.quoted(), stem));
+    }
+    out.sidecar = sidecar;
+  } else if (is_there(sidecar)) {
+    refuse(fmt::format("'{}' describes raw bytes, but the buffer is {}; keep one", sidecar.string(), out.quoted()));
+  }
+  return out;
+}
+
+}  // namespace rainref::port_dump

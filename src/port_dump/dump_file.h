@@ -1,0 +1,28 @@
+// Which file of a dump holds a buffer.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace rainref::port_dump {
+
+enum class FileType : std::uint8_t { npy, exr, dds, png, bin };
+
+struct DumpFile {
+  std::filesystem::path path;
+  FileType type;
+  std::filesystem::path sidecar;  ///< of a .bin
+
+  /// The path in quotes, as messages begin.
+  std::string quoted() const;
+};
+
+/// The one file of this stem in the folder: <stem>.npy, .exr, .dds, .png, or .bin with .json beside it.
+///
+/// Throws Error(port_files) when there is none (naming what was looked for, a file of a kind that is refused and why,
+/// or the nearest name in the folder), when there are several, or when .bin and .json are not together.
+DumpFile find_dump_file(const std::filesystem::path& folder, std::string_view stem);
+
+}  // namespace rainref::port_dump

@@ -1,0 +1,138 @@
+#include "port_dump/json_object.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "rainref/error.h"
+
+namespace rainref::port_dump {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t largest_file = 1 << 20;
+constexpr int deepest = 8;
+
+[[noreturn]] void fail(const std::string& message) { throw Error(ExitCode::port_files, message); }
+
+// "line 3, column 7: unexpected ','; expected ..." out of the library's message, which says more about itself.
+std::string reason(std::string text) {
+  if (const std::size_t at = text.find("parse error at "); at != std::string::npos) text.erase(0, at + 15);
+  if (const std::size_t at = text.find("syntax error while parsing"); at != std::string::npos) {
+    if (const std::size_t dash = text.find(" - ", at); dash != std::string::npos) text.erase(at, dash + 3 - at);
+  }
+  return text.substr(0, 160);
+}
+
+// The library keeps the last of several equal keys without a word, and takes any depth.
+Json parse(std::string_view text, const std::string& file) {
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (depth > deepest) fail(fmt::format("{}: nested deeper than {}", file, deepest));
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
+      fail(fmt::format("{}: key '{}' appears twice", file, parsed.get<std::string>().substr(0, 40)));
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text, watch);
+  } catch (const Json::exception& error) {
+    fail(fmt::format("{}: not JSON: {}", file, reason(error.what())));
+  }
+}
+
+std::string shown(const Json& value) {
+  if (value.is_array()) return "a list";
+  if (value.is_object()) return "an object";
+  const std::string text = value.is_string() ? fmt::format("'{}'", value.get<std::string>()) : value.dump();
+  return text.size() <= 40 ? text : "a text of " + std::to_string(text.size()) + " bytes";
+}
+
+}  // namespace
+
+JsonObject::JsonObject(std::string_view text, std::string file, std::span<const std::string> known_keys)
+    : file_(std::move(file)) {
+  if (text.size() > largest_file)
+    fail(fmt::format("{}: {} bytes; expected at most {}", file_, text.size(), largest_file));
+  object_ = std::make_unique<const Json>(parse(text, file_));
+  if (!object_->is_object()) fail(fmt::format("{}: expected an object {{...}}, found {}", file_, shown(*object_)));
+  for (const auto& [key, value] : object_->items()) {
+    if (std::ranges::find(known_keys, key) != known_keys.end()) continue;
+    if (key.size() > 40) fail(fmt::format("{}: an unknown key of {} bytes", file_, key.size()));
+    const std::string hint = did_you_mean(key, known_keys);
+    fail(fmt::format("{}: unknown key '{}'{}", file_, key,
+                     hint.empty() ? fmt::format("; known are {}", fmt::join(known_keys, ", ")) : hint));
+  }
+}
+
+JsonObject::~JsonObject() = default;
+JsonObject::JsonObject(JsonObject&&) noexcept = default;
+
+void JsonObject::refuse(const std::string& key, const std::string& why) const {
+  fail(fmt::format("{}: {}: {}", file_, key, why));
+}
+
+void JsonObject::refuse_value(const std::string& key, const std::string& expected, const Json& found) const {
+  refuse(key, fmt::format("expected {}, found {}", expected, shown(found)));
+}
+
+const Json* JsonObject::find(const std::string& key) const {
+  const auto found = object_->find(key);
+  return found == object_->end() ? nullptr : &*found;
+}
+
+std::optional<std::string> JsonObject::text(const std::string& key) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_string()) refuse_value(key, "a text", *value);
+  return value->get<std::string>();
+}
+
+std::optional<bool> JsonObject::boolean(const std::string& key) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_boolean()) refuse_value(key, "true or false", *value);
+  return value->get<bool>();
+}
+
+std::optional<std::size_t> JsonObject::count(const std::string& key) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_number_unsigned()) refuse_value(key, "a whole number, at least 0", *value);
+  return value->get<std::size_t>();
+}
+
+std::optional<std::size_t> JsonObject::choice(const std::string& key, std::span<const std::string> choices) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  const auto expected = [&] { return fmt::format("one of '{}'", fmt::join(choices, "', '")); };
+  if (!value->is_string()) refuse_value(key, expected(), *value);
+  const auto& word = value->get_ref<const std::string&>();
+  const auto found = std::ranges::find(choices, word);
+  if (found == choices.end()) {
+    const std::string hint = word.size() > 40 ? std::string() : did_you_mean(word, choices);
+    refuse(key, fmt::format("expected {}, found {}{}", expected(), shown(*value), hint));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::optional<std::vector<std::pair<std::string, std::size_t>>> JsonObject::counts(const std::string& key) const {
+  const Json* value = find(key);
+  if (!value) return std::nullopt;
+  if (!value->is_object()) refuse_value(key, "an object of whole numbers, as {\"x\": 0, \"y\": 4}", *value);
+  std::vector<std::pair<std::string, std::size_t>> out;
+  for (const auto& [name, number] : value->items()) {
+    if (!number.is_number_unsigned())
+      refuse_value(key + "." + name.substr(0, 40), "a whole number, at least 0", number);
+    out.emplace_back(name, number.get<std::size_t>());
+  }
+  return out;
+}
+
+}  // namespace rainref::port_dump

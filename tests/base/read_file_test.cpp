@@ -1,0 +1,56 @@
+#include "base/read_file.h"
+
+#include <sys/stat.h>
+
+#include <gmock/gmock.h>
+
+#include "base/temporary_folder.h"
+#include "rainref/error.h"
+
+namespace rainref {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string refusal(const std::filesystem::path& path) {
+  try {
+    read_file(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::io);
+    EXPECT_THAT(error.what(), HasSubstr(path.string()));
+    return error.what();
+  }
+  return "read";
+}
+
+TEST(ReadFile, WholeFiles) {
+  const TemporaryFolder folder;
+  std::string all;
+  for (int i = 0; i < 100000; ++i) all += static_cast<char>(i * 7);
+  put(folder / "a", all);
+  put(folder / "empty", "");
+  const std::vector<std::byte> bytes = read_file(folder / "a");
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), all);
+  EXPECT_TRUE(read_file(folder / "empty").empty());
+}
+
+TEST(ReadFile, WhatIsNoFile) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(refusal(folder / "absent"), HasSubstr("No such file"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("Is a directory"));
+  EXPECT_THAT(refusal("/dev/null"), HasSubstr("not a regular file"));
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(refusal(folder / "pipe"), HasSubstr("not a regular file"));  // and nobody waits for a writer
+}
+
+TEST(ReadFile, AHoleLargerThanMemory) {
+  const TemporaryFolder folder;
+  put(folder / "a", "");
+  std::error_code error;
+  std::filesystem::resize_file(folder / "a", std::uintmax_t{1} << 43, error);  // 8 TiB
+  if (error) GTEST_SKIP() << "this file system has no such large files";
+  EXPECT_THAT(refusal(folder / "a"), HasSubstr("more than this machine's memory"));
+}
+
+}  // namespace
+}  // namespace rainref
