@@ -1,0 +1,54 @@
+// The texels that a lookup may touch when its coordinates are intervals, and what it may make of them.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+#include "image/texture.h"
+#include "math/enclosure.h"
+
+namespace rainref::enclosed {
+
+/// One mip level of a texture, with its address rules: what lookups of enclosures read.
+struct Texels {
+  const float* texels;  ///< of the level's first texel
+  int channels, width, height;
+  Address address_u, address_v;
+  const float* border;
+};
+
+/// The coordinates, in texels, that a lookup may compute along one side. For repeat they are not reduced: indices wrap.
+struct Span {
+  double lo, hi;  ///< finite, lo <= hi
+  int size;
+  Address address;
+  bool vacuous;
+  Span moved(int texels) const { return {lo + texels, hi + texels, size, address, vacuous}; }
+  /// The index of texel i by the address rule, -1 for the border.
+  int index(std::int64_t i) const;
+};
+/// x = a(u) size - 1/2 of filtered lookups, and x = a(u) size of unfiltered ones, as sampling-inl.h has them: by the
+/// arithmetic of the profile, by a sampler where the profile has one, on either side of a border of the address rule.
+Span filtered_span(Address address, Enclosure u, int size);
+Span nearest_span(Address address, Enclosure u, int size);
+
+/// Texels beyond this count make a lookup vacuous; it takes 10 to 100 microseconds to look at them.
+inline constexpr std::int64_t most_texels = 1 << 16;
+
+/// Bilinear filtering over all that the spans hold, each formula of mix: the hull over the cells; over more than 16 cells
+/// the hull of their texels. It lies within the texels touched, but for the roundings of mix.
+Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel);
+
+/// The texel that an unfiltered lookup takes: decided where the spans leave up to Replay::max_runs open.
+struct Pick {
+  std::int64_t x0, x1, y0, y1;  ///< indices before the address rule; more than one only where there are too many to decide
+  bool vacuous;
+};
+Pick pick(const Span& x, const Span& y);
+/// The texel, or the hull of those that are left.
+Enclosure picked(const Texels& t, const Span& x, const Span& y, const Pick& p, int channel);
+
+/// Levels of detail that a sampler may compute for lod, held in [0, levels - 1].
+Enclosure level_range(Enclosure lod, int levels);
+
+}  // namespace rainref::enclosed

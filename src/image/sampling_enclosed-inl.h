@@ -1,0 +1,106 @@
+// The lookups of sampling-inl.h for enclosures. Text only: include it right after sampling-inl.h, in the same namespace,
+// with image/footprint.h before both. Overload resolution prefers these where the number is an Enclosure.
+//
+// A filtered lookup is continuous, so it gives the hull over the cells that its coordinates touch and decides nothing; an
+// unfiltered one, and the choice of a mip level, jump and are decided. Wherever the profile knows a sampler the lookup may
+// be made by it: its coordinates are off by as much as the sampler's may be.
+
+/// The same number as the reference's, for points under the profile `ieee`.
+template <class T>
+RAINREF_FN Level<plain::Plain<float>> plain_level(const Level<T>& l) {
+  Level<plain::Plain<float>> out;
+  out.width = {l.width.i};
+  out.height = {l.height.i};
+  out.offset = {l.offset.i};
+  out.width_number = plain::Plain<float>(l.width_number.lo);
+  out.height_number = plain::Plain<float>(l.height_number.lo);
+  return out;
+}
+inline bool as_reference(enclosed::Enclosure u, enclosed::Enclosure v) {
+  return enclosed::profile().reference && u.is_point() && v.is_point();
+}
+template <int Count>
+RAINREF_FN Channels<enclosed::Enclosure, Count> points(const Channels<plain::Plain<float>, Count>& texel) {
+  Channels<enclosed::Enclosure, Count> out;
+  for (int k = 0; k < Count; ++k) out[k] = enclosed::Enclosure(texel[k].v);
+  return out;
+}
+template <class T>
+RAINREF_FN enclosed::Texels texels_of(const T& t, const Level<enclosed::Enclosure>& l) {
+  return {t.texels + static_cast<std::ptrdiff_t>(l.offset.i) * t.channels, t.channels, l.width.i, l.height.i, t.address_u, t.address_v, t.border};
+}
+
+template <int First, int Count, class N, class T>
+  requires std::same_as<N, enclosed::Enclosure>
+RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
+  using Single = plain::Plain<float>;
+  if (as_reference(u, v)) return points(sample_nearest<First, Count, Single>(t, Single(u.lo), Single(v.lo)));
+  const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, 0));
+  const enclosed::Span x = nearest_span(t.address_u, u, texels.width), y = nearest_span(t.address_v, v, texels.height);
+  const enclosed::Pick choice = pick(x, y);
+  Channels<N, Count> out;
+  for (int k = 0; k < Count; ++k) out[k] = picked(texels, x, y, choice, First + k);
+  return out;
+}
+
+template <int First, int Count, class N, class T>
+  requires std::same_as<N, enclosed::Enclosure>
+RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
+  using Single = plain::Plain<float>;
+  if (as_reference(u, v)) return points(sample_level<First, Count, Single>(t, plain_level(l), Single(u.lo), Single(v.lo)));
+  const enclosed::Texels texels = texels_of(t, l);
+  const enclosed::Span x = filtered_span(t.address_u, u, texels.width), y = filtered_span(t.address_v, v, texels.height);
+  Channels<N, Count> out;
+  for (int k = 0; k < Count; ++k) out[k] = filtered(texels, x, y, First + k);
+  return out;
+}
+
+template <int Channel, class N, class T>
+  requires std::same_as<N, enclosed::Enclosure>
+RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
+  using Single = plain::Plain<float>;
+  if (as_reference(u, v)) {
+    const Neighbours<Single> near = sample_neighbours<Channel, Single>(t, Single(u.lo), Single(v.lo));
+    return {N(near.left.v), N(near.right.v), N(near.down.v), N(near.up.v)};
+  }
+  const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, 0));
+  const enclosed::Span x = filtered_span(t.address_u, u, texels.width), y = filtered_span(t.address_v, v, texels.height);
+  return {filtered(texels, x.moved(-1), y, Channel), filtered(texels, x.moved(1), y, Channel), filtered(texels, x, y.moved(-1), Channel),
+          filtered(texels, x, y.moved(1), Channel)};
+}
+
+template <int First, int Count, class N, class T>
+  requires std::same_as<N, enclosed::Enclosure>
+RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
+  const N range = level_range(lod, t.levels), level = floor(N(range.lo, range.hi) + N(0.5f));
+  Channels<N, Count> out = sample_level<First, Count, N>(t, uniform_level<N>(t, static_cast<int>(level.lo)), u, v);
+  // Too many levels to decide: the hull of all.
+  for (int l = static_cast<int>(level.lo) + 1; l <= static_cast<int>(level.hi); ++l) {
+    const auto other = sample_level<First, Count, N>(t, uniform_level<N>(t, l), u, v);
+    for (int k = 0; k < Count; ++k) out[k] = hull(out[k], other[k]);
+  }
+  return out;
+}
+
+template <int First, int Count, class N, class T>
+  requires std::same_as<N, enclosed::Enclosure>
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
+  using Single = plain::Plain<float>;
+  if (as_reference(u, v) && lod.is_point()) return points(sample_trilinear<First, Count, Single>(t, Single(u.lo), Single(v.lo), Single(lod.lo)));
+  const N range = level_range(lod, t.levels);
+  const int first = static_cast<int>(range.lo), last = static_cast<int>(range.hi);
+  auto fine = sample_level<First, Count, N>(t, uniform_level<N>(t, first), u, v);
+  Channels<N, Count> out = fine;
+  for (int l = first; l <= last; ++l) {
+    const float low = range.lo > static_cast<float>(l) ? range.lo - static_cast<float>(l) : 0.0f;
+    const float high = range.hi < static_cast<float>(l + 1) ? range.hi - static_cast<float>(l) : 1.0f;
+    if (high == 0.0f) break;  // a whole level counts alone
+    const auto coarse = sample_level<First, Count, N>(t, uniform_level<N>(t, l + 1 < t.levels ? l + 1 : l), u, v);
+    for (int k = 0; k < Count; ++k) {
+      const N between = mix(fine[k], coarse[k], N(low, high));
+      out[k] = l == first && low > 0.0f ? between : hull(out[k], between);
+    }
+    fine = coarse;
+  }
+  return out;
+}
