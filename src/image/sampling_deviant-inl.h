@@ -24,8 +24,6 @@ RAINREF_FN deviant::Deviant texel_coordinate(Address address, deviant::Deviant u
     default: return of(deviant::filtered_coordinate(x.v));
   }
 }
-template <class N>
-RAINREF_FN plain::Index<N> texel_index(Address address, plain::Index<N> i, plain::Index<N> size);
 /// Any integer has a texel, whatever a slip has done to it.
 RAINREF_FN plain::Index<deviant::Deviant> texel_index(Address address, plain::Index<deviant::Deviant> i, plain::Index<deviant::Deviant> size) {
   if (slipped(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};

@@ -117,7 +117,8 @@ class Deviant {
   friend Deviant floor(Deviant a);
   friend Deviant fract(Deviant a);
   friend Deviant mix(Deviant a, Deviant b, Deviant t);
-  friend Int to_int(Deviant a) { return {plain::to_int(plain::Plain<float>(a.v)).i}; }
+  /// A number that a slip has made too large for an integer is cut.
+  friend Int to_int(Deviant a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Deviant to_number(Int a) { return of(static_cast<float>(a.i)); }
   friend Deviant fetch(const float* texels, Int offset, Deviant) { return of(texels[offset.i]); }
 

@@ -1,0 +1,54 @@
+// Captured images as passes take them: decoded to floats.
+#pragma once
+
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "capture/pass_case.h"
+#include "rainref/texture.h"
+
+namespace rainref::capture {
+
+/// The values of a level, row-major, channels interleaved: halves and floats as they are, unorm8 code / 255, srgb8
+/// linear, both correctly rounded; uint32 rounded to float.
+std::vector<float> decoded(const Array& image, int level = 0);
+
+/// A Texture over the decoded values of an input, with all its levels, address rules and border. Some channels of it,
+/// `count` from `first` on, or all (0).
+class BoundTexture {
+ public:
+  BoundTexture() = default;
+  explicit BoundTexture(const CaseInput& input, int first = 0, int count = 0);
+  Texture view() const;
+
+ private:
+  std::vector<float> texels_;
+  Texture view_;
+};
+
+/// The input of this name; throws Error(port_files) when the case lacks it, or when it is no image (or no records).
+const CaseInput& image_input(const PassCase& c, std::string_view name);
+const CaseInput& record_input(const PassCase& c, std::string_view name);
+
+/// The case's uniform block as its struct; throws Error(port_files) when the size differs.
+void copy_uniforms(const PassCase& c, void* to, std::size_t bytes);
+template <class Uniforms>
+Uniforms uniforms_of(const PassCase& c) {
+  Uniforms u;
+  copy_uniforms(c, &u, sizeof u);
+  return u;
+}
+/// Records as the structs they are; throws like copy_uniforms.
+template <class Record>
+std::vector<Record> records_of(const CaseInput& input);
+const std::byte* record_bytes(const CaseInput& input, std::size_t record_size);
+template <class Record>
+std::vector<Record> records_of(const CaseInput& input) {
+  std::vector<Record> out(static_cast<std::size_t>(input.array.width));
+  const std::byte* from = record_bytes(input, sizeof(Record));
+  if (!out.empty()) std::memcpy(out.data(), from, out.size() * sizeof(Record));
+  return out;
+}
+
+}  // namespace rainref::capture

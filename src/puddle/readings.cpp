@@ -1,0 +1,201 @@
+#include "puddle/readings.h"
+
+#include <algorithm>
+
+#include "capture/bound_texture.h"
+#include "puddle/every_reading.h"
+#include "puddle/kernels.h"
+#include "rainref/error.h"
+
+namespace rainref::puddle {
+namespace {
+
+using capture::BoundTexture;
+using capture::PassCase;
+using capture::PassModel;
+
+Boundary boundary_of(Address address) {
+  return address == Address::repeat ? Boundary::periodic : address == Address::border ? Boundary::fixed : Boundary::reflecting;
+}
+
+// ---- wave_step -----------------------------------------------------------------------------------------------------
+/// One channel of the wave with its ghosts, as the kernel has it.
+Image plane_of(const capture::CaseInput& wave, int channel, Format format, Boundary boundary, float rest) {
+  const capture::Array& a = wave.array;
+  const std::vector<float> all = capture::decoded(a);
+  const int channels = info(a.format).channels;
+  std::vector<float> one(static_cast<std::size_t>(a.width) * a.height);
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] = all[i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)];
+  Image plane(format, a.width, a.height);
+  encode_rows(one.data(), plane, boundary, rest, Rounding::rne);  // exact: these values were stored like this
+  return plane;
+}
+
+template <class Storage>
+struct WaveStep {
+  int width, height, values;
+  WaveStepUniforms uniforms;
+  bool corrected;
+  Boundary boundary;
+  Image newest, previous, rest_row;
+  BoundTexture shore;
+  bool has_shore;
+  std::vector<Drop> drops;
+
+  const Storage* row(const Image& plane, int y) const {
+    if (y >= 0 && y < height) return plane.row<Storage>(y);
+    if (boundary == Boundary::fixed) return rest_row.row<Storage>(0);
+    return plane.row<Storage>(boundary == Boundary::periodic ? (y % height + height) % height : std::clamp(y, 0, height - 1));
+  }
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    every::WaveRows<Storage> rows;
+    const int reach = corrected ? 1 : static_cast<int>(uniforms.step);
+    rows.reach = reach;
+    rows.fraction = corrected ? 0.0f : uniforms.step - static_cast<float>(reach);
+    rows.here = row(newest, y);
+    rows.below = row(newest, y - reach);
+    rows.above = row(newest, y + reach);
+    rows.below_next = row(newest, y - reach - 1);
+    rows.above_next = row(newest, y + reach + 1);
+    rows.previous = row(previous, y);
+    rows.shore = has_shore ? shore.view().texels + static_cast<std::ptrdiff_t>(y) * width : nullptr;
+    // Drops that surely add nothing here are left out, as the kernel does.
+    std::vector<Drop> near;
+    const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
+    for (const Drop& d : drops) {
+      const float reach_of_drop = (corrected ? d.radius : 4.0f) + 1.5f;
+      if (std::abs(d.x - cx) < reach_of_drop && std::abs(d.y - cy) < reach_of_drop) near.push_back(d);
+    }
+    const int count = static_cast<int>(near.size());
+    for (int c = 2; c < values; ++c) out[c] = N(0.0f);
+    if (corrected) {
+      out[0] = every::wave_step_corrected<N>(uniforms, rows, near.data(), count, x, y);
+      out[1] = count == 0 ? N::load(rows.here + x) : every::wave_previous_corrected<N>(rows.here, rows.shore, near.data(), count, x, y);
+    } else {
+      out[0] = every::wave_step_as_published<N>(uniforms, rows, near.data(), count, x, y);
+      out[1] = N::load(rows.here + x);
+    }
+  }
+};
+
+template <class Storage>
+std::unique_ptr<PassModel> bind_wave_of(const PassCase& c, Format plane_format) {
+  const capture::CaseInput& wave = capture::image_input(c, "wave");
+  WaveStep<Storage> m;
+  m.width = wave.array.width;
+  m.height = wave.array.height;
+  m.values = info(wave.array.format).channels;
+  m.uniforms = capture::uniforms_of<WaveStepUniforms>(c);
+  m.corrected = c.corrected();
+  m.boundary = boundary_of(wave.address_u);
+  m.newest = plane_of(wave, 0, plane_format, m.boundary, m.uniforms.rest);
+  m.previous = plane_of(wave, 1, plane_format, m.boundary, m.uniforms.rest);
+  m.rest_row = Image(plane_format, m.width, 1);
+  encode_rows(std::vector<float>(static_cast<std::size_t>(m.width), m.uniforms.rest).data(), m.rest_row, m.boundary, m.uniforms.rest, Rounding::rne);
+  m.has_shore = c.input("shore") != nullptr;
+  if (m.has_shore) m.shore = BoundTexture(capture::image_input(c, "shore"));
+  m.drops = capture::records_of<Drop>(capture::record_input(c, "drops"));
+  return capture::model_of(std::move(m));
+}
+std::unique_ptr<PassModel> bind_wave_step(const PassCase& c) {
+  switch (info(capture::image_input(c, "wave").array.format).kind) {
+    case FormatInfo::float16: return bind_wave_of<Half>(c, Format::r16f);
+    case FormatInfo::float32: return bind_wave_of<float>(c, Format::r32f);
+    default: return bind_wave_of<Unorm8>(c, Format::r8);
+  }
+}
+
+// ---- shade ---------------------------------------------------------------------------------------------------------
+/// One texel of an image of four channels.
+template <class N>
+void load_texel_of(const Texture& t, int x, int y, N* out) {
+  const float* texel = t.texels + 4 * (static_cast<std::ptrdiff_t>(y) * t.width[0] + x);
+  for (int c = 0; c < 4; ++c) out[c] = N::load(texel + c);
+}
+
+struct Shade {
+  int width, height, values = 4;
+  ShadeUniforms uniforms;
+  bool corrected;
+  BoundTexture hit, normal, noise, environment, ground, relief, bed;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    N p[4], n[4];
+    load_texel_of(hit.view(), x, y, p);
+    load_texel_of(normal.view(), x, y, n);
+    const every::Surface<N> s{plain::Vec3<N>(p[0], p[1], p[2]), plain::Vec3<N>(n[0], n[1], n[2]), n[3]};
+    plain::Vec3<N> c;
+    if (corrected) {
+      c = every::shade_corrected<N>(uniforms, environment.view(), ground.view(), relief.view(), bed.view(), s, x, y);
+    } else {
+      const N grain = N::load(noise.view().texels + static_cast<std::ptrdiff_t>(y) * width + x);
+      c = every::shade_as_published<N>(uniforms, environment.view(), ground.view(), s, grain, x, y);
+    }
+    out[0] = c.x;
+    out[1] = c.y;
+    out[2] = c.z;
+    out[3] = N(1.0f);
+  }
+};
+std::unique_ptr<PassModel> bind_shade(const PassCase& c) {
+  const auto texture = [&](const char* name) { return BoundTexture(capture::image_input(c, name)); };
+  Shade m;
+  const capture::Array& hit = capture::image_input(c, "hit").array;
+  m.width = hit.width;
+  m.height = hit.height;
+  m.uniforms = capture::uniforms_of<ShadeUniforms>(c);
+  m.corrected = c.corrected();
+  m.hit = texture("hit");
+  m.normal = texture("normal");
+  m.environment = texture("environment");
+  m.ground = texture("ground");
+  if (m.corrected) {
+    m.relief = texture("relief");
+    m.bed = texture("bed");
+  } else {
+    m.noise = texture("noise");
+  }
+  return capture::model_of(std::move(m));
+}
+
+// ---- display -------------------------------------------------------------------------------------------------------
+struct Display {
+  int width, height, values = 4;
+  DisplayUniforms uniforms;
+  bool corrected;
+  BoundTexture colour;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    N in[4];
+    load_texel_of(colour.view(), x, y, in);
+    const plain::Vec3<N> linear(in[0], in[1], in[2]);
+    const plain::Vec3<N> c = corrected ? every::display_corrected<N>(uniforms, linear, x, y) : every::display_as_published<N>(uniforms, linear, x, y);
+    out[0] = c.x;
+    out[1] = c.y;
+    out[2] = c.z;
+    out[3] = N(1.0f);
+  }
+};
+std::unique_ptr<PassModel> bind_display(const PassCase& c) {
+  const capture::CaseInput& colour = capture::image_input(c, "colour");
+  Display m;
+  m.width = colour.array.width;
+  m.height = colour.array.height;
+  m.uniforms = capture::uniforms_of<DisplayUniforms>(c);
+  m.corrected = c.corrected();
+  m.colour = BoundTexture(colour);
+  return capture::model_of(std::move(m));
+}
+
+}  // namespace
+
+const std::vector<capture::PassReadings>& readings() {
+  static const std::vector<capture::PassReadings> all{
+      {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit}, {"shade", bind_shade}, {"display", bind_display}};
+  return all;
+}
+
+}  // namespace rainref::puddle

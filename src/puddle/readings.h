@@ -1,0 +1,17 @@
+// The puddle's passes as conformance takes them.
+#pragma once
+
+#include <vector>
+
+#include "capture/pass_model.h"
+
+namespace rainref::puddle {
+
+/// wave_step, surface_hit, shade and display, of both variants. raindrops and ground_noise are compared by bits or taken
+/// as data.
+const std::vector<capture::PassReadings>& readings();
+
+/// surface_hit is judged by the gap between its hit and the water: see surface_hit_model.cpp.
+std::unique_ptr<capture::PassModel> bind_surface_hit(const capture::PassCase& c);
+
+}  // namespace rainref::puddle
