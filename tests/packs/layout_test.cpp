@@ -223,18 +223,22 @@ TEST_F(Layout, WgslByItsRules) {
 }
 
 TEST_F(Layout, WgslByWgslReflect) {
-  if (!is_there("node") || std::system("node -e \"require('wgsl_reflect')\" > /dev/null 2>&1") != 0) {
+  if (!is_there("node") || std::system("node -e \"require.resolve('wgsl_reflect')\" > /dev/null 2>&1") != 0) {
     GTEST_SKIP() << "no node with wgsl_reflect on this machine (it is no Debian package; NODE_PATH says where it is)";
   }
-  put(folder / "a.js", R"(const { WgslReflect } = require('wgsl_reflect');
-const text = require('fs').readFileSync('a.wgsl', 'utf8');
-for (const s of new WgslReflect(text).structs) {
+  // import looks for no NODE_PATH; require does.
+  put(folder / "a.mjs", R"(import { createRequire } from 'module';
+import { readFileSync } from 'fs';
+import { dirname, join } from 'path';
+const found = createRequire(import.meta.url).resolve('wgsl_reflect');
+const { WgslReflect } = await import(join(dirname(found), 'wgsl_reflect.module.js'));
+for (const s of new WgslReflect(readFileSync('a.wgsl', 'utf8')).structs) {
   for (const m of s.members) console.log(`${s.name} ${m.name} ${m.offset}`);
   console.log(`${s.name} = ${s.size}`);
 }
 )");
   put(folder / "a.wgsl", described("wgsl"));
-  expect_printed(output("node a.js"));
+  expect_printed(output("node a.mjs"));
 }
 
 }  // namespace
