@@ -40,8 +40,8 @@ class Enclosure {
 
   template <class Storage>
   static Enclosure load(const Storage* p) {
-    if constexpr (std::is_same_v<Storage, Unorm8>) return load_unorm(to_float(*p));
-    else return Enclosure(to_float(*p));
+    if constexpr (std::is_same_v<Storage, Unorm8>) return load_unorm(plain::to_float(*p));
+    else return Enclosure(plain::to_float(*p));
   }
   static Enclosure index(int first) { return {static_cast<float>(first), static_cast<float>(first)}; }
   static Int uniform_int(int value) { return {value}; }
