@@ -48,8 +48,6 @@ Enclosure around(double low, double high) {
   };
   return Enclosure(beside(low, -INFINITY), beside(high, INFINITY));
 }
-/// a with an error of that much more.
-Enclosure blurred(Enclosure a, double error) { return around(a.lo - error, a.hi + error); }
 double width_of(Enclosure a) { return static_cast<double>(a.hi) - a.lo; }
 
 /// Where the port's position lies along the ray: the interval of t that any coordinate allows.
