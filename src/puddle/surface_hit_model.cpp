@@ -3,7 +3,7 @@
 //
 // as-published: t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two ends
 // of the interval of t are marched, and drawn apart by what f' may be below -1. Each round in which f may be under epsilon
-// is an alternative end.
+// is a possible end; which of them is the port's, its own count of rounds says.
 // corrected: the march stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The
 // stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step.
 // March steps of corrected are free: they depend on every decision on the way.
@@ -96,10 +96,10 @@ class PublishedMarch {
         found.push_back({Enclosure(), limit - 1, false});
         return found;
       }
-      if (static_cast<int>(found.size()) > enclosed::Replay::max_runs) return {};
       // g(t) = t + f(t) falls by at most `back` for each unit of t.
       const double back = std::max(0.0, slope_along(f) - 1) * (high - low);
-      const double next_low = low + f_low.lo - back, next_high = high + f_high.hi + back;
+      // A march that goes on has seen epsilon or more.
+      const double next_low = std::max(low + f_low.lo - back, low + u_.epsilon), next_high = high + f_high.hi + back;
       low = std::min(next_low, next_high);
       high = std::max(next_low, next_high);
       if (high - low > 0.5) return {};
@@ -108,6 +108,13 @@ class PublishedMarch {
     return found;
   }
 
+  /// The end with the port's number of rounds, or the nearest to it.
+  static const End& nearest(const std::vector<End>& ends, const float* port) {
+    return *std::min_element(ends.begin(), ends.end(), [port](const End& a, const End& b) {
+      const auto far = [port](const End& e) { return std::abs(static_cast<double>(e.rounds) - port[3]) + (e.hit == (port[7] > 0.5f) ? 0.0 : 0.5); };
+      return far(a) < far(b);
+    });
+  }
   every::SurfaceHit<Enclosure> at(const End& end, const float* port) const {
     every::SurfaceHit<Enclosure> out;
     out.position = origin_;
@@ -318,9 +325,8 @@ class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
     if (p.corrected) return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
     const PublishedMarch march(p.uniforms, wave, x, y);
     const std::vector<PublishedMarch::End> ends = march.ends();
-    if (ends.empty() || ends.size() > static_cast<std::size_t>(enclosed::Replay::max_runs)) return enclosed::give_up();
-    const std::size_t chosen = ends.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(ends.size())));
-    SurfaceHitPass::write(march.at(ends[chosen], port), out);
+    if (ends.empty()) return enclosed::give_up();
+    SurfaceHitPass::write(march.at(PublishedMarch::nearest(ends, port), port), out);
   }
 };
 
