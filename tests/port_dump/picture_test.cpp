@@ -158,6 +158,24 @@ TEST(ExrDump, GiganticWindowsAreRefusedBeforeTheLibrarySeesThem) {
   EXPECT_THAT(read("exr", wide, image(Format::r16f, 1, 1)), HasSubstr("size 2147483648x1"));
 }
 
+TEST(ExrDump, AttributesThatClaimMemoryAreRefused) {
+  // One more attribute in front of the others; byte 5 holds the flags.
+  const auto with = [](const std::string& name, const std::string& type, const std::string& value, char flags = 0) {
+    std::string out = exr({0, 0, 2, 1}, {halves("R", 0)});
+    out[5] = flags;
+    return out.insert(8, name + '\0' + type + '\0' + little(static_cast<std::uint32_t>(value.size())) + value);
+  };
+  const capture::Array r16f = image(Format::r16f, 2, 1);
+  EXPECT_THAT(read("exr", with("tiles", "tiledesc", little(0x8000) + little(0x8000) + '\0', 2), r16f),
+              HasSubstr("tiles of 32768x32768; expected at most 2048"));
+  EXPECT_THAT(read("exr", with("tiles", "tiledesc", little(8) + little(8) + '\1', 2), r16f),
+              HasSubstr("mip levels in one EXR; save one file a level"));
+  EXPECT_THAT(read("exr", with("preview", "preview", little(0xffff) + little(0xffff)), r16f),
+              HasSubstr("an attribute of type preview"));
+  EXPECT_THAT(read("exr", with("ids", "idmanifest", little(1)), r16f), HasSubstr("an attribute of type idmanifest"));
+  EXPECT_EQ(read("exr", with("comment", "string", "hello"), r16f), values<std::uint16_t>({0, 1}));
+}
+
 TEST(ExrDump, EveryTruncationIsRefused) {
   const std::string whole = exr({0, 0, 3, 2}, {halves("G", 0), halves("R", 7)});
   ASSERT_EQ(read("exr", whole, image(Format::rg16f, 3, 2)).size(), 24u);
