@@ -69,12 +69,11 @@ Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t
   return out;
 }
 
-// How far rounding the four weights of a cell may move its value: each by half a step, their sum kept, so that only
-// differences of the texels count.
+// How far rounding the four weights of a cell may move its value. Rows and columns keep their sums, so that the error of
+// one weight enters the others with alternating signs; an H100 rounds by half a step, twice that is allowed.
 double weight_slack(double a, double b, double c, double d) {
-  double t[4] = {a, b, c, d};
-  std::sort(t, t + 4);
-  return 0.5 * power_of_two(-profile().subtexel_bits) * ((t[3] - t[0]) + (t[2] - t[1]));
+  const double twist = a - b - c + d;
+  return power_of_two(-profile().subtexel_bits) * (twist < 0 ? -twist : twist);
 }
 // One step of the texels' own precision at this magnitude.
 double storage_step(TexelPrecision precision, double magnitude) {
