@@ -112,6 +112,7 @@ PackOutput read_output(const JsonField& from, const Records& records) {
   output.rules.array = output.shape;
   output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
   output.rules.judge = named<Judge, 4>(from["judge"]);
+  output.rules.range = output.range;
   return output;
 }
 

@@ -30,6 +30,7 @@ struct CaseOutput {
   Array array;  ///< the expected values
   Rounding store_rounding = Rounding::rne;
   Judge judge = Judge::envelope;
+  std::array<double, 2> range{0, 1};  ///< of the stored values, as declared
 };
 
 struct PassCase {

@@ -30,6 +30,8 @@ class PassModel {
   virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
   /// Whether enclose() depends on `port`.
   virtual bool needs_port() const { return false; }
+  /// Whether value v is declared as not reproducible (a count of steps): it is held to its buffer's range, no more.
+  virtual bool is_free(int) const { return false; }
 
  private:
   int width_, height_, values_;

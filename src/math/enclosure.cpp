@@ -41,7 +41,12 @@ Enclosure product(Range r) {
 }  // namespace
 
 Enclosure widened(double low, double high, const Accuracy& accuracy, double x_magnitude) {
-  return Enclosure::checked(float_below(least(low, high, accuracy, x_magnitude)), float_above(-least(-high, -low, accuracy, x_magnitude)));
+  double from = least(low, high, accuracy, x_magnitude), to = -least(-high, -low, accuracy, x_magnitude);
+  if (accuracy.absolute == 0) {
+    if (low >= 0) from = std::max(from, 0.0);
+    if (high <= 0) to = std::min(to, 0.0);
+  }
+  return Enclosure::checked(float_below(from), float_above(to));
 }
 
 double Enclosure::width_in_ulp() const {
@@ -124,7 +129,7 @@ Enclosure fract(Enclosure a) {
   if (profile().reference && a.is_point()) return a - cell;
   if (cell.is_vacuous()) return cell;
   if (!cell.is_point()) return {0.0f, 1.0f};
-  return {std::max(sum_below(a.lo, -cell.lo), 0.0f), std::min(sum_above(a.hi, -cell.lo), 1.0f)};
+  return Enclosure::checked(std::max(sum_below(a.lo, -cell.lo), 0.0f), std::min(sum_above(a.hi, -cell.lo), 1.0f));
 }
 
 Enclosure mix(Enclosure a, Enclosure b, Enclosure t) {

@@ -11,7 +11,8 @@ namespace rainref::enclosed {
 
 /// How far a result may lie from the exact value y of a function at x:
 ///   ulp ULP(y) + ulp_per_x |x| ULP(y) + relative |y| + absolute,
-/// where ULP(y) is the gap between the floats around y (the larger one at a power of two). All zero: to nearest even.
+/// where ULP(y) is the gap between the floats around y (the larger one at a power of two). Without an absolute part the error
+/// does not take a result over zero: no formula for x / y changes its sign. All zero: to nearest even.
 struct Accuracy {
   double ulp = 0, ulp_per_x = 0, relative = 0, absolute = 0;
   bool is_zero() const { return ulp == 0 && ulp_per_x == 0 && relative == 0 && absolute == 0; }

@@ -1,7 +1,4 @@
 // `rainref list` and `rainref describe`.
-#include <cstdlib>
-#include <tuple>
-
 #include "cli/support.h"
 #include "math/simd_target.h"
 
@@ -88,23 +85,9 @@ TEST_F(Describe, EveryLayoutIsPrinted) {
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.err, "");
     EXPECT_THAT(o.out, HasSubstr(word)) << language;
-    for (const char* name : {"Drop", "RaindropsUniforms", "WaveStepUniforms", "SurfaceHitUniforms", "GroundNoiseUniforms", "ShadeUniforms", "DisplayUniforms"}) {
+    for (const char* name : {"Drop", "CountThreshold", "RaindropsUniforms", "RainfallUniforms", "WaveStepUniforms", "SurfaceHitUniforms", "GroundNoiseUniforms", "ShadeUniforms", "DisplayUniforms"}) {
       EXPECT_THAT(o.out, HasSubstr(name)) << language;
     }
-  }
-}
-
-// CUDA as far as a C++ compiler tells: with its vector types, the sizes that the text asserts are right.
-TEST_F(Describe, TheCAndCudaLayoutsCompile) {
-  const std::string vectors =
-      "struct alignas(8) float2 { float x, y; };\nstruct float3 { float x, y, z; };\nstruct alignas(16) float4 { float x, y, z, w; };\n"
-      "struct alignas(8) int2 { int x, y; };\n";
-  for (const auto& [language, flags, before_it] : std::vector<std::tuple<std::string, std::string, std::string>>{
-           {"c", "-x c -std=c99 -pedantic", ""}, {"cuda", "-x c++ -std=c++17", vectors}}) {
-    put(folder / language, before_it + rainref({"describe", "puddle", "--layout", language}).out);
-    const std::string command =
-        fmt::format("{} {} -Wall -Wextra -Werror -fsyntax-only {}", RAINREF_CXX_COMPILER, flags, (folder / language).string());
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
   }
 }
 

@@ -14,7 +14,7 @@ using testing::StartsWith;
 using Usage = CommandLine;
 
 TEST_F(Usage, HelpShowsAnExample) {
-  for (const std::string verb : {"list", "describe", "run", "hash", "selftest"}) {
+  for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"}) {
     const Outcome o = rainref({verb, "--help"});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.err, "");
@@ -23,7 +23,7 @@ TEST_F(Usage, HelpShowsAnExample) {
   const Outcome all = rainref({"--help"});
   EXPECT_EQ(all.code, 0);
   EXPECT_THAT(all.out, HasSubstr("\nExample: rainref run "));
-  for (const std::string verb : {"list", "describe", "run", "hash", "selftest"}) EXPECT_THAT(all.out, HasSubstr("\n  " + verb + " "));
+  for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"}) EXPECT_THAT(all.out, HasSubstr("\n  " + verb + " "));
   EXPECT_EQ(rainref({"-h"}).out, all.out);
 }
 
@@ -35,7 +35,7 @@ TEST_F(Usage, VersionIsOneLine) {
 
 TEST_F(Usage, AVerbIsNeeded) {
   expect_refusal({}, 2, HasSubstr("required"));
-  expect_refusal({"lst"}, 2, "expected one of list, describe, run, hash, selftest, found 'lst'; did you mean 'list'?");
+  expect_refusal({"lst"}, 2, "expected one of list, describe, run, hash, pack, diff, selftest, found 'lst'; did you mean 'list'?");
   expect_refusal({"Run", "corrected.toml"}, 2, EndsWith("found 'Run'; did you mean 'run'?"));
   expect_refusal({"zebra"}, 2, EndsWith("found 'zebra'"));
 }

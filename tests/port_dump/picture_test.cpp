@@ -113,6 +113,19 @@ TEST(ExrDump, OurOwnWriter) {
   EXPECT_THAT(dump.notes(), IsEmpty());
 }
 
+TEST(ExrDump, EveryLosslessCompression) {
+  std::vector<std::uint16_t> expected;
+  for (int y = 0; y < 3; ++y) {
+    for (int i = 0; i < 20; ++i) expected.push_back(static_cast<std::uint16_t>(0x3c01 + 100 * y + i / 4 + i % 4));
+  }
+  for (const std::string name : {"none", "rle", "zips", "zip", "piz", "tiled"}) {
+    const std::string file =
+        contents(std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds/exr" / (name + ".exr"));
+    ASSERT_NE(file, "");
+    EXPECT_EQ(read("exr", file, image(Format::rgba16f, 5, 3)), values(expected)) << name;
+  }
+}
+
 TEST(ExrDump, Refusals) {
   const capture::Array r16f = image(Format::r16f, 2, 1);
   const std::string good = exr({0, 0, 2, 1}, {halves("R", 0)});

@@ -1,0 +1,205 @@
+#include "conformance/deviations.h"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "conformance/output_slips.h"
+#include "rainref/error.h"
+
+namespace rainref::conformance {
+namespace {
+
+using capture::Array;
+using capture::CaseInput;
+using capture::PassCase;
+
+/// What a GPU may do without being wrong: still the best explanation of a difference.
+bool is_legal(deviant::Slip s) {
+  using deviant::Slip;
+  return s == Slip::fused || s == Slip::reciprocal_division || s == Slip::root_by_inverse || s == Slip::flushed || s == Slip::mix_by_difference ||
+         s == Slip::sum_backwards || s == Slip::sum_otherwise_paired || s == Slip::division_by_estimate || s == Slip::weights_of_8_bits;
+}
+
+void add_slips(std::vector<Deviation>& out) {
+  for (const deviant::SlipInfo& s : deviant::slips()) {
+    Deviation d;
+    d.name = s.name;
+    d.sentence = s.sentence;
+    d.behaviour.slip = s.slip;
+    d.legal = is_legal(s.slip);
+    out.push_back(std::move(d));
+  }
+}
+
+/// Every literal and uniform that the pass meets somewhere, as another number.
+void add_constants(std::vector<Deviation>& out, const capture::PassModel& model) {
+  std::set<float> values;
+  std::vector<float> met;
+  {
+    deviant::Behaviour collecting;
+    collecting.constants = &met;
+    const deviant::Scope scope(collecting);
+    std::vector<deviant::Deviant> unused(static_cast<std::size_t>(model.values()));
+    constexpr int probes = 8;
+    for (int j = 0; j < probes; ++j)
+      for (int i = 0; i < probes; ++i) {
+        model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
+        values.insert(met.begin(), met.end());
+        met.clear();
+      }
+  }
+  for (const float v : values) {
+    if (v == 0 || !(v > -1e30f && v < 1e30f)) continue;
+    const auto add = [&](float factor, const char* by) {
+      Deviation d;
+      d.name = fmt::format("constant {} off by {}", v, by);
+      d.sentence = fmt::format("a literal or uniform of value {} is {}", v, v * factor);
+      d.behaviour.slip = deviant::Slip::constant;
+      d.behaviour.constant = v;
+      d.behaviour.replacement = v * factor;
+      out.push_back(std::move(d));
+    };
+    add(1.01f, "1 %");
+    add(1 + 0x1p-10f, "2^-10");
+  }
+}
+
+template <class T>
+void set_member(PassCase& c, std::size_t offset, T value) { std::memcpy(c.uniforms.data() + offset, &value, sizeof value); }
+
+void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, const PassCase* before) {
+  for (const scene::Member& m : pass.block.members) {
+    if (m.name.starts_with("padding")) continue;
+    const auto add = [&](std::string what, std::string sentence, std::function<void(PassCase&)> alter) {
+      Deviation d;
+      d.name = fmt::format("uniform {} {}", m.name, what);
+      d.sentence = std::move(sentence);
+      d.alter_case = std::move(alter);
+      out.push_back(std::move(d));
+    };
+    add("is zero", fmt::format("{} is not set", m.name), [m](PassCase& c) { std::memset(c.uniforms.data() + m.offset, 0, m.size()); });
+    if (m.components > 1) {
+      add("reversed", fmt::format("the components of {} are in reverse order", m.name), [m](PassCase& c) {
+        auto* words = reinterpret_cast<std::array<std::byte, 4>*>(c.uniforms.data() + m.offset);
+        std::reverse(words, words + m.components);
+      });
+    }
+    if (m.scalar == scene::Scalar::int32 && m.components == 1) {
+      for (const int by : {-1, 1}) {
+        add(by < 0 ? "one less" : "one more", fmt::format("{} is off by one", m.name), [m, by](PassCase& c) {
+          std::int32_t v;
+          std::memcpy(&v, c.uniforms.data() + m.offset, 4);
+          set_member(c, m.offset, std::max(0, v + by));
+        });
+      }
+    }
+    if (before && before->uniforms.size() >= m.offset + m.size()) {
+      const std::vector<std::byte> old(before->uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset),
+                                       before->uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset + m.size()));
+      add("stale", fmt::format("{} is that of the run before", m.name),
+          [m, old](PassCase& c) { std::copy(old.begin(), old.end(), c.uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset)); });
+    }
+  }
+  Deviation shifted;
+  shifted.name = "uniform block shifted by 4 bytes";
+  shifted.sentence = "the uniform block's padding differs (std140 against a tight layout)";
+  shifted.alter_case = [](PassCase& c) { std::rotate(c.uniforms.begin(), c.uniforms.begin() + 4, c.uniforms.end()); };
+  out.push_back(std::move(shifted));
+}
+
+CaseInput* input_of(PassCase& c, const std::string& name) {
+  for (CaseInput& i : c.inputs)
+    if (i.name == name) return &i;
+  return nullptr;
+}
+
+void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+  for (const CaseInput& i : c.inputs) {
+    const std::string name = i.name;
+    const auto add = [&](std::string what, std::string sentence, std::function<void(Array&)> alter) {
+      Deviation d;
+      d.name = fmt::format("input {} {}", name, what);
+      d.sentence = std::move(sentence);
+      d.alter_case = [name, alter](PassCase& altered) { alter(input_of(altered, name)->array); };
+      out.push_back(std::move(d));
+    };
+    if (i.array.is_records) {
+      add("without its first record", fmt::format("the first of {} is left out", name), [](Array& a) {
+        if (a.width == 0) return;
+        a.levels[0].erase(a.levels[0].begin(), a.levels[0].begin() + static_cast<std::ptrdiff_t>(a.record.size));
+        --a.width;
+      });
+      add("without its last record", fmt::format("the last of {} is left out", name), [](Array& a) {
+        if (a.width == 0) return;
+        a.levels[0].resize(a.levels[0].size() - a.record.size);
+        --a.width;
+      });
+    } else {
+      add("upside down", fmt::format("row 0 of {} is v = 1", name), [](Array& a) { flip_rows(a); });
+      add("mirrored", fmt::format("{} is mirrored left to right", name), [](Array& a) { flip_columns(a); });
+      if (info(i.array.format).channels > 1) {
+        add("with its first two channels swapped", fmt::format("the first two channels of {} are swapped (ping-pong order)", name),
+            [](Array& a) { swap_channels(a, 0, 1); });
+      }
+      if (info(i.array.format).channels >= 3) {
+        add("as BGRA", fmt::format("{} is read in the order BGRA", name), [](Array& a) { swap_channels(a, 0, 2); });
+      }
+      if (i.array.levels.size() > 1) {
+        add("without mip levels", fmt::format("{} has its first level only", name), [](Array& a) { a.levels.resize(1); });
+      }
+    }
+    const CaseInput* old = before ? before->input(name) : nullptr;
+    if (old && old->array.levels != i.array.levels) {
+      const Array stale = old->array;
+      add("stale", fmt::format("{} is that of the run before", name), [stale](Array& a) { a = stale; });
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model, const PassCase* before) {
+  std::vector<Deviation> all;
+  add_output_slips(all, c, before);
+  add_slips(all);
+  add_inputs(all, c, before);
+  add_uniforms(all, pass, before);
+  add_constants(all, model);
+  return all;
+}
+
+DeviatedPass::DeviatedPass(const Deviation& deviation, const PassCase& c, Bind bind, const capture::PassModel& model)
+    : deviation_(deviation), case_(c), model_(model), slots_(slots_of(c)) {
+  if (deviation.alter_outputs) {
+    for (const capture::CaseOutput& o : c.outputs) finished_.push_back(o.array);
+    applies_ = deviation.alter_outputs(c, finished_);
+  } else if (deviation.alter_case) {
+    altered_ = c;
+    deviation.alter_case(altered_);
+    altered_model_ = bind(altered_);
+    applies_ = altered_model_->width() == model.width() && altered_model_->height() == model.height();
+  }
+}
+
+void DeviatedPass::store(Texel at, HalfMode mode, std::vector<Array>& out) const {
+  if (!finished_.empty()) {
+    for (const Slot& s : slots_) {
+      const std::size_t o = static_cast<std::size_t>(s.output), offset = s.offset(at.x, at.y);
+      std::memcpy(out[o].levels[0].data() + offset, finished_[o].levels[0].data() + offset, static_cast<std::size_t>(s.channel_bytes));
+    }
+    return;
+  }
+  const deviant::Scope scope(deviation_.behaviour);
+  std::vector<deviant::Deviant> values(slots_.size());
+  (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
+  for (std::size_t v = 0; v < slots_.size(); ++v) {
+    const Slot& s = slots_[v];
+    const Rounding rounding = s.kind != FormatInfo::float16 || mode == HalfMode::either ? s.store_rounding : mode == HalfMode::rne ? Rounding::rne : Rounding::rtz;
+    store_value(s, values[v].v, rounding, out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
+  }
+}
+
+}  // namespace rainref::conformance

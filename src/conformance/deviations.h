@@ -1,0 +1,58 @@
+// The named deviations: realistic mistakes of a port, made on the reference reading rather than in copies of a pass.
+// `mutate` asks which of them a pack would catch; the diagnosis asks which of them gives a port's failing bits.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/pack_read.h"
+#include "capture/pass_model.h"
+#include "conformance/slots.h"
+#include "conformance/verdict.h"
+
+namespace rainref::conformance {
+
+using Bind = std::unique_ptr<capture::PassModel> (*)(const capture::PassCase&);
+
+struct Deviation {
+  std::string name, sentence;
+  deviant::Behaviour behaviour;                          ///< what the arithmetic does
+  std::function<void(capture::PassCase&)> alter_case;    ///< what the pass takes; null: as captured
+  std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)> alter_outputs;  ///< from the expected outputs; false: does not apply. Null: evaluated
+  bool legal = false;  ///< a conforming GPU may do this: not a bug, but it explains differences
+
+  bool is_evaluated() const { return !alter_outputs; }
+};
+
+/// All deviations of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of the finished buffer.
+/// `before` is the run of the same pass before this one, or null.
+std::vector<Deviation> deviations_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
+                                     const capture::PassCase* before);
+
+struct Texel {
+  int x, y;
+};
+
+/// What a deviation stores at some texels. Applied once, asked texel by texel.
+class DeviatedPass {
+ public:
+  /// The case must outlive it. Throws Error when the altered case cannot be bound.
+  DeviatedPass(const Deviation& deviation, const capture::PassCase& c, Bind bind, const capture::PassModel& model);
+  bool applies() const { return applies_; }
+  /// Writes the texel's stored bytes into `out`, arrays like c.outputs.
+  void store(Texel at, HalfMode mode, std::vector<capture::Array>& out) const;
+
+ private:
+  const Deviation& deviation_;
+  const capture::PassCase& case_;
+  const capture::PassModel& model_;
+  capture::PassCase altered_;
+  std::unique_ptr<capture::PassModel> altered_model_;
+  std::vector<capture::Array> finished_;
+  std::vector<Slot> slots_;
+  bool applies_ = true;
+};
+
+}  // namespace rainref::conformance

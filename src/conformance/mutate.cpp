@@ -1,0 +1,114 @@
+// The power of a pack: which deviations of the reference it would catch.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "conformance/judge.h"
+#include "conformance/profiles.h"
+#include "conformance/validate.h"
+#include "rainref/error.h"
+
+namespace rainref::conformance {
+namespace {
+
+using capture::Array;
+using capture::PassCase;
+
+std::vector<Texel> spread(const capture::PassModel& model, int most) {
+  std::vector<Texel> all;
+  const std::int64_t count = static_cast<std::int64_t>(model.width()) * model.height(), taken = std::min<std::int64_t>(count, most);
+  for (std::int64_t k = 0; k < taken; ++k) {
+    const std::int64_t i = k * count / taken;
+    all.push_back({static_cast<int>(i % model.width()), static_cast<int>(i / model.width())});
+  }
+  return all;
+}
+bool differs(const std::vector<Slot>& slots, const PassCase& c, const std::vector<Array>& stored, const std::vector<Array>& plain, Texel t) {
+  static_cast<void>(c);
+  for (const Slot& s : slots) {
+    const std::size_t o = static_cast<std::size_t>(s.output);
+    if (s.code(stored[o], t.x, t.y) != s.code(plain[o], t.x, t.y)) return true;
+  }
+  return false;
+}
+
+/// One deviation on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
+/// only where it is so under every rounding that the profile leaves open.
+void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
+                  const enclosed::Profile& profile, MutantJudgement& out) {
+  const DeviatedPass deviated(d, c, bind, model);
+  if (!deviated.applies()) return;
+  const std::vector<Slot> slots = slots_of(c);
+  std::vector<Array> stored, plain;
+  for (const capture::CaseOutput& o : c.outputs) plain.push_back(o.array);
+  stored = plain;
+  std::vector<HalfMode> modes{HalfMode::rne, HalfMode::rtz};
+  if (profile.half_store == enclosed::StoreRounding::rne) modes = {HalfMode::rne};
+  if (profile.half_store == enclosed::StoreRounding::rtz) modes = {HalfMode::rtz};
+  const Deviation none{};
+  const DeviatedPass undeviated(none, c, bind, model);
+  std::int64_t fewest = -1;
+  for (const HalfMode mode : modes) {
+    const InvocationJudge judge(c, model, profile, mode);
+    std::int64_t outside = 0, differing = 0;
+    for (const Texel t : texels) {
+      deviated.store(t, mode, stored);
+      undeviated.store(t, mode, plain);
+      if (!differs(slots, c, stored, plain, t)) continue;
+      ++differing;
+      outside += !judge.accepts(t.x, t.y, stored);
+    }
+    if (mode == modes.front()) {
+      out.compared += static_cast<std::int64_t>(texels.size());
+      out.differing += differing;
+    }
+    fewest = fewest < 0 ? outside : std::min(fewest, outside);
+  }
+  out.outside += fewest;
+}
+
+}  // namespace
+
+MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations) {
+  const enclosed::Profile& chosen = profile(options.profile);
+  MutationReport report;
+  report.pack = pack.folder().string();
+  report.profile = options.profile;
+  for (const capture::PackPass& pass : pack.passes) {
+    if (!options.only.empty() && pass.name != options.only) continue;
+    const Bind bind = binder(pack.effect, pass.name);
+    std::map<std::string, std::size_t> places;  // of a deviation among the mutants
+    std::optional<PassCase> before;
+    bool judged = false;
+    for (const capture::PackCase& entry : pack.cases) {
+      if (entry.pass != pass.name) continue;
+      PassCase c = pack.read(entry);
+      if (slots_of(c).empty() || !bind) continue;
+      judged = true;
+      const std::unique_ptr<capture::PassModel> model = bind(c);
+      const std::vector<Texel> texels = spread(*model, invocations);
+      const std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
+      for (const Deviation& d : all) {
+        if (places.contains(d.name)) continue;
+        places[d.name] = report.mutants.size();
+        report.mutants.push_back({pass.name, d.name, d.sentence, d.legal});
+      }
+      options.executor->for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) {
+          const Deviation& d = all[static_cast<std::size_t>(k)];
+          try {
+            judge_mutant(d, c, bind, *model, texels, chosen, report.mutants[places[d.name]]);
+          } catch (const Error&) {
+            // the altered case is none that the pass can run: nothing to compare
+          }
+        }
+      });
+      before = std::move(c);
+    }
+    if (!judged) report.unjudged.push_back(fmt::format("{}: no output is judged by envelope", pass.name));
+  }
+  return report;
+}
+
+}  // namespace rainref::conformance

@@ -1,0 +1,155 @@
+#include "conformance/output_slips.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "image/colour.h"
+#include "math/half.h"
+#include "math/real64.h"
+
+namespace rainref::conformance {
+namespace {
+
+using capture::Array;
+using capture::PassCase;
+
+std::size_t texel_offset(const Array& a, int x, int y) {
+  return (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes();
+}
+/// Gives texel (x, y) the bytes of the texel that from(x, y) names.
+template <class From>
+void rearrange(Array& a, From from) {
+  const std::vector<std::byte> old = a.levels[0];
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      const auto [u, v] = from(x, y);
+      std::memcpy(a.levels[0].data() + texel_offset(a, x, y), old.data() + texel_offset(a, u, v), a.element_bytes());
+    }
+  }
+}
+/// Passes every value of an image through a function.
+template <class Change>
+void change_values(Array& a, const Slot& any, Change change) {
+  Slot s = any;
+  const int channels = info(a.format).channels;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      for (s.channel = 0; s.channel < std::min(channels, 3); ++s.channel) {
+        std::byte* at = a.levels[0].data() + s.offset(x, y);
+        store_value(s, change(stored_value(s, at)), s.store_rounding, at);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void flip_rows(Array& a) {
+  rearrange(a, [&](int x, int y) { return std::pair(x, a.height - 1 - y); });
+}
+void flip_columns(Array& a) {
+  rearrange(a, [&](int x, int y) { return std::pair(a.width - 1 - x, y); });
+}
+void shift(Array& a, int dx, int dy) {
+  rearrange(a, [&](int x, int y) { return std::pair(std::clamp(x + dx, 0, a.width - 1), std::clamp(y + dy, 0, a.height - 1)); });
+}
+void swap_channels(Array& a, int first, int second) {
+  const FormatInfo& f = info(a.format);
+  const std::size_t n = static_cast<std::size_t>(f.channel_bytes);
+  for (std::vector<std::byte>& level : a.levels)
+    for (std::size_t t = 0; t + static_cast<std::size_t>(f.texel_bytes()) <= level.size(); t += static_cast<std::size_t>(f.texel_bytes()))
+      std::swap_ranges(level.begin() + static_cast<std::ptrdiff_t>(t + static_cast<std::size_t>(first) * n),
+                       level.begin() + static_cast<std::ptrdiff_t>(t + static_cast<std::size_t>(first + 1) * n),
+                       level.begin() + static_cast<std::ptrdiff_t>(t + static_cast<std::size_t>(second) * n));
+}
+
+void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+  const std::vector<Slot> slots = slots_of(c);
+  std::vector<int> images;
+  for (const Slot& s : slots)
+    if (images.empty() || images.back() != s.output) images.push_back(s.output);
+  const auto add = [&](std::string name, std::string sentence, std::function<bool(const PassCase&, std::vector<Array>&)> alter) {
+    Deviation d;
+    d.name = std::move(name);
+    d.sentence = std::move(sentence);
+    d.alter_outputs = std::move(alter);
+    out.push_back(std::move(d));
+  };
+  const auto each = [&](std::string name, std::string sentence, std::function<void(Array&)> alter) {
+    add(std::move(name), std::move(sentence), [images, alter](const PassCase&, std::vector<Array>& arrays) {
+      for (const int i : images) alter(arrays[static_cast<std::size_t>(i)]);
+      return !images.empty();
+    });
+  };
+  each("upside down", "the buffer is stored from the bottom up", flip_rows);
+  each("mirrored", "the buffer is mirrored left to right", flip_columns);
+  each("transposed", "rows and columns are exchanged", [](Array& a) {
+    const int side = std::min(a.width, a.height);
+    rearrange(a, [side](int x, int y) { return x < side && y < side ? std::pair(y, x) : std::pair(x, y); });
+  });
+  each("one column off", "the buffer is shifted by one column", [](Array& a) { shift(a, 1, 0); });
+  each("one column off, other way", "the buffer is shifted by one column", [](Array& a) { shift(a, -1, 0); });
+  each("one row off", "the buffer is shifted by one row", [](Array& a) { shift(a, 0, 1); });
+  each("one row off, other way", "the buffer is shifted by one row", [](Array& a) { shift(a, 0, -1); });
+  each("last column not written", "the last column keeps zero: the dispatch is one column short", [](Array& a) {
+    for (int y = 0; y < a.height; ++y) std::memset(a.levels[0].data() + texel_offset(a, a.width - 1, y), 0, a.element_bytes());
+  });
+  each("last row not written", "the last row keeps zero: the dispatch is one row short", [](Array& a) {
+    std::memset(a.levels[0].data() + texel_offset(a, 0, a.height - 1), 0, a.element_bytes() * static_cast<std::size_t>(a.width));
+  });
+  each("partial workgroups not written", "texels beyond the last whole 8 x 8 workgroup keep zero", [](Array& a) {
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x)
+        if (x >= a.width / 8 * 8 || y >= a.height / 8 * 8) std::memset(a.levels[0].data() + texel_offset(a, x, y), 0, a.element_bytes());
+  });
+  each("not written", "the buffer keeps zeros", [](Array& a) { std::fill(a.levels[0].begin(), a.levels[0].end(), std::byte{0}); });
+
+  for (const int i : images) {
+    const capture::CaseOutput& o = c.outputs[static_cast<std::size_t>(i)];
+    const FormatInfo& f = info(o.array.format);
+    const std::size_t at = static_cast<std::size_t>(i);
+    const Slot slot = *std::find_if(slots.begin(), slots.end(), [&](const Slot& s) { return s.output == i; });
+    const auto one = [&](std::string name, std::string sentence, std::function<void(Array&)> alter) {
+      add(fmt::format("{} {}", o.name, name), std::move(sentence), [at, alter](const PassCase&, std::vector<Array>& arrays) {
+        alter(arrays[at]);
+        return true;
+      });
+    };
+    if (f.channels >= 2)
+      one("with its first two channels swapped", "the first two channels are exchanged: swapped ping-pong", [](Array& a) { swap_channels(a, 0, 1); });
+    if (f.channels >= 3) one("as BGRA", "red and blue are exchanged", [](Array& a) { swap_channels(a, 0, 2); });
+    if (f.kind == FormatInfo::unorm8 && f.channels >= 3) {
+      one("sRGB encoded twice", "the display encoding is applied a second time", [slot](Array& a) {
+        change_values(a, slot, [](float v) {
+          return v <= 0.0031308f ? v * 12.92f : static_cast<float>(1.055 * pow_real(Real64(v), Real64(1 / 2.4)).v - 0.055);
+        });
+      });
+      one("not encoded", "the display encoding is undone: an sRGB view was read back", [slot](Array& a) {
+        change_values(a, slot, [](float v) { return static_cast<float>(decode_srgb(v)); });
+      });
+    }
+    if (f.kind == FormatInfo::float32) {
+      one("through half", "the buffer has half precision (rgba16f instead of rgba32f)",
+          [slot](Array& a) { change_values(a, slot, [](float v) { return to_float(to_half(v)); }); });
+    }
+    if (f.kind == FormatInfo::float16) {
+      one("through 8 bits", "the buffer has 8 bits a channel",
+          [slot](Array& a) { change_values(a, slot, [](float v) { return to_float(to_unorm8(v)); }); });
+      one("in one code coarser steps", "stores lose the last bit", [slot](Array& a) {
+        change_values(a, slot, [](float v) { return to_float(Half{static_cast<std::uint16_t>(to_half(v).bits & 0xfffeu)}); });
+      });
+    }
+    if (const capture::CaseInput* in = c.input(o.name); in && in->array.levels.size() == 1 && in->array.levels[0].size() == o.array.levels[0].size()) {
+      const Array stale = in->array;
+      one("is its own input", "the buffer is the state before the pass: a stale frame or a missing swap", [stale](Array& a) { a.levels = stale.levels; });
+    }
+    if (const capture::CaseOutput* old = before ? before->output(o.name) : nullptr; old && old->array.levels[0].size() == o.array.levels[0].size()) {
+      const Array stale = old->array;
+      one("stale", "the buffer is that of the run before", [stale](Array& a) { a.levels = stale.levels; });
+    }
+  }
+}
+
+}  // namespace rainref::conformance

@@ -1,0 +1,161 @@
+// `rainref pack`, and the captures of `rainref run`.
+#include "base/hash.h"
+#include "capture/pack_read.h"
+#include "cli/support.h"
+#include "image_io/write.h"
+#include "math/simd_target.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::StartsWith;
+
+class PackVerb : public CommandLine {
+ protected:
+  Outcome pack(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "pack");
+    Circumstances c;
+    c.is_copy = true;
+    const Outcome o = rainref(arguments, c);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(o.err, "");
+    return o;
+  }
+  capture::Pack read(const std::string& name) const { return capture::Pack(folder / name); }
+  std::vector<std::string> ids(const std::string& name) const {
+    std::vector<std::string> out;
+    for (const capture::PackCase& c : read(name).cases) out.push_back(c.id);
+    return out;
+  }
+  /// Every file with its bytes.
+  std::map<std::string, std::string> files(const std::string& name) const {
+    std::map<std::string, std::string> out;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / name)) {
+      if (entry.is_regular_file()) out[std::filesystem::relative(entry.path(), folder / name)] = contents(entry.path());
+    }
+    return out;
+  }
+  /// The lines of `rainref hash`, from the outputs of a pack; substeps run into one hash.
+  static std::vector<std::string> hash_lines(const capture::Pack& pack) {
+    std::vector<std::string> names;
+    std::map<std::string, Hasher> hashers;
+    for (const capture::PackCase& entry : pack.cases) {
+      const capture::PassCase c = pack.read(entry);
+      for (const capture::CaseOutput& output : c.outputs) {
+        const std::string name = fmt::format("{} {} {}", c.frame, c.pass, output.name);
+        if (!hashers.contains(name)) names.push_back(name);
+        hashers[name].add(output.array.levels[0]);
+      }
+    }
+    std::vector<std::string> lines;
+    for (const std::string& name : names) lines.push_back(fmt::format("{} {}", name, hashers[name].finish().text()));
+    return lines;
+  }
+};
+
+TEST_F(PackVerb, OutputsAreWhatHashHashes) {
+  for (const std::string scene : {"corrected.toml", "published.toml"}) {
+    pack({scene, "-o", "p", "--at", "0,1", "--set", "puddle.drop_intensity=3"});
+    std::vector<std::string> expected = hash({scene, "--set", "puddle.drop_intensity=3"});
+    expected.pop_back();
+    EXPECT_EQ(hash_lines(read("p")), expected);
+  }
+}
+
+TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
+  const Outcome o = pack({"published.toml", "-o", "p"});
+  EXPECT_THAT(o.out, MatchesRegex("18 cases of raindrops wave_step surface_hit ground_noise shade display in [0-9]+ files, [0-9.]+ MiB, in p\n"));
+  std::vector<std::string> expected = hash({"published.toml", "--frames", "13"}), found = hash_lines(read("p"));
+  EXPECT_THAT(found, testing::IsSubsetOf(expected));
+  EXPECT_EQ(found.size(), 3u * 7);
+  EXPECT_THAT(ids("p"), testing::IsSupersetOf({"puddle.shade/0000.0", "puddle.shade/0001.0", "puddle.shade/0012.0"}));
+}
+
+TEST_F(PackVerb, FramesAndPassesAreChosen) {
+  pack({"corrected.toml", "-o", "p", "--at", "3,1,3", "--passes", "shade,wave_step"});
+  EXPECT_THAT(ids("p"), ElementsAre("puddle.wave_step/0001.0", "puddle.wave_step/0001.1", "puddle.wave_step/0001.2", "puddle.wave_step/0001.3", "puddle.shade/0001.0",
+                                    "puddle.wave_step/0003.0", "puddle.wave_step/0003.1", "puddle.wave_step/0003.2", "puddle.wave_step/0003.3", "puddle.shade/0003.0"));
+}
+
+TEST_F(PackVerb, ThreadsAndSimdTargetsDoNotMatter) {
+  pack({"corrected.toml", "-o", "p", "--at", "1", "--threads", "1"});
+  const auto expected = files("p");
+  for (const std::string& target : simd_targets()) {
+    pack({"corrected.toml", "-o", "p", "--at", "1", "--threads", "3", "--simd", target});
+    EXPECT_EQ(files("p"), expected) << target;
+  }
+}
+
+TEST_F(PackVerb, AnOlderPackIsReplacedAndNothingElse) {
+  pack({"corrected.toml", "-o", "p", "--at", "0"});
+  pack({"corrected.toml", "-o", "p", "--at", "1", "--passes", "display"});
+  EXPECT_THAT(ids("p"), ElementsAre("puddle.display/0001.0"));
+  put(folder / "p/mine.txt", "mine");
+  before = folder.names();
+  expect_refusal({"pack", "corrected.toml", "-o", "p"}, 4, "cannot write 'p': the pack there would be replaced, but 'mine.txt' is no part of it");
+  EXPECT_THAT(ids("p"), ElementsAre("puddle.display/0001.0"));
+  std::filesystem::create_directory(folder / "d");
+  put(folder / "d/mine.txt", "mine");
+  before = folder.names();
+  expect_refusal({"pack", "corrected.toml", "-o", "d"}, 4, "cannot write 'd': the folder is not empty and no pack of rainref");
+  expect_refusal({"pack", "corrected.toml", "-o", "sky.png"}, 4, "cannot write 'sky.png': a file of that name exists");
+}
+
+TEST_F(PackVerb, BadArguments) {
+  expect_refusal({"pack", "corrected.toml"}, 2, HasSubstr("--output is required"));
+  expect_refusal({"pack", "-o", "p"}, 2, HasSubstr("SCENE is required"));
+  expect_refusal({"pack", "corrected.toml", "-o", ""}, 2, "--output: expected a folder, found ''");
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--frames", "3"}, 2, StartsWith("--frames: unknown option of 'pack'"));
+  for (const auto& [at, found] : std::vector<std::pair<std::string, std::string>>{{"", ""}, {"1,", ""}, {"-1", "-1"}, {"1;2", "1;2"}, {"0,x", "x"}, {"1000001", "1000001"}}) {
+    expect_refusal({"pack", "corrected.toml", "-o", "p", "--at", at}, 2, fmt::format("--at: expected a whole number from 0 to 1000000, found '{}'", found));
+  }
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "wave_stp"}, 2,
+                 "--passes: expected some of raindrops, wave_step, surface_hit, shade, display, found 'wave_stp'; did you mean 'wave_step'?");
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "ground_noise"}, 2, HasSubstr("found 'ground_noise'"));  // as-published only
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", ""}, 2, EndsWith("found ''"));
+  expect_refusal({"pack", "none.toml", "-o", "p"}, 4, HasSubstr("none.toml"));
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "puddle.zebra=1"}, 2, HasSubstr("puddle.zebra"));
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "environment.image=none.png"}, 4, HasSubstr("none.png"));
+}
+
+TEST_F(PackVerb, AFullDiskLeavesNothing) {
+  Circumstances c;
+  c.file_bytes = 2000;
+  expect_refusal({"pack", "corrected.toml", "-o", "new/deep", "--at", "0"}, 4, AllOf(StartsWith("cannot write 'new/deep/"), EndsWith("File too large")), c);
+}
+
+using RunCapture = PackVerb;
+
+TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
+  Circumstances c;
+  c.is_copy = true;
+  Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--frames", "5", "--every", "2", "--capture", "all"}, c);
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(o.out, EndsWith(", 3 pictures, capture/ and summary.json in o\n"));
+  pack({"corrected.toml", "-o", "p", "--at", "0,2,4", "--set", "run.frames=5"});
+  EXPECT_EQ(files("o/capture"), files("p"));  // a capture is a pack
+
+  o = rainref({"run", "corrected.toml", "-o", "o", "--capture", "passes"}, c);  // the older capture is replaced
+  EXPECT_EQ(o.code, 0) << o.err;
+  const capture::Pack outputs = read("o/capture");
+  EXPECT_FALSE(outputs.with_inputs);
+  EXPECT_THAT(hash_lines(outputs), testing::IsSubsetOf(hash({"corrected.toml"})));
+  EXPECT_EQ(hash_lines(outputs).size(), 6u);  // the last frame
+}
+
+TEST_F(RunCapture, BadArguments) {
+  expect_refusal({"run", "corrected.toml", "--capture", "pases"}, 2, "--capture: expected passes or all, found 'pases'; did you mean 'passes'?");
+  expect_refusal({"run", "corrected.toml", "--capture", ""}, 2, "--capture: expected passes or all, found ''");
+  std::filesystem::create_directories(folder / "o/capture");
+  put(folder / "o/capture/mine.txt", "mine");
+  before = folder.names();
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--capture", "all"}, 4, "cannot write 'o/capture': the folder is not empty and no pack of rainref");
+}
+
+}  // namespace
+}  // namespace rainref::cli

@@ -1,0 +1,144 @@
+// The fuzzers' targets without a fuzzer: the seeds as they are, cut off at every byte, and changed in a fixed random
+// way. A seed whose name starts with "refused" must be refused, each other must be accepted.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/temporary_folder.h"
+#include "fuzz/targets.h"
+
+namespace {
+// The largest block that was asked for by operator new, of this whole program.
+std::size_t largest_block = 0;
+}  // namespace
+
+// Not inlined: GCC would see malloc on one side and delete on the other, and warn.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  largest_block = std::max(largest_block, size);
+  if (void* block = std::malloc(std::max<std::size_t>(size, 1))) return block;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void operator delete(void* block) noexcept { std::free(block); }
+__attribute__((noinline)) void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+
+namespace rainref::fuzz {
+namespace {
+
+// A file of a few kilobytes is no reason to ask for more.
+constexpr std::size_t most_memory = std::size_t{64} << 20;
+constexpr int changes = 4000;
+
+struct Seed {
+  std::string name, bytes;
+};
+std::vector<Seed> seeds_of(const Target& target) {
+  std::vector<Seed> out;
+  const std::filesystem::path folder = std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds" / target.name;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    out.push_back({entry.path().filename(), contents(entry.path())});
+  std::ranges::sort(out, {}, &Seed::name);
+  return out;
+}
+
+bool run(const Target& target, const std::string& bytes) {
+  // A copy of the exact size, so that a sanitizer sees a read behind its end.
+  const std::vector<char> exact(bytes.begin(), bytes.end());
+  return target.accepts(std::as_bytes(std::span(exact)));
+}
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  // splitmix64, Steele, Lea and Flood 2014.
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+  }
+  std::size_t below(std::size_t limit) { return next() % limit; }
+
+ private:
+  std::uint64_t state_;
+};
+
+std::string changed(const std::vector<Seed>& seeds, Random& random) {
+  std::string bytes = seeds[random.below(seeds.size())].bytes;
+  for (std::size_t step = random.below(4); step < 4 && !bytes.empty(); ++step) {
+    const std::size_t at = random.below(bytes.size()), count = std::min(1 + random.below(8), bytes.size() - at);
+    const std::string& other = seeds[random.below(seeds.size())].bytes;
+    switch (random.below(7)) {
+      case 0:
+        bytes[at] = static_cast<char>(bytes[at] ^ 1 << random.below(8));
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(random.next());
+        break;
+      case 2:  // a size at its limits
+        bytes.replace(at, count, count, random.below(2) ? '\xff' : '\0');
+        break;
+      case 3:
+        bytes.erase(at, count);
+        break;
+      case 4:
+        bytes.insert(at, bytes, random.below(bytes.size()), 1 + random.below(16));
+        break;
+      case 5:
+        bytes.insert(at, std::to_string(random.next() >> random.below(64)));
+        break;
+      case 6:  // the beginning of one seed, the end of another
+        bytes = bytes.substr(0, at) + other.substr(std::min(at, other.size()));
+        break;
+    }
+  }
+  return bytes;
+}
+
+class Replay : public ::testing::TestWithParam<Target> {
+ protected:
+  void SetUp() override { largest_block = 0; }
+  void TearDown() override { EXPECT_LT(largest_block, most_memory); }
+};
+INSTANTIATE_TEST_SUITE_P(Targets, Replay, ::testing::ValuesIn(targets),
+                         [](const auto& param) { return std::string(param.param.name); });
+
+TEST_P(Replay, SeedsAreAcceptedOrRefusedAsNamed) {
+  int accepted = 0;
+  for (const Seed& seed : seeds_of(GetParam())) {
+    const bool is_good = !seed.name.starts_with("refused");
+    EXPECT_EQ(run(GetParam(), seed.bytes), is_good) << seed.name;
+    accepted += is_good;
+  }
+  EXPECT_GT(accepted, 1);
+}
+
+TEST_P(Replay, EveryTruncation) {
+  for (const Seed& seed : seeds_of(GetParam())) {
+    for (std::size_t size = 0; size < seed.bytes.size(); ++size) run(GetParam(), seed.bytes.substr(0, size));
+  }
+}
+
+TEST_P(Replay, ChangedSeeds) {
+  const std::vector<Seed> seeds = seeds_of(GetParam());
+  Random random(2026);
+  int refused = 0;
+  for (int i = 0; i < changes; ++i) refused += !run(GetParam(), changed(seeds, random));
+  EXPECT_GT(refused, changes / 10);  // the changes reach what is checked
+}
+
+// The guard above must be able to fail.
+TEST(ReplayGuard, SeesLargeBlocks) {
+  largest_block = 0;
+  // Kept from the optimizer, which may drop an allocation that nothing uses.
+  volatile std::size_t size = most_memory + 1;
+  ::operator delete(::operator new(size));
+  EXPECT_GT(largest_block, most_memory);
+}
+
+}  // namespace
+}  // namespace rainref::fuzz

@@ -1,0 +1,245 @@
+// `rainref describe --layout`, compiled in each language: the offsets that the compiler gives the members find the
+// values that the small packs' manifests name in the packs' uniform bytes.
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <regex>
+
+#include "cli/support.h"
+
+namespace rainref::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Offsets of a block or record, by member, and its size.
+struct Offsets {
+  std::map<std::string, int> of;
+  int size = 0;
+};
+
+bool is_there(const char* tool) { return std::system(fmt::format("command -v {} > /dev/null 2>&1", tool).c_str()) == 0; }
+
+class Layout : public testing::Test {
+ protected:
+  Layout() {
+    for (const char* variant : {"as-published", "corrected"}) {
+      const std::filesystem::path pack = fmt::format(RAINREF_SOURCE_DIR "/tests/packs/puddle-{}", variant);
+      packs.emplace_back(pack, ordered_json::parse(contents(pack / "manifest.json")));
+    }
+  }
+
+  std::string described(const std::string& language) const {
+    Circumstances c;
+    c.is_copy = true;
+    const Outcome o = run_rainref(folder.path(), {"describe", "puddle", "--layout", language}, c);
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.out;
+  }
+  /// The text of one block or record: from its own comment to the next empty line.
+  static std::string section(const std::string& text, const std::string& name) {
+    const std::size_t begin = text.find(fmt::format("// {}: ", name));
+    EXPECT_NE(begin, std::string::npos) << name;
+    return begin == std::string::npos ? "" : text.substr(begin, text.find("\n\n", begin) - begin + 1);
+  }
+  std::string output(const std::string& command) const {
+    std::string out;
+    std::FILE* pipe = ::popen(fmt::format("cd {} && {} 2>&1", folder.path().string(), command).c_str(), "r");
+    std::array<char, 4096> buffer;
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
+    EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
+    return out;
+  }
+  /// Blocks of the passes and records of the packs, by name.
+  std::map<std::string, ordered_json> layouts(bool records) const {
+    std::map<std::string, ordered_json> out;
+    for (const auto& [path, manifest] : packs) {
+      if (records) {
+        for (const ordered_json& r : manifest["records"]) out[r["name"]] = r;
+      } else {
+        for (const ordered_json& p : manifest["passes"]) out[p["uniform_block"]["name"]] = p["uniform_block"];
+      }
+    }
+    EXPECT_EQ(out.size(), records ? 2u : 7u);
+    return out;
+  }
+  /// What a compiler found agrees with the manifest and, for a block, with the bytes of every case.
+  void expect_agrees(const ordered_json& layout, const Offsets& found) const {
+    const std::string name = layout["name"];
+    EXPECT_EQ(found.size, layout["size"].get<int>()) << name;
+    for (const ordered_json& m : layout["members"]) {
+      const auto at = found.of.find(m["name"]);
+      ASSERT_NE(at, found.of.end()) << name << '.' << m["name"];
+      EXPECT_EQ(at->second, m["offset"].get<int>()) << name << '.' << m["name"];
+    }
+    for (const auto& [path, manifest] : packs) {
+      for (const ordered_json& c : manifest["cases"]) {
+        const auto pass = std::find_if(manifest["passes"].begin(), manifest["passes"].end(), [&](const ordered_json& p) { return p["name"] == c["pass"]; });
+        if ((*pass)["uniform_block"]["name"] != name) continue;
+        const std::string bytes = contents(path / c["uniform_block"]["file"].get<std::string>());
+        ASSERT_EQ(static_cast<int>(bytes.size()), found.size);
+        for (const ordered_json& u : c["uniforms"]) {
+          const ordered_json bits = u["bits"].is_array() ? u["bits"] : ordered_json::array({u["bits"]});
+          for (std::size_t k = 0; k < bits.size(); ++k) {
+            std::uint32_t word;
+            std::memcpy(&word, bytes.data() + found.of.at(u["name"]) + 4 * k, 4);
+            EXPECT_EQ(fmt::format("0x{:08x}", word), bits[k].get<std::string>()) << c["id"] << ' ' << u["name"];
+          }
+        }
+      }
+    }
+  }
+  /// A program that prints offsetof and sizeof of all that `source` declares.
+  std::string printing_program(const std::string& source) const {
+    std::string text = "#include <stddef.h>\n#include <stdio.h>\n" + source + "int main(void) {\n";
+    for (const bool records : {false, true}) {
+      for (const auto& [name, layout] : layouts(records)) {
+        for (const ordered_json& m : layout["members"]) {
+          text += fmt::format("  printf(\"{0} {1} %d\\n\", (int)offsetof({0}, {1}));\n", name, m["name"].get<std::string>());
+        }
+        text += fmt::format("  printf(\"{0} = %d\\n\", (int)sizeof({0}));\n", name);
+      }
+    }
+    return text + "  return 0;\n}\n";
+  }
+  void expect_printed(const std::string& printed) const {
+    std::map<std::string, Offsets> found;
+    for (const std::string& line : lines_of(printed)) {
+      const std::size_t a = line.find(' '), b = line.rfind(' ');
+      const std::string member = line.substr(a + 1, b - a - 1);
+      const int value = std::atoi(line.c_str() + b + 1);
+      if (member == "=") found[line.substr(0, a)].size = value;
+      else found[line.substr(0, a)].of[member] = value;
+    }
+    for (const bool records : {false, true}) {
+      for (const auto& [name, layout] : layouts(records)) expect_agrees(layout, found[name]);
+    }
+  }
+  /// Offsets from glslang's reflection: "drops[0].x: offset 0, type ...", and the size of the block.
+  Offsets reflected(const std::string& file, const std::string& options, const std::string& block, bool is_record) const {
+    Offsets out;
+    static const std::regex member("([A-Za-z0-9_]+): offset ([0-9]+), .*"), whole("([A-Za-z0-9_]+): offset -1, type [0-9a-f]+, size ([0-9]+), .*");
+    for (std::string line : lines_of(output(fmt::format("glslangValidator {} -l -q --reflect-all-block-variables -S comp {}", options, file)))) {
+      std::smatch m;
+      if (std::regex_match(line, m, whole)) {
+        if (m[1] == block) out.size = std::stoi(m[2]);
+        continue;
+      }
+      if (is_record && line.find('.') == std::string::npos) continue;  // the result's own buffer
+      line.erase(0, line.find('.') == std::string::npos ? 0 : line.rfind('.', line.find(':')) + 1);
+      if (std::regex_match(line, m, member)) out.of[m[1]] = std::stoi(m[2]);
+    }
+    return out;
+  }
+  static std::string first_member(const ordered_json& layout) {
+    // Components beyond the first need no name: a use of any part keeps the block alive.
+    const ordered_json& m = layout["members"][0];
+    return fmt::format("{}{}", m["name"].get<std::string>(), m["components"] == 1 ? "" : ".x");
+  }
+  static std::string snake(const std::string& name) {
+    std::string out;
+    for (const char c : name) {
+      if (std::isupper(static_cast<unsigned char>(c)) && !out.empty()) out += '_';
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return out;
+  }
+
+  TemporaryFolder folder;
+  std::vector<std::pair<std::filesystem::path, ordered_json>> packs;
+};
+
+TEST_F(Layout, C) {
+  put(folder / "a.c", printing_program(described("c")));
+  output(fmt::format("{} -x c -std=c99 -pedantic -Wall -Wextra -Werror -o program a.c", RAINREF_CXX_COMPILER));
+  expect_printed(output("./program"));
+}
+
+// CUDA as far as a C++ compiler tells, with the alignments that its programming guide gives the vector types.
+TEST_F(Layout, CudaTextInCpp) {
+  std::string vectors;
+  for (const auto& [name, of] : {std::pair("float", "float"), std::pair("int", "int"), std::pair("uint", "unsigned int")}) {
+    vectors += fmt::format("struct alignas(8) {0}2 {{ {1} x, y; }};\nstruct {0}3 {{ {1} x, y, z; }};\nstruct alignas(16) {0}4 {{ {1} x, y, z, w; }};\n", name, of);
+  }
+  put(folder / "a.cpp", printing_program(vectors + described("cuda")));
+  output(fmt::format("{} -x c++ -std=c++17 -Wall -Wextra -Werror -o program a.cpp", RAINREF_CXX_COMPILER));
+  expect_printed(output("./program"));
+}
+
+TEST_F(Layout, CudaByNvcc) {
+  if (!is_there("nvcc")) GTEST_SKIP() << "no nvcc on this machine";
+  put(folder / "a.cu", printing_program(described("cuda")));
+  output("nvcc -o program a.cu");
+  expect_printed(output("./program"));
+}
+
+TEST_F(Layout, Glsl) {
+  if (!is_there("glslangValidator")) GTEST_SKIP() << "no glslangValidator on this machine (Debian: glslang-tools)";
+  const std::string text = described("glsl");
+  for (const bool records : {false, true}) {
+    for (const auto& [name, layout] : layouts(records)) {
+      const std::string use = records ? snake(name) + "s[1]" : snake(name);
+      put(folder / "a.comp", fmt::format("#version 450\n{}layout(std430, binding = 9) buffer Out {{ float result; }};\nvoid main() {{ result = float({}.{}); }}\n", section(text, name), use,
+                                         first_member(layout)));
+      expect_agrees(layout, reflected("a.comp", "", records ? name + "Buffer" : name, records));
+    }
+  }
+}
+
+TEST_F(Layout, Hlsl) {
+  if (!is_there("glslangValidator")) GTEST_SKIP() << "no glslangValidator on this machine (Debian: glslang-tools)";
+  const std::string text = described("hlsl");
+  for (const bool records : {false, true}) {
+    for (const auto& [name, layout] : layouts(records)) {
+      const std::string use = records ? fmt::format("{}s[1].{}", snake(name), first_member(layout)) : first_member(layout);
+      put(folder / "a.hlsl", fmt::format("{}RWStructuredBuffer<float> result : register(u0);\n[numthreads(1, 1, 1)] void main() {{ result[0] = float({}); }}\n", section(text, name), use));
+      expect_agrees(layout, reflected("a.hlsl", "-V -o a.spv -D -e main", records ? snake(name) + "s" : name, records));
+    }
+  }
+}
+
+// WGSL by the rules of its specification (alignment and size, "Structure member layout"), applied to the printed text.
+TEST_F(Layout, WgslByItsRules) {
+  const std::string text = described("wgsl");
+  const std::regex member("  ([a-z0-9_]+) : (?:vec([234])<)?[fiu]32>?,.*");
+  for (const bool records : {false, true}) {
+    for (const auto& [name, layout] : layouts(records)) {
+      Offsets found;
+      int end = 0, largest = 0;
+      for (const std::string& line : lines_of(section(text, name))) {
+        std::smatch m;
+        if (!std::regex_match(line, m, member)) continue;
+        const int n = m[2].matched ? std::stoi(m[2]) : 1, alignment = n == 1 ? 4 : n == 2 ? 8 : 16;
+        found.of[m[1]] = (end + alignment - 1) / alignment * alignment;
+        end = found.of[m[1]] + 4 * n;
+        largest = std::max(largest, alignment);
+      }
+      found.size = (end + largest - 1) / largest * largest;
+      // A uniform buffer's size is that of the bytes bound to it; a record's is the stride of the array.
+      expect_agrees(layout, found);
+    }
+  }
+}
+
+TEST_F(Layout, WgslByWgslReflect) {
+  if (!is_there("node") || std::system("node -e \"require.resolve('wgsl_reflect')\" > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "no node with wgsl_reflect on this machine (it is no Debian package; NODE_PATH says where it is)";
+  }
+  // import looks for no NODE_PATH; require does.
+  put(folder / "a.mjs", R"(import { createRequire } from 'module';
+import { readFileSync } from 'fs';
+import { dirname, join } from 'path';
+const found = createRequire(import.meta.url).resolve('wgsl_reflect');
+const { WgslReflect } = await import(join(dirname(found), 'wgsl_reflect.module.js'));
+for (const s of new WgslReflect(readFileSync('a.wgsl', 'utf8')).structs) {
+  for (const m of s.members) console.log(`${s.name} ${m.name} ${m.offset}`);
+  console.log(`${s.name} = ${s.size}`);
+}
+)");
+  put(folder / "a.wgsl", described("wgsl"));
+  expect_printed(output("node a.mjs"));
+}
+
+}  // namespace
+}  // namespace rainref::cli

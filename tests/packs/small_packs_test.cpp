@@ -1,0 +1,70 @@
+// The small packs that lie in the repository are what this build writes.
+#include <map>
+
+#include "capture/pack_read.h"
+#include "cli/support.h"
+
+namespace rainref::cli {
+namespace {
+
+const std::filesystem::path here = RAINREF_SOURCE_DIR "/tests/packs";
+
+std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) out[std::filesystem::relative(entry.path(), folder)] = contents(entry.path());
+  }
+  return out;
+}
+
+class SmallPack : public testing::TestWithParam<std::string> {};
+
+// A change that is meant is recorded by scripts/accept_packs.
+TEST_P(SmallPack, IsWhatThisBuildWrites) {
+  TemporaryFolder folder;
+  const std::string scene = (here / (GetParam() + ".toml")).string();
+  Circumstances c;
+  c.is_copy = true;
+  const Outcome o = run_rainref(folder.path(), {"pack", scene, "--at", "11,12", "-o", "fresh"}, c);
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto expected = files_of(here / GetParam()), found = files_of(folder / "fresh");
+  EXPECT_EQ(found.size(), expected.size());
+  for (const auto& [name, bytes] : expected) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_TRUE(found.at(name) == bytes) << name << " differs";
+  }
+}
+
+TEST_P(SmallPack, IsWholeAndHasContent) {
+  const capture::Pack pack(here / GetParam());
+  EXPECT_EQ(pack.file_beside(), "");
+  for (const capture::PackCase& entry : pack.cases) {
+    const capture::PassCase c = pack.read(entry);
+    for (const capture::CaseOutput& output : c.outputs) {
+      // Of a buffer that is the same everywhere a port could not be told from a constant.
+      const auto& bytes = output.array.levels[0];
+      const std::size_t element = output.array.element_bytes();
+      ASSERT_GT(bytes.size(), 2 * element) << c.folder() << ' ' << output.name;
+      bool varies = false;
+      for (std::size_t i = element; i < bytes.size(); i += element) varies = varies || !std::equal(&bytes[0], &bytes[element], &bytes[i]);
+      EXPECT_TRUE(varies) << c.folder() << ' ' << output.name;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Puddle, SmallPack, testing::Values("puddle-as-published", "puddle-corrected"), [](const auto& tested) {
+  std::string name = tested.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(SmallPacks, TogetherAreUnder300Kilobytes) {
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(here)) {
+    if (entry.is_regular_file() && entry.path().extension() != ".cpp") bytes += entry.file_size();
+  }
+  EXPECT_LT(bytes, 300000u);
+}
+
+}  // namespace
+}  // namespace rainref::cli

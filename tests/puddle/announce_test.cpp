@@ -1,0 +1,236 @@
+// What the puddle tells a recorder about its passes: enough to run each of them elsewhere.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+#include "capture/capture_recorder.h"
+#include "puddle/golden_scenes.h"
+#include "puddle/info.h"
+#include "puddle/uniforms.h"
+#include "random/counter.h"
+
+namespace rainref::puddle {
+namespace {
+
+using capture::CaseInput;
+using capture::PassCase;
+
+/// A tiny sky: the street costs a second.
+Surroundings tiny_surroundings() {
+  Surroundings around;
+  around.environment = Image(Format::rgba32f, 16, 8);
+  for (int y = 0; y < 8; ++y) {
+    for (int i = 0; i < 64; ++i) around.environment.row<float>(y)[i] = 0.01f * static_cast<float>(i + 10 * y);
+  }
+  around.ground = Image(Format::rgba8, 4, 4);
+  return around;
+}
+
+std::vector<PassCase> cases_of(const Settings& s, int frames) {
+  const parallel::Executor executor(2);
+  Puddle puddle(s, tiny_surroundings(), executor);
+  std::vector<PassCase> cases;
+  capture::CaptureRecorder recorder(effect_info(), s.variant == Variant::corrected ? "corrected" : "as-published", true,
+                                    [](int, std::string_view) { return true; }, [&](PassCase c) { cases.push_back(std::move(c)); });
+  for (int frame = 0; frame < frames; ++frame) {
+    puddle.simulate(&recorder);
+    puddle.render(&recorder);
+  }
+  return cases;
+}
+Settings settings_of(Variant variant) {
+  for (const GoldenScene& scene : golden_scenes()) {
+    if (scene.settings.variant == variant) return scene.settings;
+  }
+  return {};
+}
+Settings small(Variant variant) {
+  Settings s = settings_of(variant);
+  s.width = 19;
+  s.height = 11;
+  s.grid = {17, 13};
+  return s;
+}
+
+/// The records or uniforms of a case as values.
+template <class T>
+std::vector<T> values(const std::vector<std::byte>& bytes) {
+  std::vector<T> out(bytes.size() / sizeof(T));
+  if (!bytes.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
+  return out;
+}
+
+class Announce : public testing::TestWithParam<Variant> {};
+
+TEST_P(Announce, EveryInputIsDeclaredAndEveryDeclaredInputComes) {
+  const std::string variant = GetParam() == Variant::corrected ? "corrected" : "as-published";
+  for (const Shape shape : {Shape::natural, Shape::basin}) {
+    Settings s = small(GetParam());
+    s.shape = shape;
+    for (const PassCase& c : cases_of(s, 1)) {
+      const capture::PassInfo& info = effect_info().pass(c.pass);
+      std::vector<std::string> declared, found, outputs;
+      for (const capture::ReadInfo& r : info.reads) {
+        // A basin has no shore.
+        if ((r.variant.empty() || r.variant == variant) && !(shape == Shape::basin && r.buffer == "shore")) declared.push_back(r.buffer);
+      }
+      for (const CaseInput& input : c.inputs) found.push_back(input.name);
+      EXPECT_EQ(found, declared) << c.folder();
+      for (const auto& output : c.outputs) outputs.push_back(output.name);
+      EXPECT_EQ(outputs, info.writes) << c.folder();
+      EXPECT_EQ(c.uniforms.size(), info.block(variant).size) << c.folder();
+    }
+  }
+}
+
+// Along every edge of the graph an input holds the bits of the output it comes from.
+TEST_P(Announce, InputsAreTheOutputsThatTheGraphNames) {
+  const std::vector<PassCase> cases = cases_of(small(GetParam()), 3);
+  int edges = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const capture::ReadInfo& read : effect_info().pass(cases[i].pass).reads) {
+      const CaseInput* input = cases[i].input(read.buffer);
+      if (!input || read.from.empty()) continue;
+      // The latest run of that pass; the run before this one is the latest too.
+      std::size_t k = i;
+      while (k > 0 && cases[--k].pass != read.from) {}
+      if (cases[k].pass != read.from) continue;  // before the first step
+      EXPECT_EQ(input->array.levels, cases[k].output(read.buffer)->array.levels) << cases[i].folder() << ' ' << read.buffer;
+      ++edges;
+    }
+  }
+  EXPECT_GT(edges, 15);
+}
+
+TEST_P(Announce, TheBoundaryIsAnAddressRule) {
+  for (const auto& [boundary, address] : {std::pair(Boundary::reflecting, Address::clamp), std::pair(Boundary::periodic, Address::repeat), std::pair(Boundary::fixed, Address::border)}) {
+    for (const Format storage : {Format::rg16f, Format::rgba8}) {
+      Settings s = small(GetParam());
+      s.boundary = boundary;
+      s.storage = storage;
+      s.rounding = Rounding::rtz;
+      for (const PassCase& c : cases_of(s, 1)) {
+        const CaseInput* wave = c.input("wave");
+        if (!wave) continue;
+        EXPECT_EQ(wave->array.format, storage);
+        if (c.pass == "wave_step") {
+          EXPECT_EQ(wave->address_u, address);
+          EXPECT_EQ(wave->filter, Filter::none);
+          // The first step reads level water: the border is its stored value, decoded.
+          if (c.step == 0 && storage == Format::rgba8) {
+            const auto code = static_cast<float>(std::to_integer<int>(wave->array.levels[0][0]));
+            EXPECT_EQ(wave->border[0], code / 255);
+          }
+        } else {
+          EXPECT_EQ(wave->address_u, GetParam() == Variant::as_published && boundary == Boundary::periodic ? Address::repeat : Address::clamp);
+          EXPECT_TRUE(wave->linear);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Announce, ListeningChangesNothing) {
+  const Settings s = small(GetParam());
+  const std::vector<PassCase> cases = cases_of(s, 3);
+  const parallel::Executor executor(1);
+  Puddle alone(s, tiny_surroundings(), executor);
+  for (int frame = 0; frame < 3; ++frame) alone.simulate();
+  alone.render();
+  const scene::UniformBlock none{};
+  EXPECT_EQ(cases.back().output("picture")->array.levels, capture::array_of(BufferView(alone.picture()), none).levels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Puddle, Announce, testing::Values(Variant::as_published, Variant::corrected),
+                         [](const auto& tested) { return tested.param == Variant::corrected ? "corrected" : "as_published"; });
+
+TEST(AnnounceTime, IsThatOfTheFrameAndOfTheStep) {
+  Settings s = small(Variant::corrected);
+  s.fps = 24;
+  s.step_rate = 120;
+  for (const PassCase& c : cases_of(s, 2)) {
+    EXPECT_EQ(c.time, static_cast<float>(c.frame / 24.0)) << c.folder();
+    EXPECT_EQ(c.dt, c.pass == "raindrops" || c.pass == "wave_step" ? static_cast<float>(1 / 120.0) : static_cast<float>(1 / 24.0)) << c.folder();
+    EXPECT_LT(c.step, 5);
+  }
+}
+
+// The drops drawn again from the uniforms and tables alone, as docs/effects/puddle.md says.
+std::vector<Drop> drawn(const PassCase& c) {
+  const auto u = values<RainfallUniforms>(c.uniforms).at(0);
+  const auto craters = values<Drop>(c.input("craters")->array.levels[0]);
+  const auto thresholds = values<std::uint32_t>(c.input("count_thresholds")->array.levels[0]);
+  EXPECT_EQ(static_cast<int>(thresholds.size()), u.threshold_count);
+  const auto block = [&](std::uint32_t purpose, std::uint32_t a, std::uint32_t b) {
+    const random::Block k = random::pcg4d({u.seed[0], u.seed[1], purpose, 0});
+    return random::pcg4d({a ^ k[0], b ^ k[1], k[2], k[3]});
+  };
+  std::vector<Drop> out;
+  if (craters.empty()) return out;
+  int count = u.first_count;
+  for (const std::uint32_t t : thresholds) count += t <= block(1, u.step, 0)[0];
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+    const random::Block r = block(2, u.step, i);
+    Drop d = craters[r[2] >> 22];
+    d.x = static_cast<float>(((r[0] >> 16) * u.columns) >> 8) / 256;
+    d.y = static_cast<float>(((r[1] >> 16) * u.rows) >> 8) / 256;
+    out.push_back(d);
+    if (u.boundary == 2) continue;
+    const auto w = static_cast<float>(u.columns), h = static_cast<float>(u.rows);
+    const float xs[] = {d.x, u.boundary == 1 ? d.x - w : -d.x, u.boundary == 1 ? d.x + w : 2 * w - d.x};
+    const float ys[] = {d.y, u.boundary == 1 ? d.y - h : -d.y, u.boundary == 1 ? d.y + h : 2 * h - d.y};
+    for (int k = 1; k < 9; ++k) {
+      const float x = xs[k % 3], y = ys[k / 3];
+      if (x + d.radius > 0 && x - d.radius < w && y + d.radius > 0 && y - d.radius < h) out.push_back({x, y, d.amplitude, d.radius});
+    }
+  }
+  return out;
+}
+
+TEST(AnnounceRain, HoldsAllThatTheDropsDependOn) {
+  for (const Boundary boundary : {Boundary::reflecting, Boundary::periodic, Boundary::fixed}) {
+    for (const double rate : {0.0, 3.0, 200.0}) {
+      Settings s = small(Variant::corrected);
+      s.seed = 0x123456789abcdefull;
+      s.boundary = boundary;
+      s.rain_rate = rate;
+      s.shape = Shape::basin;
+      std::size_t drops = 0;
+      for (const PassCase& c : cases_of(s, 4)) {
+        if (c.pass != "raindrops") continue;
+        const std::vector<Drop> expected = drawn(c);
+        const auto& bytes = c.output("drops")->array.levels[0];
+        ASSERT_EQ(bytes.size(), expected.size() * sizeof(Drop)) << c.folder();
+        EXPECT_TRUE(expected.empty() || std::memcmp(bytes.data(), expected.data(), bytes.size()) == 0) << c.folder();
+        drops += expected.size();
+      }
+      EXPECT_EQ(drops > 20, rate > 100);
+    }
+  }
+}
+
+TEST(EffectInfo, TheDocumentListsEveryFormula) {
+  std::ifstream file(RAINREF_SOURCE_DIR "/docs/effects/puddle.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const capture::PassInfo& pass : effect_info().passes) {
+    for (const capture::PassVariant& v : pass.variants) {
+      EXPECT_NE(text.find("`" + capture::formula(effect_info(), pass, v) + "`"), std::string::npos) << capture::formula(effect_info(), pass, v);
+    }
+  }
+}
+
+TEST(EffectInfo, JudgesWhatNoGpuReproducesAsInput) {
+  const auto judge = [](const char* pass, const char* variant) { return effect_info().pass(pass).variant(variant)->judge; };
+  EXPECT_EQ(judge("raindrops", "as-published"), capture::Judge::input_only);
+  EXPECT_EQ(judge("raindrops", "corrected"), capture::Judge::bits);
+  EXPECT_EQ(judge("ground_noise", "as-published"), capture::Judge::input_only);
+  for (const char* pass : {"wave_step", "surface_hit", "shade", "display"}) {
+    for (const char* variant : {"as-published", "corrected"}) EXPECT_EQ(judge(pass, variant), capture::Judge::envelope) << pass << variant;
+  }
+}
+
+}  // namespace
+}  // namespace rainref::puddle

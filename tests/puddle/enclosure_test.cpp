@@ -1,0 +1,316 @@
+// The passes of the puddle, read as enclosures: the reference and any conforming GPU lie inside, under every profile.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "image/footprint.h"
+#include "image/random_sampler.h"
+#include "math/profiles.h"
+#include "night_street/night_street.h"
+#include "puddle/bounds.h"
+#include "puddle/environment.h"
+#include "puddle/golden_scenes.h"
+#include "puddle/ground.h"
+#include "puddle/host.h"
+#include "puddle/uniforms.h"
+#include "rainref/executor.h"
+
+namespace rainref::puddle {
+namespace scalar_readings {
+using namespace rainref::plain;
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
+#include "image/environment-inl.h"
+#include "puddle/raindrops.pass.h"
+#include "puddle/wave_step.pass.h"
+#include "puddle/surface_hit.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+}  // namespace scalar_readings
+namespace text = scalar_readings;
+
+namespace {
+
+using enclosed::Enclosure;
+using enclosed::Profile;
+using enclosed::ProfileScope;
+using enclosed::Replay;
+using random_gpu::RandomGpu;
+using Single = plain::Plain<float>;
+template <class N>
+using Vec3 = plain::Vec3<N>;
+
+template <class N>
+using Values = std::array<N, 3>;
+template <class N>
+Values<N> values(const Vec3<N>& v) {
+  return {v.x, v.y, v.z};
+}
+
+// What the enclosures of many invocations of one pass under one profile were like.
+struct Account {
+  int elements = 0, open = 0, vacuous = 0, outside_reference = 0, outside_gpu = 0, gpu_runs = 0, gpu_differs = 0;
+  std::vector<double> widths;
+  std::string first_outside;
+
+  void print(const std::string& pass, const std::string& profile) {
+    std::sort(widths.begin(), widths.end());
+    const auto at = [&](double q) { return widths.empty() ? 0.0 : widths[static_cast<std::size_t>(q * static_cast<double>(widths.size() - 1))]; };
+    fmt::print("{:<22} {:<8} elements {:5}  open {:4}  vacuous {:4}  width median {:10.0f} p90 {:12.0f} ULP  gpu runs that differ {:5.1f} %\n", pass,
+               profile, elements, open, vacuous, at(0.5), at(0.9), gpu_runs ? 100.0 * gpu_differs / gpu_runs : 0.0);
+  }
+};
+
+// pass(N()) gives the values of an invocation by the number N.
+template <class Pass>
+void judge(Account& account, const Pass& pass, int gpus) {
+  struct Alternative {
+    Values<Enclosure> v;
+  };
+  std::vector<Alternative> alternatives;
+  Replay replay;
+  const bool whole = replay.for_each_alternative([&] { alternatives.push_back({pass(Enclosure())}); });
+  ++account.elements;
+  account.open += alternatives.size() > 1;
+  const auto held = [&](const auto& value) {
+    return std::any_of(alternatives.begin(), alternatives.end(), [&](const Alternative& a) {
+      return a.v[0].contains(value[0].v) && a.v[1].contains(value[1].v) && a.v[2].contains(value[2].v);
+    });
+  };
+  const bool vacuous = !whole || std::any_of(alternatives.begin(), alternatives.end(), [](const Alternative& a) { return a.v[0].is_vacuous(); });
+  account.vacuous += vacuous;
+  const Values<Single> reference = pass(Single());
+  if (!whole) return;
+  if (!vacuous) {
+    for (const Enclosure& e : alternatives[0].v) account.widths.push_back(e.width_in_ulp());
+  }
+  if (!held(reference)) {
+    ++account.outside_reference;
+    account.first_outside = fmt::format("reference {} {} {} in [{}, {}] [{}, {}] [{}, {}]", reference[0].v, reference[1].v, reference[2].v,
+                                        alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
+                                        alternatives[0].v[2].lo, alternatives[0].v[2].hi);
+  }
+  if (enclosed::profile().reference) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(alternatives[0].v[k].lo), std::bit_cast<std::uint32_t>(reference[k].v));
+      EXPECT_TRUE(alternatives[0].v[k].is_point());
+    }
+    return;
+  }
+  for (int i = 0; i < gpus; ++i) {
+    const Values<RandomGpu> got = pass(RandomGpu());
+    ++account.gpu_runs;
+    account.gpu_differs += got[0].v != reference[0].v || got[1].v != reference[1].v || got[2].v != reference[2].v;
+    if (held(got)) continue;
+    ++account.outside_gpu;
+    account.first_outside = fmt::format("gpu {} {} {} in [{}, {}] [{}, {}] [{}, {}], reference {} {} {}", got[0].v, got[1].v, got[2].v, alternatives[0].v[0].lo,
+                                        alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi, alternatives[0].v[2].lo,
+                                        alternatives[0].v[2].hi, reference[0].v, reference[1].v, reference[2].v);
+  }
+}
+void expect_inside(Account& account, const std::string& pass, const std::string& profile) {
+  account.print(pass, profile);
+  EXPECT_EQ(account.outside_reference, 0) << pass << ' ' << profile << ": " << account.first_outside;
+  EXPECT_EQ(account.outside_gpu, 0) << pass << ' ' << profile << ": " << account.first_outside;
+}
+
+// A golden scene some frames in: the state before the last wave step, its drops, and everything that render takes.
+struct Scene : Recorder {
+  Settings settings;
+  Surroundings around;
+  std::vector<float> newest, previous;
+  std::vector<Drop> drops;
+  std::unique_ptr<Puddle> puddle;
+  TextureData environment, ground, relief, bed;
+  ShadeUniforms shade;
+  bool corrected;
+
+  Scene(const std::string& name, int frames) {
+    static const parallel::Executor executor(1);
+    for (const GoldenScene& g : golden_scenes()) {
+      if (g.name == name) settings = g.settings;
+    }
+    corrected = settings.variant == Variant::corrected;
+    around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
+    puddle = std::make_unique<Puddle>(settings, around, executor);
+    for (int frame = 0; frame < frames; ++frame) puddle->simulate(this);
+    puddle->render();
+    environment = prepare_environment(around, settings.variant);
+    ground = prepare_ground(make_asphalt(settings.seed), false, settings.variant);
+    shade = shade_uniforms(settings);
+    shade.environment_is_cube = false;
+    shade.ground_footprint = ground_footprint(settings, ground.view().width[0]);
+    if (corrected) {
+      relief = make_relief(ground, true);
+      bed = make_bed(settings);
+      const auto ambient = ambient_radiance(environment.view(), false);
+      for (int k = 0; k < 3; ++k) shade.ambient[k] = shade.fog_colour[k] = ambient[k];
+    }
+  }
+  // Called before wave_step with the drops of the step: the state is still the one that the step takes.
+  void pass(const PassCall& call) override {
+    if (call.pass != "raindrops") return;
+    const auto& records = std::get<RecordView>(call.outputs[0].content);
+    const auto* first = static_cast<const Drop*>(records.data);
+    drops.assign(first, first + records.count);
+    newest = stored(puddle->newest());
+    previous = stored(puddle->previous());
+  }
+  static std::vector<float> stored(const Image& plane) {
+    std::vector<float> out;
+    for (int y = 0; y < plane.height(); ++y) {
+      for (int x = 0; x < plane.width(); ++x) {
+        out.push_back(info(plane.format()).kind == FormatInfo::float32 ? plane.row<float>(y)[x] : to_float(plane.row<Half>(y)[x]));
+      }
+    }
+    return out;
+  }
+  template <class N>
+  text::Surface<N> surface(int x, int y) const {
+    const float* h = puddle->hit().row<float>(y) + 4 * x;
+    const Half* n = puddle->normal().row<Half>(y) + 4 * x;
+    return {Vec3<N>(N::load(h), N::load(h + 1), N::load(h + 2)), Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)), N::load(n + 3)};
+  }
+};
+Scene& scene(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<Scene>> scenes;
+  auto& s = scenes[name];
+  if (!s) s = std::make_unique<Scene>(name, 20);
+  return *s;
+}
+const std::string names[] = {"puddle/as-published/rg16f", "puddle/corrected/rg16f", "puddle/as-published/rg32f", "puddle/corrected/rg32f"};
+
+TEST(PuddleEnclosure, WaveStepHoldsTheReferenceAndEveryGpu) {
+  for (const std::string& name : names) {
+    const Scene& s = scene(name);
+    const auto [width, height] = wave_size(s.settings);
+    WaveStepUniforms u = wave_step_uniforms(s.settings);
+    u.drop_count = static_cast<int>(s.drops.size());
+    for (const Profile& p : test::profiles()) {
+      const ProfileScope scope(p);
+      Account account;
+      for (int i = 0; i < 400; ++i) {
+        const int x = 2 + i * 37 % (width - 4), y = 2 + i * 11 % (height - 4);
+        text::WaveRows<float> rows{};
+        rows.here = s.newest.data() + static_cast<std::ptrdiff_t>(y) * width;
+        rows.below = rows.here - width;
+        rows.above = rows.here + width;
+        rows.below_next = rows.below - width;
+        rows.above_next = rows.above + width;
+        rows.previous = s.previous.data() + static_cast<std::ptrdiff_t>(y) * width;
+        rows.reach = 1;
+        judge(account, [&]<class N>(N) -> Values<N> {
+          const int drops = static_cast<int>(s.drops.size());
+          if (!s.corrected) return {text::wave_step_as_published<N>(u, rows, s.drops.data(), drops, x, y), N(0.0f), N(0.0f)};
+          return {text::wave_step_corrected<N>(u, rows, s.drops.data(), drops, x, y),
+                  text::wave_previous_corrected<N>(rows.here, nullptr, s.drops.data(), drops, x, y), N(0.0f)};
+        }, 5);
+      }
+      expect_inside(account, "wave_step " + name.substr(7), p.name);
+      EXPECT_EQ(account.vacuous, 0);
+    }
+  }
+}
+
+TEST(PuddleEnclosure, ShadeHoldsTheReferenceAndEveryGpu) {
+  for (const std::string& name : {names[0], names[1]}) {
+    const Scene& s = scene(name);
+    for (const Profile& p : test::profiles()) {
+      const ProfileScope scope(p);
+      Account account;
+      for (int i = 0; i < 400; ++i) {
+        const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
+        judge(account, [&]<class N>(N) -> Values<N> {
+          if (s.corrected) {
+            return values(text::shade_corrected<N>(s.shade, s.environment.view(), s.ground.view(), s.relief.view(), s.bed.view(), s.surface<N>(x, y), x, y));
+          }
+          return values(text::shade_as_published<N>(s.shade, s.environment.view(), s.ground.view(), s.surface<N>(x, y), N(0.25f), x, y));
+        }, 5);
+      }
+      expect_inside(account, "shade " + name.substr(7), p.name);
+    }
+  }
+}
+
+TEST(PuddleEnclosure, DisplayHoldsTheReferenceAndEveryGpu) {
+  for (const std::string& name : {names[0], names[1]}) {
+    const Scene& s = scene(name);
+    const DisplayUniforms u = display_uniforms(s.settings);
+    for (const Profile& p : test::profiles()) {
+      const ProfileScope scope(p);
+      Account account;
+      for (int i = 0; i < 400; ++i) {
+        const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
+        const Half* c = s.puddle->colour().row<Half>(y) + 4 * x;
+        judge(account, [&]<class N>(N) -> Values<N> {
+          const Vec3<N> colour(N::load(c), N::load(c + 1), N::load(c + 2));
+          return values(s.corrected ? text::display_corrected<N>(u, colour, x, y) : text::display_as_published<N>(u, colour, x, y));
+        }, 5);
+      }
+      expect_inside(account, "display " + name.substr(7), p.name);
+      EXPECT_EQ(account.vacuous, 0);
+    }
+  }
+}
+
+TEST(PuddleEnclosure, RaindropsHoldTheReferenceAndEveryGpu) {
+  const Scene& s = scene(names[0]);
+  for (const Profile& p : test::profiles()) {
+    const ProfileScope scope(p);
+    Account account;
+    for (int frame = 0; frame < 40; ++frame) {
+      const RaindropsUniforms u = raindrops_uniforms(s.settings, frame);
+      for (int i = 0; i < s.settings.drop_count; ++i) {
+        judge(account, [&]<class N>(N) -> Values<N> { return values(text::raindrop_as_published<N>(u, i)); }, 5);
+      }
+    }
+    expect_inside(account, "raindrops", p.name);
+  }
+}
+
+// The marches are judged by what they find, not by an enclosure of their steps; what that takes is here.
+TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
+  for (const std::string& name : {names[0], names[1]}) {
+    const Scene& s = scene(name);
+    const auto [width, height] = wave_size(s.settings);
+    const TextureData water(s.corrected ? s.newest : s.previous, 1, width, height, Address::clamp, Address::clamp);
+    const SurfaceHitUniforms u = surface_hit_uniforms(s.settings);
+    for (const Profile& p : test::profiles()) {
+      const ProfileScope scope(p);
+      Account ray, distance;
+      for (int i = 0; i < 400; ++i) {
+        const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
+        judge(ray, [&]<class N>(N) { return values(text::camera_ray<N>(u.camera, N::index(x), N(static_cast<float>(y)))); }, 5);
+        judge(distance, [&]<class N>(N) -> Values<N> {
+          const Vec3<N> place = s.surface<N>(x, y).position;
+          if (!s.corrected) return {text::scene_distance<N>(u, water.view(), place), N(0.0f), N(0.0f)};
+          const N q = place.x * N(u.inverse_size[0]) + N(0.5f), r = place.z * N(u.inverse_size[1]) + N(0.5f);
+          const text::Neighbours<N> near = text::sample_neighbours<0, N>(water.view(), q, r);
+          return {text::water_height<N>(u, water.view(), q, r), near.left - near.right, near.down - near.up};
+        }, 5);
+      }
+      expect_inside(ray, "camera_ray " + name.substr(7), p.name);
+      expect_inside(distance, "distance " + name.substr(7), p.name);
+    }
+  }
+}
+
+}  // namespace
+
+// The whole texts instantiate.
+template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&, const Texture&, int, int);
+template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&, const Texture&, const Texture&, int, int);
+template Enclosure scalar_readings::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&, int, int);
+
+}  // namespace rainref::puddle
