@@ -10,7 +10,7 @@ layout(binding = 3) uniform writeonly image2D normal_image;
 // The article reads the level before the newest, still encoded.
 float level(vec2 place) {
   if (BUG == 213) place += 0.5 * u.texel;
-  vec2 stored = textureLod(wave, place, 0.0).xy;
+  vec2 stored = WAVE(place, ivec2(0));
   if (BUG == 214) stored = texelFetch(wave, clamp(ivec2(floor(place * vec2(textureSize(wave, 0)))), ivec2(0), textureSize(wave, 0) - 1), 0).xy;
   return BUG == 203 ? stored.x : stored.y;
 }

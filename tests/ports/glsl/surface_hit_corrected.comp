@@ -11,7 +11,7 @@ layout(binding = 4) uniform writeonly image2D normal_image;
 float height(vec2 place) {
   if (BUG == 251) place += 0.5 * u.texel;
   if (BUG == 252) place = (floor(place / u.texel) + 0.5) * u.texel;
-  vec2 stored = textureLod(wave, place, 0.0).xy;
+  vec2 stored = WAVE(place, ivec2(0));
   return u.height_scale * (BUG == 253 ? stored.y : stored.x) + u.height_bias;
 }
 
@@ -80,8 +80,8 @@ void main() {
     // The neighbours of the nearest place between texel centres: beyond the outermost ones clamp alone would not do.
     vec2 place = start + t * along;
     if (BUG != 269) place = clamp(place, 0.5 * u.texel, 1.0 - 0.5 * u.texel);
-    float left = textureLodOffset(wave, place, 0.0, ivec2(-1, 0)).x, right = textureLodOffset(wave, place, 0.0, ivec2(1, 0)).x;
-    float down = textureLodOffset(wave, place, 0.0, ivec2(0, -1)).x, up = textureLodOffset(wave, place, 0.0, ivec2(0, 1)).x;
+    float left = WAVE(place, ivec2(-1, 0)).x, right = WAVE(place, ivec2(1, 0)).x;
+    float down = WAVE(place, ivec2(0, -1)).x, up = WAVE(place, ivec2(0, 1)).x;
     if (BUG == 259) up = textureLod(wave, place + vec2(0.0, u.texel.x), 0.0).x;
     if (BUG == 260) {
       left = textureLod(wave, place - vec2(u.texel.x, 0.0), 0.0).x;

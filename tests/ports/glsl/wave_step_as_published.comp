@@ -67,5 +67,5 @@ void main() {
   if (BUG == 112) d *= u.damping;
 
   float next = 0.5 * d + 0.5;
-  imageStore(next_wave, texel, vec4(next, BUG == 114 ? stored.y : stored.x, 0.0, 1.0));
+  imageStore(next_wave, texel, vec4(next, BUG == 114 ? stored.y : stored.x, 0.0, 0.0));
 }

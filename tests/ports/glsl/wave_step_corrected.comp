@@ -69,5 +69,5 @@ void main() {
     next = u.rest + kept * (next - u.rest);
   }
   if (BUG == 147) craters *= 0.5;
-  imageStore(next_wave, texel, vec4(next, BUG == 148 ? newest : newest + kept * craters, 0.0, 1.0));
+  imageStore(next_wave, texel, vec4(next, BUG == 148 ? newest : newest + kept * craters, 0.0, 0.0));
 }
