@@ -158,6 +158,27 @@ int parse_and_run(int argc, const char* const* argv) {
   diff_verb.add_option("B", diff_b, "Folder of another")->required();
   diff_verb.footer("Example: rainref diff out/a/capture out/b/capture");
 
+  ValidateRequest validate_request;
+  std::optional<std::string> validate_threads, mutate_threads;
+  std::string validate_pack, validate_port, mutate_pack;
+  CLI::App& validate_verb = *app.add_subcommand("validate", "Judge a GPU port's outputs against a pack");
+  validate_verb.add_option("PACK", validate_pack, "Folder of the pack")->required();
+  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack")->required();
+  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: ieee, vulkan, webgpu, d3d, cuda or metal");
+  validate_verb.add_option("--only", validate_request.only, "Judge this pass alone");
+  validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
+  validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them");
+  validate_verb.footer("Example: rainref validate out/pack --port out/port --profile vulkan");
+
+  MutateRequest mutate_request;
+  CLI::App& mutate_verb = *app.add_subcommand("mutate", "Which porting bugs a pack would catch");
+  mutate_verb.add_option("PACK", mutate_pack, "Folder of the pack")->required();
+  mutate_verb.add_option("--profile", mutate_request.profile, "Profile to judge under");
+  mutate_verb.add_option("--only", mutate_request.only, "Of this pass alone");
+  mutate_verb.add_flag("--all", mutate_request.all, "List every deviation, not only those missed");
+  mutate_verb.add_option("--threads", mutate_threads, "Threads; the result does not depend on them");
+  mutate_verb.footer("Example: rainref mutate out/pack --profile vulkan");
+
   CLI::App& selftest_verb = *app.add_subcommand("selftest", "Prove determinism on this machine, in seconds");
   selftest_verb.footer("Example: rainref selftest");
 
@@ -202,6 +223,21 @@ int parse_and_run(int argc, const char* const* argv) {
     return pack(options);
   }
   if (diff_verb.parsed()) return diff(diff_a, diff_b);
+  const auto threads_of = [](const std::optional<std::string>& text) {
+    return text ? whole_number(*text, "--threads", 1, parallel::Executor::max_threads) : 0;
+  };
+  if (validate_verb.parsed()) {
+    validate_request.pack = validate_pack;
+    validate_request.port = validate_port;
+    validate_request.threads = threads_of(validate_threads);
+    for (int i = 0; i < argc; ++i) validate_request.command += fmt::format("{}{}", i == 0 ? "" : " ", i == 0 ? "rainref" : argv[i]);
+    return validate(validate_request);
+  }
+  if (mutate_verb.parsed()) {
+    mutate_request.pack = mutate_pack;
+    mutate_request.threads = threads_of(mutate_threads);
+    return mutate(mutate_request);
+  }
   return selftest();
 }
 

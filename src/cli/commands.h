@@ -32,12 +32,28 @@ struct PackOptions {
   std::vector<std::string> passes;  ///< empty: every pass of the variant
 };
 
+struct ValidateRequest {
+  std::filesystem::path pack, port;
+  std::string profile = "vulkan", only;
+  bool allow_untested = false;
+  int threads = 0;
+  std::string command;  ///< as typed, for the report
+};
+struct MutateRequest {
+  std::filesystem::path pack;
+  std::string profile = "vulkan", only;
+  bool all = false;
+  int threads = 0;
+};
+
 int list(bool json);
 int describe(const std::string& effect, bool json, const std::optional<std::string>& layout);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);
 int pack(const PackOptions& options);
 int diff(const std::filesystem::path& a, const std::filesystem::path& b);
+int validate(const ValidateRequest& request);
+int mutate(const MutateRequest& request);
 int selftest();
 
 }  // namespace rainref::cli

@@ -112,7 +112,7 @@ int describe(const std::string& name, bool json, const std::optional<std::string
   }
   fmt::print("\nBuffers\n\n");
   for (const capture::BufferInfo& b : e.info->buffers) {
-    fmt::print("{:<16} {:<15} {}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence);
+    fmt::print("{:<16} {:<15} {}{}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence, b.encoding == "none" ? "" : fmt::format(" {}.", b.encoding));
   }
   return 0;
 }

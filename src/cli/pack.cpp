@@ -43,7 +43,7 @@ int pack(const PackOptions& options) {
   const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
   for (const InputFile& input : inputs) {
     if (input.lossy) {
-      throw Error(ExitCode::usage, fmt::format("{}: '{}' is coded with loss, and machines decode it differently; a pack takes EXR without DWA or B44, HDR or PNG",
+      throw Error(ExitCode::usage, fmt::format("{}: '{}' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR",
                                                input.key, input.path));
     }
   }

@@ -58,7 +58,7 @@ std::vector<Array> read_outputs(const std::filesystem::path& port, const PassCas
     if (o.judge == capture::Judge::input_only) out.push_back(o.array);
     else out.push_back(port_dump::read_port_buffer(port / c.folder(), "out." + o.name, o.array, info, read_notes));
   }
-  for (const std::string& note : read_notes)
+  for (const std::string& note : read_notes.lines)
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   return out;
 }

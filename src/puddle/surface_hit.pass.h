@@ -36,6 +36,16 @@ struct MarchState {
   }
 };
 
+/// The normal at a position, by differences of the wave, as published.
+template <class N>
+RAINREF_FN Vec3<N> normal_as_published(const SurfaceHitUniforms& u, const Texture& wave, const Vec3<N>& p) {
+  const N s = N(0.5f) * (p.x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (p.z / N(u.half_size[2]) + N(1.0f));
+  const N du(u.texel[0]), dv(u.texel[1]);
+  const N left = sample_bilinear<0, 1, N>(wave, s - du, t)[0], right = sample_bilinear<0, 1, N>(wave, s + du, t)[0];
+  const N down = sample_bilinear<0, 1, N>(wave, s, t - dv)[0], up = sample_bilinear<0, 1, N>(wave, s, t + dv)[0];
+  return normalize(Vec3<N>((left - right) * N(u.normal_gain), N(1.0f), (down - up) * N(u.normal_gain)));
+}
+
 template <class N>
 RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, const Texture& wave, int px, int py) {
   const Vec3<N> origin(u.camera.position);
@@ -55,11 +65,7 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
   SurfaceHit<N> out;
   out.position = select(hit, state.position, origin);
   out.iterations = select(hit, state.iterations, N(static_cast<float>(u.max_steps - 1)));
-  const N s = N(0.5f) * (out.position.x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (out.position.z / N(u.half_size[2]) + N(1.0f));
-  const N du(u.texel[0]), dv(u.texel[1]);
-  const N left = sample_bilinear<0, 1, N>(wave, s - du, t)[0], right = sample_bilinear<0, 1, N>(wave, s + du, t)[0];
-  const N down = sample_bilinear<0, 1, N>(wave, s, t - dv)[0], up = sample_bilinear<0, 1, N>(wave, s, t + dv)[0];
-  out.normal = normalize(Vec3<N>((left - right) * N(u.normal_gain), N(1.0f), (down - up) * N(u.normal_gain)));
+  out.normal = normal_as_published(u, wave, out.position);
   out.flag = select(hit, N(1.0f), N(0.0f));
   return out;
 }
@@ -89,72 +95,132 @@ struct DescentState {
   }
 };
 
+/// The view ray of a pixel, origin + t d, and what is linear along it.
 template <class N>
-RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, const Texture& bounds, int px, int py) {
-  const auto wave = fixed_texture<Address::clamp, Address::clamp, 1>(water);
-  const Vec3<N> origin(u.camera.position);
-  const Vec3<N> d = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
-  const N zero(0.0f), one(1.0f), half(0.5f), epsilon(u.epsilon), far(1e4f);
-  // Rays that do not go down meet nothing.
-  const N fall = max(-d.y, N(1e-4f)), inverse_fall = one / fall;
-  const auto down = -d.y > N(1e-4f);
-  SurfaceHit<N> out;
-  out.position = origin;
-  out.iterations = out.flag = zero;
-  out.normal = Vec3<N>(zero, one, zero);
-  if (!any(down)) return out;
-  const N t_plane = origin.y * inverse_fall;
-  // Texture coordinates grow linearly along the ray.
-  const N s0 = origin.x * N(u.inverse_size[0]) + half, ds = d.x * N(u.inverse_size[0]);
-  const N r0 = origin.z * N(u.inverse_size[1]) + half, dr = d.z * N(u.inverse_size[1]);
-  const N s = s0 + t_plane * ds, r = r0 + t_plane * dr, run = length(d.x, d.z);
+struct Descent {
+  Vec3<N> origin, d;
+  N fall, inverse_fall, run;  ///< -d_y, guarded; its inverse; |d_xz|
+  N t_plane;                  ///< where the ray meets y = 0
+  N s0, ds, r0, dr;           ///< texture coordinates of the water
+  typename N::Mask down;      ///< rays that do not go down meet nothing
+  RAINREF_FN Descent() {}
+};
+template <class N>
+RAINREF_FN Descent<N> descent(const SurfaceHitUniforms& u, int px, int py) {
+  const N half(0.5f);
+  Descent<N> ray;
+  ray.origin = Vec3<N>(u.camera.position);
+  ray.d = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
+  ray.fall = max(-ray.d.y, N(1e-4f));
+  ray.inverse_fall = N(1.0f) / ray.fall;
+  ray.down = -ray.d.y > N(1e-4f);
+  ray.t_plane = ray.origin.y * ray.inverse_fall;
+  ray.s0 = ray.origin.x * N(u.inverse_size[0]) + half;
+  ray.ds = ray.d.x * N(u.inverse_size[0]);
+  ray.r0 = ray.origin.z * N(u.inverse_size[1]) + half;
+  ray.dr = ray.d.z * N(u.inverse_size[1]);
+  ray.run = length(ray.d.x, ray.d.z);
+  return ray;
+}
+/// No water along the ray is higher than top or steeper than slope.
+template <class N>
+struct WaterBounds {
+  N top, slope;
+};
+template <class N>
+RAINREF_FN WaterBounds<N> water_bounds(const SurfaceHitUniforms& u, const Texture& bounds, const Descent<N>& ray) {
+  const N zero(0.0f), one(1.0f);
+  const N s = ray.s0 + ray.t_plane * ray.ds, r = ray.r0 + ray.t_plane * ray.dr;
   const auto local = sample_nearest<0, 2, N>(fixed_texture<Address::clamp, Address::clamp, 2>(bounds), s * N(u.bounds_scale[0]), r * N(u.bounds_scale[1]));
-  const auto holds = (local[0] * run <= N(u.bounds_reach) * fall) & (s >= zero) & (s <= one) & (r >= zero) & (r <= one);
-  const N top = select(holds, local[0], N(u.surface_top)), slope = select(holds, local[1], N(u.surface_slope));
-  // The stretch of the ray over the rectangle and under `top`.
+  const auto holds = (local[0] * ray.run <= N(u.bounds_reach) * ray.fall) & (s >= zero) & (s <= one) & (r >= zero) & (r <= one);
+  return {select(holds, local[0], N(u.surface_top)), select(holds, local[1], N(u.surface_slope))};
+}
+/// The stretch of the ray over the rectangle and under top, and the strides that the slope allows.
+template <class N>
+struct Stretch {
+  N t_in, t_out;
+  N stride, back, bold;
+  typename N::Mask enters;
+  RAINREF_FN Stretch() {}
+};
+template <class N>
+RAINREF_FN Stretch<N> stretch(const SurfaceHitUniforms& u, const Descent<N>& ray, const WaterBounds<N>& bounds) {
+  const N zero(0.0f), one(1.0f), far(1e4f);
   const auto slab = [&](N o, N dir, float half_side, N& t_in, N& t_out) RAINREF_LAMBDA {
     const N inverse = one / select(abs(dir) < N(1e-8f), N(1e-8f), dir);
     const N a = (N(-half_side) - o) * inverse, b = (N(half_side) - o) * inverse;
     t_in = max(t_in, min(a, b));
     t_out = min(t_out, max(a, b));
   };
-  N t_in = zero, t_out = min((origin.y + top) * inverse_fall, far);
-  slab(origin.x, d.x, u.half_size[0], t_in, t_out);
-  slab(origin.z, d.z, u.half_size[2], t_in, t_out);
+  N t_in = zero, t_out = min((ray.origin.y + bounds.top) * ray.inverse_fall, far);
+  slab(ray.origin.x, ray.d.x, u.half_size[0], t_in, t_out);
+  slab(ray.origin.z, ray.d.z, u.half_size[2], t_in, t_out);
   // A ray that meets the sheet before the rectangle goes no further.
-  const auto over_rectangle = t_in <= t_plane;
-  t_in = max(t_in, (origin.y - top) * inverse_fall);
-  const auto enters = (t_in < t_out) & over_rectangle & down;
-
-  const N climb = slope * run;
-  const N stride = one / (fall + climb), back = one / max(climb - fall, N(1e-4f)), bold = one / (fall + half * climb);
-  DescentState<N> state{select(enters, t_in, t_plane), zero, zero, zero};
-  state = advance_while(u.max_steps, state, enters, [&](int round, const DescentState<N>& now) RAINREF_LAMBDA {
-    const N t = now.t + now.step;
-    const N above = (origin.y + t * d.y) - water_height(u, wave, s0 + t * ds, r0 + t * dr);
-    const N safe = now.above * stride;
-    const auto proven = now.step <= safe + max(above, zero) * back;
-    const DescentState<N> next{select(proven, t, now.t), select(proven, above, now.above), select(proven, above * bold, safe),
-                               N(static_cast<float>(round))};
-    const auto go = ((above >= epsilon) & (t < t_out)) | (!proven);
-    return Round<decltype(go), DescentState<N>>{go, next};
-  });
-  const auto on_water = enters & (state.t < t_out);
-  const N t = select(on_water, state.t, t_plane);
+  const auto over_rectangle = t_in <= ray.t_plane;
+  Stretch<N> out;
+  out.t_in = max(t_in, (ray.origin.y - bounds.top) * ray.inverse_fall);
+  out.t_out = t_out;
+  out.enters = (out.t_in < t_out) & over_rectangle & ray.down;
+  const N climb = bounds.slope * ray.run;
+  out.stride = one / (ray.fall + climb);
+  out.back = one / max(climb - ray.fall, N(1e-4f));
+  out.bold = one / (ray.fall + N(0.5f) * climb);
+  return out;
+}
+/// The gap between the ray at t and the water.
+template <class N, class T>
+RAINREF_FN N gap_above(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, N t) {
+  return (ray.origin.y + t * ray.d.y) - water_height(u, wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
+}
+/// The hit of a ray whose march ended at `state`.
+template <class N, class T>
+RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over, const DescentState<N>& state) {
+  const N zero(0.0f), one(1.0f), epsilon(u.epsilon);
+  SurfaceHit<N> out;
+  out.normal = Vec3<N>(zero, one, zero);
+  const auto on_water = over.enters & (state.t < over.t_out);
+  const N t = select(on_water, state.t, ray.t_plane);
   N hit_t = t;
   if (any(on_water)) {
-    const Neighbours<N> near = sample_neighbours<0, N>(wave, s0 + t * ds, r0 + t * dr);
+    const Neighbours<N> near = sample_neighbours<0, N>(wave, ray.s0 + t * ray.ds, ray.r0 + t * ray.dr);
     const N gain = N(u.normal_gain) * N(u.height_scale), gx = (near.left - near.right) * gain, gz = (near.down - near.up) * gain;
     // gx and gz are the negative slopes. A ray that runs along a flank keeps its place, and so does one that enters
     // through the side under the water. Twice the safe stride bounds the step: it ends no more than epsilon under and
     // three epsilon above the water, whatever the water does between its texels.
-    const N closing = fall - (gx * d.x + gz * d.z), least = half * fall;
+    const N closing = ray.fall - (gx * ray.d.x + gz * ray.d.z), least = N(0.5f) * ray.fall;
     const auto close = on_water & (state.above < epsilon) & (state.above >= zero) & (closing >= least);
-    hit_t = select(close, t + state.above * min(one / max(closing, least), N(2.0f) * stride), t);
+    hit_t = select(close, t + state.above * min(one / max(closing, least), N(2.0f) * over.stride), t);
     out.normal = select(on_water, normalize(Vec3<N>(gx, one, gz)), out.normal);
   }
-  out.position = select(down, origin + hit_t * d, origin);
+  out.position = select(ray.down, ray.origin + hit_t * ray.d, ray.origin);
   out.iterations = state.iterations;
-  out.flag = select(down, one, zero);
+  out.flag = select(ray.down, one, zero);
   return out;
+}
+
+template <class N>
+RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, const Texture& water, const Texture& bounds, int px, int py) {
+  const auto wave = fixed_texture<Address::clamp, Address::clamp, 1>(water);
+  const N zero(0.0f), epsilon(u.epsilon);
+  const Descent<N> ray = descent<N>(u, px, py);
+  if (!any(ray.down)) {
+    SurfaceHit<N> out;
+    out.position = ray.origin;
+    out.iterations = out.flag = zero;
+    out.normal = Vec3<N>(zero, N(1.0f), zero);
+    return out;
+  }
+  const Stretch<N> over = stretch(u, ray, water_bounds(u, bounds, ray));
+  DescentState<N> state{select(over.enters, over.t_in, ray.t_plane), zero, zero, zero};
+  state = advance_while(u.max_steps, state, over.enters, [&](int round, const DescentState<N>& now) RAINREF_LAMBDA {
+    const N t = now.t + now.step;
+    const N above = gap_above(u, wave, ray, t);
+    const N safe = now.above * over.stride;
+    const auto proven = now.step <= safe + max(above, zero) * over.back;
+    const DescentState<N> next{select(proven, t, now.t), select(proven, above, now.above), select(proven, above * over.bold, safe),
+                               N(static_cast<float>(round))};
+    const auto go = ((above >= epsilon) & (t < over.t_out)) | (!proven);
+    return Round<decltype(go), DescentState<N>>{go, next};
+  });
+  return landed(u, wave, ray, over, state);
 }

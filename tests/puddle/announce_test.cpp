@@ -52,6 +52,7 @@ Settings small(Variant variant) {
   s.width = 19;
   s.height = 11;
   s.grid = {17, 13};
+  s.shape = Shape::basin;  // the bed of a natural puddle costs most of a second
   return s;
 }
 
@@ -197,7 +198,6 @@ TEST(AnnounceRain, HoldsAllThatTheDropsDependOn) {
       s.seed = 0x123456789abcdefull;
       s.boundary = boundary;
       s.rain_rate = rate;
-      s.shape = Shape::basin;
       std::size_t drops = 0;
       for (const PassCase& c : cases_of(s, 4)) {
         if (c.pass != "raindrops") continue;

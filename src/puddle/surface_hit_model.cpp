@@ -1,0 +1,347 @@
+// surface_hit as conformance takes it. A march repeats rounding errors until an interval says nothing, so that its end is
+// enclosed instead, by what every march must satisfy.
+//
+// as-published: t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two ends
+// of the interval of t are marched, and drawn apart by what f' may be below -1. Each round in which f may be under epsilon
+// is a possible end; which of them is the port's, its own count of rounds says.
+// corrected: the march stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The
+// stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step.
+// March steps of corrected are free: they depend on every decision on the way.
+#include <algorithm>
+#include <cmath>
+
+#include "capture/bound_texture.h"
+#include "puddle/every_reading.h"
+#include "puddle/readings.h"
+
+namespace rainref::puddle {
+namespace {
+
+using capture::BoundTexture;
+using capture::PassCase;
+using enclosed::Enclosure;
+using Vector = plain::Vec3<Enclosure>;
+
+struct SurfaceHitPass {
+  int width, height, values = 8;
+  SurfaceHitUniforms uniforms;
+  bool corrected;
+  BoundTexture wave, bounds;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    write(corrected ? every::surface_hit_corrected<N>(uniforms, wave.view(), bounds.view(), x, y) : every::surface_hit_as_published<N>(uniforms, wave.view(), x, y), out);
+  }
+  template <class N>
+  static void write(const every::SurfaceHit<N>& hit, N* out) {
+    const N all[8] = {hit.position.x, hit.position.y, hit.position.z, hit.iterations, hit.normal.x, hit.normal.y, hit.normal.z, hit.flag};
+    std::copy(all, all + 8, out);
+  }
+};
+
+/// An interval that holds x for sure: the ends rounded outward from double.
+Enclosure around(double low, double high) {
+  const auto beside = [](double x, float toward) {
+    const float f = static_cast<float>(x);
+    const bool outside = toward < 0 ? f <= x : f >= x;
+    return outside ? f : std::nextafterf(f, toward);
+  };
+  return Enclosure(beside(low, -INFINITY), beside(high, INFINITY));
+}
+double width_of(Enclosure a) { return static_cast<double>(a.hi) - a.lo; }
+
+/// Where the port's position lies along the ray: the interval of t that any coordinate allows.
+Enclosure along(const Vector& origin, const Vector& d, const float* port) {
+  double low = -1e30, high = 1e30;
+  const Enclosure o[3] = {origin.x, origin.y, origin.z}, dir[3] = {d.x, d.y, d.z};
+  for (int k = 0; k < 3; ++k) {
+    if (dir[k].lo <= 0 && dir[k].hi >= 0) continue;
+    const double error = 0x1p-22 * (std::abs(static_cast<double>(port[k])) + std::abs(static_cast<double>(o[k].hi)));
+    const double n[2] = {port[k] - error - o[k].hi, port[k] + error - o[k].lo};
+    const double q[4] = {n[0] / dir[k].lo, n[0] / dir[k].hi, n[1] / dir[k].lo, n[1] / dir[k].hi};
+    low = std::max(low, *std::min_element(q, q + 4));
+    high = std::min(high, *std::max_element(q, q + 4));
+  }
+  if (!(low <= high)) return Enclosure::vacuous();
+  return around(low, high);
+}
+
+// ---- as published --------------------------------------------------------------------------------------------------
+class PublishedMarch {
+ public:
+  PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, int px, int py)
+      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))) {
+    steepest_ = steepest();
+  }
+
+  /// The ends that the march may have; empty: more than a port can be held to.
+  struct End {
+    Enclosure t;
+    int rounds;
+    bool hit;
+  };
+  std::vector<End> ends() const {
+    std::vector<End> found;
+    const int limit = u_.max_steps;
+    double low = 0, high = 0;
+    for (int round = 0; round < limit; ++round) {
+      const double off = off_ray(round, high);
+      const Enclosure f_low = distance(low, low, off), f_high = low == high ? f_low : distance(high, high, off);
+      const Enclosure f = low == high ? f_low : distance(low, high, off);
+      if (f.is_vacuous()) return {};
+      const bool may_stop = f.lo < u_.epsilon, must_stop = f.hi < u_.epsilon;
+      if (may_stop) found.push_back({around(low, high), round, true});
+      if (must_stop) return found;
+      if (f.lo >= 1000) {
+        found.push_back({Enclosure(), limit - 1, false});
+        return found;
+      }
+      // g(t) = t + f(t) falls by at most `back` for each unit of t.
+      const double back = std::max(0.0, slope_along(f) - 1) * (high - low);
+      // A march that goes on has seen epsilon or more.
+      const double next_low = std::max(low + f_low.lo - back, low + u_.epsilon), next_high = high + f_high.hi + back;
+      low = std::min(next_low, next_high);
+      high = std::max(next_low, next_high);
+      if (high - low > 0.5) return {};
+    }
+    found.push_back({Enclosure(), limit - 1, false});
+    return found;
+  }
+
+  /// The end with the port's number of rounds, or the nearest to it.
+  static const End& nearest(const std::vector<End>& ends, const float* port) {
+    return *std::min_element(ends.begin(), ends.end(), [port](const End& a, const End& b) {
+      const auto far = [port](const End& e) { return std::abs(static_cast<double>(e.rounds) - port[3]) + (e.hit == (port[7] > 0.5f) ? 0.0 : 0.5); };
+      return far(a) < far(b);
+    });
+  }
+  every::SurfaceHit<Enclosure> at(const End& end, const float* port) const {
+    every::SurfaceHit<Enclosure> out;
+    out.position = origin_;
+    if (end.hit) {
+      const double off = off_ray(end.rounds, end.t.hi);
+      out.position = point(end.t.lo, end.t.hi, off);
+    }
+    out.iterations = Enclosure(static_cast<float>(end.rounds));
+    out.flag = Enclosure(end.hit ? 1.0f : 0.0f);
+    // The normal is taken at the port's own position, which is stored without rounding.
+    const bool own = out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
+    out.normal = every::normal_as_published(u_, wave_, own ? Vector(port[0], port[1], port[2]) : out.position);
+    return out;
+  }
+
+ private:
+  /// By how much rounding in each step may have moved a coordinate off the ray.
+  double off_ray(int rounds, double t) const {
+    const double size = std::max({std::abs(static_cast<double>(origin_.x.hi)), std::abs(static_cast<double>(origin_.y.hi)), std::abs(static_cast<double>(origin_.z.hi))}) + t;
+    return 2 * rounds * 0x1p-23 * size;  // the product and the sum, each by an ULP
+  }
+  Vector point(double low, double high, double off) const {
+    const auto coordinate = [&](Enclosure o, Enclosure d) {
+      const double p[4] = {low * d.lo, low * d.hi, high * d.lo, high * d.hi};
+      return around(o.lo + *std::min_element(p, p + 4) - off, o.hi + *std::max_element(p, p + 4) + off);
+    };
+    return Vector(coordinate(origin_.x, d_.x), coordinate(origin_.y, d_.y), coordinate(origin_.z, d_.z));
+  }
+  Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
+
+  /// The steepest difference of neighbouring texels, for each axis, per unit of length.
+  double steepest() const {
+    double steep = 0;
+    const int w = wave_.width[0], h = wave_.height[0];
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        const float here = wave_.texels[static_cast<std::ptrdiff_t>(y) * w + x];
+        const float right = wave_.texels[static_cast<std::ptrdiff_t>(y) * w + (x + 1 < w ? x + 1 : 0)], up = wave_.texels[static_cast<std::ptrdiff_t>(y + 1 < h ? y + 1 : 0) * w + x];
+        steep = std::max({steep, std::abs(static_cast<double>(right) - here) * w / (2 * u_.half_size[0]), std::abs(static_cast<double>(up) - here) * h / (2 * u_.half_size[2])});
+      }
+    }
+    return steep;
+  }
+  /// A bound of |f'| along the ray.
+  double slope_along(Enclosure f) const {
+    const double dx = d_.x.magnitude(), dy = d_.y.magnitude(), dz = d_.z.magnitude();
+    // Far from the wave's range of heights the steepest slope counts as well: f is a length of three parts.
+    const double vertical = dy + steepest_ * (dx + dz);
+    static_cast<void>(f);
+    return std::sqrt(dx * dx + vertical * vertical + dz * dz);
+  }
+
+  const SurfaceHitUniforms& u_;
+  const Texture& wave_;
+  Vector origin_, d_;
+  double steepest_ = 0;
+};
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+class CorrectedDescent {
+ public:
+  CorrectedDescent(const SurfaceHitUniforms& u, const Texture& wave) : u_(u), wave_(fixed_texture<Address::clamp, Address::clamp, 1>(wave)) {}
+
+  every::SurfaceHit<Enclosure> hit(const Texture& bounds, int px, int py, const float* port) const {
+    const every::Descent<Enclosure> ray = every::descent<Enclosure>(u_, px, py);
+    const Enclosure zero(0.0f);
+    if (!ray.down) {
+      every::SurfaceHit<Enclosure> out;
+      out.position = ray.origin;
+      out.iterations = out.flag = zero;
+      out.normal = Vector(zero, Enclosure(1.0f), zero);
+      return out;
+    }
+    const every::Stretch<Enclosure> over = every::stretch(u_, ray, bounds_of(bounds, ray));
+    every::DescentState<Enclosure> state{ray.t_plane, zero, zero, zero};
+    if (over.enters) {
+      const std::vector<Landing> landings = landings_of(ray, over);
+      if (landings.empty() || landings.size() > static_cast<std::size_t>(enclosed::Replay::max_runs)) {
+        enclosed::give_up();
+        return every::SurfaceHit<Enclosure>();
+      }
+      const Landing& chosen = landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
+      state.t = chosen.t;
+      state.above = min(chosen.above, stopping());
+      if (!chosen.leaves) narrow(ray, over, port, state);
+    }
+    return every::landed(u_, wave_, ray, over, state);
+  }
+
+ private:
+  /// A stretch of the ray where the march may stop.
+  struct Landing {
+    Enclosure t, above;
+    bool leaves;  ///< past the water: the ray meets the plane
+  };
+
+  /// Top and slope from every texel of `bounds` that may be read, and from the uniforms where they may hold instead.
+  every::WaterBounds<Enclosure> bounds_of(const Texture& bounds, const every::Descent<Enclosure>& ray) const {
+    enclosed::Replay replay;
+    every::WaterBounds<Enclosure> all{Enclosure(u_.surface_top), Enclosure(u_.surface_slope)};
+    bool first = true;
+    const bool settled = replay.for_each_alternative([&] {
+      const every::WaterBounds<Enclosure> one = every::water_bounds(u_, bounds, ray);
+      all = first ? one : every::WaterBounds<Enclosure>{hull(all.top, one.top), hull(all.slope, one.slope)};
+      first = false;
+    });
+    if (!settled) return {Enclosure(0.0f, u_.surface_top), Enclosure(0.0f, u_.surface_slope)};
+    return all;
+  }
+
+  std::vector<Landing> landings_of(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over) const {
+    std::vector<Landing> found;
+    // Steps of a quarter of a cell: within one the gap is nearly linear.
+    const double run = std::max(1e-6, static_cast<double>(ray.run.hi));
+    const double cell = 1 / std::max(static_cast<double>(wave_.width[0]) * u_.inverse_size[0], static_cast<double>(wave_.height[0]) * u_.inverse_size[1]);
+    const double begin = over.t_in.lo, end = over.t_out.hi;
+    const double step = std::max({0.25 * cell / run, (end - begin) / 20000, 0x1p-20 * std::abs(end)});
+    bool crossed = false;
+    for (double t = begin; t < end && !crossed; t += step) {
+      const Enclosure piece = around(t, std::min(t + step, end));
+      const Enclosure gap = every::gap_above(u_, wave_, ray, piece);
+      if (gap.is_vacuous()) return {};
+      if (gap.lo < u_.epsilon) {
+        // Once under the water for sure, no march gets further, but by the steps whose proof allows for rounding.
+        const Enclosure after = every::gap_above(u_, wave_, ray, Enclosure(piece.hi));
+        crossed = after.hi < -0.5 * u_.epsilon;
+        if (!found.empty() && found.back().t.hi >= piece.lo) {
+          found.back().t = hull(found.back().t, piece);
+          found.back().above = hull(found.back().above, gap);
+        } else {
+          found.push_back({piece, gap, false});
+        }
+      }
+    }
+    if (!crossed) found.push_back({Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1), Enclosure(0.0f), true});
+    for (Landing& l : found)
+      if (!l.leaves) refine(ray, l);
+    return found;
+  }
+  /// Cuts off the ends of a stretch where no march stops: too high above, or surely under the water.
+  void refine(const every::Descent<Enclosure>& ray, Landing& l) const {
+    constexpr int pieces = 32;
+    const double begin = l.t.lo, step = width_of(l.t) / pieces;
+    double low = l.t.hi, high = l.t.lo;
+    Enclosure above = Enclosure::vacuous();
+    for (int k = 0; k < pieces; ++k) {
+      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, piece);
+      if (gap.lo >= u_.epsilon || gap.hi < -0.5 * u_.epsilon) continue;
+      above = above.is_vacuous() ? gap : hull(above, gap);
+      low = std::min(low, static_cast<double>(piece.lo));
+      high = std::max(high, static_cast<double>(piece.hi));
+    }
+    if (low > high) return;  // what the coarse pieces saw was their own width
+    l.t = around(low, high);
+    l.above = above;
+  }
+  /// The part of the stretch from which the last step may have led to the port's position.
+  void narrow(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port, every::DescentState<Enclosure>& state) const {
+    const Enclosure own = along(ray.origin, ray.d, port);
+    if (own.is_vacuous()) return;
+    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(state.above.hi, u_.epsilon));
+    const double low = std::max<double>(state.t.lo, own.lo - longest), high = std::min<double>(state.t.hi, own.hi);
+    if (low > high) return;
+    state.t = around(low, high);
+    // Piece by piece: those whose last step may end where the port's did.
+    constexpr int pieces = 16;
+    const double step = width_of(state.t) / pieces;
+    double first = high, last = low;
+    Enclosure above = Enclosure::vacuous();
+    for (int k = 0; k < pieces; ++k) {
+      const Enclosure t = around(low + k * step, low + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
+      if (gap.lo >= u_.epsilon) continue;
+      const every::DescentState<Enclosure> part{t, min(gap, stopping()), state.step, state.iterations};
+      bool reaches = false;
+      enclosed::Replay replay;
+      const bool settled = replay.for_each_alternative([&] {
+        const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
+        reaches |= end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]);
+      });
+      if (!reaches && settled) continue;
+      first = std::min(first, static_cast<double>(t.lo));
+      last = std::max(last, static_cast<double>(t.hi));
+      above = above.is_vacuous() ? part.above : hull(above, part.above);
+    }
+    if (first > last) return;
+    state.t = around(first, last);
+    state.above = above;
+  }
+
+  /// The largest gap at which a march stops.
+  Enclosure stopping() const { return Enclosure(std::nextafterf(u_.epsilon, 0.0f)); }
+
+  const SurfaceHitUniforms& u_;
+  FixedTexture<Address::clamp, Address::clamp, 1> wave_;
+};
+
+class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
+ public:
+  using ModelOf::ModelOf;
+  bool needs_port() const override { return true; }
+  bool is_free(int v) const override { return v == 3 && pass().corrected; }
+
+  void enclose(int x, int y, const float* port, Enclosure* out) const override {
+    const SurfaceHitPass& p = pass();
+    // Under exact rules the march itself is the only result.
+    if (enclosed::profile().reference) return p(x, y, out);
+    const Texture wave = p.wave.view();
+    if (p.corrected) return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
+    const PublishedMarch march(p.uniforms, wave, x, y);
+    const std::vector<PublishedMarch::End> ends = march.ends();
+    if (ends.empty()) return enclosed::give_up();
+    SurfaceHitPass::write(march.at(PublishedMarch::nearest(ends, port), port), out);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<capture::PassModel> bind_surface_hit(const PassCase& c) {
+  SurfaceHitPass p;
+  const capture::CaseOutput* hit = c.output("hit");
+  p.width = hit->array.width;
+  p.height = hit->array.height;
+  p.uniforms = capture::uniforms_of<SurfaceHitUniforms>(c);
+  p.corrected = c.corrected();
+  p.wave = BoundTexture(capture::image_input(c, "wave"), p.corrected ? 0 : 1, 1);
+  if (p.corrected) p.bounds = BoundTexture(capture::image_input(c, "bounds"));
+  return std::make_unique<SurfaceHitModel>(std::move(p));
+}
+
+}  // namespace rainref::puddle
