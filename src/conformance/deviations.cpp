@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -34,32 +35,33 @@ void add_slips(std::vector<Deviation>& out) {
   }
 }
 
-/// Every literal and uniform that the pass meets somewhere, as another number.
+/// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
+/// from their own index.
 void add_constants(std::vector<Deviation>& out, const capture::PassModel& model) {
-  std::set<float> values;
+  std::map<float, int> values;
   std::vector<float> met;
+  constexpr int probes = 8;
   {
     deviant::Behaviour collecting;
     collecting.constants = &met;
     const deviant::Scope scope(collecting);
     std::vector<deviant::Deviant> unused(static_cast<std::size_t>(model.values()));
-    constexpr int probes = 8;
     for (int j = 0; j < probes; ++j)
       for (int i = 0; i < probes; ++i) {
         model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
-        values.insert(met.begin(), met.end());
+        for (const float v : std::set<float>(met.begin(), met.end())) ++values[v];
         met.clear();
       }
   }
-  for (const float v : values) {
-    if (v == 0 || !(v > -1e30f && v < 1e30f)) continue;
-    const auto add = [&](float factor, const char* by) {
+  for (const auto& [v, places] : values) {
+    if (places < probes * probes / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
+    const auto add = [&, value = v](float factor, const char* by) {
       Deviation d;
-      d.name = fmt::format("constant {} off by {}", v, by);
-      d.sentence = fmt::format("a literal or uniform of value {} is {}", v, v * factor);
+      d.name = fmt::format("constant {} off by {}", value, by);
+      d.sentence = fmt::format("a literal or uniform of value {} is {}", value, value * factor);
       d.behaviour.slip = deviant::Slip::constant;
-      d.behaviour.constant = v;
-      d.behaviour.replacement = v * factor;
+      d.behaviour.constant = value;
+      d.behaviour.replacement = value * factor;
       out.push_back(std::move(d));
     };
     add(1.01f, "1 %");

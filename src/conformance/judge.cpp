@@ -225,9 +225,11 @@ class CaseJudge {
         const Enclosure& e = s.alternatives.values[static_cast<std::size_t>(shown)][v];
         const CodeRange& r = s.ranges[v];
         const double width = static_cast<double>(e.hi) - e.lo;
-        const bool vacuous = r.is_vacuous() || (slot.range > 0 && width > slot.range / 16);
+        // Of a value beyond the declared range (a lamp in a radiance) its own size counts.
+        const double scale = std::max(slot.range, e.magnitude());
+        const bool vacuous = r.is_vacuous() || width > scale / 16;
         out.vacuous += vacuous;
-        out.loose += vacuous || (slot.range > 0 && width > slot.range / 256);
+        out.loose += vacuous || width > scale / 256;
         const double codes = r.is_vacuous() ? 4e9 : static_cast<double>(r.hi) - static_cast<double>(r.lo);
         part.widths[static_cast<std::size_t>(slot.output)].push_back(static_cast<std::uint32_t>(std::min(codes, 4e9)));
       }
@@ -368,10 +370,10 @@ void conclude(CaseJudgement& j) {
   }
   if (j.failing > 0) {
     j.status = Status::fail;
-  } else if (elements == 0) {
+  } else if (elements == 0 && j.outputs.empty()) {
     j.status = Status::untested;
     j.reason = "nothing to judge";
-  } else if (vacuous * 100 > elements - free) {
+  } else if (vacuous * 100 > elements - free && elements > free) {
     j.status = Status::untested;
     j.reason = fmt::format("{:.1f} % of the elements have no useful bound", 100.0 * static_cast<double>(vacuous) / static_cast<double>(elements - free));
   } else if (atypical > 0) {

@@ -87,10 +87,10 @@ Enclosure pow(Enclosure x, Enclosure y) {
   if (as_reference(x) && as_reference(y)) return point(pow(Single(x.lo), Single(y.lo)));
   if (x.is_vacuous() || y.is_vacuous() || x.lo < 0 || (x.lo == 0 && y.lo <= 0)) return Enclosure::vacuous();
   if (x.lo > 0) return positive_pow(x, y);
-  // A positive power grows with x, from 0.
+  // A positive power grows with x, from 0. Where it is subnormal, the hundreds of ULP that exp2 may have there come to 2^-139.
   if (x.hi == 0) return Enclosure(0.0f);
   const Enclosure top = positive_pow({x.hi, x.hi}, y);
-  return top.is_vacuous() ? top : Enclosure(0.0f, top.hi);
+  return top.is_vacuous() ? top : Enclosure(0.0f, std::max(top.hi, 0x1p-139f));
 }
 
 Enclosure sin(Enclosure a) {

@@ -16,6 +16,11 @@ RAINREF_FN N sum_any_order(N a, N b, N c, N d) { return ((a + b) + c) + d; }
 template <class N>
 RAINREF_FN N sum_any_order_in_pairs(N a, N b, N c, N d) { return (a + b) + (c + d); }
 
+// ---- uniforms ------------------------------------------------------------------------------------------------------
+/// a / b of two uniforms: the same for every element, but by the arithmetic of the device.
+template <class N>
+RAINREF_FN N uniform_quotient(float a, float b, N) { return N(a / b); }
+
 // ---- shaping -------------------------------------------------------------------------------------------------------
 template <class N>
 RAINREF_FN N clamp(N x, N low, N high) { return min(max(x, low), high); }

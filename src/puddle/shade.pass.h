@@ -52,7 +52,8 @@ RAINREF_FN Vec3<N> environment_as_published(const ShadeUniforms& u, const Textur
 template <class N>
 RAINREF_FN Vec3<N> checkerboard(N x, N z, float scale) {
   const N parity = floor(x * N(scale)) + floor(z * N(scale));
-  const N odd = parity - N(2.0f) * floor(parity / N(2.0f));
+  // Times 1/2, not over 2: a GPU's quotient need not be exact, and floor would tell.
+  const N odd = parity - N(2.0f) * floor(parity * N(0.5f));
   const Vec3<N> dark(N(0.15f), N(0.12f), N(0.10f)), light(N(0.25f), N(0.22f), N(0.20f));
   return mix(dark, light, odd);
 }

@@ -70,9 +70,7 @@ Enclosure along(const Vector& origin, const Vector& d, const float* port) {
 class PublishedMarch {
  public:
   PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, int px, int py)
-      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))) {
-    steepest_ = steepest();
-  }
+      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))) {}
 
   /// The ends that the march may have; empty: more than a port can be held to.
   struct End {
@@ -96,8 +94,8 @@ class PublishedMarch {
         found.push_back({Enclosure(), limit - 1, false});
         return found;
       }
-      // g(t) = t + f(t) falls by at most `back` for each unit of t.
-      const double back = std::max(0.0, slope_along(f) - 1) * (high - low);
+      // g(t) = t + f(t) falls by at most `back` between low and high.
+      const double back = std::max(0.0, -1 - steepest_fall(low, high, off)) * (high - low);
       // A march that goes on has seen epsilon or more.
       const double next_low = std::max(low + f_low.lo - back, low + u_.epsilon), next_high = high + f_high.hi + back;
       low = std::min(next_low, next_high);
@@ -145,32 +143,59 @@ class PublishedMarch {
   }
   Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
 
-  /// The steepest difference of neighbouring texels, for each axis, per unit of length.
-  double steepest() const {
-    double steep = 0;
-    const int w = wave_.width[0], h = wave_.height[0];
-    for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) {
-        const float here = wave_.texels[static_cast<std::ptrdiff_t>(y) * w + x];
-        const float right = wave_.texels[static_cast<std::ptrdiff_t>(y) * w + (x + 1 < w ? x + 1 : 0)], up = wave_.texels[static_cast<std::ptrdiff_t>(y + 1 < h ? y + 1 : 0) * w + x];
-        steep = std::max({steep, std::abs(static_cast<double>(right) - here) * w / (2 * u_.half_size[0]), std::abs(static_cast<double>(up) - here) * h / (2 * u_.half_size[2])});
+  /// A lower bound of f' on [low, high]. Over the box f is the gap to the displaced top, |y + h(x, z)| - b_y; beside it a
+  /// length of three parts, whose slope is bounded by theirs together.
+  double steepest_fall(double low, double high, double off) const {
+    const Vector p = point(low, high, off);
+    const Range sx = slopes(p, true), sz = slopes(p, false);
+    const auto times = [](Range r, Enclosure d) {
+      const double q[4] = {r.low * d.lo, r.low * d.hi, r.high * d.lo, r.high * d.hi};
+      return Range{*std::min_element(q, q + 4), *std::max_element(q, q + 4)};
+    };
+    const Range x = times(sx, d_.x), z = times(sz, d_.z);
+    const double rise_low = d_.y.lo + x.low + z.low, rise_high = d_.y.hi + x.high + z.high;
+    const bool over_box = abs(p.x).hi <= u_.half_size[0] && abs(p.z).hi <= u_.half_size[2];
+    // The wave is stored in [0, 1], so that a point above y = 0 has y + h > 0.
+    if (over_box && p.y.lo > 0) return std::min(rise_low, 0.0);
+    const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(), dz = d_.z.magnitude();
+    return -std::sqrt(dx * dx + vertical * vertical + dz * dz);
+  }
+  struct Range {
+    double low, high;
+  };
+  /// Slopes of the sampled wave along one axis, per unit of length, in every cell that the box of points touches.
+  Range slopes(const Vector& p, bool along_x) const {
+    const int size[2] = {wave_.width[0], wave_.height[0]};
+    const Enclosure at[2] = {p.x, p.z};
+    const float half[2] = {u_.half_size[0], u_.half_size[2]};
+    int first[2], last[2];
+    for (int k = 0; k < 2; ++k) {
+      const auto texel = [&](float x, double slack) { return static_cast<int>(std::floor((x / half[k] + 1.0) * 0.5 * size[k] - 0.5 + slack)); };
+      if (!(std::abs(at[k].lo) < 1e6f && std::abs(at[k].hi) < 1e6f)) return {-1e9, 1e9};
+      first[k] = texel(at[k].lo, -0.01);
+      last[k] = texel(at[k].hi, 0.01);
+      if (last[k] - first[k] >= size[k]) last[k] = first[k] + size[k] - 1;
+    }
+    const auto value = [&](int x, int y) {
+      const auto held = [](int i, int n, Address a) { return a == Address::repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
+      return static_cast<double>(wave_.texels[static_cast<std::ptrdiff_t>(held(y, size[1], wave_.address_v)) * size[0] + held(x, size[0], wave_.address_u)]);
+    };
+    const double scale = along_x ? size[0] / (2.0 * half[0]) : size[1] / (2.0 * half[1]);
+    Range r{1e30, -1e30};
+    for (int y = first[1]; y <= last[1] + (along_x ? 1 : 0); ++y) {
+      for (int x = first[0]; x <= last[0] + (along_x ? 0 : 1); ++x) {
+        const double slope = (along_x ? value(x + 1, y) - value(x, y) : value(x, y + 1) - value(x, y)) * scale;
+        r.low = std::min(r.low, slope);
+        r.high = std::max(r.high, slope);
       }
     }
-    return steep;
-  }
-  /// A bound of |f'| along the ray.
-  double slope_along(Enclosure f) const {
-    const double dx = d_.x.magnitude(), dy = d_.y.magnitude(), dz = d_.z.magnitude();
-    // Far from the wave's range of heights the steepest slope counts as well: f is a length of three parts.
-    const double vertical = dy + steepest_ * (dx + dz);
-    static_cast<void>(f);
-    return std::sqrt(dx * dx + vertical * vertical + dz * dz);
+    // Under the clamp at the edge and between the two filters' roundings the slope may also be none.
+    return {std::min(r.low, 0.0), std::max(r.high, 0.0)};
   }
 
   const SurfaceHitUniforms& u_;
   const Texture& wave_;
   Vector origin_, d_;
-  double steepest_ = 0;
 };
 
 // ---- corrected -----------------------------------------------------------------------------------------------------

@@ -48,8 +48,8 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<St
 // The crater of a drop at distance r, with q = r / R < 1: (1 - q^2)^2 (1 - 4 q^2). Its volume is exactly 0.
 template <class N>
 RAINREF_FN N drop_corrected(const Drop& drop, N x, N y) {
-  const float inverse = 1.0f / drop.radius;
-  const N s = square((x - N(drop.x)) * N(inverse)) + square((y - N(drop.y)) * N(inverse));
+  const N inverse = uniform_quotient(1.0f, drop.radius, N());
+  const N s = square((x - N(drop.x)) * inverse) + square((y - N(drop.y)) * inverse);
   const N rim = max(N(1.0f) - s, N(0.0f));
   return N(drop.amplitude) * (square(rim) * (N(1.0f) - N(4.0f) * s));
 }

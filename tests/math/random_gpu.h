@@ -150,6 +150,7 @@ inline RandomGpu sum_any_order(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu 
   return toss() ? (x[0] + x[1]) + (x[2] + x[3]) : ((x[0] + x[1]) + x[2]) + x[3];
 }
 inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) { return sum_any_order(a, b, c, d); }
+inline RandomGpu uniform_quotient(float a, float b, RandomGpu) { return RandomGpu(a) / RandomGpu(b); }
 inline plain::Vec3<RandomGpu> normalize(const plain::Vec3<RandomGpu>& a) {
   const RandomGpu squared = plain::dot(a, a);
   switch (words()() % 3) {

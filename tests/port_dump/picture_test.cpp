@@ -1,6 +1,7 @@
 #include <bit>
 #include <limits>
 
+#include "image_io/evidence.h"
 #include "image_io/write.h"
 #include "port_dump/support.h"
 
@@ -156,6 +157,26 @@ TEST(ExrDump, GiganticWindowsAreRefusedBeforeTheLibrarySeesThem) {
   for (const char* name : {"dataWindow", "displayWindow"})
     wide.replace(wide.find(name) + std::string(name).size() + 1 + 6 + 4 + 8, 4, little(0x7fffffff));
   EXPECT_THAT(read("exr", wide, image(Format::r16f, 1, 1)), HasSubstr("size 2147483648x1"));
+}
+
+TEST(ExrDump, AttributesThatClaimMemoryAreRefused) {
+  // One more attribute in front of the others; byte 5 holds the flags.
+  const auto with = [](const std::string& name, const std::string& type, const std::string& value, char flags = 0) {
+    std::string out = exr({0, 0, 2, 1}, {halves("R", 0)});
+    out[5] = flags;
+    return out.insert(8, name + '\0' + type + '\0' + little(static_cast<std::uint32_t>(value.size())) + value);
+  };
+  const capture::Array r16f = image(Format::r16f, 2, 1);
+  EXPECT_THAT(read("exr", with("tiles", "tiledesc", little(0x8000) + little(0x8000) + '\0', 2), r16f),
+              HasSubstr("tiles of 32768x32768; expected at most 2048"));
+  EXPECT_THAT(read("exr", with("tiles", "tiledesc", little(8) + little(8) + '\1', 2), r16f),
+              HasSubstr("mip levels in one EXR; save one file a level"));
+  EXPECT_THAT(read("exr", with("preview", "preview", little(0xffff) + little(0xffff)), r16f),
+              HasSubstr("an attribute of type preview"));
+  EXPECT_THAT(read("exr", with("ids", "idmanifest", little(1)), r16f), HasSubstr("an attribute of type idmanifest"));
+  // Others are nobody's business. (The texels cannot be read: their offsets do not know of the insertion.)
+  const std::string comment = with("comment", "string", "hello");
+  EXPECT_EQ(image_io::evidence_size("'a'", std::as_bytes(std::span(comment))).width, 2u);
 }
 
 TEST(ExrDump, EveryTruncationIsRefused) {

@@ -35,6 +35,18 @@ TEST(RawImage, OffsetAndPitch) {
   EXPECT_THAT(refusal("junk", json, expected), HasSubstr("truncated: offset 5 in a file of 4 bytes"));
 }
 
+TEST(RawImage, EveryTruncationIsRefused) {
+  for (const int height : {1, 3}) {
+    const std::string json =
+        R"({"format": "r16f", "width": 2, "height": )" + std::to_string(height) + R"(, "row_pitch": 5})";
+    const std::string whole(5 * height - 1, 'x');
+    ASSERT_EQ(read(whole, json, image(Format::r16f, 2, height)).size(), 4u * height);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+      EXPECT_THAT(refusal(whole.substr(0, size), json, image(Format::r16f, 2, height)), HasSubstr("truncated")) << size;
+    }
+  }
+}
+
 TEST(RawImage, TheSidecarsOriginOverridesThePorts) {
   PortInfo port;
   port.origin = Origin::bottom_left;

@@ -50,7 +50,7 @@ TEST(Traps, PaddedRows) {
               HasSubstr("expected 3x2 texels, found 64x2"));
 }
 
-// OpenGL reads its framebuffer from the bottom row up; RenderDoc saves it so, whatever its view shows.
+// RenderDoc saves an OpenGL target from the bottom row up, whatever its view shows; the pass may count v from the top.
 TEST(Traps, PicturesUpsideDown) {
   PortInfo port;
   port.origin = Origin::bottom_left;

@@ -1,0 +1,69 @@
+// The writers that docs/dumps.md offers, compiled and run as they stand there, must give files that are read back.
+#include <cstdlib>
+
+#include "port_dump/support.h"
+
+namespace rainref::port_dump {
+namespace {
+
+const std::filesystem::path document = std::filesystem::path(RAINREF_SOURCE_DIR) / "docs/dumps.md";
+
+// The first fenced block of this language.
+std::string block(const std::string& language) {
+  const std::string text = contents(document), fence = "```" + language + "\n";
+  const std::size_t start = text.find(fence);
+  if (start == std::string::npos) return "";
+  return text.substr(start + fence.size(), text.find("```", start + fence.size()) - start - fence.size());
+}
+
+int run(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()); }
+
+// Halves 0x6162, 0x6364, ... of a 3x2 image of two channels.
+const std::string texels = "abcdefghijklmnopqrstuvwx";
+
+TEST(Document, TheWriterInCpp) {
+  Dump dump;
+  const std::string folder = dump.path().string();
+  dump.file("main.cpp",
+            block("cpp") + "int main(int, char** a) { save_npy(a[1], \"" + texels + "\", 24, \"<f2\", 2, 3, 2); }\n");
+  ASSERT_EQ(run(std::string(RAINREF_CXX_COMPILER) + " -std=c++11 -Wall -Wextra -Werror " + folder + "/main.cpp -o " +
+                folder + "/main"),
+            0);
+  ASSERT_EQ(run(folder + "/main " + folder + "/out.b.npy"), 0);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
+}
+
+TEST(Document, TheWriterInPython) {
+  if (run("python3 -c pass") != 0) GTEST_SKIP() << "no python3 here";
+  Dump dump;
+  const std::string folder = dump.path().string();
+  dump.file("main.py", block("python") + "import sys\nsave_npy(sys.argv[1], b'" + texels + "', '<f2', 2, 3, 2)\n");
+  ASSERT_EQ(run("python3 " + folder + "/main.py " + folder + "/out.b.npy"), 0);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
+}
+
+// The header's length is the only arithmetic of the C# writer: it must make a multiple of 64 of any text.
+TEST(Document, TheWriterInCSharpPadsAsTheOthers) {
+  ASSERT_NE(block("csharp").find("head.PadRight((head.Length + 74) / 64 * 64 - 11) + \"\\n\""), std::string::npos);
+  for (std::size_t length = 40; length < 400; ++length) {
+    const std::size_t padded = (length + 74) / 64 * 64 - 11 + 1;
+    EXPECT_GT(padded, length);
+    EXPECT_EQ((10 + padded) % 64, 0u);
+  }
+}
+
+TEST(Document, ItsJsonIsAccepted) {
+  const std::string text = contents(document);
+  std::vector<std::string> blocks;
+  for (std::size_t at = text.find("```json\n"); at != std::string::npos; at = text.find("```json\n", at + 8)) {
+    blocks.push_back(text.substr(at + 8, text.find("```", at + 8) - at - 8));
+  }
+  ASSERT_EQ(blocks.size(), 2u);
+  EXPECT_EQ(parse_port_info(blocks[0], "'port.json'").half_store, Rounding::rtz);
+  Dump dump;
+  dump.file("out.b.bin", std::string(256 * 37, 'x')).file("out.b.json", blocks[1]);
+  EXPECT_EQ(dump.level(image(Format::rg16f, 61, 37)).size(), 61u * 37 * 4);
+}
+
+}  // namespace
+}  // namespace rainref::port_dump
