@@ -67,7 +67,6 @@ void main() {
     drop.x = float(((r.x >> 16) * u.columns) >> 8) / 256.0;
     drop.y = float(((r.y >> 16) * u.rows) >> 8) / 256.0;
     if (BUG == 508) drop.x = float(r.x >> 8) / 16777216.0 * float(u.columns);
-    if (BUG == 509) drop.y = float(((r.x >> 16) * u.rows) >> 8) / 256.0;
     append(drop);
     if (u.boundary == 2) continue;
     vec2 size = vec2(u.columns, u.rows), place = vec2(drop.x, drop.y);
