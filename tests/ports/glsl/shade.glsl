@@ -82,7 +82,8 @@ vec3 cube(vec3 d, float lod) {
     major = a.z;
   }
   float level = floor(clamp(lod, 0.0, float(textureQueryLevels(environment) - 1)) + 0.5);
-  float edge = 0.5 / float(textureSize(environment, int(level)).x);
+  // Not textureSize of the level: lavapipe gives every invocation of a group the size of the first one's level.
+  float edge = 0.5 / float(max(textureSize(environment, 0).x >> int(level), 1));
   place = clamp(0.5 * place / major + 0.5, edge, 1.0 - edge);
   return textureLod(environment, vec2(place.x, (face + place.y) / 6.0), level).rgb;
 }

@@ -28,11 +28,17 @@ layout(binding = 1) uniform sampler2D wave;
 
 // Filters need not be precise: a device may blend 8-bit storage in 8 bits. With this the shader blends texels itself.
 layout(constant_id = 3) const bool BLEND_IN_SHADER = false;
+layout(constant_id = 1) const int ADDRESS = CLAMP;
 
+ivec2 hold(ivec2 texel, ivec2 size) {
+  return ADDRESS == REPEAT ? texel - size * ivec2(floor(vec2(texel) / vec2(size))) : clamp(texel, ivec2(0), size - 1);
+}
 vec2 blend_wave(vec2 place, ivec2 offset) {
-  ivec2 size = textureSize(wave, 0), last = size - 1;
-  vec2 x = clamp(place * vec2(size) - 0.5, vec2(0.0), vec2(last)), low = floor(x), f = x - low;
-  ivec2 a = clamp(ivec2(low) + offset, ivec2(0), last), b = clamp(ivec2(low) + offset + 1, ivec2(0), last);
+  ivec2 size = textureSize(wave, 0);
+  vec2 x = (ADDRESS == REPEAT ? fract(place) : place) * vec2(size) - 0.5;
+  if (ADDRESS != REPEAT) x = clamp(x, vec2(0.0), vec2(size) - 1.0);
+  vec2 low = floor(x), f = x - low;
+  ivec2 a = hold(ivec2(low) + offset, size), b = hold(ivec2(low) + offset + 1, size);
   vec2 bottom = mix(texelFetch(wave, a, 0).xy, texelFetch(wave, ivec2(b.x, a.y), 0).xy, f.x);
   vec2 top = mix(texelFetch(wave, ivec2(a.x, b.y), 0).xy, texelFetch(wave, b, 0).xy, f.x);
   return mix(bottom, top, f.y);

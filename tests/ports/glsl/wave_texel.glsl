@@ -2,7 +2,8 @@
 vec2 wave_texel(ivec2 texel) {
   ivec2 size = textureSize(wave, 0);
   int address = BUG == 121 ? (ADDRESS == CLAMP ? REPEAT : CLAMP) : ADDRESS;
-  if (address == REPEAT) texel = (texel % size + size) % size;
+  // Not by %: GLSL leaves it undefined for negative operands, and GPUs differ.
+  if (address == REPEAT) texel -= size * ivec2(floor(vec2(texel) / vec2(size)));
   if (address == BORDER && (any(lessThan(texel, ivec2(0))) || outside(texel, size))) return vec2(u.rest);
   return texelFetch(wave, clamp(texel, ivec2(0), size - 1), 0).xy;
 }
