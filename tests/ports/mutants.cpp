@@ -131,7 +131,8 @@ int run(const std::map<std::string, std::string>& options) {
       for (std::size_t i = 0; i < outputs.size(); ++i) {
         compare(meant[i], outputs[i], change);
         if (!judge.is_asked()) continue;
-        const auto buffer = std::find_if(c.outputs.begin(), c.outputs.end(), [&](const Buffer& b) { return b.name == program->second.outputs[i]; });
+        const std::string& name = program->second.outputs[i];
+        const auto buffer = std::find_if(c.outputs.begin(), c.outputs.end(), [&](const Buffer& b) { return b.name == name; });
         write_npy(judge.out() / buffer->file, outputs[i]);
       }
     }
@@ -146,7 +147,8 @@ int run(const std::map<std::string, std::string>& options) {
       verdict += is_expected ? "" : "!";
       verdict.resize(10, ' ');
     }
-    std::printf("%4d %-12s %-13s %8.2f%% %9lld  %s%-17s %s\n", m.id, m.pass.c_str(), m.variant.c_str(), 100.0 * static_cast<double>(change.changed) / static_cast<double>(change.elements),
+    const double share = static_cast<double>(change.changed) / static_cast<double>(change.elements);
+    std::printf("%4d %-12s %-13s %8.2f%% %9lld  %s%-17s %s\n", m.id, m.pass.c_str(), m.variant.c_str(), 100 * share,
                 static_cast<long long>(change.largest), verdict.c_str(), m.expected.c_str(), m.wrong.c_str());
     std::fflush(stdout);
   }

@@ -31,14 +31,16 @@ Outcome call(const std::string& command) {
 // The software device, the same on every machine. A driver is not built with sanitizers and leaks what it keeps.
 const std::string quiet = "ASAN_OPTIONS=detect_leaks=0 ";
 Outcome run_port(const std::string& pack, const fs::path& out, const std::string& more = "", const std::string& language = "glsl") {
-  return call(quiet + RAINREF_PORT_RUNNER " --device cpu --pack '" + pack + "' --spirv '" + spirv + "/" + language + "' --out '" + out.string() + "' " + more);
+  return call(quiet + RAINREF_PORT_RUNNER " --device cpu --pack '" + pack + "' --spirv '" + spirv + "/" + language + "' --out '" +
+              out.string() + "' " + more);
 }
 Outcome judge(const std::string& pack, const fs::path& port, const std::string& more = "") {
   return call(RAINREF_PROGRAM " validate '" + pack + "' --port '" + port.string() + "' " + more);
 }
 
 class Port : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Variants, Port, testing::Values("as-published", "corrected"), [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
+INSTANTIATE_TEST_SUITE_P(Variants, Port, testing::Values("as-published", "corrected"),
+                         [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
 
 TEST_P(Port, RunsEveryJudgedPassTwiceAlike) {
   const TemporaryFolder folder;
@@ -84,6 +86,16 @@ TEST(Port, DisplayInHlslPasses) {
   ASSERT_EQ(run.code, 0) << run.text;
   EXPECT_THAT(run.text, HasSubstr("no program for")) << "the other passes are not ported, and the runner says so";
   const Outcome verdict = judge(pack_of("corrected"), folder.path(), "--only display");
+  EXPECT_EQ(verdict.code, 0) << verdict.text;
+}
+
+TEST(Port, WaveStepInCudaPasses) {
+  if (!fs::exists(spirv + "/cuda_wave_step")) GTEST_SKIP() << "built without nvcc";
+  const TemporaryFolder folder;
+  const Outcome run = call(quiet + "'" + spirv + "/cuda_wave_step' '" + pack_of("corrected") + "' '" + folder.path().string() + "'");
+  if (run.text.find("cudaGetDeviceProperties") != std::string::npos) GTEST_SKIP() << "no CUDA device: " << run.text;
+  ASSERT_EQ(run.code, 0) << run.text;
+  const Outcome verdict = judge(pack_of("corrected"), folder.path(), "--only wave_step --profile cuda");
   EXPECT_EQ(verdict.code, 0) << verdict.text;
 }
 

@@ -74,7 +74,8 @@ void main() {
     float xs[3] = float[3](place.x, below.x, above.x), ys[3] = float[3](place.y, below.y, above.y);
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
-        if ((j > 0 || k > 0) && reaches(xs[k], drop.radius, u.columns) && reaches(ys[j], drop.radius, u.rows)) append(Drop(xs[k], ys[j], drop.amplitude, drop.radius));
+        if (j == 0 && k == 0) continue;
+        if (reaches(xs[k], drop.radius, u.columns) && reaches(ys[j], drop.radius, u.rows)) append(Drop(xs[k], ys[j], drop.amplitude, drop.radius));
       }
     }
   }

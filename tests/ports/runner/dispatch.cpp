@@ -152,6 +152,9 @@ class Run {
     const Buffer* b = find(case_.inputs, name);
     if (b != nullptr && b->is_records) {
       const std::vector<std::uint8_t> bytes = read_npy(pack_.folder / b->file, b->record_type, {b->count});
+      if (bytes.size() != b->count * b->record_bytes) {
+        throw Error((pack_.folder / b->file).string() + ": " + std::to_string(bytes.size()) + " bytes of records do not fill the shape");
+      }
       const HostBuffer made = storage(std::max(bytes.size(), b->record_bytes));
       std::copy(bytes.begin(), bytes.end(), made.bytes);
       return;
@@ -319,7 +322,9 @@ class Run {
       }
       std::uint32_t count = 0;
       std::memcpy(&count, from, 4);
-      if (count > program_.capacity) throw Error(case_.id + ": the program counts " + std::to_string(count) + " records, there is room for " + std::to_string(program_.capacity));
+      if (count > program_.capacity) {
+        throw Error(case_.id + ": the program counts " + std::to_string(count) + " records, there is room for " + std::to_string(program_.capacity));
+      }
       from += count_bytes;
       arrays.push_back({b.record_type, {count}, {from, from + count * b.record_bytes}});
     }

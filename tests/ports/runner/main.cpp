@@ -43,17 +43,25 @@ Options parse(int argc, char** argv) {
     }
     if (i + 1 == argc) throw Error(option + ": unknown, or without its value\n" + usage);
     const std::string text = argv[++i];
-    if (option == "--pack") o.pack = text;
-    else if (option == "--spirv") o.spirv = text;
-    else if (option == "--out") o.out = text;
-    else if (option == "--only") o.only = text;
-    else if (option == "--device") o.device = text;
-    else if (option == "--repeat") o.repeat = number(option, text);
-    else if (option == "--spec") {
+    if (option == "--pack") {
+      o.pack = text;
+    } else if (option == "--spirv") {
+      o.spirv = text;
+    } else if (option == "--out") {
+      o.out = text;
+    } else if (option == "--only") {
+      o.only = text;
+    } else if (option == "--device") {
+      o.device = text;
+    } else if (option == "--repeat") {
+      o.repeat = number(option, text);
+    } else if (option == "--spec") {
       const std::size_t equals = text.find('=');
       if (equals == std::string::npos) throw Error("--spec: expected ID=VALUE, found '" + text + "'");
       o.constants[static_cast<std::uint32_t>(number(option, text.substr(0, equals)))] = number(option, text.substr(equals + 1));
-    } else throw Error(option + ": unknown\n" + usage);
+    } else {
+      throw Error(option + ": unknown\n" + usage);
+    }
   }
   if (!o.list && (o.pack.empty() || o.spirv.empty() || o.out.empty())) throw Error(usage);
   if (o.repeat < 1) throw Error("--repeat: expected at least 1");
@@ -85,7 +93,8 @@ int run(const Options& o) {
     for (int again = 1; again < o.repeat; ++again) {
       const std::vector<Array> other = run_case(device, pack, c, program->second, o.constants);
       for (std::size_t i = 0; i < outputs.size(); ++i) {
-        if (outputs[i].shape != other[i].shape || outputs[i].bytes != other[i].bytes) throw Error(c.id + ": run 1 and run " + std::to_string(again + 1) + " differ in " + program->second.outputs[i]);
+        if (outputs[i].shape == other[i].shape && outputs[i].bytes == other[i].bytes) continue;
+        throw Error(c.id + ": run 1 and run " + std::to_string(again + 1) + " differ in " + program->second.outputs[i]);
       }
     }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
