@@ -28,8 +28,9 @@ Outcome call(const std::string& command) {
   const int status = std::system((command + " >'" + log.string() + "' 2>&1").c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log)};
 }
-// The software device, the same on every machine. A driver is not built with sanitizers and leaks what it keeps.
-const std::string quiet = "ASAN_OPTIONS=detect_leaks=0 ";
+// The software device, the same on every machine. A driver is not built with sanitizers: it leaks what it keeps, and its threads
+// look like races; the runner itself has one thread.
+const std::string quiet = "ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=report_bugs=0 ";
 Outcome run_port(const std::string& pack, const fs::path& out, const std::string& more = "", const std::string& language = "glsl") {
   return call(quiet + RAINREF_PORT_RUNNER " --device cpu --pack '" + pack + "' --spirv '" + spirv + "/" + language + "' --out '" +
               out.string() + "' " + more);
