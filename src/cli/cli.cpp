@@ -163,7 +163,11 @@ int parse_and_run(int argc, const char* const* argv) {
   std::string validate_pack, validate_port, mutate_pack;
   CLI::App& validate_verb = *app.add_subcommand("validate", "Judge a GPU port's outputs against a pack");
   validate_verb.add_option("PACK", validate_pack, "Folder of the pack")->required();
-  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack")->required();
+  std::optional<std::string> validate_exec, timeout, repeat;
+  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack");
+  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out}, which becomes a new folder or that of --port");
+  validate_verb.add_option("--timeout", timeout, "Seconds that the command may take (default: 600)");
+  validate_verb.add_option("--repeat", repeat, "Run the command so often and look for races");
   validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: ieee, vulkan, webgpu, d3d, cuda or metal");
   validate_verb.add_option("--only", validate_request.only, "Judge this pass alone");
   validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
@@ -227,6 +231,20 @@ int parse_and_run(int argc, const char* const* argv) {
     return text ? whole_number(*text, "--threads", 1, parallel::Executor::max_threads) : 0;
   };
   if (validate_verb.parsed()) {
+    if (!validate_exec && validate_port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
+    if (!validate_exec && (timeout || repeat)) throw Error(ExitCode::usage, fmt::format("{}: goes with --exec only", timeout ? "--timeout" : "--repeat"));
+    if (validate_exec) {
+      validate_request.exec = *validate_exec;
+      if (validate_request.exec.empty()) throw Error(ExitCode::usage, "--exec: expected a command, found ''");
+      if (validate_exec->find("{out}") == std::string::npos && validate_port.empty()) {
+        throw Error(ExitCode::usage, "--exec: expected {out} in the command, where the port's outputs go; or --port, the folder that it writes to");
+      }
+      if (timeout) validate_request.timeout_s = whole_number(*timeout, "--timeout", 1, 1000000);
+      if (repeat) validate_request.repeat = whole_number(*repeat, "--repeat", 1, 1000);
+      if (validate_request.repeat > 1 && validate_exec->find("{out}") == std::string::npos) {
+        throw Error(ExitCode::usage, "--repeat: expected {out} in the command: each run has a folder of its own");
+      }
+    }
     validate_request.pack = validate_pack;
     validate_request.port = validate_port;
     validate_request.threads = threads_of(validate_threads);

@@ -1,30 +1,102 @@
 // `rainref validate` and `rainref mutate`.
 #include <cstdio>
+#include <optional>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "base/atomic_file.h"
 #include "cli/commands.h"
+#include "cli/port_command.h"
 #include "cli/progress.h"
+#include "conformance/profiles.h"
+#include "conformance/races.h"
 #include "conformance/report_text.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
 
-int validate(const ValidateRequest& request) {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for a port's command to write to: `wanted`, which must be new or empty.
+void make_empty(const fs::path& wanted) {
+  std::error_code error;
+  fs::create_directories(wanted, error);
+  if (error || !fs::is_directory(wanted, error)) {
+    throw Error(ExitCode::io, fmt::format("--port {}: cannot make this folder: {}", wanted.string(), error ? error.message() : "a file of that name exists"));
+  }
+  if (!fs::is_empty(wanted, error)) {
+    throw Error(ExitCode::usage, fmt::format("--port {}: expected a new or empty folder for --exec to write to, found one with files: they could be an older run's", wanted.string()));
+  }
+}
+
+/// Runs the port's command and gives the folders of its runs; a failure goes into the judgement.
+std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement) {
+  std::vector<fs::path> runs;
+  Progress progress("running the port", request.repeat);
+  for (int k = 1; k <= request.repeat; ++k) {
+    const fs::path out = request.repeat == 1 ? folder : folder / fmt::format("run.{}", k);
+    make_empty(out);
+    const CommandEnd end = run_command(with_folders(request.exec, request.pack, out), std::chrono::duration<double>(request.timeout_s));
+    if (!end.failure.empty()) {
+      judgement.status = conformance::Status::fail;
+      judgement.reason = request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure);
+      for (const std::string& line : end.last_lines) judgement.notes.push_back("the port printed: " + line);
+      return {};
+    }
+    runs.push_back(out);
+    progress.advance();
+  }
+  return runs;
+}
+
+conformance::PortJudgement judge_pack(const ValidateRequest& request) {
   const capture::Pack pack(request.pack);
-  const parallel::Executor executor(request.threads);
   conformance::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
-  options.executor = &executor;
+  // What is wrong with the request shows before the port is run.
+  static_cast<void>(conformance::profile(options.profile));
+  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+
   conformance::PortJudgement judgement;
+  judgement.pack = request.pack.string();
+  judgement.profile = request.profile;
+  judgement.effect = pack.effect;
+  judgement.variant = pack.variant;
+  judgement.scene = pack.scene;
+  std::optional<TemporaryRun> temporary;
+  std::vector<fs::path> runs{request.port};
+  if (!request.exec.empty()) {
+    if (request.port.empty()) temporary.emplace();
+    const fs::path folder = temporary ? temporary->path() : request.port;
+    judgement.port = request.port.empty() ? "the outputs of --exec" : request.port.string();
+    runs = run_port(request, folder, judgement);
+    if (runs.empty()) return judgement;
+  }
+  const parallel::Executor executor(request.threads);
+  options.executor = &executor;
   {
     Progress progress("judging", static_cast<int>(pack.cases.size()));
     options.progress = [&](int, int) { progress.advance(); };
-    judgement = conformance::validate(pack, request.port, options);
+    const std::string shown = judgement.port;
+    judgement = conformance::validate(pack, runs.front(), options);
+    if (!shown.empty()) judgement.port = shown;
   }
+  if (runs.size() > 1) {
+    conformance::add_races(conformance::find_races(pack, runs, request.only), judgement);
+    judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+  }
+  return judgement;
+}
+
+}  // namespace
+
+int validate(const ValidateRequest& request) {
+  conformance::PortJudgement judgement = judge_pack(request);
   judgement.command = request.command;
   fmt::print("{}", conformance::report_text(judgement));
   return conformance::exit_code(judgement, request.allow_untested);

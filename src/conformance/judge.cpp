@@ -22,6 +22,8 @@ using enclosed::Enclosure;
 enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, Rounding unorm) {
   enclosed::StoreRules rules = enclosed::store_rules(profile, unorm);
   rules.half = mode == HalfMode::rne ? enclosed::StoreRounding::rne : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz : enclosed::StoreRounding::either;
+  // What a profile says of overflow goes with the rounding that it asks for.
+  if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference) rules.half_overflow = enclosed::StoreOverflow::either;
   return rules;
 }
 HalfMode mode_of(enclosed::StoreRounding r) {
@@ -391,7 +393,8 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
   });
   const HalfMode declared = mode_of(options.profile->half_store);
   if (options.profile->reference || !has_half) result.modes = {declared == HalfMode::either ? HalfMode::rne : declared};
-  else if (declared != HalfMode::either) result.modes = {declared};
+  else if (declared != HalfMode::either && options.half_mode == declared) result.modes = {declared};
+  else if (declared != HalfMode::either) result.modes = {declared, declared == HalfMode::rne ? HalfMode::rtz : HalfMode::rne};
   else if (options.half_mode) result.modes = {*options.half_mode};
   else result.modes = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
 
