@@ -74,6 +74,12 @@ Bind binder(const std::string& effect, const std::string& pass) {
   return nullptr;
 }
 
+Recompute recomputer(const std::string& effect, const std::string& pass) {
+  for (const capture::PassReadings& r : readings_of(effect))
+    if (r.pass == pass) return r.recompute;
+  return nullptr;
+}
+
 void conclude(PortJudgement& j) {
   j.status = Status::pass;
   for (const PassJudgement& p : j.passes) {
