@@ -434,7 +434,7 @@ bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) cons
   return false;
 }
 
-std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor) {
+std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor, HalfMode mode) {
   const std::vector<Slot> slots = slots_of(c);
   std::vector<Array> out;
   for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
@@ -445,7 +445,7 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
         model.evaluate(x, y, values.data());
         for (std::size_t v = 0; v < slots.size(); ++v) {
           const Slot& s = slots[v];
-          store_value(s, values[v].v, s.store_rounding, out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+          store_value(s, values[v].v, rounding_of(s, mode), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
         }
       }
     }

@@ -48,8 +48,9 @@ class InvocationJudge {
   HalfMode mode_;
 };
 
-/// The reference's outputs for a case: what the pack should hold.
-std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor);
+/// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding.
+std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor,
+                                              HalfMode mode = HalfMode::either);
 
 /// Status and reason of a case from its counts.
 void conclude(CaseJudgement& judgement);

@@ -77,7 +77,7 @@ std::string report_text(const PortJudgement& j) {
       }
     }
     if (p.causes.empty()) out += "  cause unknown\n";
-    for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}: {} (gives {} of {} failing texels bit for bit)\n", c.name, c.sentence, c.explained, c.of);
+    for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}: {} (gives {} of {} failing texels bit for bit, comes near {})\n", c.name, c.sentence, c.explained, c.of, c.inside);
   }
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
   out += fmt::format("\n{}: {} against {}, profile {}{}\n", name(j.status), j.port, j.pack, j.profile, j.device.empty() ? "" : fmt::format(", {} {}", j.api, j.device));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "capture/bound_texture.h"
 #include "puddle/every_reading.h"
 #include "puddle/kernels.h"
@@ -153,6 +155,11 @@ std::unique_ptr<PassModel> bind_shade(const PassCase& c) {
   m.normal = texture("normal");
   m.environment = texture("environment");
   m.ground = texture("ground");
+  const Texture around = m.environment.view();
+  if (m.uniforms.environment_is_cube != 0 && around.height[0] != 6 * around.width[0]) {
+    throw Error(ExitCode::port_files, fmt::format("{}: uniform environment_is_cube is {}, but in.environment is {}x{}: six faces below each other were expected", c.folder(),
+                                                  m.uniforms.environment_is_cube, around.width[0], around.height[0]));
+  }
   if (m.corrected) {
     m.relief = texture("relief");
     m.bed = texture("bed");
