@@ -31,7 +31,8 @@ Span span(Address address, Enclosure u, int size, float shift) {
   const Enclosure side(static_cast<float>(size));
   const Enclosure x = (address == Address::mirror ? mirrored(u) : u) * side - Enclosure(shift);
   if (x.is_vacuous()) return {0, 0, size, address, true};
-  // What reducing u first may add: the roundings of fract, of the mirror's subtractions, of the product and of the shift.
+  // What reducing u first may add: the roundings of fract, of the mirror's subtractions, of the product and of the
+  // shift.
   double slack = 0;
   if (address == Address::repeat) slack = 2.5 * unit_roundoff() * size;
   if (address == Address::mirror) slack = 5 * unit_roundoff() * size;
@@ -52,7 +53,8 @@ float texel_of(const Texels& t, int column, int row, int channel) {
 }
 
 // The hull of texels [x0, x1] x [y0, y1] by the address rules.
-Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0, std::int64_t y1, int channel) {
+Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0,
+                     std::int64_t y1, int channel) {
   // One period of indices holds every texel; the other rules have only a few indices outside.
   if (x.address == Address::repeat) x1 = std::min(x1, x0 + x.size - 1);
   if (y.address == Address::repeat) y1 = std::min(y1, y0 + y.size - 1);
@@ -65,6 +67,21 @@ Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t
     }
   }
   return out;
+}
+
+// How far rounding the four weights of a cell may move its value: each by half a step, their sum kept, so that only
+// differences of the texels count.
+double weight_slack(double a, double b, double c, double d) {
+  double t[4] = {a, b, c, d};
+  std::sort(t, t + 4);
+  return 0.5 * power_of_two(-profile().subtexel_bits) * ((t[3] - t[0]) + (t[2] - t[1]));
+}
+// One step of the texels' own precision at this magnitude.
+double storage_step(TexelPrecision precision, double magnitude) {
+  if (precision == TexelPrecision::unorm8) return 1.0 / 255;
+  if (precision == TexelPrecision::float32) return 0;
+  const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(magnitude) >> 52) - 1023;
+  return power_of_two(std::max(exponent - 10, -24));
 }
 
 }  // namespace
@@ -90,7 +107,8 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   // Coordinates so large that their integers do not matter any more.
   if (std::max({-x.lo, x.hi, -y.lo, y.hi}) > 0x1p40) return Enclosure::vacuous();
   const std::int64_t x0 = cell_of(x.lo), x1 = cell_of(x.hi), y0 = cell_of(y.lo), y1 = cell_of(y.hi);
-  double low = infinity, high = -infinity, least = infinity, greatest = -infinity;
+  double low = infinity, high = -infinity, least = infinity, greatest = -infinity, slack = 0;
+  const bool sampler = profile().subtexel_bits > 0;
   if ((x1 - x0 + 1) * (y1 - y0 + 1) > 16) {
     const Enclosure all = texel_hull(t, x, y, x0, x1 + 1, y0, y1 + 1, channel);
     if (all.is_vacuous()) return all;
@@ -107,6 +125,7 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
         const double c = texel_of(t, column, next_row, channel), d = texel_of(t, next_column, next_row, channel);
         least = std::min({least, a, b, c, d});
         greatest = std::max({greatest, a, b, c, d});
+        if (sampler) slack = std::max(slack, weight_slack(a, b, c, d));
         // Linear in each weight: the extrema are at the corners.
         for (const double f : {std::max(x.lo - i, 0.0), std::min(x.hi - i, 1.0)}) {
           const double bottom = a * (1 - f) + b * f, top = c * (1 - f) + d * f;
@@ -121,8 +140,13 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   }
   const double size = std::max(-least, greatest), gap = greatest - least;
   if (size == 0) return {0.0f, 0.0f};
-  // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the two
-  // weights x - floor(x), which is none but below 0.
+  if (sampler) {
+    slack += storage_step(t.precision, size);
+    low = std::max(low - slack, least);
+    high = std::min(high + slack, greatest);
+  }
+  // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the
+  // two weights x - floor(x), which is none but below 0.
   const double flushed = profile().flush == Flush::never ? 0x1p-147 : 0x1p-123;
   const double error = unit_roundoff() * (2 * (size + 2 * std::max(size, gap)) + 2 * gap) * (1 + 0x1p-10) + flushed;
   Enclosure out(float_below(low - error), float_above(high + error));

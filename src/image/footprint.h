@@ -15,6 +15,7 @@ struct Texels {
   int channels, width, height;
   Address address_u, address_v;
   const float* border;
+  TexelPrecision precision = TexelPrecision::float32;
 };
 
 /// The coordinates, in texels, that a lookup may compute along one side. For repeat they are not reduced: indices wrap.
@@ -35,13 +36,16 @@ Span nearest_span(Address address, Enclosure u, int size);
 /// Texels beyond this count make a lookup vacuous; it takes 10 to 100 microseconds to look at them.
 inline constexpr std::int64_t most_texels = 1 << 16;
 
-/// Bilinear filtering over all that the spans hold, each formula of mix: the hull over the cells; over more than 16 cells
-/// the hull of their texels. It lies within the texels touched, but for the roundings of mix.
+/// Bilinear filtering over all that the spans hold, each formula of mix: the hull over the cells; over more than 16
+/// cells the hull of their texels. It lies within the texels touched, but for the roundings of mix. Where the profile has a
+/// sampler, its four weights may each be rounded to the subtexel bits (their sum is kept), and its result to the precision of
+/// the texels: an NVIDIA H100 does both.
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel);
 
 /// The texel that an unfiltered lookup takes: decided where the spans leave up to Replay::max_runs open.
 struct Pick {
-  std::int64_t x0, x1, y0, y1;  ///< indices before the address rule; more than one only where there are too many to decide
+  std::int64_t x0, x1, y0,
+      y1;  ///< indices before the address rule; more than one only where there are too many to decide
   bool vacuous;
 };
 Pick pick(const Span& x, const Span& y);
