@@ -3,7 +3,8 @@
 //
 // as-published: t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two ends
 // of the interval of t are marched, and drawn apart by what f' may be below -1. Each round in which f may be under epsilon
-// is a possible end; which of them is the port's, its own count of rounds says.
+// is a possible end; which of them is the port's, its own count of rounds says. A ray that has passed the box for good
+// misses, however uncertain its t has become.
 // corrected: the march stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The
 // stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step.
 // March steps of corrected are free: they depend on every decision on the way.
@@ -27,6 +28,7 @@ struct SurfaceHitPass {
   SurfaceHitUniforms uniforms;
   bool corrected;
   BoundTexture wave, bounds;
+  float lowest;  ///< texel of the wave
 
   template <class N>
   void operator()(int x, int y, N* out) const {
@@ -69,8 +71,9 @@ Enclosure along(const Vector& origin, const Vector& d, const float* port) {
 // ---- as published --------------------------------------------------------------------------------------------------
 class PublishedMarch {
  public:
-  PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, int px, int py)
-      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))) {}
+  PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, float lowest, int px, int py)
+      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
+        lowest_(lowest - 1e-5 * std::max(1.0f, -lowest)) {}
 
   /// The ends that the march may have; empty: more than a port can be held to.
   struct End {
@@ -84,6 +87,10 @@ class PublishedMarch {
     double low = 0, high = 0;
     for (int round = 0; round < limit; ++round) {
       const double off = off_ray(round, high);
+      if (passed_for_good(low, off)) {
+        found.push_back({Enclosure(), limit - 1, false});
+        return found;
+      }
       const Enclosure f_low = distance(low, low, off), f_high = low == high ? f_low : distance(high, high, off);
       const Enclosure f = low == high ? f_low : distance(low, high, off);
       if (f.is_vacuous()) return {};
@@ -143,6 +150,17 @@ class PublishedMarch {
   }
   Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
 
+  /// Whether f stays at epsilon or more from t = low on: beside a face of the box and moving away from it.
+  bool passed_for_good(double low, double off) const {
+    const Vector p = point(low, low, off);
+    const auto beside = [&](Enclosure c, Enclosure d, int k) {
+      const double gap = d.lo >= 0 ? static_cast<double>(c.lo) - u_.half_size[k] : d.hi <= 0 ? -static_cast<double>(c.hi) - u_.half_size[k] : 0;
+      return gap > 2 * u_.epsilon;
+    };
+    const bool above = d_.y.lo >= 0 && p.y.lo + lowest_ - u_.half_size[1] > 2 * u_.epsilon;
+    return above || beside(p.x, d_.x, 0) || beside(p.z, d_.z, 2);
+  }
+
   /// A lower bound of f' on [low, high]. Over the box f is the gap to the displaced top, |y + h(x, z)| - b_y; beside it a
   /// length of three parts, whose slope is bounded by theirs together.
   double steepest_fall(double low, double high, double off) const {
@@ -155,8 +173,7 @@ class PublishedMarch {
     const Range x = times(sx, d_.x), z = times(sz, d_.z);
     const double rise_low = d_.y.lo + x.low + z.low, rise_high = d_.y.hi + x.high + z.high;
     const bool over_box = abs(p.x).hi <= u_.half_size[0] && abs(p.z).hi <= u_.half_size[2];
-    // The wave is stored in [0, 1], so that a point above y = 0 has y + h > 0.
-    if (over_box && p.y.lo > 0) return std::min(rise_low, 0.0);
+    if (over_box && p.y.lo + lowest_ > 0) return std::min(rise_low, 0.0);
     const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(), dz = d_.z.magnitude();
     return -std::sqrt(dx * dx + vertical * vertical + dz * dz);
   }
@@ -196,6 +213,7 @@ class PublishedMarch {
   const SurfaceHitUniforms& u_;
   const Texture& wave_;
   Vector origin_, d_;
+  double lowest_;  ///< no filtered height is below this
 };
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
@@ -348,7 +366,7 @@ class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
     if (enclosed::profile().reference) return p(x, y, out);
     const Texture wave = p.wave.view();
     if (p.corrected) return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
-    const PublishedMarch march(p.uniforms, wave, x, y);
+    const PublishedMarch march(p.uniforms, wave, p.lowest, x, y);
     const std::vector<PublishedMarch::End> ends = march.ends();
     if (ends.empty()) return enclosed::give_up();
     SurfaceHitPass::write(march.at(PublishedMarch::nearest(ends, port), port), out);
@@ -365,6 +383,8 @@ std::unique_ptr<capture::PassModel> bind_surface_hit(const PassCase& c) {
   p.uniforms = capture::uniforms_of<SurfaceHitUniforms>(c);
   p.corrected = c.corrected();
   p.wave = BoundTexture(capture::image_input(c, "wave"), p.corrected ? 0 : 1, 1);
+  const Texture wave = p.wave.view();
+  p.lowest = *std::min_element(wave.texels, wave.texels + static_cast<std::ptrdiff_t>(wave.width[0]) * wave.height[0]);
   if (p.corrected) p.bounds = BoundTexture(capture::image_input(c, "bounds"));
   return std::make_unique<SurfaceHitModel>(std::move(p));
 }
