@@ -115,8 +115,8 @@ class Deviant {
   friend bool operator>(Deviant a, Deviant b) { return b < a; }
   friend bool operator>=(Deviant a, Deviant b) { return b <= a; }
   friend Deviant select(bool m, Deviant a, Deviant b) { return m ? a : b; }
-  friend Deviant min(Deviant a, Deviant b) { return behaviour().slip == Slip::minimum_missing ? a : b.v < a.v ? b : a; }
-  friend Deviant max(Deviant a, Deviant b) { return behaviour().slip == Slip::maximum_missing ? a : a.v < b.v ? b : a; }
+  friend Deviant min(Deviant a, Deviant b) { return of(behaviour().slip == Slip::minimum_missing ? a.v : b.v < a.v ? b.v : a.v); }
+  friend Deviant max(Deviant a, Deviant b) { return of(behaviour().slip == Slip::maximum_missing ? a.v : a.v < b.v ? b.v : a.v); }
   friend Deviant abs(Deviant a) { return a.v < 0 && behaviour().slip != Slip::abs_missing ? -a : a; }
   friend Deviant sqrt(Deviant a);
   friend Deviant square(Deviant a) { return behaviour().slip == Slip::square_missing ? a : a * a; }

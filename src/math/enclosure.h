@@ -22,6 +22,9 @@ class Enclosure {
   static constexpr int size() { return 1; }
 
   float lo, hi;  ///< never NaN; lo <= hi
+  /// Of a product that an addition may take before it is rounded, where rounding is to nearest: its exact range.
+  bool is_product = false;
+  double product_lo = 0, product_hi = 0;
 
   Enclosure() : lo(0), hi(0) {}
   /// A literal or a uniform. A subnormal may count as zero.
@@ -47,15 +50,27 @@ class Enclosure {
   static Int uniform_int(int value) { return {value}; }
 
   friend Enclosure operator+(Enclosure a, Enclosure b) {
-    if (profile().basic == BasicRounding::nearest) return checked(a.lo + b.lo, a.hi + b.hi);
-    return outward_sum(a, b);
+    if (profile().basic != BasicRounding::nearest) return outward_sum(a, b);
+    return a.is_product || b.is_product ? contracted_sum(a, b) : checked(a.lo + b.lo, a.hi + b.hi);
   }
-  friend Enclosure operator-(Enclosure a) { return {-a.hi, -a.lo}; }
+  friend Enclosure operator-(Enclosure a) {
+    Enclosure out(-a.hi, -a.lo);
+    out.is_product = a.is_product;
+    out.product_lo = -a.product_hi;
+    out.product_hi = -a.product_lo;
+    return out;
+  }
   friend Enclosure operator-(Enclosure a, Enclosure b) { return a + -b; }
   friend Enclosure operator*(Enclosure a, Enclosure b);
   friend Enclosure operator/(Enclosure a, Enclosure b);
   /// The sum with every rounding and with none, whatever the profile's basic rounding.
-  friend Enclosure outward_sum(Enclosure a, Enclosure b) { return checked(sum_below(a.lo, b.lo), sum_above(a.hi, b.hi)); }
+  friend Enclosure outward_sum(Enclosure a, Enclosure b) {
+    a = a.unrounded();
+    b = b.unrounded();
+    return checked(sum_below(a.lo, b.lo), sum_above(a.hi, b.hi));
+  }
+  /// The number before and after its rounding.
+  Enclosure unrounded() const { return is_product ? checked(float_below(product_lo), float_above(product_hi)) : *this; }
 
   // An exact tie of points is settled.
   friend bool operator<(Enclosure a, Enclosure b) { return a.hi < b.lo || (a.lo < b.hi && choose(2) != 0); }
@@ -63,7 +78,11 @@ class Enclosure {
   friend bool operator>(Enclosure a, Enclosure b) { return b < a; }
   friend bool operator>=(Enclosure a, Enclosure b) { return b <= a; }
   friend Enclosure select(bool m, Enclosure a, Enclosure b) { return m ? a : b; }
-  friend Enclosure hull(Enclosure a, Enclosure b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? b.hi : a.hi}; }
+  friend Enclosure hull(Enclosure a, Enclosure b) {
+    a = a.unrounded();
+    b = b.unrounded();
+    return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? b.hi : a.hi};
+  }
   friend Enclosure min(Enclosure a, Enclosure b) {
     if (a.is_vacuous() || b.is_vacuous()) return vacuous();
     return {b.lo < a.lo ? b.lo : a.lo, b.hi < a.hi ? b.hi : a.hi};
@@ -76,6 +95,7 @@ class Enclosure {
     if (a.is_vacuous()) return a;
     if (a.lo >= 0) return a;
     if (a.hi <= 0) return -a;
+    a = a.unrounded();
     return {0.0f, -a.lo < a.hi ? a.hi : -a.lo};
   }
   friend Enclosure square(Enclosure a);
@@ -125,6 +145,7 @@ class Enclosure {
   }
 
  private:
+  friend Enclosure contracted_sum(Enclosure a, Enclosure b);
   static Enclosure load_unorm(float x);
 };
 

@@ -29,8 +29,6 @@ struct BoundCase {
   std::unique_ptr<capture::PassCase> c;
   std::unique_ptr<capture::PassModel> model;
   std::vector<Slot> slots;
-  /// Whether value v tells which branch was taken: the published march's count of rounds and its flag.
-  bool decides(std::size_t v) const { return c->pass == "surface_hit" && !c->corrected() && (v == 3 || v == 7); }
   std::vector<capture::Array> expected() const {
     std::vector<capture::Array> out;
     for (const capture::CaseOutput& o : c->outputs) out.push_back(o.array);
