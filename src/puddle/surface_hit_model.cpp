@@ -6,7 +6,8 @@
 // is a possible end; which of them is the port's, its own count of rounds says. A ray that has passed the box for good
 // misses, however uncertain its t has become.
 // corrected: the march stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The
-// stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step.
+// stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step. Where
+// the ray meets the plane, intervals of t and d lose that their errors cancel: that place has an enclosure of its own.
 // March steps of corrected are free: they depend on every decision on the way.
 #include <algorithm>
 #include <cmath>
@@ -240,14 +241,43 @@ class CorrectedDescent {
         return every::SurfaceHit<Enclosure>();
       }
       const Landing& chosen = landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
+      if (!chosen.leaves) return hit_near(ray, over, port, chosen);
       state.t = chosen.t;
       state.above = min(chosen.above, stopping());
-      if (!chosen.leaves) narrow(ray, over, port, state);
     }
-    return every::landed(u_, wave_, ray, over, state);
+    every::SurfaceHit<Enclosure> out = every::landed(u_, wave_, ray, over, state);
+    out.position = common_part(out.position, plane_point(px, py, ray));
+    return out;
   }
 
  private:
+  /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a division
+  /// and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two components.
+  Vector plane_point(int px, int py, const every::Descent<Enclosure>& ray) const {
+    const enclosed::Profile& p = enclosed::profile();
+    const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
+    const double division = std::max(unit, p.division.ulp * 0x1p-23 + p.division.relative), many = 1 + 1e-6;
+    const double of_t = (division + 2 * unit) * many, of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
+    const Vector v = every::to_image_plane(u_.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)));
+    const double height = ray.origin.y.lo;
+    // o + height * ratio (1 + e), |e| <= error.
+    const auto coordinate = [&](Enclosure o, double low, double high, double error) {
+      const double a = height * low, b = height * high, slack = 0x1p-48 * (std::abs(a) + std::abs(b) + o.magnitude()) + 0x1p-120;
+      const double from = o.lo + (a - error * std::abs(a) - slack), to = o.hi + (b + error * std::abs(b) + slack);
+      return p.basic == enclosed::BasicRounding::nearest ? Enclosure(static_cast<float>(from), static_cast<float>(to)) : around(from, to);
+    };
+    const auto sideways = [&](Enclosure o, Enclosure side) {
+      const double q[4] = {-side.lo / static_cast<double>(v.y.lo), -side.lo / static_cast<double>(v.y.hi), -side.hi / static_cast<double>(v.y.lo), -side.hi / static_cast<double>(v.y.hi)};
+      return coordinate(o, *std::min_element(q, q + 4), *std::max_element(q, q + 4), of_ratio);
+    };
+    if (!(v.y.hi < 0) || !(height >= 0)) return Vector(Enclosure::vacuous(), Enclosure::vacuous(), Enclosure::vacuous());
+    return Vector(sideways(ray.origin.x, v.x), coordinate(ray.origin.y, -1, -1, of_t), sideways(ray.origin.z, v.z));
+  }
+  static Vector common_part(const Vector& a, const Vector& b) {
+    const auto of = [](Enclosure x, Enclosure y) { return Enclosure(std::max(x.lo, y.lo), std::min(x.hi, y.hi)); };
+    return Vector(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z));
+  }
+
   /// A stretch of the ray where the march may stop.
   struct Landing {
     Enclosure t, above;
@@ -283,7 +313,7 @@ class CorrectedDescent {
       if (gap.lo < u_.epsilon) {
         // Once under the water for sure, no march gets further, but by the steps whose proof allows for rounding.
         const Enclosure after = every::gap_above(u_, wave_, ray, Enclosure(piece.hi));
-        crossed = after.hi < -0.5 * u_.epsilon;
+        crossed = after.hi < -std::min(0.5 * u_.epsilon, 4 * width_of(after) + 1e-5 * u_.surface_top);
         if (!found.empty() && found.back().t.hi >= piece.lo) {
           found.back().t = hull(found.back().t, piece);
           found.back().above = hull(found.back().above, gap);
@@ -314,37 +344,49 @@ class CorrectedDescent {
     l.t = around(low, high);
     l.above = above;
   }
-  /// The part of the stretch from which the last step may have led to the port's position.
-  void narrow(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port, every::DescentState<Enclosure>& state) const {
-    const Enclosure own = along(ray.origin, ray.d, port);
-    if (own.is_vacuous()) return;
-    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(state.above.hi, u_.epsilon));
-    const double low = std::max<double>(state.t.lo, own.lo - longest), high = std::min<double>(state.t.hi, own.hi);
-    if (low > high) return;
-    state.t = around(low, high);
-    // Piece by piece: those whose last step may end where the port's did.
-    constexpr int pieces = 16;
-    const double step = width_of(state.t) / pieces;
-    double first = high, last = low;
-    Enclosure above = Enclosure::vacuous();
-    for (int k = 0; k < pieces; ++k) {
-      const Enclosure t = around(low + k * step, low + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
-      if (gap.lo >= u_.epsilon) continue;
-      const every::DescentState<Enclosure> part{t, min(gap, stopping()), state.step, state.iterations};
-      bool reaches = false;
-      enclosed::Replay replay;
-      const bool settled = replay.for_each_alternative([&] {
-        const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
-        reaches |= end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]);
-      });
-      if (!reaches && settled) continue;
-      first = std::min(first, static_cast<double>(t.lo));
-      last = std::max(last, static_cast<double>(t.hi));
-      above = above.is_vacuous() ? part.above : hull(above, part.above);
+  /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did, each by
+  /// itself, because t and the gap depend on each other. All of the stretch where no piece does.
+  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port, const Landing& stretch) const {
+    const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
+    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
+    double low = stretch.t.lo, high = stretch.t.hi;
+    if (!own.is_vacuous()) {
+      low = std::max<double>(low, own.lo - longest);
+      high = std::min<double>(high, own.hi);
     }
-    if (first > last) return;
-    state.t = around(first, last);
-    state.above = above;
+    every::SurfaceHit<Enclosure> out;
+    bool found = false;
+    for (const int pieces : {16, 48}) {
+      if (low > high) break;
+      const double step = (high - low) / pieces, begin = low;
+      double first = high, last = low;
+      found = false;
+      for (int k = 0; k < pieces; ++k) {
+        const Enclosure t = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
+        if (gap.lo >= u_.epsilon) continue;
+        const every::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
+        enclosed::Replay replay;
+        const bool settled = replay.for_each_alternative([&] {
+          const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
+          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
+          out = found ? hull_of(out, end) : end;
+          found = true;
+          first = std::min(first, static_cast<double>(t.lo));
+          last = std::max(last, static_cast<double>(t.hi));
+        });
+        if (!settled) return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+      }
+      if (!found) break;
+      low = first;
+      high = last;
+    }
+    return found ? out : every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+  }
+  static every::SurfaceHit<Enclosure> hull_of(every::SurfaceHit<Enclosure> a, const every::SurfaceHit<Enclosure>& b) {
+    const auto add = [](Vector& to, const Vector& v) { to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z)); };
+    add(a.position, b.position);
+    add(a.normal, b.normal);
+    return a;
   }
 
   /// The largest gap at which a march stops.

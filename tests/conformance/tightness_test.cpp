@@ -79,7 +79,7 @@ void measure(const BoundCase& b, int x, int y, const enclosed::Profile& p, int d
 
 TEST(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) {
   const int devices = 64;
-  const std::int64_t texels = count_from("RAINREF_TEXELS", 100);
+  const std::int64_t texels = count_from("RAINREF_TEXELS", 300);
   const char* only = std::getenv("RAINREF_ONLY");
   fmt::print("{:<26} {:<8} {:>7} {:>7} {:>12} {:>10} {:>10} {:>9}\n", "pass", "profile", "ratio", "p90", "width (ULP)", "exact", "ambiguous", "constant");
   for (const BoundPass& pass : enveloped_passes()) {
@@ -95,8 +95,8 @@ TEST(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) {
         std::sort(values.begin(), values.end());
         return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
       };
-      fmt::print("{:<26} {:<8} {:7.2f} {:7.2f} {:12.0f} {:10} {:10} {:9}\n", pass.name(), name, at(m.ratios, 0.5), at(m.ratios, 0.9), at(m.widths, 0.5), m.exact, m.ambiguous, m.constant);
-      EXPECT_GT(m.ratios.size(), 50u) << pass.name() << ' ' << name;
+      fmt::print("{:<26} {:<8} {:7.2f} {:7.3g} {:12.0f} {:10} {:10} {:9}\n", pass.name(), name, at(m.ratios, 0.5), at(m.ratios, 0.9), at(m.widths, 0.5), m.exact, m.ambiguous, m.constant);
+      EXPECT_GT(m.ratios.size(), 10u) << pass.name() << ' ' << name;
       EXPECT_LE(at(m.ratios, 0.5), 4) << pass.name() << ' ' << name;
     }
   }
