@@ -159,7 +159,7 @@ Deviant floor(Deviant a) {
 Deviant fract(Deviant a) {
   const Reference down = floor(reference(a));
   if (is(Slip::fract_by_truncation) && a.v < 0) return finish(a.v - (down.v == a.v ? down.v : down.v + 1), 0);
-  return Deviant::of(a.v) - Deviant::of(down.v);  // one operation: no product reaches it unrounded
+  return a - Deviant::of(down.v);
 }
 Deviant mix(Deviant a, Deviant b, Deviant t) {
   if (is(Slip::mix_swapped)) return b * (Deviant::of(1.0f) - t) + a * t;

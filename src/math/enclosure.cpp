@@ -33,8 +33,8 @@ Range products(Enclosure a, Enclosure b) {
 }
 Enclosure product(Range r) {
   const Profile& p = profile();
-  if (p.basic != BasicRounding::nearest) return Enclosure::checked(float_below(r.low), float_above(r.high));
-  Enclosure out = Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high));
+  const bool nearest = p.basic == BasicRounding::nearest;
+  Enclosure out = nearest ? Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high)) : Enclosure::checked(float_below(r.low), float_above(r.high));
   if (p.contraction && !out.is_vacuous()) {
     out.is_product = true;
     out.product_lo = r.low;
@@ -157,7 +157,9 @@ Enclosure fract(Enclosure a) {
   if (profile().reference && a.is_point()) return a - cell;
   if (cell.is_vacuous()) return cell;
   if (!cell.is_point()) return {0.0f, 1.0f};
-  return Enclosure::checked(std::max(sum_below(a.lo, -cell.lo), 0.0f), std::min(sum_above(a.hi, -cell.lo), 1.0f));
+  // A product that was rounded up to the integer may lie below it where it is fused.
+  const Enclosure rest = outward_sum(a, -cell);
+  return rest.is_vacuous() ? rest : Enclosure(a.is_product ? rest.lo : std::max(rest.lo, 0.0f), std::min(rest.hi, 1.0f));
 }
 
 Enclosure mix(Enclosure a, Enclosure b, Enclosure t) {

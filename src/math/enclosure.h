@@ -22,7 +22,7 @@ class Enclosure {
   static constexpr int size() { return 1; }
 
   float lo, hi;  ///< never NaN; lo <= hi
-  /// Of a product that an addition may take before it is rounded, where rounding is to nearest: its exact range.
+  /// Of a product that an addition may take before it is rounded: its exact range.
   bool is_product = false;
   double product_lo = 0, product_hi = 0;
 
@@ -105,7 +105,7 @@ class Enclosure {
 
   /// Where the integer is open: one candidate of up to Replay::max_runs, else the interval of all of them.
   friend Enclosure floor(Enclosure a);
-  /// a - floor(a) in [0, 1], of the candidate that floor takes; [0, 1] where there are too many.
+  /// a - floor(a) in [0, 1] but for a fused product, of the candidate that floor takes; [0, 1] where there are too many.
   friend Enclosure fract(Enclosure a);
   /// Gives the invocation up where a is not one integer.
   friend Int to_int(Enclosure a) {
