@@ -29,7 +29,8 @@ std::int64_t highest_half(float x, const StoreRules& rules) {
   if (rules.half == StoreRounding::rtz && x >= 0x1p16f) code = half_infinity;
   if (rules.half == StoreRounding::rtz && x <= -0x1p16f) code = -half_infinity;
   if (code >= half_infinity) return rules.half_overflow == StoreOverflow::max ? half_max : half_infinity;
-  if (x <= -0x1p16f || code <= -half_infinity) return rules.half_overflow == StoreOverflow::inf ? -half_infinity : -half_max;
+  if (x <= -0x1p16f || code <= -half_infinity)
+    return rules.half_overflow == StoreOverflow::inf ? -half_infinity : -half_max;
   return code;
 }
 
@@ -38,8 +39,10 @@ double ceil_of(double x) { return -floor_of(-x); }
 
 // Codes within ulp of the reals [low, high]; above half a code at most the neighbours.
 CodeRange codes_near(double low, double high, double ulp) {
-  const double first = std::max(ceil_of(low - ulp), floor_of(low)), last = std::min(floor_of(high + ulp), ceil_of(high));
-  return {static_cast<std::int64_t>(std::clamp(first, 0.0, 255.0)), static_cast<std::int64_t>(std::clamp(last, 0.0, 255.0))};
+  const double first = std::max(ceil_of(low - ulp), floor_of(low)),
+               last = std::min(floor_of(high + ulp), ceil_of(high));
+  return {static_cast<std::int64_t>(std::clamp(first, 0.0, 255.0)),
+          static_cast<std::int64_t>(std::clamp(last, 0.0, 255.0))};
 }
 
 float held(float x) { return x < 0 ? 0.0f : 1 < x ? 1.0f : x; }
@@ -55,7 +58,9 @@ CodeRange unorm_range(const Enclosure& v, const StoreRules& rules) {
   if (rules.unorm == Rounding::rtz) {
     const CodeRange cut{to_unorm8(low, Rounding::rtz).code, to_unorm8(high, Rounding::rtz).code};
     // The reference rounds 255 x to a float first; a device may cut the exact product, or the float above it.
-    return rules.unorm_ulp == 0 ? cut : CodeRange{static_cast<std::int64_t>(255.0 * low), static_cast<std::int64_t>(float_above(255.0 * high))};
+    return rules.unorm_ulp == 0 ? cut
+                                : CodeRange{static_cast<std::int64_t>(255.0 * low),
+                                            static_cast<std::int64_t>(float_above(255.0 * high))};
   }
   CodeRange out{to_unorm8(low).code, to_unorm8(high).code};
   if (rules.unorm_ulp > 0) {
@@ -65,7 +70,9 @@ CodeRange unorm_range(const Enclosure& v, const StoreRules& rules) {
   return out;
 }
 
-double encode_srgb(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow_real(Real64(x), Real64(1 / 2.4)).v - 0.055; }
+double encode_srgb(double x) {
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * pow_real(Real64(x), Real64(1 / 2.4)).v - 0.055;
+}
 
 CodeRange srgb_range(const Enclosure& v, const StoreRules& rules) {
   const double low = 255 * encode_srgb(held(v.lo)), high = 255 * encode_srgb(held(v.hi));
@@ -77,7 +84,9 @@ CodeRange srgb_range(const Enclosure& v, const StoreRules& rules) {
 
 }  // namespace
 
-StoreRules store_rules(const Profile& p, Rounding unorm) { return {p.half_store, p.half_overflow, unorm, p.unorm_store_ulp, p.srgb_store_ulp}; }
+StoreRules store_rules(const Profile& p, Rounding unorm) {
+  return {p.half_store, p.half_overflow, unorm, p.unorm_store_ulp, p.srgb_store_ulp};
+}
 
 CodeRange code_range(FormatInfo::Kind kind, const Enclosure& v, const StoreRules& rules) {
   if (v.is_vacuous()) return CodeRange::vacuous();
@@ -86,9 +95,12 @@ CodeRange code_range(FormatInfo::Kind kind, const Enclosure& v, const StoreRules
       const auto code = [](float x) { return signed_magnitude(std::bit_cast<std::uint32_t>(x), 0x80000000u); };
       return {code(v.lo), code(v.hi)};
     }
-    case FormatInfo::float16: return {-highest_half(-v.lo, rules), highest_half(v.hi, rules)};
-    case FormatInfo::unorm8: return unorm_range(v, rules);
-    case FormatInfo::srgb8: return srgb_range(v, rules);
+    case FormatInfo::float16:
+      return {-highest_half(-v.lo, rules), highest_half(v.hi, rules)};
+    case FormatInfo::unorm8:
+      return unorm_range(v, rules);
+    case FormatInfo::srgb8:
+      return srgb_range(v, rules);
     case FormatInfo::uint32: {
       const auto code = [](float x) { return static_cast<std::int64_t>(std::clamp<double>(x, 0, 4294967295.0)); };
       return {code(v.lo), code(v.hi)};
@@ -100,11 +112,15 @@ CodeRange code_range(FormatInfo::Kind kind, const Enclosure& v, const StoreRules
 std::int64_t ordered_code(FormatInfo::Kind kind, const std::byte* stored) {
   const auto byte = [&](int i) { return std::to_integer<std::uint32_t>(stored[i]); };
   switch (kind) {
-    case FormatInfo::float32: return signed_magnitude(byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24, 0x80000000u);
-    case FormatInfo::float16: return signed_magnitude(byte(0) | byte(1) << 8, 0x8000u);
+    case FormatInfo::float32:
+      return signed_magnitude(byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24, 0x80000000u);
+    case FormatInfo::float16:
+      return signed_magnitude(byte(0) | byte(1) << 8, 0x8000u);
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: return byte(0);
-    case FormatInfo::uint32: return static_cast<std::int64_t>(byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24);
+    case FormatInfo::srgb8:
+      return byte(0);
+    case FormatInfo::uint32:
+      return static_cast<std::int64_t>(byte(0) | byte(1) << 8 | byte(2) << 16 | byte(3) << 24);
   }
   return INT64_MAX;
 }
@@ -118,22 +134,31 @@ std::uint32_t code_bits(FormatInfo::Kind kind, std::int64_t code) {
 double code_value(FormatInfo::Kind kind, std::int64_t code) {
   const std::uint32_t bits = code_bits(kind, code);
   switch (kind) {
-    case FormatInfo::float32: return std::bit_cast<float>(bits);
-    case FormatInfo::float16: return to_float(Half{static_cast<std::uint16_t>(bits)});
-    case FormatInfo::unorm8: return static_cast<double>(bits) / 255;
-    case FormatInfo::srgb8: return decode_srgb(static_cast<double>(bits) / 255);
-    case FormatInfo::uint32: return bits;
+    case FormatInfo::float32:
+      return std::bit_cast<float>(bits);
+    case FormatInfo::float16:
+      return to_float(Half{static_cast<std::uint16_t>(bits)});
+    case FormatInfo::unorm8:
+      return static_cast<double>(bits) / 255;
+    case FormatInfo::srgb8:
+      return decode_srgb(static_cast<double>(bits) / 255);
+    case FormatInfo::uint32:
+      return bits;
   }
   return 0;
 }
 std::string code_text(FormatInfo::Kind kind, std::int64_t code) {
   const std::uint32_t bits = code_bits(kind, code);
   switch (kind) {
-    case FormatInfo::float32: return fmt::format("{:.9g} (0x{:08x})", code_value(kind, code), bits);
-    case FormatInfo::float16: return fmt::format("{:.6g} (0x{:04x})", code_value(kind, code), bits);
+    case FormatInfo::float32:
+      return fmt::format("{:.9g} (0x{:08x})", code_value(kind, code), bits);
+    case FormatInfo::float16:
+      return fmt::format("{:.6g} (0x{:04x})", code_value(kind, code), bits);
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: return fmt::format("{:.5g} (0x{:02x})", code_value(kind, code), bits);
-    case FormatInfo::uint32: return fmt::format("{} (0x{:x})", bits, bits);
+    case FormatInfo::srgb8:
+      return fmt::format("{:.5g} (0x{:02x})", code_value(kind, code), bits);
+    case FormatInfo::uint32:
+      return fmt::format("{} (0x{:x})", bits, bits);
   }
   return "";
 }

@@ -1,7 +1,8 @@
 // What a conforming store may leave of a value: a closed range of ordered codes.
 //
 // An ordered code counts the values that a storage kind can hold: neighbouring ones differ by 1, and -0 and +0 have the
-// same code, 0. Of floats it is the bits of the magnitude, with the sign; of unorm8, srgb8 and uint32 the stored integer.
+// same code, 0. Of floats it is the bits of the magnitude, with the sign; of unorm8, srgb8 and uint32 the stored
+// integer.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,8 @@ struct StoreRules {
 /// What a profile declares, for an output whose unorm8 codes are rounded like this.
 StoreRules store_rules(const Profile& profile, Rounding unorm = Rounding::rne);
 
-/// Codes lo to hi, both included. Not a number has codes that no range holds, but a vacuous one, which holds everything.
+/// Codes lo to hi, both included. Not a number has codes that no range holds, but a vacuous one, which holds
+/// everything.
 struct CodeRange {
   std::int64_t lo, hi;
   bool contains(std::int64_t code) const { return lo <= code && code <= hi; }
@@ -33,13 +35,15 @@ struct CodeRange {
 /// Vacuous of a vacuous value. Subnormals that may be flushed are flushed in the enclosure, not here.
 ///   float16  rne or rtz round each end; either takes the half at or below lo and the one at or above hi. Beyond the
 ///            largest half: that, or infinity, as the rules say.
-///   unorm8   rne: codes within unorm_ulp of 255 x, x held in [0, 1]; the float nearest to code / 255 gives that code. rtz:
+///   unorm8   rne: codes within unorm_ulp of 255 x, x held in [0, 1]; the float nearest to code / 255 gives that code.
+///   rtz:
 ///            255 x cut toward zero. The reference's own code (math/unorm.h) always counts, and with unorm_ulp 0 alone.
 ///   srgb8    codes within srgb_ulp of 255 encode(x), x held in [0, 1]; 0 rounds to nearest even.
 ///   uint32   x cut toward zero, held in [0, 2^32 - 1].
 CodeRange code_range(FormatInfo::Kind kind, const Enclosure& value, const StoreRules& rules);
 
-/// The ordered code of a stored value, little endian, FormatInfo::channel_bytes of it. NaN: beyond the infinity of its sign.
+/// The ordered code of a stored value, little endian, FormatInfo::channel_bytes of it. NaN: beyond the infinity of its
+/// sign.
 std::int64_t ordered_code(FormatInfo::Kind kind, const std::byte* stored);
 
 /// The bits of an ordered code, as they are stored; code 0 of a float is +0.

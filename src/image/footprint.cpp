@@ -31,7 +31,8 @@ Span span(Address address, Enclosure u, int size, float shift) {
   const Enclosure side(static_cast<float>(size));
   const Enclosure x = (address == Address::mirror ? mirrored(u) : u) * side - Enclosure(shift);
   if (x.is_vacuous()) return {0, 0, size, address, true};
-  // What reducing u first may add: the roundings of fract, of the mirror's subtractions, of the product and of the shift.
+  // What reducing u first may add: the roundings of fract, of the mirror's subtractions, of the product and of the
+  // shift.
   double slack = 0;
   if (address == Address::repeat) slack = 2.5 * unit_roundoff() * size;
   if (address == Address::mirror) slack = 5 * unit_roundoff() * size;
@@ -52,7 +53,8 @@ float texel_of(const Texels& t, int column, int row, int channel) {
 }
 
 // The hull of texels [x0, x1] x [y0, y1] by the address rules.
-Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0, std::int64_t y1, int channel) {
+Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0,
+                     std::int64_t y1, int channel) {
   // One period of indices holds every texel; the other rules have only a few indices outside.
   if (x.address == Address::repeat) x1 = std::min(x1, x0 + x.size - 1);
   if (y.address == Address::repeat) y1 = std::min(y1, y0 + y.size - 1);
@@ -121,8 +123,8 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   }
   const double size = std::max(-least, greatest), gap = greatest - least;
   if (size == 0) return {0.0f, 0.0f};
-  // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the two
-  // weights x - floor(x), which is none but below 0.
+  // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the
+  // two weights x - floor(x), which is none but below 0.
   const double flushed = profile().flush == Flush::never ? 0x1p-147 : 0x1p-123;
   const double error = unit_roundoff() * (2 * (size + 2 * std::max(size, gap)) + 2 * gap) * (1 + 0x1p-10) + flushed;
   Enclosure out(float_below(low - error), float_above(high + error));

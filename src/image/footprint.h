@@ -35,13 +35,14 @@ Span nearest_span(Address address, Enclosure u, int size);
 /// Texels beyond this count make a lookup vacuous; it takes 10 to 100 microseconds to look at them.
 inline constexpr std::int64_t most_texels = 1 << 16;
 
-/// Bilinear filtering over all that the spans hold, each formula of mix: the hull over the cells; over more than 16 cells
-/// the hull of their texels. It lies within the texels touched, but for the roundings of mix.
+/// Bilinear filtering over all that the spans hold, each formula of mix: the hull over the cells; over more than 16
+/// cells the hull of their texels. It lies within the texels touched, but for the roundings of mix.
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel);
 
 /// The texel that an unfiltered lookup takes: decided where the spans leave up to Replay::max_runs open.
 struct Pick {
-  std::int64_t x0, x1, y0, y1;  ///< indices before the address rule; more than one only where there are too many to decide
+  std::int64_t x0, x1, y0,
+      y1;  ///< indices before the address rule; more than one only where there are too many to decide
   bool vacuous;
 };
 Pick pick(const Span& x, const Span& y);

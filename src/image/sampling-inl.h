@@ -42,9 +42,10 @@ RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   l.height_number = N(static_cast<float>(t.height[level]));
   return l;
 }
-/// A level of each element's own.
+/// A level of each element's own, held within those that there are.
 template <class N, class T>
-RAINREF_FN Level<N> level_of(const T& t, typename N::Int level) {
+RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
+  const auto level = clamp_index(wanted, N::uniform_int(t.levels));
   Level<N> l;
   // Each level halves the side above it, rounded down, to no less than 1.
   const auto one = N::uniform_int(1);

@@ -1,9 +1,9 @@
-// The lookups of sampling-inl.h for enclosures. Text only: include it right after sampling-inl.h, in the same namespace,
-// with image/footprint.h before both. Overload resolution prefers these where the number is an Enclosure.
+// The lookups of sampling-inl.h for enclosures. Text only: include it right after sampling-inl.h, in the same
+// namespace, with image/footprint.h before both. Overload resolution prefers these where the number is an Enclosure.
 //
-// A filtered lookup is continuous, so it gives the hull over the cells that its coordinates touch and decides nothing; an
-// unfiltered one, and the choice of a mip level, jump and are decided. Wherever the profile knows a sampler the lookup may
-// be made by it: its coordinates are off by as much as the sampler's may be.
+// A filtered lookup is continuous, so it gives the hull over the cells that its coordinates touch and decides nothing;
+// an unfiltered one, and the choice of a mip level, jump and are decided. Wherever the profile knows a sampler the
+// lookup may be made by it: its coordinates are off by as much as the sampler's may be.
 
 /// The same number as the reference's, for points under the profile `ieee`.
 template <class T>
@@ -27,7 +27,8 @@ RAINREF_FN Channels<enclosed::Enclosure, Count> points(const Channels<plain::Pla
 }
 template <class T>
 RAINREF_FN enclosed::Texels texels_of(const T& t, const Level<enclosed::Enclosure>& l) {
-  return {t.texels + static_cast<std::ptrdiff_t>(l.offset.i) * t.channels, t.channels, l.width.i, l.height.i, t.address_u, t.address_v, t.border};
+  const float* first = t.texels + static_cast<std::ptrdiff_t>(l.offset.i) * t.channels;
+  return {first, t.channels, l.width.i, l.height.i, t.address_u, t.address_v, t.border};
 }
 
 template <int First, int Count, class N, class T>
@@ -47,9 +48,12 @@ template <int First, int Count, class N, class T>
   requires std::same_as<N, enclosed::Enclosure>
 RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
   using Single = plain::Plain<float>;
-  if (as_reference(u, v)) return points(sample_level<First, Count, Single>(t, plain_level(l), Single(u.lo), Single(v.lo)));
+  if (as_reference(u, v)) {
+    return points(sample_level<First, Count, Single>(t, plain_level(l), Single(u.lo), Single(v.lo)));
+  }
   const enclosed::Texels texels = texels_of(t, l);
-  const enclosed::Span x = filtered_span(t.address_u, u, texels.width), y = filtered_span(t.address_v, v, texels.height);
+  const enclosed::Span x = filtered_span(t.address_u, u, texels.width);
+  const enclosed::Span y = filtered_span(t.address_v, v, texels.height);
   Channels<N, Count> out;
   for (int k = 0; k < Count; ++k) out[k] = filtered(texels, x, y, First + k);
   return out;
@@ -64,9 +68,10 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
     return {N(near.left.v), N(near.right.v), N(near.down.v), N(near.up.v)};
   }
   const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, 0));
-  const enclosed::Span x = filtered_span(t.address_u, u, texels.width), y = filtered_span(t.address_v, v, texels.height);
-  return {filtered(texels, x.moved(-1), y, Channel), filtered(texels, x.moved(1), y, Channel), filtered(texels, x, y.moved(-1), Channel),
-          filtered(texels, x, y.moved(1), Channel)};
+  const enclosed::Span x = filtered_span(t.address_u, u, texels.width);
+  const enclosed::Span y = filtered_span(t.address_v, v, texels.height);
+  return {filtered(texels, x.moved(-1), y, Channel), filtered(texels, x.moved(1), y, Channel),
+          filtered(texels, x, y.moved(-1), Channel), filtered(texels, x, y.moved(1), Channel)};
 }
 
 template <int First, int Count, class N, class T>
@@ -86,7 +91,9 @@ template <int First, int Count, class N, class T>
   requires std::same_as<N, enclosed::Enclosure>
 RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   using Single = plain::Plain<float>;
-  if (as_reference(u, v) && lod.is_point()) return points(sample_trilinear<First, Count, Single>(t, Single(u.lo), Single(v.lo), Single(lod.lo)));
+  if (as_reference(u, v) && lod.is_point()) {
+    return points(sample_trilinear<First, Count, Single>(t, Single(u.lo), Single(v.lo), Single(lod.lo)));
+  }
   const N range = level_range(lod, t.levels);
   const int first = static_cast<int>(range.lo), last = static_cast<int>(range.hi);
   auto fine = sample_level<First, Count, N>(t, uniform_level<N>(t, first), u, v);

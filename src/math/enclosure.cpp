@@ -14,8 +14,8 @@ double error_at(double y, const Accuracy& a, double x_magnitude) {
   return (a.ulp + a.ulp_per_x * x_magnitude) * ulp_of(y) + (a.relative + double_error) * size + a.absolute;
 }
 
-// The least that a result for an exact value in [low, high] may be. The error grows with |y|, and by a jump at each power
-// of two, so besides `low` the next power of two above it counts.
+// The least that a result for an exact value in [low, high] may be. The error grows with |y|, and by a jump at each
+// power of two, so besides `low` the next power of two above it counts.
 double least(double low, double high, const Accuracy& a, double x_magnitude) {
   const double at_low = low - error_at(low, a, x_magnitude);
   if (low <= 0) return at_low;
@@ -121,14 +121,16 @@ Enclosure operator/(Enclosure a, Enclosure b) {
 
 Enclosure inverse_sqrt(Enclosure a) {
   if (a.is_vacuous() || a.lo <= 0) return Enclosure::vacuous();
-  const double low = 1 / __builtin_sqrt(static_cast<double>(a.hi)), high = 1 / __builtin_sqrt(static_cast<double>(a.lo));
+  const double low = 1 / __builtin_sqrt(static_cast<double>(a.hi)),
+               high = 1 / __builtin_sqrt(static_cast<double>(a.lo));
   return widened(low, high, profile().inverse_sqrt, 0);
 }
 
 Enclosure sqrt(Enclosure a) {
   const Profile& p = profile();
   if (a.is_vacuous() || a.lo < 0) return Enclosure::vacuous();
-  if (p.reference || (p.sqrt.is_zero() && !p.sqrt_is_inherited)) return Enclosure::checked(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi));
+  if (p.reference || (p.sqrt.is_zero() && !p.sqrt_is_inherited))
+    return Enclosure::checked(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi));
   // The root of 0 is 0 by every formula: 1 / infinity.
   const Enclosure positive(a.lo > 0 ? a.lo : std::min(smallest_normal, a.hi), a.hi);
   if (a.hi == 0) return Enclosure(0.0f);
@@ -136,7 +138,8 @@ Enclosure sqrt(Enclosure a) {
   if (p.sqrt_is_inherited) {
     root = Enclosure(1.0f) / inverse_sqrt(positive);
   } else {
-    root = widened(__builtin_sqrt(static_cast<double>(positive.lo)), __builtin_sqrt(static_cast<double>(positive.hi)), p.sqrt, 0);
+    root = widened(__builtin_sqrt(static_cast<double>(positive.lo)), __builtin_sqrt(static_cast<double>(positive.hi)),
+                   p.sqrt, 0);
   }
   if (root.is_vacuous()) return root;
   return {a.lo > 0 ? std::max(root.lo, 0.0f) : 0.0f, root.hi};

@@ -1,9 +1,10 @@
-// The enclosure reading of a pass: a number is a closed interval that holds every result which a conforming GPU may give.
+// The enclosure reading of a pass: a number is a closed interval that holds every result which a conforming GPU may
+// give.
 //
-// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), Replay runs
-// what an interval does not settle (replay.h). Every operation rounds outward, which covers both neighbours of a result
-// and its fusion with a later addition; exact results stay points. Under the profile `ieee` nothing is widened and
-// a point has the bits of Plain<float>.
+// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), Replay
+// runs what an interval does not settle (replay.h). Every operation rounds outward, which covers both neighbours of a
+// result and its fusion with a later addition; exact results stay points. Under the profile `ieee` nothing is widened
+// and a point has the bits of Plain<float>.
 //
 // What may be infinite, not a number or undefined is vacuous, the interval of everything; it stays vacuous through all
 // that is computed from it.
@@ -43,8 +44,10 @@ class Enclosure {
 
   template <class Storage>
   static Enclosure load(const Storage* p) {
-    if constexpr (std::is_same_v<Storage, Unorm8>) return load_unorm(plain::to_float(*p));
-    else return Enclosure(plain::to_float(*p));
+    if constexpr (std::is_same_v<Storage, Unorm8>)
+      return load_unorm(plain::to_float(*p));
+    else
+      return Enclosure(plain::to_float(*p));
   }
   static Enclosure index(int first) { return {static_cast<float>(first), static_cast<float>(first)}; }
   static Int uniform_int(int value) { return {value}; }

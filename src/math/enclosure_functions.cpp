@@ -1,5 +1,5 @@
-// Transcendental functions and named mathematics of enclosures: our own functions in double at the ends and at the extrema
-// between them, then the profile's accuracy, then outward.
+// Transcendental functions and named mathematics of enclosures: our own functions in double at the ends and at the
+// extrema between them, then the profile's accuracy, then outward.
 #include <algorithm>
 #include <cmath>
 
@@ -87,7 +87,8 @@ Enclosure pow(Enclosure x, Enclosure y) {
   if (as_reference(x) && as_reference(y)) return point(pow(Single(x.lo), Single(y.lo)));
   if (x.is_vacuous() || y.is_vacuous() || x.lo < 0 || (x.lo == 0 && y.lo <= 0)) return Enclosure::vacuous();
   if (x.lo > 0) return positive_pow(x, y);
-  // A positive power grows with x, from 0. Where it is subnormal, the hundreds of ULP that exp2 may have there come to 2^-139.
+  // A positive power grows with x, from 0. Where it is subnormal, the hundreds of ULP that exp2 may have there come to
+  // 2^-139.
   if (x.hi == 0) return Enclosure(0.0f);
   const Enclosure top = positive_pow({x.hi, x.hi}, y);
   return top.is_vacuous() ? top : Enclosure(0.0f, std::max(top.hi, 0x1p-139f));
@@ -95,11 +96,13 @@ Enclosure pow(Enclosure x, Enclosure y) {
 
 Enclosure sin(Enclosure a) {
   if (as_reference(a)) return point(sin(Single(a.lo)));
-  return wave(a, [](double x) { return sin_real(Real64(x)).v; }, 0);
+  return wave(
+      a, [](double x) { return sin_real(Real64(x)).v; }, 0);
 }
 Enclosure cos(Enclosure a) {
   if (as_reference(a)) return point(cos(Single(a.lo)));
-  return wave(a, [](double x) { return cos_real(Real64(x)).v; }, pi / 2);
+  return wave(
+      a, [](double x) { return cos_real(Real64(x)).v; }, pi / 2);
 }
 
 Enclosure atan2(Enclosure y, Enclosure x) {
@@ -110,8 +113,10 @@ Enclosure atan2(Enclosure y, Enclosure x) {
   if (x.lo <= 0 && y0 <= 0 && 0 <= y1) {
     if (x.hi >= 0) return widened(-pi, pi, accuracy, 0);  // around the origin
     // The sign of a zero is not kept by every device: +0 and -0 are the two sides.
-    if (choose(2) != 0) y0 = 0.0;
-    else y1 = -0.0;
+    if (choose(2) != 0)
+      y0 = 0.0;
+    else
+      y1 = -0.0;
   }
   // Away from the origin and the cut the extreme angles of a box are at its corners.
   const auto at = [](double height, double width) { return atan2_real(Real64(height), Real64(width)).v; };
@@ -170,8 +175,10 @@ plain::Vec3<Enclosure> normalize(const plain::Vec3<Enclosure>& a) {
   if (p.reference) return plain::normalize<Enclosure>(a);
   const Enclosure squared = sum_any_order(square(a.x), square(a.y), square(a.z));
   const Enclosure length = sqrt(squared), inverse = Enclosure(1.0f) / length, direct = inverse_sqrt(squared);
-  // No component is longer than the whole, but for the errors of the formulas: two divisions, a root, a sum and products.
-  const double slack = (10 + 2 * p.division.ulp + p.sqrt.ulp + 2 * p.inverse_sqrt.ulp) * 0x1p-23 + 2 * p.division.relative + p.sqrt.relative + 2 * p.inverse_sqrt.relative;
+  // No component is longer than the whole, but for the errors of the formulas: two divisions, a root, a sum and
+  // products.
+  const double slack = (10 + 2 * p.division.ulp + p.sqrt.ulp + 2 * p.inverse_sqrt.ulp) * 0x1p-23 +
+                       2 * p.division.relative + p.sqrt.relative + 2 * p.inverse_sqrt.relative;
   const float limit = float_above(1 + slack);
   const auto component = [&](Enclosure c) {
     const Enclosure any = hull(hull(inverse * c, c / length), c * direct);

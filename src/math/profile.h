@@ -1,7 +1,7 @@
 // What a conforming GPU may do with a number: the rules by which an enclosure widens.
 //
-// The values that rainref judges by, each with its source, are the data files src/conformance/profiles/*.toml. Their keys
-// are the members of Profile; an Accuracy is a table.
+// The values that rainref judges by, each with its source, are the data files src/conformance/profiles/*.toml. Their
+// keys are the members of Profile; an Accuracy is a table.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ namespace rainref::enclosed {
 
 /// How far a result may lie from the exact value y of a function at x:
 ///   ulp ULP(y) + ulp_per_x |x| ULP(y) + relative |y| + absolute,
-/// where ULP(y) is the gap between the floats around y (the larger one at a power of two). Without an absolute part the error
-/// does not take a result over zero: no formula for x / y changes its sign. All zero: to nearest even.
+/// where ULP(y) is the gap between the floats around y (the larger one at a power of two). Without an absolute part the
+/// error does not take a result over zero: no formula for x / y changes its sign. All zero: to nearest even.
 struct Accuracy {
   double ulp = 0, ulp_per_x = 0, relative = 0, absolute = 0;
   bool is_zero() const { return ulp == 0 && ulp_per_x == 0 && relative == 0 && absolute == 0; }
@@ -49,9 +49,9 @@ struct Profile {
   Accuracy log_near_one, log2_near_one;  ///< for x in [1/2, 2]
   Accuracy pow;
   bool pow_is_inherited = false;  ///< pow is exp2(y log2 x); `pow` does not count
-  Accuracy sin_cos;                  ///< for |x| <= sin_cos_domain
+  Accuracy sin_cos;               ///< for |x| <= sin_cos_domain
   double sin_cos_domain = 0;      ///< 0: every float
-  double sin_cos_beyond = 0;      ///< error for each unit of |x| beyond the domain, by convention; 0: nothing is promised
+  double sin_cos_beyond = 0;  ///< error for each unit of |x| beyond the domain, by convention; 0: nothing is promised
   Accuracy atan2;
 
   /// Fractional bits of the coordinate of a filtered lookup; 0: filters are computed like any other arithmetic.

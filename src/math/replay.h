@@ -1,6 +1,6 @@
-// Decisions that an enclosure does not settle. Inside one run each comparison is a plain bool and each floor one integer;
-// where the interval leaves it open, the run is made again for each answer, depth first. So masks, texel indices and even
-// loops need no set type, and the alternatives stay joint over all outputs of an invocation.
+// Decisions that an enclosure does not settle. Inside one run each comparison is a plain bool and each floor one
+// integer; where the interval leaves it open, the run is made again for each answer, depth first. So masks, texel
+// indices and even loops need no set type, and the alternatives stay joint over all outputs of an invocation.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ class ProfileScope {
   const Profile* before_;
 };
 
-/// One open decision: which of `count` answers a run took. Of a comparison 0 is false and 1 is true; of a floor k is the
-/// k-th candidate from below.
+/// One open decision: which of `count` answers a run took. Of a comparison 0 is false and 1 is true; of a floor k is
+/// the k-th candidate from below.
 struct Decision {
   std::uint8_t chosen, count;
 };
@@ -63,7 +63,8 @@ class Replay {
   }
   /// Runs made by the last for_each_alternative: its alternatives when it gave true.
   int runs() const { return runs_; }
-  /// Inside run(): the open decisions met so far and how this run answers them, in order. Empty: everything was settled.
+  /// Inside run(): the open decisions met so far and how this run answers them, in order. Empty: everything was
+  /// settled.
   std::span<const Decision> decisions() const { return {decisions_, static_cast<std::size_t>(depth_)}; }
 
   /// The answer to an open decision of `count` >= 2 answers, in [0, count).

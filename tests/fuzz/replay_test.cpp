@@ -1,6 +1,7 @@
 // The fuzzers' targets without a fuzzer: the seeds as they are, cut off at every byte, and changed in a fixed random
 // way. A seed whose name starts with "refused" must be refused, each other must be accepted.
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
@@ -14,14 +15,22 @@
 
 namespace {
 // The largest block that was asked for by operator new, of this whole program.
-std::size_t largest_block = 0;
+std::atomic<std::size_t> largest_block = 0;
+
+void* allocate(std::size_t size) {
+  if (size > largest_block) largest_block = size;
+  return std::malloc(std::max<std::size_t>(size, 1));
+}
 }  // namespace
 
 // Not inlined: GCC would see malloc on one side and delete on the other, and warn.
 __attribute__((noinline)) void* operator new(std::size_t size) {
-  largest_block = std::max(largest_block, size);
-  if (void* block = std::malloc(std::max<std::size_t>(size, 1))) return block;
+  if (void* block = allocate(size)) return block;
   throw std::bad_alloc();
+}
+// The standard library takes a temporary buffer by this one; a sanitizer's own would not go with the delete below.
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return allocate(size);
 }
 __attribute__((noinline)) void operator delete(void* block) noexcept { std::free(block); }
 __attribute__((noinline)) void operator delete(void* block, std::size_t) noexcept { std::free(block); }

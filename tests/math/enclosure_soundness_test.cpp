@@ -1,5 +1,5 @@
-// Soundness: whatever a conforming GPU gives lies inside. The GPU is drawn by lot, operation by operation (random_gpu.h),
-// for point operands and for operands anywhere in intervals; then for whole expressions.
+// Soundness: whatever a conforming GPU gives lies inside. The GPU is drawn by lot, operation by operation
+// (random_gpu.h), for point operands and for operands anywhere in intervals; then for whole expressions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,16 +25,22 @@ using random_gpu::toss;
 using random_gpu::uniform;
 
 float draw(double low_exponent, double high_exponent) {
-  return static_cast<float>(std::ldexp(uniform(1, 2) * (toss() ? 1 : -1), static_cast<int>(uniform(low_exponent, high_exponent))));
+  return static_cast<float>(
+      std::ldexp(uniform(1, 2) * (toss() ? 1 : -1), static_cast<int>(uniform(low_exponent, high_exponent))));
 }
 // Ordinary numbers, small ones, exact ones and special ones.
 float any_operand() {
   switch (random_gpu::words()() % 8) {
-    case 0: return static_cast<float>(static_cast<int>(uniform(-20, 20))) * 0.25f;
-    case 1: return draw(-149, -120);
-    case 2: return draw(-30, 30);
-    case 3: return 1.0f + draw(-24, -20);
-    default: return draw(-6, 4);
+    case 0:
+      return static_cast<float>(static_cast<int>(uniform(-20, 20))) * 0.25f;
+    case 1:
+      return draw(-149, -120);
+    case 2:
+      return draw(-30, 30);
+    case 3:
+      return 1.0f + draw(-24, -20);
+    default:
+      return draw(-6, 4);
   }
 }
 Enclosure any_interval() {
@@ -56,12 +62,17 @@ struct Operation {
 };
 template <class F>
 Operation operation(const char* name, F f) {
-  return {name, [f](Enclosure a, Enclosure b, Enclosure c) { return f(a, b, c); }, [f](RandomGpu a, RandomGpu b, RandomGpu c) { return f(a, b, c); }};
+  return {name, [f](Enclosure a, Enclosure b, Enclosure c) { return f(a, b, c); },
+          [f](RandomGpu a, RandomGpu b, RandomGpu c) { return f(a, b, c); }};
 }
 template <class N>
-N held(N x, float low, float high) { return clamp(x, N(low), N(high)); }
+N held(N x, float low, float high) {
+  return clamp(x, N(low), N(high));
+}
 
-#define OPERATION(name, expression) operation(name, []<class N>([[maybe_unused]] N a, [[maybe_unused]] N b, [[maybe_unused]] N c) -> N { return expression; })
+#define OPERATION(name, expression) \
+  operation(name,                   \
+            []<class N>([[maybe_unused]] N a, [[maybe_unused]] N b, [[maybe_unused]] N c) -> N { return expression; })
 const std::vector<Operation>& operations() {
   static const std::vector<Operation> all{
       OPERATION("a + b", a + b),
@@ -93,8 +104,12 @@ const std::vector<Operation>& operations() {
       OPERATION("normalize", normalize(plain::Vec3<N>(held(a, -4, 4), held(b, -4, 4), N(1.0f))).x),
       OPERATION("length", length(plain::Vec3<N>(held(a, -4, 4), held(b, -4, 4), held(c, -4, 4)))),
       OPERATION("dot", dot(plain::Vec3<N>(a, b, c), plain::Vec3<N>(b, c, a))),
-      OPERATION("reflect", reflect(plain::Vec3<N>(held(a, -1, 1), held(b, -1, 1), N(0.5f)), plain::Vec3<N>(N(0.6f), held(c, 0, 1), N(0.0f))).y),
-      OPERATION("refract", refract(plain::Vec3<N>(N(0.6f), N(-0.8f), N(0.0f)), plain::Vec3<N>(held(a, -0.5f, 0.5f), N(1.0f), N(0.0f)), 0.75f).x),
+      OPERATION("reflect", reflect(plain::Vec3<N>(held(a, -1, 1), held(b, -1, 1), N(0.5f)),
+                                   plain::Vec3<N>(N(0.6f), held(c, 0, 1), N(0.0f)))
+                               .y),
+      OPERATION("refract", refract(plain::Vec3<N>(N(0.6f), N(-0.8f), N(0.0f)),
+                                   plain::Vec3<N>(held(a, -0.5f, 0.5f), N(1.0f), N(0.0f)), 0.75f)
+                               .x),
       OPERATION("octave", nearest_octave(abs(a))),
       OPERATION("a threshold", select(a < b, a, c)),
   };
@@ -121,9 +136,10 @@ TEST(EnclosureSoundness, HoldsEveryLegalResultOfEveryOperation) {
           const float got = f.gpu(x, y, z).v;
           bool held_somewhere = false;
           for (const Enclosure& e : alternatives) held_somewhere |= e.is_vacuous() || e.contains(got);
-          ASSERT_TRUE(held_somewhere) << p.name << ", " << f.name << " of " << x.v << ' ' << y.v << ' ' << z.v << ": " << got << " outside ["
-                                      << alternatives[0].lo << ", " << alternatives[0].hi << "], operands [" << a.lo << ", " << a.hi << "] [" << b.lo
-                                      << ", " << b.hi << "] [" << c.lo << ", " << c.hi << "]";
+          ASSERT_TRUE(held_somewhere) << p.name << ", " << f.name << " of " << x.v << ' ' << y.v << ' ' << z.v << ": "
+                                      << got << " outside [" << alternatives[0].lo << ", " << alternatives[0].hi
+                                      << "], operands [" << a.lo << ", " << a.hi << "] [" << b.lo << ", " << b.hi
+                                      << "] [" << c.lo << ", " << c.hi << "]";
         }
       }
       EXPECT_GT(bounded, trials / 3) << p.name << ", " << f.name << ": nothing is tested where all is vacuous";

@@ -29,7 +29,9 @@ std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 }
 
 std::vector<float> operands() {
-  std::vector<float> out{0.0f, -0.0f, 1.0f, -1.0f, 0.5f, 2.0f, 3.0f, 1.0f / 3, 0.1f, 255.0f, 65504.0f, 0x1p-126f, 0x1p-149f, -0x1p-130f, 1 - 0x1p-24f, 1 + 0x1p-23f, 1e-20f, 1e10f, -7.25f};
+  std::vector<float> out{0.0f,         -0.0f,        1.0f,   -1.0f,    0.5f,      2.0f,      3.0f,
+                         1.0f / 3,     0.1f,         255.0f, 65504.0f, 0x1p-126f, 0x1p-149f, -0x1p-130f,
+                         1 - 0x1p-24f, 1 + 0x1p-23f, 1e-20f, 1e10f,    -7.25f};
   std::mt19937 words(1);
   while (out.size() < 200) {
     const float mantissa = static_cast<float>(words()) * 0x1p-31f - 1;
@@ -41,11 +43,39 @@ std::vector<float> operands() {
 // One list of every operation of two numbers that passes use, for points that a pass may give them.
 template <class N>
 std::vector<N> every_operation(N a, N b) {
-  std::vector<N> out{a + b, a - b, a * b, -a, min(a, b), max(a, b), abs(a), square(a), floor(a), fract(a), mix(a, b, fract(b)), exp(a), exp2(a), sin(a), cos(b),
-                     atan2(a, b), select(a < b, a, b), clamp(a, b, b + N(1.0f)), saturate(a), smoothstep(0.25f, 0.75f, a), smoothstep(4.0f, 0.5f, b),
-                     sum_any_order(a, b, a * b), sum_any_order(a, b, a, b), sum_any_order_in_pairs(a, b, b, a), nearest_octave(abs(a)), length(a, b),
-                     sqrt(abs(a)), log(max(abs(a), N(1e-20f))), pow(abs(a), N(2.2f)), a / max(abs(b), N(1e-10f)), to_number(to_int(floor(clamp(a, N(-1e6f), N(1e6f)))))};
-  const plain::Vec3<N> v(a, b, N(1.0f)), n = normalize(v), r = reflect(v, n), t = refract(n, plain::Vec3<N>(N(0.0f), N(1.0f), N(0.0f)), 0.75f);
+  std::vector<N> out{a + b,
+                     a - b,
+                     a * b,
+                     -a,
+                     min(a, b),
+                     max(a, b),
+                     abs(a),
+                     square(a),
+                     floor(a),
+                     fract(a),
+                     mix(a, b, fract(b)),
+                     exp(a),
+                     exp2(a),
+                     sin(a),
+                     cos(b),
+                     atan2(a, b),
+                     select(a < b, a, b),
+                     clamp(a, b, b + N(1.0f)),
+                     saturate(a),
+                     smoothstep(0.25f, 0.75f, a),
+                     smoothstep(4.0f, 0.5f, b),
+                     sum_any_order(a, b, a * b),
+                     sum_any_order(a, b, a, b),
+                     sum_any_order_in_pairs(a, b, b, a),
+                     nearest_octave(abs(a)),
+                     length(a, b),
+                     sqrt(abs(a)),
+                     log(max(abs(a), N(1e-20f))),
+                     pow(abs(a), N(2.2f)),
+                     a / max(abs(b), N(1e-10f)),
+                     to_number(to_int(floor(clamp(a, N(-1e6f), N(1e6f)))))};
+  const plain::Vec3<N> v(a, b, N(1.0f)), n = normalize(v), r = reflect(v, n),
+                                         t = refract(n, plain::Vec3<N>(N(0.0f), N(1.0f), N(0.0f)), 0.75f);
   for (const plain::Vec3<N>& w : {n, r, t}) out.insert(out.end(), {w.x, w.y, w.z});
   out.push_back(dot(v, n));
   out.push_back(length(v));
@@ -60,8 +90,10 @@ TEST(Enclosure, IsTheReferencesPointUnderIeee) {
       const auto expected = every_operation<Single>(a, b);
       const auto got = every_operation<Enclosure>(a, b);
       for (std::size_t i = 0; i < got.size(); ++i) {
-        if (expected[i].v != expected[i].v) ASSERT_TRUE(got[i].is_vacuous()) << i;
-        else ASSERT_TRUE(is_point(got[i], expected[i])) << "operation " << i << " of " << a << " and " << b;
+        if (expected[i].v != expected[i].v)
+          ASSERT_TRUE(got[i].is_vacuous()) << i;
+        else
+          ASSERT_TRUE(is_point(got[i], expected[i])) << "operation " << i << " of " << a << " and " << b;
       }
     }
   }
@@ -74,8 +106,10 @@ TEST(Enclosure, ExactResultsStayPoints) {
     for (const float a : {0.0f, 1.0f, -3.0f, 0.375f, 1000.0f}) {
       for (const float b : {0.5f, 2.0f, -4.0f}) {
         const Enclosure x(a), y(b);
-        for (const Enclosure& e : {x + y, x - y, x * y, square(x), abs(x), floor(x), min(x, y), max(x, y), fract(x), sum_any_order(x, y, x), sum_any_order(x, y, x, y),
-                                   sum_any_order_in_pairs(x, y, y, x), mix(x, y, Enclosure(0.0f)), mix(x, y, Enclosure(0.5f)), dot(plain::Vec3<Enclosure>(x, y, x), plain::Vec3<Enclosure>(y, y, x))}) {
+        for (const Enclosure& e :
+             {x + y, x - y, x * y, square(x), abs(x), floor(x), min(x, y), max(x, y), fract(x), sum_any_order(x, y, x),
+              sum_any_order(x, y, x, y), sum_any_order_in_pairs(x, y, y, x), mix(x, y, Enclosure(0.0f)),
+              mix(x, y, Enclosure(0.5f)), dot(plain::Vec3<Enclosure>(x, y, x), plain::Vec3<Enclosure>(y, y, x))}) {
           EXPECT_TRUE(e.is_point()) << p.name << ' ' << a << ' ' << b << ": " << e.lo << ' ' << e.hi;
         }
       }
@@ -137,11 +171,15 @@ TEST(Enclosure, WhatMayBeInfiniteOrUndefinedIsVacuousAndStaysSo) {
   for (const Profile& p : profiles()) {
     if (p.reference) continue;
     const ProfileScope scope(p);
-    for (const Enclosure& e : {one / zero, one / around, sqrt(Enclosure(-1.0f)), sqrt(around), log(zero), log(around), pow(around, one), exp(Enclosure(100.0f)),
-                               exp2(Enclosure(130.0f)), Enclosure(3e38f) + Enclosure(3e38f), Enclosure(1e30f) * Enclosure(1e30f), Enclosure(INFINITY), Enclosure(NAN)}) {
+    for (const Enclosure& e :
+         {one / zero, one / around, sqrt(Enclosure(-1.0f)), sqrt(around), log(zero), log(around), pow(around, one),
+          exp(Enclosure(100.0f)), exp2(Enclosure(130.0f)), Enclosure(3e38f) + Enclosure(3e38f),
+          Enclosure(1e30f) * Enclosure(1e30f), Enclosure(INFINITY), Enclosure(NAN)}) {
       EXPECT_TRUE(e.is_vacuous()) << p.name << ": " << e.lo << ' ' << e.hi;
-      for (const Enclosure& after : {e + one, one - e, e * zero, e / one, one / e, abs(e), min(e, one), max(e, one), square(e), sqrt(e), exp(e), sin(e), mix(one, zero, e),
-                                     atan2(e, one), sum_any_order(one, e, one), smoothstep(0.0f, 1.0f, e), saturate(e), floor(e), fract(e)}) {
+      for (const Enclosure& after :
+           {e + one, one - e, e * zero, e / one, one / e, abs(e), min(e, one), max(e, one), square(e), sqrt(e), exp(e),
+            sin(e), mix(one, zero, e), atan2(e, one), sum_any_order(one, e, one), smoothstep(0.0f, 1.0f, e),
+            saturate(e), floor(e), fract(e)}) {
         EXPECT_TRUE(after.is_vacuous()) << p.name;
       }
     }
@@ -170,7 +208,8 @@ TEST(Enclosure, FunctionsKeepTheirCodomain) {
 TEST(Enclosure, SineHasItsExtremaInside) {
   const ProfileScope scope(profile_named("typical"));
   for (int k = -20; k <= 20; ++k) {
-    const auto top = static_cast<float>((2 * k + 0.5) * 3.14159265358979), bottom = static_cast<float>((2 * k - 0.5) * 3.14159265358979);
+    const auto top = static_cast<float>((2 * k + 0.5) * 3.14159265358979),
+               bottom = static_cast<float>((2 * k - 0.5) * 3.14159265358979);
     EXPECT_EQ(sin(Enclosure(top - 0.1f, top + 0.1f)).hi, 1.0f);
     EXPECT_GT(sin(Enclosure(top - 0.1f, top + 0.1f)).lo, 0.9f);
     EXPECT_EQ(sin(Enclosure(bottom - 0.1f, bottom + 0.1f)).lo, -1.0f);
@@ -183,9 +222,12 @@ TEST(Enclosure, SineBeyondItsDomainIsNeverSilentlyBounded) {
   for (const Profile& p : profiles()) {
     const ProfileScope scope(p);
     const Enclosure far = sin(Enclosure(1000.0f));
-    if (p.sin_cos_domain == 0) EXPECT_LT(far.hi - far.lo, 1e-6f) << p.name;
-    else if (p.sin_cos_beyond == 0) EXPECT_TRUE(far.is_vacuous()) << p.name;
-    else EXPECT_GE(far.hi - far.lo, p.sin_cos_beyond * 1000) << p.name;
+    if (p.sin_cos_domain == 0)
+      EXPECT_LT(far.hi - far.lo, 1e-6f) << p.name;
+    else if (p.sin_cos_beyond == 0)
+      EXPECT_TRUE(far.is_vacuous()) << p.name;
+    else
+      EXPECT_GE(far.hi - far.lo, p.sin_cos_beyond * 1000) << p.name;
   }
 }
 

@@ -22,16 +22,32 @@ inline const std::vector<std::string>& profile_names() {
 inline enclosed::Profile read_profile(const std::string& name) {
   using namespace enclosed;
   Profile p;
-  const std::map<std::string, Accuracy*> accuracies{
-      {"division", &p.division}, {"sqrt", &p.sqrt}, {"inverse_sqrt", &p.inverse_sqrt}, {"exp", &p.exp}, {"exp2", &p.exp2}, {"log", &p.log},
-      {"log2", &p.log2}, {"log_near_one", &p.log_near_one}, {"log2_near_one", &p.log2_near_one}, {"pow", &p.pow}, {"sin_cos", &p.sin_cos},
-      {"atan2", &p.atan2}, {"unorm_load", &p.unorm_load}};
-  const std::map<std::string, bool*> flags{{"contraction", &p.contraction}, {"sqrt_is_inherited", &p.sqrt_is_inherited}, {"pow_is_inherited", &p.pow_is_inherited}};
-  const std::map<std::string, int*> counts{{"subtexel_bits", &p.subtexel_bits}, {"coordinate_bits", &p.coordinate_bits}, {"lod_bits", &p.lod_bits}};
-  const std::map<std::string, double*> numbers{{"sin_cos_domain", &p.sin_cos_domain}, {"sin_cos_beyond", &p.sin_cos_beyond},
-                                               {"unorm_store_ulp", &p.unorm_store_ulp}, {"srgb_store_ulp", &p.srgb_store_ulp}};
-  const std::map<std::string, StoreRounding> roundings{{"\"rne\"", StoreRounding::rne}, {"\"rtz\"", StoreRounding::rtz}, {"\"either\"", StoreRounding::either}};
-  const std::map<std::string, StoreOverflow> overflows{{"\"inf\"", StoreOverflow::inf}, {"\"max\"", StoreOverflow::max}, {"\"either\"", StoreOverflow::either}};
+  const std::map<std::string, Accuracy*> accuracies{{"division", &p.division},
+                                                    {"sqrt", &p.sqrt},
+                                                    {"inverse_sqrt", &p.inverse_sqrt},
+                                                    {"exp", &p.exp},
+                                                    {"exp2", &p.exp2},
+                                                    {"log", &p.log},
+                                                    {"log2", &p.log2},
+                                                    {"log_near_one", &p.log_near_one},
+                                                    {"log2_near_one", &p.log2_near_one},
+                                                    {"pow", &p.pow},
+                                                    {"sin_cos", &p.sin_cos},
+                                                    {"atan2", &p.atan2},
+                                                    {"unorm_load", &p.unorm_load}};
+  const std::map<std::string, bool*> flags{{"contraction", &p.contraction},
+                                           {"sqrt_is_inherited", &p.sqrt_is_inherited},
+                                           {"pow_is_inherited", &p.pow_is_inherited}};
+  const std::map<std::string, int*> counts{
+      {"subtexel_bits", &p.subtexel_bits}, {"coordinate_bits", &p.coordinate_bits}, {"lod_bits", &p.lod_bits}};
+  const std::map<std::string, double*> numbers{{"sin_cos_domain", &p.sin_cos_domain},
+                                               {"sin_cos_beyond", &p.sin_cos_beyond},
+                                               {"unorm_store_ulp", &p.unorm_store_ulp},
+                                               {"srgb_store_ulp", &p.srgb_store_ulp}};
+  const std::map<std::string, StoreRounding> roundings{
+      {"\"rne\"", StoreRounding::rne}, {"\"rtz\"", StoreRounding::rtz}, {"\"either\"", StoreRounding::either}};
+  const std::map<std::string, StoreOverflow> overflows{
+      {"\"inf\"", StoreOverflow::inf}, {"\"max\"", StoreOverflow::max}, {"\"either\"", StoreOverflow::either}};
 
   const std::string path = std::string(RAINREF_SOURCE_DIR) + "/src/conformance/profiles/" + name + ".toml";
   std::ifstream file(path);
@@ -43,9 +59,12 @@ inline enclosed::Profile read_profile(const std::string& name) {
     std::smatch m;
     if (line.empty() || line[0] == '#') continue;
     if (std::regex_match(line, m, top)) {
-      if (m[1] == "name") p.name = m[2].str().substr(1, m[2].length() - 2);
-      else if (m[1] == "reference") p.reference = m[2] == "true";
-      else throw std::runtime_error(path + ": " + line);
+      if (m[1] == "name")
+        p.name = m[2].str().substr(1, m[2].length() - 2);
+      else if (m[1] == "reference")
+        p.reference = m[2] == "true";
+      else
+        throw std::runtime_error(path + ": " + line);
       continue;
     }
     if (!std::regex_match(line, m, entry)) throw std::runtime_error(path + ": " + line);
@@ -54,32 +73,44 @@ inline enclosed::Profile read_profile(const std::string& name) {
     std::map<std::string, std::string> values;
     std::string rest = m[2];
     for (std::smatch v; !rest.empty(); rest = v.suffix()) {
-      if (!std::regex_search(rest, v, pair, std::regex_constants::match_continuous)) throw std::runtime_error(path + ": " + line);
+      if (!std::regex_search(rest, v, pair, std::regex_constants::match_continuous))
+        throw std::runtime_error(path + ": " + line);
       values[v[1]] = v[2];
     }
     if (accuracies.count(key)) {
       Accuracy& a = *accuracies.at(key);
-      const std::map<std::string, double*> parts{{"ulp", &a.ulp}, {"ulp_per_x", &a.ulp_per_x}, {"relative", &a.relative}, {"absolute", &a.absolute}};
+      const std::map<std::string, double*> parts{
+          {"ulp", &a.ulp}, {"ulp_per_x", &a.ulp_per_x}, {"relative", &a.relative}, {"absolute", &a.absolute}};
       for (const auto& [part, value] : values) *parts.at(part) = std::stod(value);
       continue;
     }
     const std::string value = values.size() == 1 ? values.at("value") : throw std::runtime_error(path + ": " + line);
-    if (flags.count(key)) *flags.at(key) = value == "true";
-    else if (counts.count(key)) *counts.at(key) = std::stoi(value);
-    else if (numbers.count(key)) *numbers.at(key) = std::stod(value);
-    else if (key == "basic") p.basic = value == "\"either\"" ? BasicRounding::either : BasicRounding::nearest;
-    else if (key == "flush") p.flush = value == "\"never\"" ? Flush::never : value == "\"may\"" ? Flush::may : Flush::must;
-    else if (key == "half_store") p.half_store = roundings.at(value);
-    else if (key == "half_overflow") p.half_overflow = overflows.at(value);
-    else throw std::runtime_error(path + ": unknown key " + key);
+    if (flags.count(key))
+      *flags.at(key) = value == "true";
+    else if (counts.count(key))
+      *counts.at(key) = std::stoi(value);
+    else if (numbers.count(key))
+      *numbers.at(key) = std::stod(value);
+    else if (key == "basic")
+      p.basic = value == "\"either\"" ? BasicRounding::either : BasicRounding::nearest;
+    else if (key == "flush")
+      p.flush = value == "\"never\"" ? Flush::never : value == "\"may\"" ? Flush::may : Flush::must;
+    else if (key == "half_store")
+      p.half_store = roundings.at(value);
+    else if (key == "half_overflow")
+      p.half_overflow = overflows.at(value);
+    else
+      throw std::runtime_error(path + ": unknown key " + key);
   }
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) throw std::runtime_error(path + ": missing or too many: " + what);
   };
-  for (const char* key : {"half_store", "half_overflow", "unorm_store_ulp", "srgb_store_ulp"}) require(seen.count(key), key);
+  for (const char* key : {"half_store", "half_overflow", "unorm_store_ulp", "srgb_store_ulp"})
+    require(seen.count(key), key);
   if (p.reference) return p;
-  for (const char* key : {"basic", "contraction", "flush", "division", "inverse_sqrt", "exp", "exp2", "log", "log2", "log_near_one", "log2_near_one", "sin_cos",
-                          "atan2", "subtexel_bits", "coordinate_bits", "lod_bits", "unorm_load"}) {
+  for (const char* key :
+       {"basic", "contraction", "flush", "division", "inverse_sqrt", "exp", "exp2", "log", "log2", "log_near_one",
+        "log2_near_one", "sin_cos", "atan2", "subtexel_bits", "coordinate_bits", "lod_bits", "unorm_load"}) {
     require(seen.count(key), key);
   }
   require(seen.count("sqrt") + seen.count("sqrt_is_inherited") == 1, "sqrt or sqrt_is_inherited");

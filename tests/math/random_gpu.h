@@ -1,5 +1,5 @@
-// A conforming GPU by lot: a number whose every operation draws one of the results that the profile in force allows. What
-// it gives must lie inside the enclosure of the same expression. It shares no arithmetic with the enclosure.
+// A conforming GPU by lot: a number whose every operation draws one of the results that the profile in force allows.
+// What it gives must lie inside the enclosure of the same expression. It shares no arithmetic with the enclosure.
 #pragma once
 
 #include <algorithm>
@@ -13,6 +13,14 @@ namespace rainref::random_gpu {
 
 using enclosed::Accuracy;
 using enclosed::Profile;
+
+/// A float with room for a product and a sum of floats before they round.
+#ifdef __SIZEOF_FLOAT128__
+using Wide = __float128;
+#else
+using Wide = long double;
+static_assert(__LDBL_MANT_DIG__ >= 113);
+#endif
 
 inline std::mt19937& words() {
   static std::mt19937 generator(20);
@@ -28,9 +36,10 @@ inline float flushed(float x) {
   return subnormal && rules().flush != enclosed::Flush::never && toss() ? std::copysign(0.0f, x) : x;
 }
 /// Either neighbour of an inexact result, or the nearest.
-inline float rounded(__float128 exact) {
+inline float rounded(Wide exact) {
   float f = static_cast<float>(exact);
-  if (rules().basic == enclosed::BasicRounding::either && exact != f && toss()) f = std::nextafter(f, exact > f ? INFINITY : -INFINITY);
+  if (rules().basic == enclosed::BasicRounding::either && exact != f && toss())
+    f = std::nextafter(f, exact > f ? INFINITY : -INFINITY);
   return flushed(f);
 }
 /// A float within the accuracy of the exact y; often one at its edge.
@@ -51,7 +60,7 @@ struct RandomGpu {
   static constexpr int size() { return 1; }
 
   float v = 0;
-  __float128 product = 0;  // before its rounding, for an addition that fuses
+  Wide product = 0;  // before its rounding, for an addition that fuses
   bool is_product = false;
 
   RandomGpu() = default;
@@ -63,8 +72,10 @@ struct RandomGpu {
   }
   template <class Storage>
   static RandomGpu load(const Storage* p) {
-    if constexpr (std::is_same_v<Storage, Unorm8>) return exactly(p->code == 0 || p->code == 255 ? to_float(*p) : perturbed(p->code / 255.0, rules().unorm_load));
-    else return plain::to_float(*p);
+    if constexpr (std::is_same_v<Storage, Unorm8>)
+      return exactly(p->code == 0 || p->code == 255 ? to_float(*p) : perturbed(p->code / 255.0, rules().unorm_load));
+    else
+      return plain::to_float(*p);
   }
   static RandomGpu index(int first) { return exactly(static_cast<float>(first)); }
   static Int uniform_int(int value) { return {value}; }
@@ -73,7 +84,7 @@ struct RandomGpu {
     const bool fuses = rules().contraction && toss();
     if (fuses && a.is_product) return exactly(rounded(a.product + b.v));
     if (fuses && b.is_product) return exactly(rounded(a.v + b.product));
-    return exactly(rounded(static_cast<__float128>(a.v) + b.v));
+    return exactly(rounded(static_cast<Wide>(a.v) + b.v));
   }
   friend RandomGpu operator-(RandomGpu a) {
     a.v = -a.v;
@@ -83,7 +94,7 @@ struct RandomGpu {
   friend RandomGpu operator-(RandomGpu a, RandomGpu b) { return a + -b; }
   friend RandomGpu operator*(RandomGpu a, RandomGpu b) {
     RandomGpu r;
-    r.product = static_cast<__float128>(a.v) * b.v;
+    r.product = static_cast<Wide>(a.v) * b.v;
     r.is_product = true;
     r.v = rounded(r.product);
     return r;
@@ -101,7 +112,9 @@ struct RandomGpu {
   friend RandomGpu max(RandomGpu a, RandomGpu b) { return exactly(std::max(a.v, b.v)); }
   friend RandomGpu abs(RandomGpu a) { return a.v < 0 ? -a : a; }
   friend RandomGpu square(RandomGpu a) { return a * a; }
-  friend RandomGpu inverse_sqrt(RandomGpu a) { return exactly(perturbed(1 / std::sqrt(static_cast<double>(a.v)), rules().inverse_sqrt)); }
+  friend RandomGpu inverse_sqrt(RandomGpu a) {
+    return exactly(perturbed(1 / std::sqrt(static_cast<double>(a.v)), rules().inverse_sqrt));
+  }
   friend RandomGpu sqrt(RandomGpu a) {
     if (a.v == 0) return a;
     if (rules().sqrt_is_inherited) return exactly(1.0f) / inverse_sqrt(a);
@@ -111,12 +124,21 @@ struct RandomGpu {
   friend RandomGpu fract(RandomGpu a) { return a - floor(a); }
   friend Int to_int(RandomGpu a) { return {static_cast<std::int32_t>(a.v)}; }
   friend RandomGpu to_number(Int a) { return index(a.i); }
-  friend RandomGpu mix(RandomGpu a, RandomGpu b, RandomGpu t) { return toss() ? a * (exactly(1.0f) - t) + b * t : a + (b - a) * t; }
+  friend RandomGpu mix(RandomGpu a, RandomGpu b, RandomGpu t) {
+    return toss() ? a * (exactly(1.0f) - t) + b * t : a + (b - a) * t;
+  }
 
   friend RandomGpu exp(RandomGpu a) { return exactly(perturbed(std::exp(static_cast<double>(a.v)), rules().exp, a.v)); }
-  friend RandomGpu exp2(RandomGpu a) { return exactly(perturbed(std::exp2(static_cast<double>(a.v)), rules().exp2, a.v)); }
-  friend RandomGpu log(RandomGpu a) { return exactly(perturbed(std::log(static_cast<double>(a.v)), near_one(a.v) ? rules().log_near_one : rules().log)); }
-  friend RandomGpu log2(RandomGpu a) { return exactly(perturbed(std::log2(static_cast<double>(a.v)), near_one(a.v) ? rules().log2_near_one : rules().log2)); }
+  friend RandomGpu exp2(RandomGpu a) {
+    return exactly(perturbed(std::exp2(static_cast<double>(a.v)), rules().exp2, a.v));
+  }
+  friend RandomGpu log(RandomGpu a) {
+    return exactly(perturbed(std::log(static_cast<double>(a.v)), near_one(a.v) ? rules().log_near_one : rules().log));
+  }
+  friend RandomGpu log2(RandomGpu a) {
+    return exactly(
+        perturbed(std::log2(static_cast<double>(a.v)), near_one(a.v) ? rules().log2_near_one : rules().log2));
+  }
   friend RandomGpu pow(RandomGpu x, RandomGpu y) {
     if (x.v == 0) return exactly(0.0f);
     if (rules().pow_is_inherited) return exp2(y * log2(x));
@@ -134,7 +156,8 @@ struct RandomGpu {
   static bool near_one(float x) { return 0.5f <= x && x <= 2; }
   static RandomGpu wave(double y, double x) {
     Accuracy a = rules().sin_cos;
-    if (rules().sin_cos_domain > 0 && std::abs(x) > rules().sin_cos_domain) a.absolute = std::max(a.absolute, rules().sin_cos_beyond * std::abs(x));
+    if (rules().sin_cos_domain > 0 && std::abs(x) > rules().sin_cos_domain)
+      a.absolute = std::max(a.absolute, rules().sin_cos_beyond * std::abs(x));
     return exactly(std::clamp(perturbed(y, a, x), -1.0f, 1.0f));
   }
 };
@@ -149,14 +172,19 @@ inline RandomGpu sum_any_order(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu 
   std::shuffle(x, x + 4, words());
   return toss() ? (x[0] + x[1]) + (x[2] + x[3]) : ((x[0] + x[1]) + x[2]) + x[3];
 }
-inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) { return sum_any_order(a, b, c, d); }
+inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) {
+  return sum_any_order(a, b, c, d);
+}
 inline RandomGpu uniform_quotient(float a, float b, RandomGpu) { return RandomGpu(a) / RandomGpu(b); }
 inline plain::Vec3<RandomGpu> normalize(const plain::Vec3<RandomGpu>& a) {
   const RandomGpu squared = plain::dot(a, a);
   switch (words()() % 3) {
-    case 0: return (RandomGpu(1.0f) / sqrt(squared)) * a;
-    case 1: return {a.x / sqrt(squared), a.y / sqrt(squared), a.z / sqrt(squared)};
-    default: return inverse_sqrt(squared) * a;
+    case 0:
+      return (RandomGpu(1.0f) / sqrt(squared)) * a;
+    case 1:
+      return {a.x / sqrt(squared), a.y / sqrt(squared), a.z / sqrt(squared)};
+    default:
+      return inverse_sqrt(squared) * a;
   }
 }
 

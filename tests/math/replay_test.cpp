@@ -103,7 +103,8 @@ TEST(Replay, AnOpenDecisionOutsideIsADefect) {
   EXPECT_THROW((void)(open < zero), Error);
   EXPECT_THROW((void)to_int(open), Error);
 }
-// Too many cells: the interval of their numbers where they are computed with, the end of the invocation where they fetch.
+// Too many cells: the interval of their numbers where they are computed with, the end of the invocation where they
+// fetch.
 TEST(Replay, ManyCellsStayANumberButGiveNoIndex) {
   const Enclosure wide(0.5f, 9.5f);
   Replay replay;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
-#include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,14 +12,9 @@
 #include "image/footprint.h"
 #include "image/random_sampler.h"
 #include "math/profiles.h"
-#include "night_street/night_street.h"
-#include "puddle/bounds.h"
-#include "puddle/environment.h"
-#include "puddle/golden_scenes.h"
-#include "puddle/ground.h"
+#include "puddle/captured_scene.h"
 #include "puddle/host.h"
 #include "puddle/uniforms.h"
-#include "rainref/executor.h"
 
 namespace rainref::puddle {
 namespace scalar_readings {
@@ -72,8 +65,11 @@ struct Account {
       std::sort(x.begin(), x.end());
       return x.empty() ? 0.0 : x[static_cast<std::size_t>(q * static_cast<double>(x.size() - 1))];
     };
-    fmt::print("{:<28} {:<8} open {:4}  vacuous {:4} of {}  width median {:8.0f} p90 {:9.0f} ULP  gpu runs that differ {:5.1f} %  width / spread {:.2f}\n", pass,
-               profile, open, vacuous, elements, at(widths, 0.5), at(widths, 0.9), gpu_runs ? 100.0 * gpu_differs / gpu_runs : 0.0, at(looseness, 0.5));
+    fmt::print(
+        "{:<28} {:<8} open {:4}  vacuous {:4} of {}  width median {:8.0f} p90 {:9.0f} ULP  gpu runs that differ "
+        "{:5.1f} %  width / spread {:.2f}\n",
+        pass, profile, open, vacuous, elements, at(widths, 0.5), at(widths, 0.9),
+        gpu_runs ? 100.0 * gpu_differs / gpu_runs : 0.0, at(looseness, 0.5));
   }
 };
 
@@ -95,7 +91,8 @@ void judge(Account& account, const Pass& pass) {
       return a.v[0].contains(value[0].v) && a.v[1].contains(value[1].v) && a.v[2].contains(value[2].v);
     });
   };
-  const bool vacuous = !whole || std::any_of(alternatives.begin(), alternatives.end(), [](const Alternative& a) { return a.v[0].is_vacuous(); });
+  const bool vacuous = !whole || std::any_of(alternatives.begin(), alternatives.end(),
+                                             [](const Alternative& a) { return a.v[0].is_vacuous(); });
   account.vacuous += vacuous;
   const Values<Single> reference = pass(Single());
   if (!whole) return;
@@ -104,9 +101,10 @@ void judge(Account& account, const Pass& pass) {
   }
   if (!held(reference)) {
     ++account.outside_reference;
-    account.first_outside = fmt::format("reference {} {} {} in [{}, {}] [{}, {}] [{}, {}]", reference[0].v, reference[1].v, reference[2].v,
-                                        alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
-                                        alternatives[0].v[2].lo, alternatives[0].v[2].hi);
+    account.first_outside =
+        fmt::format("reference {} {} {} in [{}, {}] [{}, {}] [{}, {}]", reference[0].v, reference[1].v, reference[2].v,
+                    alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
+                    alternatives[0].v[2].lo, alternatives[0].v[2].hi);
   }
   if (enclosed::profile().reference) {
     for (int k = 0; k < 3; ++k) {
@@ -126,13 +124,16 @@ void judge(Account& account, const Pass& pass) {
     account.gpu_differs += got[0].v != reference[0].v || got[1].v != reference[1].v || got[2].v != reference[2].v;
     if (held(got)) continue;
     ++account.outside_gpu;
-    account.first_outside = fmt::format("gpu {} {} {} in [{}, {}] [{}, {}] [{}, {}], reference {} {} {}", got[0].v, got[1].v, got[2].v, alternatives[0].v[0].lo,
-                                        alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi, alternatives[0].v[2].lo,
-                                        alternatives[0].v[2].hi, reference[0].v, reference[1].v, reference[2].v);
+    account.first_outside =
+        fmt::format("gpu {} {} {} in [{}, {}] [{}, {}] [{}, {}], reference {} {} {}", got[0].v, got[1].v, got[2].v,
+                    alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
+                    alternatives[0].v[2].lo, alternatives[0].v[2].hi, reference[0].v, reference[1].v, reference[2].v);
   }
   if (vacuous || alternatives.size() > 1) return;
   for (int k = 0; k < account.channels; ++k) {
-    if (high[k] > low[k]) account.looseness.push_back((static_cast<double>(alternatives[0].v[k].hi) - alternatives[0].v[k].lo) / (static_cast<double>(high[k]) - low[k]));
+    if (high[k] > low[k])
+      account.looseness.push_back((static_cast<double>(alternatives[0].v[k].hi) - alternatives[0].v[k].lo) /
+                                  (static_cast<double>(high[k]) - low[k]));
   }
 }
 void expect_inside(Account& account, const std::string& pass, const std::string& profile) {
@@ -141,71 +142,15 @@ void expect_inside(Account& account, const std::string& pass, const std::string&
   EXPECT_EQ(account.outside_gpu, 0) << pass << ' ' << profile << ": " << account.first_outside;
 }
 
-// A golden scene some frames in: the state before the last wave step, its drops, and everything that render takes.
-struct Scene : Recorder {
-  Settings settings;
-  Surroundings around;
-  std::vector<float> newest, previous;
-  std::vector<Drop> drops;
-  std::unique_ptr<Puddle> puddle;
-  TextureData environment, ground, relief, bed;
-  ShadeUniforms shade;
-  bool corrected;
-
-  Scene(const std::string& name, int frames) {
-    static const parallel::Executor executor(1);
-    for (const GoldenScene& g : golden_scenes()) {
-      if (g.name == name) settings = g.settings;
-    }
-    corrected = settings.variant == Variant::corrected;
-    around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
-    puddle = std::make_unique<Puddle>(settings, around, executor);
-    for (int frame = 0; frame < frames; ++frame) puddle->simulate(this);
-    puddle->render();
-    environment = prepare_environment(around, settings.variant);
-    ground = prepare_ground(make_asphalt(settings.seed), false, settings.variant);
-    shade = shade_uniforms(settings);
-    shade.environment_is_cube = false;
-    shade.ground_footprint = ground_footprint(settings, ground.view().width[0]);
-    if (corrected) {
-      relief = make_relief(ground, true);
-      bed = make_bed(settings);
-      const auto ambient = ambient_radiance(environment.view(), false);
-      for (int k = 0; k < 3; ++k) shade.ambient[k] = shade.fog_colour[k] = ambient[k];
-    }
-  }
-  // Called before wave_step with the drops of the step: the state is still the one that the step takes.
-  void pass(const PassCall& call) override {
-    if (call.pass != "raindrops") return;
-    const auto& records = std::get<RecordView>(call.outputs[0].content);
-    const auto* first = static_cast<const Drop*>(records.data);
-    drops.assign(first, first + records.count);
-    newest = stored(puddle->newest());
-    previous = stored(puddle->previous());
-  }
-  static std::vector<float> stored(const Image& plane) {
-    std::vector<float> out;
-    for (int y = 0; y < plane.height(); ++y) {
-      for (int x = 0; x < plane.width(); ++x) {
-        out.push_back(info(plane.format()).kind == FormatInfo::float32 ? plane.row<float>(y)[x] : to_float(plane.row<Half>(y)[x]));
-      }
-    }
-    return out;
-  }
-  template <class N>
-  text::Surface<N> surface(int x, int y) const {
-    const float* h = puddle->hit().row<float>(y) + 4 * x;
-    const Half* n = puddle->normal().row<Half>(y) + 4 * x;
-    return {Vec3<N>(N::load(h), N::load(h + 1), N::load(h + 2)), Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)), N::load(n + 3)};
-  }
-};
-Scene& scene(const std::string& name) {
-  static std::map<std::string, std::unique_ptr<Scene>> scenes;
-  auto& s = scenes[name];
-  if (!s) s = std::make_unique<Scene>(name, 20);
-  return *s;
+template <class N>
+text::Surface<N> surface(const Scene& s, int x, int y) {
+  const float* h = s.puddle->hit().row<float>(y) + 4 * x;
+  const Half* n = s.puddle->normal().row<Half>(y) + 4 * x;
+  return {Vec3<N>(N::load(h), N::load(h + 1), N::load(h + 2)), Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)),
+          N::load(n + 3)};
 }
-const std::string names[] = {"puddle/as-published/rg16f", "puddle/corrected/rg16f", "puddle/as-published/rg32f", "puddle/corrected/rg32f"};
+const std::string names[] = {"puddle/as-published/rg16f", "puddle/corrected/rg16f", "puddle/as-published/rg32f",
+                             "puddle/corrected/rg32f"};
 
 TEST(PuddleEnclosure, WaveStepHoldsTheReferenceAndEveryGpu) {
   for (const std::string& name : names) {
@@ -228,7 +173,8 @@ TEST(PuddleEnclosure, WaveStepHoldsTheReferenceAndEveryGpu) {
         rows.reach = 1;
         judge(account, [&]<class N>(N) -> Values<N> {
           const int drops = static_cast<int>(s.drops.size());
-          if (!s.corrected) return {text::wave_step_as_published<N>(u, rows, s.drops.data(), drops, x, y), N(0.0f), N(0.0f)};
+          if (!s.corrected)
+            return {text::wave_step_as_published<N>(u, rows, s.drops.data(), drops, x, y), N(0.0f), N(0.0f)};
           return {text::wave_step_corrected<N>(u, rows, s.drops.data(), drops, x, y),
                   text::wave_previous_corrected<N>(rows.here, nullptr, s.drops.data(), drops, x, y), N(0.0f)};
         });
@@ -249,9 +195,11 @@ TEST(PuddleEnclosure, ShadeHoldsTheReferenceAndEveryGpu) {
         const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
         judge(account, [&]<class N>(N) -> Values<N> {
           if (s.corrected) {
-            return values(text::shade_corrected<N>(s.shade, s.environment.view(), s.ground.view(), s.relief.view(), s.bed.view(), s.surface<N>(x, y), x, y));
+            return values(text::shade_corrected<N>(s.shade, s.environment.view(), s.ground.view(), s.relief.view(),
+                                                   s.bed.view(), surface<N>(s, x, y), x, y));
           }
-          return values(text::shade_as_published<N>(s.shade, s.environment.view(), s.ground.view(), s.surface<N>(x, y), N(0.25f), x, y));
+          return values(text::shade_as_published<N>(s.shade, s.environment.view(), s.ground.view(), surface<N>(s, x, y),
+                                                    N(0.25f), x, y));
         });
       }
       expect_inside(account, "shade " + name.substr(7), p.name);
@@ -271,7 +219,8 @@ TEST(PuddleEnclosure, DisplayHoldsTheReferenceAndEveryGpu) {
         const Half* c = s.puddle->colour().row<Half>(y) + 4 * x;
         judge(account, [&]<class N>(N) -> Values<N> {
           const Vec3<N> colour(N::load(c), N::load(c + 1), N::load(c + 2));
-          return values(s.corrected ? text::display_corrected<N>(u, colour, x, y) : text::display_as_published<N>(u, colour, x, y));
+          return values(s.corrected ? text::display_corrected<N>(u, colour, x, y)
+                                    : text::display_as_published<N>(u, colour, x, y));
         });
       }
       expect_inside(account, "display " + name.substr(7), p.name);
@@ -307,9 +256,10 @@ TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
       Account ray, distance{.channels = s.corrected ? 3 : 1};
       for (int i = 0; i < 400; ++i) {
         const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
-        judge(ray, [&]<class N>(N) { return values(text::camera_ray<N>(u.camera, N::index(x), N(static_cast<float>(y)))); });
+        judge(ray,
+              [&]<class N>(N) { return values(text::camera_ray<N>(u.camera, N::index(x), N(static_cast<float>(y)))); });
         judge(distance, [&]<class N>(N) -> Values<N> {
-          const Vec3<N> place = s.surface<N>(x, y).position;
+          const Vec3<N> place = surface<N>(s, x, y).position;
           if (!s.corrected) return {text::scene_distance<N>(u, water.view(), place), N(0.0f), N(0.0f)};
           const N q = place.x * N(u.inverse_size[0]) + N(0.5f), r = place.z * N(u.inverse_size[1]) + N(0.5f);
           const text::Neighbours<N> near = text::sample_neighbours<0, N>(water.view(), q, r);
@@ -325,8 +275,11 @@ TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
 }  // namespace
 
 // The whole texts instantiate.
-template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&, const Texture&, int, int);
-template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&, const Texture&, const Texture&, int, int);
-template Enclosure scalar_readings::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&, int, int);
+template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_as_published<Enclosure>(
+    const SurfaceHitUniforms&, const Texture&, int, int);
+template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_corrected<Enclosure>(
+    const SurfaceHitUniforms&, const Texture&, const Texture&, int, int);
+template Enclosure scalar_readings::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&,
+                                                                         const text::Surface<Enclosure>&, int, int);
 
 }  // namespace rainref::puddle
