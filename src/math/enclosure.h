@@ -2,9 +2,10 @@
 // give.
 //
 // It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), Replay
-// runs what an interval does not settle (replay.h). Every operation rounds outward, which covers both neighbours of a
-// result and its fusion with a later addition; exact results stay points. Under the profile `ieee` nothing is widened
-// and a point has the bits of Plain<float>.
+// runs what an interval does not settle (replay.h). Where a profile lets a result be either neighbour, operations round
+// outward, which covers fusion too; where it rounds to nearest, a product remembers what it was before its rounding for
+// the addition that fuses it. Exact results stay points. Under the profile `ieee` nothing is widened and a point has the
+// bits of Plain<float>.
 //
 // What may be infinite, not a number or undefined is vacuous, the interval of everything; it stays vacuous through all
 // that is computed from it.
