@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "capture/keyed_model.h"
 #include "capture/pass_case.h"
 #include "math/deviant.h"
 #include "math/enclosure.h"
@@ -32,6 +34,8 @@ class PassModel {
   virtual bool needs_port() const { return false; }
   /// Whether value v is declared as not reproducible (a count of steps): it is held to its buffer's range, no more.
   virtual bool is_free(int) const { return false; }
+  /// Of an output of Judge::keyed; null: its records are judged by bits.
+  virtual const KeyedModel* keyed(std::string_view) const { return nullptr; }
 
  private:
   int width_, height_, values_;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/keyed.h"
 #include "conformance/slots.h"
 #include "math/replay.h"
 #include "rainref/error.h"
@@ -406,7 +407,20 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
     j.id = c.folder();
     for (std::size_t o = 0; o < c.outputs.size(); ++o)
       if (c.outputs[o].judge == capture::Judge::bits) judge_bits(c.outputs[o], port[o], j);
+    std::string events;
+    for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+      if (c.outputs[o].judge != capture::Judge::keyed) continue;
+      KeyedJudgement k = judge_keyed(c.outputs[o], port[o], model ? model->keyed(c.outputs[o].name) : nullptr, *options.profile);
+      j.invocations += k.groups;
+      j.failing += k.failing;
+      j.ambiguous += k.ambiguous;
+      j.other_branch += k.other_branch;
+      j.gave_up += k.gave_up;
+      j.outputs.push_back(std::move(k.output));
+      if (const std::string text = k.events.text(); !text.empty()) events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);
+    }
     conclude(j);
+    if (!events.empty()) j.reason = events;
     if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) {
       j.status = Status::pass;
       j.reason = "taken as data: no GPU can reproduce it";
