@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <bit>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -86,6 +87,25 @@ void judge_devices(const BoundCase& b, const enclosed::Profile& p, std::int64_t 
     if (tally.outside++ == 0) {
       const std::lock_guard lock(tally.mutex);
       tally.first = described(b, x, y, stored, values, p);
+    }
+  }
+}
+
+TEST(Honesty, WithoutLibertiesADeviantIsTheReference) {
+  for (const BoundPass& pass : enveloped_passes()) {
+    for (const BoundCase& b : pass.cases) {
+      std::vector<plain::Plain<float>> reference(b.slots.size());
+      std::vector<deviant::Deviant> deviant(b.slots.size());
+      int differing = 0;
+      for (int y = 0; y < b.model->height(); ++y) {
+        for (int x = 0; x < b.model->width(); ++x) {
+          b.model->evaluate(x, y, reference.data());
+          b.model->evaluate(x, y, deviant.data());
+          for (std::size_t v = 0; v < reference.size(); ++v)
+            differing += std::bit_cast<std::uint32_t>(reference[v].v + 0.0f) != std::bit_cast<std::uint32_t>(deviant[v].v + 0.0f);
+        }
+      }
+      EXPECT_EQ(differing, 0) << b.c->folder();
     }
   }
 }
