@@ -16,7 +16,8 @@ using capture::Array;
 using capture::PassCase;
 
 // ---- a made-up pass ------------------------------------------------------------------------------------------------
-// Value (x + 1) / 3 stored in float, and whether its double is above the threshold that column 4 meets but for a rounding.
+// Value (x + 1) / 3 stored in float, and whether its double is above the threshold that column 4 meets but for a
+// rounding.
 constexpr int columns = 16, rows = 8;
 struct ThirdPass {
   int width = columns, height = rows, values = 2;
@@ -59,9 +60,12 @@ struct Made {
     store_value(s, value, Rounding::rne, port[0].levels[0].data() + s.offset(x, y));
   }
   ModeJudgements all(const char* name, const char* typical = nullptr) const {
-    return judge_case(c, model.get(), port, {&profile(name), typical ? &profile(typical) : nullptr, &executor, std::nullopt});
+    return judge_case(c, model.get(), port,
+                      {&profile(name), typical ? &profile(typical) : nullptr, &executor, std::nullopt});
   }
-  CaseJudgement judged(const char* name, const char* typical = nullptr) const { return all(name, typical).judgements[0]; }
+  CaseJudgement judged(const char* name, const char* typical = nullptr) const {
+    return all(name, typical).judgements[0];
+  }
 };
 
 TEST(Judge, TheReferencePassesAndIsCounted) {
@@ -148,7 +152,8 @@ TEST(Judge, HalfStoresAreJudgedByEachRounding) {
   EXPECT_EQ(failing(), std::tuple(false, true, false));
   const auto cut = [&](int from, int to) {
     for (int y = from; y < to; ++y)
-      for (int x = 0; x < columns; ++x) m.put(x, y, 0, to_float(to_half(static_cast<float>(x + 1) / 3.0f, Rounding::rtz)));
+      for (int x = 0; x < columns; ++x)
+        m.put(x, y, 0, to_float(to_half(static_cast<float>(x + 1) / 3.0f, Rounding::rtz)));
   };
   cut(0, rows / 2);
   EXPECT_EQ(failing(), std::tuple(true, true, false));
@@ -187,12 +192,16 @@ TEST(Judge, TheReferenceOfTheSmallPacksPasses) {
               b.model->evaluate(x, y, values.data());
               for (std::size_t v = 0; v < values.size(); ++v) {
                 const Slot& s = b.slots[v];
-                if (s.kind == FormatInfo::float16) store_value(s, values[v].v, Rounding::rtz, port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+                if (s.kind == FormatInfo::float16)
+                  store_value(s, values[v].v, Rounding::rtz,
+                              port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
               }
             }
         }
-        const CaseJudgement j = judge_case(*b.c, b.model.get(), port, {&p, nullptr, &executor, std::nullopt}).judgements[0];
-        EXPECT_EQ(j.status, Status::pass) << b.c->folder() << ' ' << name << ": " << j.reason << ", failing " << j.failing;
+        const CaseJudgement j =
+            judge_case(*b.c, b.model.get(), port, {&p, nullptr, &executor, std::nullopt}).judgements[0];
+        EXPECT_EQ(j.status, Status::pass)
+            << b.c->folder() << ' ' << name << ": " << j.reason << ", failing " << j.failing;
       }
     }
   }

@@ -22,7 +22,9 @@ MutationReport mutated(const std::string& pack, const std::string& profile, int 
   options.executor = &executor;
   return mutate(capture::Pack(pack_folder(pack)), options, invocations);
 }
-std::string line(const MutantJudgement& m) { return fmt::format("{} {} {} {} {} {}", m.pass, m.name, m.legal, m.compared, m.differing, m.outside); }
+std::string line(const MutantJudgement& m) {
+  return fmt::format("{} {} {} {} {} {}", m.pass, m.name, m.legal, m.compared, m.differing, m.outside);
+}
 
 struct Count {
   int applicable = 0, bugs = 0, caught = 0;
@@ -48,8 +50,8 @@ TEST_P(Mutation, UnderIeeeEveryChangeIsCaughtForEveryNumberOfThreads) {
   EXPECT_GE(Count(one).applicable, 40);
 }
 
-/// Invocations, of those that mutate compares, at which a deviation moves some value by more than an envelope may be wide
-/// before it counts as vacuous: 1/16 of the declared range, or of the value beyond it.
+/// Invocations, of those that mutate compares, at which a deviation moves some value by more than an envelope may be
+/// wide before it counts as vacuous: 1/16 of the declared range, or of the value beyond it.
 int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
   const DeviatedPass deviated(d, *b.c, bind, *b.model);
   if (!deviated.applies()) return 0;
@@ -64,8 +66,10 @@ int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
     for (std::size_t v = 0; v < b.slots.size(); ++v) {
       const Slot& s = b.slots[v];
       const std::size_t o = static_cast<std::size_t>(s.output);
-      const double got = stored_value(s, s.at(stored[o], x, y)), expected = stored_value(s, s.at(b.c->outputs[o].array, x, y));
-      far |= !b.model->is_free(static_cast<int>(v)) && std::abs(got - expected) > std::max(s.range, std::max(std::abs(got), std::abs(expected))) / 16;
+      const double got = stored_value(s, s.at(stored[o], x, y)),
+                   expected = stored_value(s, s.at(b.c->outputs[o].array, x, y));
+      far |= !b.model->is_free(static_cast<int>(v)) &&
+             std::abs(got - expected) > std::max(s.range, std::max(std::abs(got), std::abs(expected))) / 16;
     }
     count += far;
   }
@@ -93,7 +97,9 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
       }
       if (d.legal || far * 50 < invocations) continue;
       ++large;
-      const auto found = std::find_if(report.mutants.begin(), report.mutants.end(), [&](const MutantJudgement& m) { return m.pass == pass.pass && m.name == d.name; });
+      const auto found = std::find_if(report.mutants.begin(), report.mutants.end(), [&](const MutantJudgement& m) {
+        return m.pass == pass.pass && m.name == d.name;
+      });
       ASSERT_NE(found, report.mutants.end());
       EXPECT_TRUE(found->caught()) << line(*found) << ", far off at " << far;
     }
