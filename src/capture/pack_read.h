@@ -40,6 +40,7 @@ struct PackCase {
   int frame = 0, step = 0, level = -1;
   float time = 0, dt = 0;
   PackFileEntry uniforms;
+  std::vector<std::byte> block;  ///< the uniform block's bytes as its members' values say; 0 elsewhere
   std::vector<PackInput> inputs;
   std::vector<PackOutput> outputs;
 };

@@ -66,8 +66,11 @@ std::unique_ptr<PassModel> model_of(Pass pass) {
 /// How an effect offers its passes to be judged.
 struct PassReadings {
   std::string pass;
+  /// Null where no output is judged by envelope.
   /// Throws Error(port_files) when the case lacks an input or has one of another shape.
   std::unique_ptr<PassModel> (*bind)(const PassCase&);
+  /// The reference's outputs, in the order of c.outputs, where they are judged by bits; else null. Throws like bind.
+  std::vector<Array> (*recompute)(const PassCase&) = nullptr;
 };
 
 }  // namespace rainref::capture

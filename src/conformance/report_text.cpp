@@ -66,7 +66,7 @@ std::string report_text(const PortJudgement& j) {
   std::string out;
   for (const PassJudgement& p : j.passes) out += pass_line(p);
   for (const PassJudgement& p : j.passes) {
-    if (p.status != Status::fail) continue;
+    if (p.status != Status::fail || sums_of(p).failing == 0) continue;
     out += fmt::format("\n{} is outside the as-written envelope of {} under profile {}{}\n", p.pass, p.formula, j.profile,
                        p.pass == j.first_bad_pass ? " (first bad pass)" : "");
     for (const CaseJudgement& c : p.cases) {
@@ -77,10 +77,11 @@ std::string report_text(const PortJudgement& j) {
       }
     }
     if (p.causes.empty()) out += "  cause unknown\n";
-    for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}: {} (gives {} of {} failing texels bit for bit)\n", c.name, c.sentence, c.explained, c.of);
+    for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}: {} (gives {} of {} failing texels bit for bit, comes near {})\n", c.name, c.sentence, c.explained, c.of, c.inside);
   }
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
   out += fmt::format("\n{}: {} against {}, profile {}{}\n", name(j.status), j.port, j.pack, j.profile, j.device.empty() ? "" : fmt::format(", {} {}", j.api, j.device));
+  if (!j.reason.empty()) out += fmt::format("  {}\n", j.reason);
   return out;
 }
 

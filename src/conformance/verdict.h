@@ -72,7 +72,7 @@ struct Cause {
   std::string name, sentence;
   std::int64_t explained = 0;  ///< failing texels whose stored bits it gives exactly
   std::int64_t of = 0;         ///< failing texels replayed
-  std::int64_t inside = 0;     ///< failing texels that it brings into the envelope
+  std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
 };
 
 struct PassJudgement {
