@@ -306,6 +306,21 @@ float Sampler::level(float lod) const {
                                                                     : lod;
 }
 
+float Sampler::blend(float in_float, float a, float b, float c, float d, int bits) const {
+  if (!is_used) return in_float;
+  const double twist = static_cast<double>(a) - b - c + d;
+  double value = in_float + swing() * power_of_two(-current.liberties->rules.subtexel_bits) * twist;
+  if (bits == 0) {
+    value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + 0.5 + 0.5 * swing()))).v / 255;
+  } else if (bits == 11) {
+    const float beside_value = static_cast<float>(value);
+    const Half cut = to_half(beside_value, Rounding::rtz);
+    value = coin() || to_float(cut) == beside_value ? to_float(cut) : to_float(Half{static_cast<std::uint16_t>(cut.bits + 1)});
+  }
+  const auto [least, greatest] = std::minmax({a, b, c, d});
+  return static_cast<float>(std::clamp<double>(value, least, greatest));
+}
+
 Liberties liberties_of(const Profile& p) {
   Liberties all;
   all.rules = p;

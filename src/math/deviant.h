@@ -208,6 +208,9 @@ struct Sampler {
   float coordinate(float u) const;
   float texel(float x) const;
   float level(float lod) const;
+  /// The filtered value of texels a, b, c, d, `in_float` by arithmetic: the four weights rounded so that rows and columns
+  /// keep their sums, the result to numbers of so many bits (24: floats, 11: halves, 0: codes of 8 bits).
+  float blend(float in_float, float a, float b, float c, float d, int bits) const;
 };
 
 }  // namespace rainref::deviant

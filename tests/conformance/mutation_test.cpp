@@ -53,15 +53,15 @@ TEST_P(Mutation, UnderIeeeEveryChangeIsCaughtForEveryNumberOfThreads) {
 /// Invocations, of those that mutate compares, at which a deviation moves some value by more than an envelope may be
 /// wide before it counts as vacuous: 1/16 of the declared range, or of the value beyond it.
 int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
-  const DeviatedPass deviated(d, *b.c, bind, *b.model);
-  if (!deviated.applies()) return 0;
   std::vector<Array> stored = b.expected();
+  const DeviatedPass deviated(d, *b.c, bind, *b.model, HalfMode::rne, stored);
+  if (!deviated.applies()) return 0;
   int count = 0;
   const std::int64_t texels = static_cast<std::int64_t>(b.model->width()) * b.model->height();
   for (std::int64_t k = 0; k < invocations; ++k) {
     const std::int64_t i = k * texels / invocations;
     const int x = static_cast<int>(i % b.model->width()), y = static_cast<int>(i / b.model->width());
-    deviated.store({x, y}, HalfMode::rne, stored);
+    deviated.store({x, y}, stored);
     bool far = false;
     for (std::size_t v = 0; v < b.slots.size(); ++v) {
       const Slot& s = b.slots[v];
