@@ -38,7 +38,7 @@ RAINREF_FN deviant::Deviant blend(TexelPrecision precision, deviant::Deviant a, 
                                   deviant::Deviant fx, deviant::Deviant fy) {
   const deviant::Deviant in_float = blend<deviant::Deviant>(precision, a, b, c, d, fx, fy);
   const int bits = precision == TexelPrecision::float32 ? 24 : precision == TexelPrecision::unorm8 ? 0 : 11;
-  return deviant::Deviant::of(deviant::Sampler().blend(in_float.v, a.v, b.v, c.v, d.v, bits));
+  return deviant::Deviant::of(deviant::Sampler().blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, bits));
 }
 /// Any integer has a texel, whatever a slip has done to it.
 RAINREF_FN plain::Index<deviant::Deviant> texel_index(Address address, plain::Index<deviant::Deviant> i, plain::Index<deviant::Deviant> size) {

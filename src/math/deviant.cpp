@@ -306,16 +306,18 @@ float Sampler::level(float lod) const {
                                                                     : lod;
 }
 
-float Sampler::blend(float in_float, float a, float b, float c, float d, int bits) const {
+float Sampler::blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const {
   if (!is_used) return in_float;
-  const double twist = static_cast<double>(a) - b - c + d;
+  const double twist = inside_cell ? magnitude(static_cast<double>(a) - b - c + d) : 0;  // weights of 0 stay 0
   double value = in_float + swing() * power_of_two(-current.liberties->rules.subtexel_bits) * twist;
+  const bool up = current.lean != 0 && (draw() & 3) != 0 ? current.lean > 0 : coin();
   if (bits == 0) {
-    value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + 0.5 + 0.5 * swing()))).v / 255;
+    value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + (up ? 1 - 0x1p-20 : 0)))).v / 255;
   } else if (bits == 11) {
-    const float beside_value = static_cast<float>(value);
-    const Half cut = to_half(beside_value, Rounding::rtz);
-    value = coin() || to_float(cut) == beside_value ? to_float(cut) : to_float(Half{static_cast<std::uint16_t>(cut.bits + 1)});
+    const float x = static_cast<float>(value);
+    const Half cut = to_half(x, Rounding::rtz);
+    const bool away = to_float(cut) != x && up == (x > 0);
+    value = to_float(Half{static_cast<std::uint16_t>(cut.bits + (away ? 1 : 0))});
   }
   const auto [least, greatest] = std::minmax({a, b, c, d});
   return static_cast<float>(std::clamp<double>(value, least, greatest));

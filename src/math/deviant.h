@@ -210,7 +210,7 @@ struct Sampler {
   float level(float lod) const;
   /// The filtered value of texels a, b, c, d, `in_float` by arithmetic: the four weights rounded so that rows and columns
   /// keep their sums, the result to numbers of so many bits (24: floats, 11: halves, 0: codes of 8 bits).
-  float blend(float in_float, float a, float b, float c, float d, int bits) const;
+  float blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const;
 };
 
 }  // namespace rainref::deviant
