@@ -11,9 +11,10 @@ namespace rainref::capture {
 /// What one alternative says of one id.
 struct KeyedRecord {
   std::uint32_t id = 0;
-  bool lives = true;                       ///< false: the list has no record of this id; the fields mean nothing
-  std::vector<enclosed::Enclosure> floats;  ///< of each float of the record, in the order of declaration, padding left out
-  std::vector<std::uint32_t> words;         ///< bits of each other integer, likewise, the id left out
+  bool lives = true;  ///< false: the list has no record of this id; the fields mean nothing
+  std::vector<enclosed::Enclosure>
+      floats;                        ///< of each float of the record, in the order of declaration, padding left out
+  std::vector<std::uint32_t> words;  ///< bits of each other integer, likewise, the id left out
 };
 
 /// Groups of records that share decisions: a drop that another one captures is in the group of its captor, so that the
@@ -22,8 +23,8 @@ class KeyedModel {
  public:
   virtual ~KeyedModel() = default;
   virtual int groups() const = 0;
-  /// Appends a record for every id that the group may give, under the profile and replay in force; the same ids in every
-  /// alternative. No id is in two groups.
+  /// Appends a record for every id that the group may give, under the profile and replay in force; the same ids in
+  /// every alternative. No id is in two groups.
   virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;
 };
 

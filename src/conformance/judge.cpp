@@ -85,9 +85,12 @@ void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& v
   for (std::size_t v = 0; v < slots.size(); ++v) out[v] = enclosed::code_range(slots[v].kind, values[v], rules_of(profile, mode, slots[v].store_rounding));
 }
 
-bool inside(const PassModel& model, const std::vector<CodeRange>& ranges, const std::vector<std::int64_t>& codes) {
+/// Under exact rules a march has one number of steps, too.
+bool is_free(const PassModel& model, std::size_t value, const enclosed::Profile& profile) { return !profile.reference && model.is_free(static_cast<int>(value)); }
+
+bool inside(const PassModel& model, const enclosed::Profile& profile, const std::vector<CodeRange>& ranges, const std::vector<std::int64_t>& codes) {
   for (std::size_t v = 0; v < codes.size(); ++v)
-    if (!model.is_free(static_cast<int>(v)) && !ranges[v].contains(codes[v])) return false;
+    if (!is_free(model, v, profile) && !ranges[v].contains(codes[v])) return false;
   return true;
 }
 
@@ -187,13 +190,13 @@ class CaseJudge {
         bool holds_reference = true;
         std::uint64_t far = 0;
         for (std::size_t v = 0; v < n; ++v) {
-          if (model_.is_free(static_cast<int>(v))) continue;
+          if (is_free(model_, v, *options_.profile)) continue;
           far = std::max(far, distance(s.stored.got[v], s.ranges[v]));
           enclosed::StoreRules own = rules_of(*options_.profile, slots_[v].store_rounding == Rounding::rne ? HalfMode::rne : HalfMode::rtz, slots_[v].store_rounding);
           holds_reference &= enclosed::code_range(slots_[v].kind, values[v], own).contains(s.stored.expected[v]);
         }
         if (holds_reference && reference < 0) reference = a;
-        if (inside(model_, s.ranges, s.stored.got) && (accepted < 0 || a == reference)) accepted = a;
+        if (inside(model_, *options_.profile, s.ranges, s.stored.got) && (accepted < 0 || a == reference)) accepted = a;
         if (far < nearest_distance || nearest < 0) {
           nearest = a;
           nearest_distance = far;
@@ -216,7 +219,7 @@ class CaseJudge {
       out.differing += different;
       if (different) mark(whole, slot.output, x, y, 1);
       const bool nan = is_nan(slot.kind, slot.at(port_[static_cast<std::size_t>(slot.output)], x, y));
-      if (model_.is_free(static_cast<int>(v)) && !nan) {
+      if (is_free(model_, v, *options_.profile) && !nan) {
         ++out.free;
         continue;
       }
@@ -266,7 +269,7 @@ class CaseJudge {
     for (int a = 0; a < s.typical.count; ++a) {
       code_ranges(slots_, s.typical.values[static_cast<std::size_t>(a)], *options_.typical, mode, s.nearest);
       std::size_t outside = 0;
-      for (std::size_t v = 0; v < slots_.size(); ++v) outside += !model_.is_free(static_cast<int>(v)) && !s.nearest[v].contains(s.stored.got[v]);
+      for (std::size_t v = 0; v < slots_.size(); ++v) outside += !is_free(model_, v, *options_.profile) && !s.nearest[v].contains(s.stored.got[v]);
       if (outside < fewest) {
         fewest = outside;
         best = a;
@@ -275,7 +278,7 @@ class CaseJudge {
     if (fewest == 0) return;
     code_ranges(slots_, s.typical.values[static_cast<std::size_t>(best)], *options_.typical, mode, s.nearest);
     for (std::size_t v = 0; v < slots_.size(); ++v) {
-      if (model_.is_free(static_cast<int>(v)) || s.nearest[v].contains(s.stored.got[v])) continue;
+      if (is_free(model_, v, *options_.profile) || s.nearest[v].contains(s.stored.got[v])) continue;
       ++counts.outputs[static_cast<std::size_t>(slots_[v].output)].atypical;
       mark(whole, slots_[v].output, x, y, 2);
     }
@@ -443,7 +446,7 @@ bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) cons
   std::vector<CodeRange> ranges;
   for (int a = 0; a < alternatives.count; ++a) {
     code_ranges(slots, alternatives.values[static_cast<std::size_t>(a)], profile_, mode_, ranges);
-    if (inside(model_, ranges, stored.got)) return true;
+    if (inside(model_, profile_, ranges, stored.got)) return true;
   }
   return false;
 }

@@ -92,7 +92,8 @@ struct Difference {
   std::size_t count() const { return missing.size() + extra.size() + failures.size(); }
 };
 
-Difference compare(const std::vector<KeyedRecord>& alternative, const Table& table, const Layout& layout, const enclosed::Profile& profile) {
+Difference compare(const std::vector<KeyedRecord>& alternative, const Table& table, const Layout& layout,
+                   const enclosed::Profile& profile) {
   Difference d;
   const enclosed::StoreRules rules = enclosed::store_rules(profile);
   for (const KeyedRecord& r : alternative) {
@@ -114,7 +115,8 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const Table& tab
       f.channel = layout.float_fields[k];
       f.low = range.lo;
       f.high = range.hi;
-      f.distance = f.not_a_number ? ~std::uint64_t{0} : static_cast<std::uint64_t>(f.got < range.lo ? range.lo - f.got : f.got - range.hi);
+      f.distance = f.not_a_number ? ~std::uint64_t{0}
+                                  : static_cast<std::uint64_t>(f.got < range.lo ? range.lo - f.got : f.got - range.hi);
       d.failures.push_back(f);
     }
     f.not_a_number = false;
@@ -131,12 +133,14 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const Table& tab
 }
 
 /// Counts of the fields that an alternative bounds, and how well.
-void count_fields(const std::vector<KeyedRecord>& alternative, const Table& port, const Table& expected, const Layout& layout, double extent, bool gave_up,
-                  OutputJudgement& out) {
+void count_fields(const std::vector<KeyedRecord>& alternative, const Table& port, const Table& expected,
+                  const Layout& layout, double extent, bool gave_up, OutputJudgement& out) {
   for (const KeyedRecord& r : alternative) {
     const auto got = port.find(r.id), want = expected.find(r.id);
     if (got == port.end()) continue;
-    const auto differs = [&](std::size_t offset) { return want == expected.end() || word_at(got->second, offset) != word_at(want->second, offset); };
+    const auto differs = [&](std::size_t offset) {
+      return want == expected.end() || word_at(got->second, offset) != word_at(want->second, offset);
+    };
     for (std::size_t k = 0; k < layout.floats.size(); ++k) {
       ++out.elements;
       out.differing += differs(layout.floats[k]);
@@ -159,7 +163,9 @@ void count_fields(const std::vector<KeyedRecord>& alternative, const Table& port
   }
 }
 
-void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 void settle(std::vector<std::uint32_t>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -171,8 +177,10 @@ std::string KeyedEvents::text() const {
   std::string out;
   const auto add = [&](const char* what, const std::vector<std::uint32_t>& ids) {
     if (ids.empty()) return;
-    const std::vector<std::uint32_t> some(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(8, ids.size())));
-    out += fmt::format("{}{}: {}{}", out.empty() ? "" : "; ", what, fmt::join(some, ", "), ids.size() > 8 ? fmt::format(" and {} more", ids.size() - 8) : "");
+    const std::vector<std::uint32_t> some(
+        ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(8, ids.size())));
+    out += fmt::format("{}{}: {}{}", out.empty() ? "" : "; ", what, fmt::join(some, ", "),
+                       ids.size() > 8 ? fmt::format(" and {} more", ids.size() - 8) : "");
   };
   add("missing", missing);
   add("extra", extra);
@@ -181,10 +189,14 @@ std::string KeyedEvents::text() const {
   return out;
 }
 
-bool has_key(const scene::UniformBlock& record) { return std::any_of(record.members.begin(), record.members.end(), is_key); }
+bool has_key(const scene::UniformBlock& record) {
+  return std::any_of(record.members.begin(), record.members.end(), is_key);
+}
 
-KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& port, const capture::KeyedModel* model, const enclosed::Profile& profile) {
-  if (!expected.array.is_records || !has_key(expected.array.record)) throw Error(ExitCode::internal, fmt::format("{}: expected records with a uint 'id'", expected.name));
+KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& port, const capture::KeyedModel* model,
+                           const enclosed::Profile& profile) {
+  if (!expected.array.is_records || !has_key(expected.array.record))
+    throw Error(ExitCode::internal, fmt::format("{}: expected records with a uint 'id'", expected.name));
   const Layout layout = layout_of(expected.array.record);
   KeyedJudgement j;
   j.output.name = expected.name;
@@ -193,7 +205,9 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
   j.output.height = 1;
   std::vector<std::uint32_t> twice;
   const Table want = table_of(expected.array, layout, twice);
-  if (!twice.empty()) throw Error(ExitCode::port_files, fmt::format("{}: expected each id once, found {} twice", expected.name, twice.front()));
+  if (!twice.empty())
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: expected each id once, found {} twice", expected.name, twice.front()));
   Table have = table_of(port, layout, j.events.duplicate);
   const Exactly exactly(want, layout);
   if (!model) model = &exactly;
@@ -211,7 +225,10 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
       for (const KeyedRecord& r : a) {
         unknown.erase(r.id);
         if (r.lives && (r.floats.size() != layout.floats.size() || r.words.size() != layout.words.size()))
-          throw Error(ExitCode::internal, fmt::format("{}: the model's record has {} floats and {} integers, the output's {} and {}", expected.name, r.floats.size(), r.words.size(), layout.floats.size(), layout.words.size()));
+          throw Error(
+              ExitCode::internal,
+              fmt::format("{}: the model's record has {} floats and {} integers, the output's {} and {}", expected.name,
+                          r.floats.size(), r.words.size(), layout.floats.size(), layout.words.size()));
       }
     if (!whole) {
       count_fields(alternatives.front(), have, want, layout, 0, true, j.output);
@@ -222,7 +239,8 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
     Difference least;
     int reference = -1;
     for (std::size_t a = 0; a < alternatives.size(); ++a) {
-      if (reference < 0 && compare(alternatives[a], want, layout, profile).count() == 0) reference = static_cast<int>(a);
+      if (reference < 0 && compare(alternatives[a], want, layout, profile).count() == 0)
+        reference = static_cast<int>(a);
       Difference d = compare(alternatives[a], have, layout, profile);
       if (a == 0 || d.count() < least.count() || (d.count() == 0 && static_cast<int>(a) == reference)) {
         best = a;
@@ -241,10 +259,13 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
       if (j.output.worst.size() < OutputJudgement::max_failures) j.output.worst.push_back(f);
   }
   for (const auto& [id, bytes] : unknown) j.events.extra.push_back(id);
-  for (std::vector<std::uint32_t>* ids : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside}) settle(*ids);
+  for (std::vector<std::uint32_t>* ids : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside})
+    settle(*ids);
   j.failing += static_cast<std::int64_t>(unknown.size() + j.events.duplicate.size());
-  j.output.failing += static_cast<std::int64_t>(j.events.missing.size() + j.events.extra.size() + j.events.duplicate.size());
-  std::stable_sort(j.output.worst.begin(), j.output.worst.end(), [](const Failure& a, const Failure& b) { return a.distance > b.distance; });
+  j.output.failing +=
+      static_cast<std::int64_t>(j.events.missing.size() + j.events.extra.size() + j.events.duplicate.size());
+  std::stable_sort(j.output.worst.begin(), j.output.worst.end(),
+                   [](const Failure& a, const Failure& b) { return a.distance > b.distance; });
   return j;
 }
 

@@ -127,6 +127,10 @@ RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
   return load_texel<First, Count, N>(t, texel_column<N>(t, l, to_int(floor(x))), texel_row<N>(t, l, to_int(floor(y))));
 }
 
+/// Bilinear filtering of texels a, b in one row and c, d in the next. A number that a sampler may filter has its own.
+template <class N>
+RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy) { return mix(mix(a, b, fx), mix(c, d, fx), fy); }
+
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
@@ -137,7 +141,7 @@ RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N
   const auto a = load_texel<First, Count, N>(t, left, low), b = load_texel<First, Count, N>(t, right, low);
   const auto c = load_texel<First, Count, N>(t, left, high), d = load_texel<First, Count, N>(t, right, high);
   Channels<N, Count> out;
-  RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = mix(mix(a[k], b[k], fx), mix(c[k], d[k], fx), fy);
+  RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = blend(t.precision, a[k], b[k], c[k], d[k], fx, fy);
   return out;
 }
 template <int First, int Count, class N, class T>
@@ -159,9 +163,9 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   const auto p = texel_row<N>(t, l, yi + -1), q = texel_row<N>(t, l, yi), r = texel_row<N>(t, l, yi + 1), s = texel_row<N>(t, l, yi + 2);
   const auto texel = [&](const auto& column, const auto& row) RAINREF_LAMBDA { return load_texel<Channel, 1, N>(t, column, row)[0]; };
   const N bq = texel(b, q), cq = texel(c, q), br = texel(b, r), cr = texel(c, r);
-  const N low = mix(bq, cq, fx), high = mix(br, cr, fx);
-  return {mix(mix(texel(a, q), bq, fx), mix(texel(a, r), br, fx), fy), mix(mix(cq, texel(d, q), fx), mix(cr, texel(d, r), fx), fy),
-          mix(mix(texel(b, p), texel(c, p), fx), low, fy), mix(high, mix(texel(b, s), texel(c, s), fx), fy)};
+  const auto filtered = [&](N e, N f, N g, N h) RAINREF_LAMBDA { return blend(t.precision, e, f, g, h, fx, fy); };
+  return {filtered(texel(a, q), bq, texel(a, r), br), filtered(cq, texel(d, q), cr, texel(d, r)), filtered(texel(b, p), texel(c, p), bq, cq),
+          filtered(br, cr, texel(b, s), texel(c, s))};
 }
 
 template <int First, int Count, class N, class T>

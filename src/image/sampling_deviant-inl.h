@@ -32,6 +32,14 @@ RAINREF_FN deviant::Deviant nearest_coordinate(Address address, deviant::Deviant
   return deviant::Deviant::of(sampler.texel(nearest_coordinate<deviant::Deviant>(address, deviant::Deviant::of(sampler.coordinate(u.v)), size).v));
 }
 RAINREF_FN deviant::Deviant level_of_detail(deviant::Deviant lod) { return deviant::Deviant::of(deviant::Sampler().level(lod.v)); }
+template <class N>
+RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy);
+RAINREF_FN deviant::Deviant blend(TexelPrecision precision, deviant::Deviant a, deviant::Deviant b, deviant::Deviant c, deviant::Deviant d,
+                                  deviant::Deviant fx, deviant::Deviant fy) {
+  const deviant::Deviant in_float = blend<deviant::Deviant>(precision, a, b, c, d, fx, fy);
+  const int bits = precision == TexelPrecision::float32 ? 24 : precision == TexelPrecision::unorm8 ? 0 : 11;
+  return deviant::Deviant::of(deviant::Sampler().blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, bits));
+}
 /// Any integer has a texel, whatever a slip has done to it.
 RAINREF_FN plain::Index<deviant::Deviant> texel_index(Address address, plain::Index<deviant::Deviant> i, plain::Index<deviant::Deviant> size) {
   if (slipped(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};

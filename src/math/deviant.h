@@ -1,7 +1,7 @@
 // The perturbed reading: one float, computed as some other machine or some slip of a porter would compute it.
 //
-// Two uses. A *slip* is one realistic mistake, taken everywhere in a pass: `mutate` asks whether it would be caught, the
-// diagnosis whether it explains what a port did. *Liberties* are what a conforming GPU may do, drawn at random: the
+// Two uses. A *slip* is one realistic mistake, taken everywhere in a pass: `mutate` asks whether it would be caught,
+// the diagnosis whether it explains what a port did. *Liberties* are what a conforming GPU may do, drawn at random: the
 // envelopes are tested with them. Without either, a Deviant is Plain<float>, bit for bit.
 #pragma once
 
@@ -18,19 +18,50 @@ namespace rainref::deviant {
 enum class Slip : std::uint8_t {
   none,
   // arithmetic that many GPUs do
-  fused, reciprocal_division, root_by_inverse, flushed, mix_by_difference, sum_backwards, sum_otherwise_paired,
+  fused,
+  reciprocal_division,
+  root_by_inverse,
+  flushed,
+  mix_by_difference,
+  sum_backwards,
+  sum_otherwise_paired,
   division_by_estimate,
   // precision
-  half_intermediates, half_constants,
+  half_intermediates,
+  half_constants,
   // decisions
-  strict_for_weak, weak_for_strict, truncated_floor, rounded_floor, fract_by_truncation, minimum_missing,
-  maximum_missing, abs_missing,
+  strict_for_weak,
+  weak_for_strict,
+  truncated_floor,
+  rounded_floor,
+  fract_by_truncation,
+  minimum_missing,
+  maximum_missing,
+  abs_missing,
   // named mathematics
-  normalize_missing, smoothstep_linear, root_missing, square_missing, refract_ratio_inverted, reflect_doubled_missing,
-  exp_base_two, exp2_base_e, pow_squared, mix_swapped, atan2_swapped, degrees,
+  normalize_missing,
+  smoothstep_linear,
+  root_missing,
+  square_missing,
+  refract_ratio_inverted,
+  reflect_doubled_missing,
+  exp_base_two,
+  exp2_base_e,
+  pow_squared,
+  mix_swapped,
+  atan2_swapped,
+  degrees,
   // lookups
-  address_clamped, address_repeated, address_mirrored, nearest_filter, weights_of_8_bits, half_texel_missing,
-  half_texel_twice, texel_after, level_above, level_below,
+  address_clamped,
+  address_repeated,
+  address_mirrored,
+  nearest_filter,
+  weights_of_8_bits,
+  half_texel_missing,
+  half_texel_twice,
+  texel_after,
+  level_above,
+  level_below,
   // a literal or a uniform of one value has another
   constant
 };
@@ -43,14 +74,14 @@ struct SlipInfo {
 /// Every slip but none and constant, in the order in which a diagnosis tries them.
 const std::vector<SlipInfo>& slips();
 
-/// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and samplers of
-/// a profile, and formulas that a profile does not name because every one of them allows them.
+/// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and
+/// samplers of a profile, and formulas that a profile does not name because every one of them allows them.
 struct Liberties {
   enclosed::Profile rules;
-  bool reorder = false;         ///< sums in any order and grouping
-  bool mix_either = false;      ///< a + (b - a) t too
-  bool reciprocal = false;      ///< a (1 / b) where that lies within the division's error
-  bool normalize_any = false;   ///< a / |a| and a inversesqrt(a . a) too
+  bool reorder = false;        ///< sums in any order and grouping
+  bool mix_either = false;     ///< a + (b - a) t too
+  bool reciprocal = false;     ///< a (1 / b) where that lies within the division's error
+  bool normalize_any = false;  ///< a / |a| and a inversesqrt(a . a) too
 };
 /// Exactly what the profile allows; nothing for one that is the reference.
 Liberties liberties_of(const enclosed::Profile& profile);
@@ -58,7 +89,7 @@ Liberties liberties_of(const enclosed::Profile& profile);
 /// What the calling thread's Deviants do.
 struct Behaviour {
   Slip slip = Slip::none;
-  float constant = 0, replacement = 0;      ///< of Slip::constant
+  float constant = 0, replacement = 0;  ///< of Slip::constant
   const Liberties* liberties = nullptr;
   std::uint64_t random = 1;                 ///< state of the liberties' draws
   int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
@@ -95,8 +126,10 @@ class Deviant {
   }
   template <class Storage>
   static Deviant load(const Storage* p) {
-    if constexpr (std::is_same_v<Storage, Unorm8>) return load_unorm(*p);
-    else return of(plain::to_float(*p));
+    if constexpr (std::is_same_v<Storage, Unorm8>)
+      return load_unorm(*p);
+    else
+      return of(plain::to_float(*p));
   }
   static Deviant index(int first) { return of(static_cast<float>(first)); }
   static Int uniform_int(int value) { return {value}; }
@@ -110,13 +143,21 @@ class Deviant {
     a.factor_ = -a.factor_;
     return a;
   }
-  friend bool operator<(Deviant a, Deviant b) { return behaviour().slip == Slip::weak_for_strict ? a.v <= b.v : a.v < b.v; }
-  friend bool operator<=(Deviant a, Deviant b) { return behaviour().slip == Slip::strict_for_weak ? a.v < b.v : a.v <= b.v; }
+  friend bool operator<(Deviant a, Deviant b) {
+    return behaviour().slip == Slip::weak_for_strict ? a.v <= b.v : a.v < b.v;
+  }
+  friend bool operator<=(Deviant a, Deviant b) {
+    return behaviour().slip == Slip::strict_for_weak ? a.v < b.v : a.v <= b.v;
+  }
   friend bool operator>(Deviant a, Deviant b) { return b < a; }
   friend bool operator>=(Deviant a, Deviant b) { return b <= a; }
   friend Deviant select(bool m, Deviant a, Deviant b) { return m ? a : b; }
-  friend Deviant min(Deviant a, Deviant b) { return of(behaviour().slip == Slip::minimum_missing ? a.v : b.v < a.v ? b.v : a.v); }
-  friend Deviant max(Deviant a, Deviant b) { return of(behaviour().slip == Slip::maximum_missing ? a.v : a.v < b.v ? b.v : a.v); }
+  friend Deviant min(Deviant a, Deviant b) {
+    return of(behaviour().slip == Slip::minimum_missing ? a.v : b.v < a.v ? b.v : a.v);
+  }
+  friend Deviant max(Deviant a, Deviant b) {
+    return of(behaviour().slip == Slip::maximum_missing ? a.v : a.v < b.v ? b.v : a.v);
+  }
   friend Deviant abs(Deviant a) { return a.v < 0 && behaviour().slip != Slip::abs_missing ? -a : a; }
   friend Deviant sqrt(Deviant a);
   friend Deviant square(Deviant a) { return behaviour().slip == Slip::square_missing ? a : a * a; }
@@ -159,14 +200,17 @@ plain::Vec3<Deviant> refract(const plain::Vec3<Deviant>& v, const plain::Vec3<De
 Deviant nearest_octave(Deviant x);
 Deviant uniform_quotient(float a, float b, Deviant);
 
-/// One lookup by a sampler or by arithmetic, as the liberties have it: what it takes for a normalized coordinate, for one
-/// in texels, and for a level of detail.
+/// One lookup by a sampler or by arithmetic, as the liberties have it: what it takes for a normalized coordinate, for
+/// one in texels, and for a level of detail.
 struct Sampler {
   Sampler();
   bool is_used;
   float coordinate(float u) const;
   float texel(float x) const;
   float level(float lod) const;
+  /// The filtered value of texels a, b, c, d, `in_float` by arithmetic: the four weights rounded so that rows and columns
+  /// keep their sums, the result to numbers of so many bits (24: floats, 11: halves, 0: codes of 8 bits).
+  float blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const;
 };
 
 }  // namespace rainref::deviant

@@ -1,14 +1,14 @@
-// surface_hit as conformance takes it. A march repeats rounding errors until an interval says nothing, so that its end is
-// enclosed instead, by what every march must satisfy.
+// surface_hit as conformance takes it. A march repeats rounding errors until an interval says nothing, so that its end
+// is enclosed instead, by what every march must satisfy.
 //
-// as-published: t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two ends
-// of the interval of t are marched, and drawn apart by what f' may be below -1. Each round in which f may be under epsilon
-// is a possible end; which of them is the port's, its own count of rounds says. A ray that has passed the box for good
-// misses, however uncertain its t has become.
-// corrected: the march stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The
-// stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step. Where
-// the ray meets the plane, intervals of t and d lose that their errors cancel: that place has an enclosure of its own.
-// March steps of corrected are free: they depend on every decision on the way.
+// as-published: t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two
+// ends of the interval of t are marched, and drawn apart by what f' may be below -1. Each round in which f may be under
+// epsilon is a possible end; which of them is the port's, its own count of rounds says. A ray that has passed the box
+// for good misses, however uncertain its t has become. corrected: the march stops at the first place that it visits
+// where the gap is under epsilon, and passes no crossing. The stretches of the ray where that may be are the
+// alternatives; within one the pass's own text makes the last step. Where the ray meets the plane, intervals of t and d
+// lose that their errors cancel: that place has an enclosure of its own. March steps of corrected are free: they depend
+// on every decision on the way.
 #include <algorithm>
 #include <cmath>
 
@@ -33,11 +33,14 @@ struct SurfaceHitPass {
 
   template <class N>
   void operator()(int x, int y, N* out) const {
-    write(corrected ? every::surface_hit_corrected<N>(uniforms, wave.view(), bounds.view(), x, y) : every::surface_hit_as_published<N>(uniforms, wave.view(), x, y), out);
+    write(corrected ? every::surface_hit_corrected<N>(uniforms, wave.view(), bounds.view(), x, y)
+                    : every::surface_hit_as_published<N>(uniforms, wave.view(), x, y),
+          out);
   }
   template <class N>
   static void write(const every::SurfaceHit<N>& hit, N* out) {
-    const N all[8] = {hit.position.x, hit.position.y, hit.position.z, hit.iterations, hit.normal.x, hit.normal.y, hit.normal.z, hit.flag};
+    const N all[8] = {hit.position.x, hit.position.y, hit.position.z, hit.iterations,
+                      hit.normal.x,   hit.normal.y,   hit.normal.z,   hit.flag};
     std::copy(all, all + 8, out);
   }
 };
@@ -73,7 +76,10 @@ Enclosure along(const Vector& origin, const Vector& d, const float* port) {
 class PublishedMarch {
  public:
   PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, float lowest, int px, int py)
-      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
+      : u_(u),
+        wave_(wave),
+        origin_(u.camera.position),
+        d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
         lowest_(lowest - 1e-5 * std::max(1.0f, -lowest)) {}
 
   /// The ends that the march may have; empty: more than a port can be held to.
@@ -117,7 +123,9 @@ class PublishedMarch {
   /// The end with the port's number of rounds, or the nearest to it.
   static const End& nearest(const std::vector<End>& ends, const float* port) {
     return *std::min_element(ends.begin(), ends.end(), [port](const End& a, const End& b) {
-      const auto far = [port](const End& e) { return std::abs(static_cast<double>(e.rounds) - port[3]) + (e.hit == (port[7] > 0.5f) ? 0.0 : 0.5); };
+      const auto far = [port](const End& e) {
+        return std::abs(static_cast<double>(e.rounds) - port[3]) + (e.hit == (port[7] > 0.5f) ? 0.0 : 0.5);
+      };
       return far(a) < far(b);
     });
   }
@@ -131,7 +139,8 @@ class PublishedMarch {
     out.iterations = Enclosure(static_cast<float>(end.rounds));
     out.flag = Enclosure(end.hit ? 1.0f : 0.0f);
     // The normal is taken at the port's own position, which is stored without rounding.
-    const bool own = out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
+    const bool own =
+        out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
     out.normal = every::normal_as_published(u_, wave_, own ? Vector(port[0], port[1], port[2]) : out.position);
     return out;
   }
@@ -139,7 +148,10 @@ class PublishedMarch {
  private:
   /// By how much rounding in each step may have moved a coordinate off the ray.
   double off_ray(int rounds, double t) const {
-    const double size = std::max({std::abs(static_cast<double>(origin_.x.hi)), std::abs(static_cast<double>(origin_.y.hi)), std::abs(static_cast<double>(origin_.z.hi))}) + t;
+    const double size =
+        std::max({std::abs(static_cast<double>(origin_.x.hi)), std::abs(static_cast<double>(origin_.y.hi)),
+                  std::abs(static_cast<double>(origin_.z.hi))}) +
+        t;
     return 2 * rounds * 0x1p-23 * size;  // the product and the sum, each by an ULP
   }
   Vector point(double low, double high, double off) const {
@@ -149,21 +161,25 @@ class PublishedMarch {
     };
     return Vector(coordinate(origin_.x, d_.x), coordinate(origin_.y, d_.y), coordinate(origin_.z, d_.z));
   }
-  Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
+  Enclosure distance(double low, double high, double off) const {
+    return every::scene_distance(u_, wave_, point(low, high, off));
+  }
 
   /// Whether f stays at epsilon or more from t = low on: beside a face of the box and moving away from it.
   bool passed_for_good(double low, double off) const {
     const Vector p = point(low, low, off);
     const auto beside = [&](Enclosure c, Enclosure d, int k) {
-      const double gap = d.lo >= 0 ? static_cast<double>(c.lo) - u_.half_size[k] : d.hi <= 0 ? -static_cast<double>(c.hi) - u_.half_size[k] : 0;
+      const double gap = d.lo >= 0   ? static_cast<double>(c.lo) - u_.half_size[k]
+                         : d.hi <= 0 ? -static_cast<double>(c.hi) - u_.half_size[k]
+                                     : 0;
       return gap > 2 * u_.epsilon;
     };
     const bool above = d_.y.lo >= 0 && p.y.lo + lowest_ - u_.half_size[1] > 2 * u_.epsilon;
     return above || beside(p.x, d_.x, 0) || beside(p.z, d_.z, 2);
   }
 
-  /// A lower bound of f' on [low, high]. Over the box f is the gap to the displaced top, |y + h(x, z)| - b_y; beside it a
-  /// length of three parts, whose slope is bounded by theirs together.
+  /// A lower bound of f' on [low, high]. Over the box f is the gap to the displaced top, |y + h(x, z)| - b_y; beside it
+  /// a length of three parts, whose slope is bounded by theirs together.
   double steepest_fall(double low, double high, double off) const {
     const Vector p = point(low, high, off);
     const Range sx = slopes(p, true), sz = slopes(p, false);
@@ -175,7 +191,8 @@ class PublishedMarch {
     const double rise_low = d_.y.lo + x.low + z.low, rise_high = d_.y.hi + x.high + z.high;
     const bool over_box = abs(p.x).hi <= u_.half_size[0] && abs(p.z).hi <= u_.half_size[2];
     if (over_box && p.y.lo + lowest_ > 0) return std::min(rise_low, 0.0);
-    const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(), dz = d_.z.magnitude();
+    const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(),
+                 dz = d_.z.magnitude();
     return -std::sqrt(dx * dx + vertical * vertical + dz * dz);
   }
   struct Range {
@@ -188,15 +205,20 @@ class PublishedMarch {
     const float half[2] = {u_.half_size[0], u_.half_size[2]};
     int first[2], last[2];
     for (int k = 0; k < 2; ++k) {
-      const auto texel = [&](float x, double slack) { return static_cast<int>(std::floor((x / half[k] + 1.0) * 0.5 * size[k] - 0.5 + slack)); };
+      const auto texel = [&](float x, double slack) {
+        return static_cast<int>(std::floor((x / half[k] + 1.0) * 0.5 * size[k] - 0.5 + slack));
+      };
       if (!(std::abs(at[k].lo) < 1e6f && std::abs(at[k].hi) < 1e6f)) return {-1e9, 1e9};
       first[k] = texel(at[k].lo, -0.01);
       last[k] = texel(at[k].hi, 0.01);
       if (last[k] - first[k] >= size[k]) last[k] = first[k] + size[k] - 1;
     }
     const auto value = [&](int x, int y) {
-      const auto held = [](int i, int n, Address a) { return a == Address::repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
-      return static_cast<double>(wave_.texels[static_cast<std::ptrdiff_t>(held(y, size[1], wave_.address_v)) * size[0] + held(x, size[0], wave_.address_u)]);
+      const auto held = [](int i, int n, Address a) {
+        return a == Address::repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1);
+      };
+      return static_cast<double>(wave_.texels[static_cast<std::ptrdiff_t>(held(y, size[1], wave_.address_v)) * size[0] +
+                                              held(x, size[0], wave_.address_u)]);
     };
     const double scale = along_x ? size[0] / (2.0 * half[0]) : size[1] / (2.0 * half[1]);
     Range r{1e30, -1e30};
@@ -220,7 +242,8 @@ class PublishedMarch {
 // ---- corrected -----------------------------------------------------------------------------------------------------
 class CorrectedDescent {
  public:
-  CorrectedDescent(const SurfaceHitUniforms& u, const Texture& wave) : u_(u), wave_(fixed_texture<Address::clamp, Address::clamp, 1>(wave)) {}
+  CorrectedDescent(const SurfaceHitUniforms& u, const Texture& wave)
+      : u_(u), wave_(fixed_texture<Address::clamp, Address::clamp, 1>(wave)) {}
 
   every::SurfaceHit<Enclosure> hit(const Texture& bounds, int px, int py, const float* port) const {
     const every::Descent<Enclosure> ray = every::descent<Enclosure>(u_, px, py);
@@ -240,7 +263,10 @@ class CorrectedDescent {
         enclosed::give_up();
         return every::SurfaceHit<Enclosure>();
       }
-      const Landing& chosen = landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
+      const Landing& chosen =
+          landings[landings.size() == 1
+                       ? 0
+                       : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
       if (!chosen.leaves) return hit_near(ray, over, port, chosen);
       state.t = chosen.t;
       state.above = min(chosen.above, stopping());
@@ -251,26 +277,32 @@ class CorrectedDescent {
   }
 
  private:
-  /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a division
-  /// and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two components.
+  /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a
+  /// division and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two
+  /// components.
   Vector plane_point(int px, int py, const every::Descent<Enclosure>& ray) const {
     const enclosed::Profile& p = enclosed::profile();
     const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
     const double division = std::max(unit, p.division.ulp * 0x1p-23 + p.division.relative), many = 1 + 1e-6;
-    const double of_t = (division + 2 * unit) * many, of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
+    const double of_t = (division + 2 * unit) * many,
+                 of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
     const Vector v = every::to_image_plane(u_.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)));
     const double height = ray.origin.y.lo;
     // o + height * ratio (1 + e), |e| <= error.
     const auto coordinate = [&](Enclosure o, double low, double high, double error) {
-      const double a = height * low, b = height * high, slack = 0x1p-48 * (std::abs(a) + std::abs(b) + o.magnitude()) + 0x1p-120;
+      const double a = height * low, b = height * high,
+                   slack = 0x1p-48 * (std::abs(a) + std::abs(b) + o.magnitude()) + 0x1p-120;
       const double from = o.lo + (a - error * std::abs(a) - slack), to = o.hi + (b + error * std::abs(b) + slack);
-      return p.basic == enclosed::BasicRounding::nearest ? Enclosure(static_cast<float>(from), static_cast<float>(to)) : around(from, to);
+      return p.basic == enclosed::BasicRounding::nearest ? Enclosure(static_cast<float>(from), static_cast<float>(to))
+                                                         : around(from, to);
     };
     const auto sideways = [&](Enclosure o, Enclosure side) {
-      const double q[4] = {-side.lo / static_cast<double>(v.y.lo), -side.lo / static_cast<double>(v.y.hi), -side.hi / static_cast<double>(v.y.lo), -side.hi / static_cast<double>(v.y.hi)};
+      const double q[4] = {-side.lo / static_cast<double>(v.y.lo), -side.lo / static_cast<double>(v.y.hi),
+                           -side.hi / static_cast<double>(v.y.lo), -side.hi / static_cast<double>(v.y.hi)};
       return coordinate(o, *std::min_element(q, q + 4), *std::max_element(q, q + 4), of_ratio);
     };
-    if (!(v.y.hi < 0) || !(height >= 0)) return Vector(Enclosure::vacuous(), Enclosure::vacuous(), Enclosure::vacuous());
+    if (!(v.y.hi < 0) || !(height >= 0))
+      return Vector(Enclosure::vacuous(), Enclosure::vacuous(), Enclosure::vacuous());
     return Vector(sideways(ray.origin.x, v.x), coordinate(ray.origin.y, -1, -1, of_t), sideways(ray.origin.z, v.z));
   }
   static Vector common_part(const Vector& a, const Vector& b) {
@@ -302,7 +334,8 @@ class CorrectedDescent {
     std::vector<Landing> found;
     // Steps of a quarter of a cell: within one the gap is nearly linear.
     const double run = std::max(1e-6, static_cast<double>(ray.run.hi));
-    const double cell = 1 / std::max(static_cast<double>(wave_.width[0]) * u_.inverse_size[0], static_cast<double>(wave_.height[0]) * u_.inverse_size[1]);
+    const double cell = 1 / std::max(static_cast<double>(wave_.width[0]) * u_.inverse_size[0],
+                                     static_cast<double>(wave_.height[0]) * u_.inverse_size[1]);
     const double begin = over.t_in.lo, end = over.t_out.hi;
     const double step = std::max({0.25 * cell / run, (end - begin) / 20000, 0x1p-20 * std::abs(end)});
     bool crossed = false;
@@ -322,7 +355,8 @@ class CorrectedDescent {
         }
       }
     }
-    if (!crossed) found.push_back({Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1), Enclosure(0.0f), true});
+    if (!crossed)
+      found.push_back({Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1), Enclosure(0.0f), true});
     for (Landing& l : found)
       if (!l.leaves) refine(ray, l);
     return found;
@@ -334,7 +368,8 @@ class CorrectedDescent {
     double low = l.t.hi, high = l.t.lo;
     Enclosure above = Enclosure::vacuous();
     for (int k = 0; k < pieces; ++k) {
-      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, piece);
+      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step),
+                      gap = every::gap_above(u_, wave_, ray, piece);
       if (gap.lo >= u_.epsilon || gap.hi < -0.5 * u_.epsilon) continue;
       above = above.is_vacuous() ? gap : hull(above, gap);
       low = std::min(low, static_cast<double>(piece.lo));
@@ -344,11 +379,13 @@ class CorrectedDescent {
     l.t = around(low, high);
     l.above = above;
   }
-  /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did, each by
-  /// itself, because t and the gap depend on each other. All of the stretch where no piece does.
-  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port, const Landing& stretch) const {
+  /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did,
+  /// each by itself, because t and the gap depend on each other. All of the stretch where no piece does.
+  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over,
+                                        const float* port, const Landing& stretch) const {
     const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
-    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
+    const double longest =
+        2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
     double low = stretch.t.lo, high = stretch.t.hi;
     if (!own.is_vacuous()) {
       low = std::max<double>(low, own.lo - longest);
@@ -368,13 +405,16 @@ class CorrectedDescent {
         enclosed::Replay replay;
         const bool settled = replay.for_each_alternative([&] {
           const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
-          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
+          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) &&
+                end.position.z.contains(port[2])))
+            return;
           out = found ? hull_of(out, end) : end;
           found = true;
           first = std::min(first, static_cast<double>(t.lo));
           last = std::max(last, static_cast<double>(t.hi));
         });
-        if (!settled) return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+        if (!settled)
+          return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
       }
       if (!found) break;
       low = first;
@@ -383,7 +423,9 @@ class CorrectedDescent {
     return found ? out : every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
   }
   static every::SurfaceHit<Enclosure> hull_of(every::SurfaceHit<Enclosure> a, const every::SurfaceHit<Enclosure>& b) {
-    const auto add = [](Vector& to, const Vector& v) { to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z)); };
+    const auto add = [](Vector& to, const Vector& v) {
+      to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z));
+    };
     add(a.position, b.position);
     add(a.normal, b.normal);
     return a;
@@ -407,7 +449,8 @@ class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
     // Under exact rules the march itself is the only result.
     if (enclosed::profile().reference) return p(x, y, out);
     const Texture wave = p.wave.view();
-    if (p.corrected) return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
+    if (p.corrected)
+      return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
     const PublishedMarch march(p.uniforms, wave, p.lowest, x, y);
     const std::vector<PublishedMarch::End> ends = march.ends();
     if (ends.empty()) return enclosed::give_up();

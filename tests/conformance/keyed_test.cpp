@@ -56,7 +56,8 @@ class Beads : public capture::KeyedModel {
     const auto pair = moved_pair<Enclosure>(first(group), second(group));
     for (int k = 0; k < 2; ++k) {
       const Moved<Enclosure>& m = pair[static_cast<std::size_t>(k)];
-      out.push_back({k == 0 ? first(group).id : second(group).id, m.lives, {m.x, m.speed, m.mass}, {m.is_large ? 1u : 0u}});
+      out.push_back(
+          {k == 0 ? first(group).id : second(group).id, m.lives, {m.x, m.speed, m.mass}, {m.is_large ? 1u : 0u}});
     }
   }
   /// The list that a number gives; under a profile's liberties for a Deviant.
@@ -67,7 +68,9 @@ class Beads : public capture::KeyedModel {
       const auto pair = moved_pair<N>(first(group), second(group));
       for (int k = 0; k < 2; ++k) {
         const Moved<N>& m = pair[static_cast<std::size_t>(k)];
-        if (m.lives) out.push_back({k == 0 ? first(group).id : second(group).id, m.x.v, m.speed.v, m.mass.v, m.is_large ? 1u : 0u});
+        if (m.lives)
+          out.push_back(
+              {k == 0 ? first(group).id : second(group).id, m.x.v, m.speed.v, m.mass.v, m.is_large ? 1u : 0u});
       }
     }
     return out;
@@ -83,8 +86,10 @@ Array array_of(const std::vector<Bead>& beads) {
   using namespace scene;
   Array a;
   a.is_records = true;
-  a.record = record<Bead>("Bead", {member<&Bead::id>("id", "1", "Key."), member<&Bead::x>("x", "texel", "Place."), member<&Bead::speed>("speed", "texel/s", "Speed."),
-                                   member<&Bead::mass>("mass", "1", "Mass."), member<&Bead::is_large>("is_large", "1", "Event.")});
+  a.record = record<Bead>(
+      "Bead", {member<&Bead::id>("id", "1", "Key."), member<&Bead::x>("x", "texel", "Place."),
+               member<&Bead::speed>("speed", "texel/s", "Speed."), member<&Bead::mass>("mass", "1", "Mass."),
+               member<&Bead::is_large>("is_large", "1", "Event.")});
   a.width = static_cast<int>(beads.size());
   a.height = 1;
   a.levels.emplace_back(beads.size() * sizeof(Bead));
@@ -95,7 +100,9 @@ Array array_of(const std::vector<Bead>& beads) {
 std::vector<Bead> some_beads(std::uint32_t pairs) {
   Words words(9);
   std::vector<Bead> beads;
-  const auto uniform = [&](float low, float high) { return low + (high - low) * static_cast<float>(words() >> 40) * 0x1p-24f; };
+  const auto uniform = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(words() >> 40) * 0x1p-24f;
+  };
   for (std::uint32_t k = 0; k < pairs; ++k) {
     const float x = uniform(0, 100);
     beads.push_back({2 * k + 7, x, uniform(-9, 9), uniform(0.1f, 4), 0});
@@ -115,7 +122,9 @@ class Keyed : public testing::Test {
     expected.range = {0, 100};
     expected.array = array_of(port);
   }
-  KeyedJudgement judged(const char* name = "vulkan", bool with_model = true) const { return judge_keyed(expected, array_of(port), with_model ? &*model : nullptr, profile(name)); }
+  KeyedJudgement judged(const char* name = "vulkan", bool with_model = true) const {
+    return judge_keyed(expected, array_of(port), with_model ? &*model : nullptr, profile(name));
+  }
   Bead& with_id(std::uint32_t id) {
     return *std::find_if(port.begin(), port.end(), [&](const Bead& b) { return b.id == id; });
   }
@@ -170,7 +179,8 @@ TEST_F(Keyed, EventsAreNamed) {
   with_id(port[20].id).is_large ^= 1;
   const std::uint32_t flagged = port[20].id;
   const KeyedJudgement j = judged();
-  expect(j, "missing: " + std::to_string(other.id) + "; extra: 99999; duplicate: " + std::to_string(one.id) + "; outside: " + std::to_string(flagged));
+  expect(j, "missing: " + std::to_string(other.id) + "; extra: 99999; duplicate: " + std::to_string(one.id) +
+                "; outside: " + std::to_string(flagged));
   EXPECT_EQ(j.failing, 4);
   ASSERT_EQ(j.output.worst.size(), 1u);
   EXPECT_EQ(j.output.worst[0].x, static_cast<int>(flagged));
@@ -190,7 +200,8 @@ TEST_F(Keyed, AFloatIsHeldToItsEnvelope) {
   expect(judged(), "outside: " + std::to_string(b.id));
 }
 
-// Some mass near (1/4 - 0.01) / 0.7 comes out beside the threshold by less than what may be rounded: both lives are right.
+// Some mass near (1/4 - 0.01) / 0.7 comes out beside the threshold by less than what may be rounded: both lives are
+// right.
 TEST_F(Keyed, AnOpenDecisionAllowsBothAnswers) {
   float mass = 0.342857f;
   for (int k = 0; k < 100; ++k, mass = std::nextafterf(mass, 1)) {
@@ -201,8 +212,10 @@ TEST_F(Keyed, AnOpenDecisionAllowsBothAnswers) {
   EXPECT_EQ(j.ambiguous, 1);
   expect(j, "");
   const bool lives = port.size() == 2;
-  if (lives) port.erase(port.begin());
-  else port.insert(port.begin(), {1, 0.1f, 1, 0.25f + 0x1p-25f, 0});
+  if (lives)
+    port.erase(port.begin());
+  else
+    port.insert(port.begin(), {1, 0.1f, 1, 0.25f + 0x1p-25f, 0});
   j = judged();
   expect(j, "");
   EXPECT_EQ(j.other_branch, 1);

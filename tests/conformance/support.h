@@ -77,9 +77,10 @@ class Words {
   std::uint64_t state_;
 };
 
-/// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere, or
-/// lean to one end throughout.
-inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y, const deviant::Liberties& liberties, std::uint64_t seed) {
+/// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere,
+/// or lean to one end throughout.
+inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y,
+                                            const deviant::Liberties& liberties, std::uint64_t seed) {
   deviant::Behaviour behaviour;
   behaviour.liberties = &liberties;
   behaviour.random = Words(seed)();
@@ -99,7 +100,8 @@ inline HalfMode drawn_mode(const enclosed::Profile& p, Words& words) {
   constexpr HalfMode modes[] = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
   return modes[words() % 3];
 }
-inline void store_conforming(const Slot& slot, float value, const enclosed::Profile& p, HalfMode mode, Words& words, std::byte* at) {
+inline void store_conforming(const Slot& slot, float value, const enclosed::Profile& p, HalfMode mode, Words& words,
+                             std::byte* at) {
   if (slot.kind == FormatInfo::float16) {
     const float cut = to_float(to_half(value, Rounding::rtz));
     const bool beyond = value >= 65520.0f || value <= -65520.0f;
@@ -112,7 +114,8 @@ inline void store_conforming(const Slot& slot, float value, const enclosed::Prof
     return store_value(slot, value, mode == HalfMode::rtz ? Rounding::rtz : Rounding::rne, at);
   }
   if (slot.kind == FormatInfo::unorm8 && p.unorm_store_ulp > 0 && slot.store_rounding == Rounding::rne) {
-    const double scaled = 255.0 * std::min(std::max(value, 0.0f), 1.0f), below = static_cast<double>(static_cast<int>(scaled));
+    const double scaled = 255.0 * std::min(std::max(value, 0.0f), 1.0f),
+                 below = static_cast<double>(static_cast<int>(scaled));
     const double other = words.coin() ? below : std::min(below + 1, 255.0);
     const bool is_code = to_float(Unorm8{to_unorm8(value).code}) == value;
     if (!is_code && std::abs(other - scaled) <= p.unorm_store_ulp) {
