@@ -84,6 +84,7 @@ PackArray read_array(const JsonField& from, const Records& records) {
   out.range = {range[0].number(), range[1].number()};
   out.unit = from["unit"].text();
   out.meaning = from["channel_meaning"].text();
+  out.color_space = from["color_space"].text();
   return out;
 }
 

@@ -26,6 +26,7 @@ struct PackArray {
   Array shape;                       ///< levels empty
   std::array<double, 2> range{0, 1};  ///< of the stored values
   std::string unit, meaning;
+  std::string color_space;            ///< "none": data
   std::vector<PackFileEntry> levels;  ///< one file for each level
 };
 struct PackInput : PackArray {

@@ -12,8 +12,11 @@
 
 namespace rainref::cli {
 
-int validate(const ValidateRequest& request) {
+namespace {
+
+int validate(const ValidateRequest& request, Reports& reports) {
   const capture::Pack pack(request.pack);
+  reports.check(pack);
   const parallel::Executor executor(request.threads);
   conformance::ValidateOptions options;
   options.profile = request.profile;
@@ -26,8 +29,22 @@ int validate(const ValidateRequest& request) {
     judgement = conformance::validate(pack, request.port, options);
   }
   judgement.command = request.command;
+  reports.apply_baseline(judgement);
   fmt::print("{}", conformance::report_text(judgement));
+  reports.write(judgement, pack, request.port);
   return conformance::exit_code(judgement, request.allow_untested);
+}
+
+}  // namespace
+
+int validate(const ValidateRequest& request) {
+  Reports reports(request.reports, request.allow_untested);
+  try {
+    return validate(request, reports);
+  } catch (const Error& e) {
+    if (e.code() == ExitCode::port_files) reports.write_error(e.what(), request);
+    throw;
+  }
 }
 
 int mutate(const MutateRequest& request) {

@@ -42,9 +42,13 @@ RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   l.height_number = N(static_cast<float>(t.height[level]));
   return l;
 }
+/// A lookup's level, which it has held within the texture's; a number that slips can bend has its own rule.
+template <class Int>
+RAINREF_FN Int existing_level(Int level, int) { return level; }
 /// A level of each element's own.
 template <class N, class T>
-RAINREF_FN Level<N> level_of(const T& t, typename N::Int level) {
+RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
+  const auto level = existing_level(wanted, t.levels);
   Level<N> l;
   // Each level halves the side above it, rounded down, to no less than 1.
   const auto one = N::uniform_int(1);

@@ -29,3 +29,7 @@ RAINREF_FN plain::Index<deviant::Deviant> texel_index(Address address, plain::In
   if (slipped(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};
   return clamp_index(i, size);
 }
+/// A missing minimum or maximum leaves the levels.
+RAINREF_FN plain::Index<deviant::Deviant> existing_level(plain::Index<deviant::Deviant> level, int levels) {
+  return {level.i < 0 ? 0 : level.i < levels ? level.i : levels - 1};
+}
