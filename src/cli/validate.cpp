@@ -42,7 +42,7 @@ int validate(const ValidateRequest& request) {
   try {
     return validate(request, reports);
   } catch (const Error& e) {
-    if (e.code() == ExitCode::port_files) reports.write_error(e.what(), request);
+    if (e.code() == ExitCode::port_files) reports.write_error(e, request);
     throw;
   }
 }

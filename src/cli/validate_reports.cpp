@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "conformance/report_figures.h"
 #include "conformance/report_html.h"
 #include "conformance/report_json.h"
 #include "conformance/report_junit.h"
@@ -74,19 +75,19 @@ void Reports::apply_baseline(conformance::PortJudgement& judgement) const {
 void Reports::write(const conformance::PortJudgement& j, const capture::Pack& pack, const std::filesystem::path& port) {
   if (html_) finish(html_, conformance::report_html(j, conformance::page_source(pack, port)));
   if (junit_) finish(junit_, conformance::report_junit(j, allow_untested_));
-  if (json_) finish(json_, conformance::report_json(j, allow_untested_));
+  if (json_) finish(json_, conformance::report_json(j, conformance::exit_code(j, allow_untested_)));
 }
 
-void Reports::write_error(const std::string& message, const ValidateRequest& request) {
+void Reports::write_error(const Error& error, const ValidateRequest& request) {
   conformance::PortJudgement j;
   j.pack = request.pack.string();
   j.port = request.port.string();
   j.profile = request.profile;
   j.command = request.command;
-  j.reason = message;
+  j.reason = error.what();
   if (html_) finish(html_, conformance::report_html(j, {}));
   if (junit_) finish(junit_, conformance::report_junit(j, false));
-  if (json_) finish(json_, conformance::report_json(j, false));
+  if (json_) finish(json_, conformance::report_json(j, static_cast<int>(error.code())));
 }
 
 }  // namespace rainref::cli

@@ -10,6 +10,7 @@
 #include "capture/pack_read.h"
 #include "conformance/report_baseline.h"
 #include "conformance/verdict.h"
+#include "rainref/error.h"
 
 namespace CLI {
 class App;
@@ -44,7 +45,7 @@ class Reports {
   /// Writes the files, each under its name only when whole. The pack and the port's folder give the pictures.
   void write(const conformance::PortJudgement& judgement, const capture::Pack& pack, const std::filesystem::path& port);
   /// When nothing could be judged: the reports say why, so that none of an earlier run stays behind.
-  void write_error(const std::string& message, const ValidateRequest& request);
+  void write_error(const Error& error, const ValidateRequest& request);
 
  private:
   using File = std::unique_ptr<AtomicFile>;

@@ -75,10 +75,9 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
 std::string half_text(const PassJudgement& p) {
   if (!p.half_mode_voted) return "";
   const auto [rne, rtz, either] = p.half_votes;
-  const std::string votes = fmt::format("outside if they round to nearest: {}, toward zero: {}, either way: {}", rne, rtz, either);
   const char* found = p.half_mode == HalfMode::rne ? "to nearest" : p.half_mode == HalfMode::rtz ? "toward zero" : "sometimes to nearest, sometimes toward zero";
-  if (rne == rtz && p.half_mode != HalfMode::either) return fmt::format("stores to half: nothing tells how they round ({})", votes);
-  return fmt::format("stores to half round {} (invocations {})", found, votes);
+  if (rne == rtz && p.half_mode != HalfMode::either) return "stores to half: nothing tells how they round";
+  return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found, rne, rtz, either);
 }
 
 bool forgives_untested(const PortJudgement& j, bool allow_untested) {

@@ -31,9 +31,13 @@ std::string summary_html(const PortJudgement& j) {
     const Figures f = figures_of(*bad);
     std::string out = fmt::format("<a href=\"#pass-{0}\">{0}</a> is the first bad pass: {1} of {2} invocations ({3}) stored what <b>{4}</b> does not allow.", marked_up(bad->pass), f.failing, f.invocations,
                                   share_text(f.failing, f.invocations), marked_up(j.profile));
-    if (bad->causes.empty()) return out + " The cause is unknown.";
+    std::string others;
+    for (const PassJudgement& p : j.passes)
+      if (p.status == Status::fail && &p != bad) others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
+    if (!others.empty()) others += ".";
+    if (bad->causes.empty()) return out + " The cause is unknown." + others;
     const Cause& c = bad->causes[0];
-    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing texels bit for bit).", marked_up(c.name), marked_up(c.sentence), c.explained, c.of);
+    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing texels bit for bit).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, others);
   }
   if (!j.reason.empty()) return marked_up(j.reason) + ".";
   const std::string equal = fmt::format("{} of the elements have the reference's own bits.", share_text(all.elements - all.differing, all.elements));
@@ -74,7 +78,7 @@ std::string overview_html(const PortJudgement& j) {
       rows.push_back({status_pill(p.status), link, fmt::format("{} of {}", f.failing, f.invocations), share_text(f.differing, f.elements), share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width),
                       fmt::format("{}", f.ambiguous), share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged())});
   }
-  return table_html("figures", {"verdict", "pass", "invocations outside", "differ", "bounded", "width", "99 %", "ambiguous", "vacuous", "loose"}, rows, 2);
+  return table_html("figures", {"verdict", "pass", "invocations outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"}, rows, 2);
 }
 
 /// Everything between the banner and the help. Pictures of failing passes are drawn first, so that these get them.

@@ -24,7 +24,7 @@ struct OutputBuffers {
 struct PageSource {
   std::vector<capture::PackEdge> edges;
   std::map<std::string, std::string> sentences;  ///< of passes, by name
-  /// Reads an output of a case again; nothing where it cannot be had.
+  /// Reads an output of a case again; nothing where it cannot be had. Null: no pictures.
   std::function<std::optional<OutputBuffers>(const std::string& id, const std::string& output)> read;
 };
 /// That of a pack and a port's folder, which must outlive it.

@@ -56,7 +56,7 @@ std::string cases_html(const PassJudgement& p) {
     }
   }
   if (rows.empty()) return "";
-  std::string out = table_html("figures", {"verdict", "output", "shape", "elements outside", "differ", "bounded", "width", "99 %", "ambiguous", "vacuous", "loose", "atypical", "free"}, rows, 3);
+  std::string out = table_html("figures", {"verdict", "output", "shape", "elements outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose", "atypical", "free"}, rows, 3);
   if (skipped > 0) out += fmt::format("<p class=\"remark\">{} more outputs are not shown; --json lists all.</p>\n", skipped);
   return out;
 }
@@ -96,16 +96,18 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
   if (p.pass == j.first_bad_pass) out += "<p class=\"first\">The first bad pass in the order of dataflow. It was given the reference's inputs, so no pass before it is to blame.</p>\n";
   if (!p.reason.empty()) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
   out += known_html(p) + takes_html(p, source) + causes_html(p);
-  if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">{}.</p>\n", marked_up(half));
+  if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
   const Figures f = figures_of(p);
   if (f.other_branch > 0) out += fmt::format("<p class=\"dim\">{} of {} ambiguous invocations took another branch than the reference.</p>\n", f.other_branch, f.ambiguous);
   if (f.gave_up > 0) out += fmt::format("<p class=\"dim\">{} invocations had too many open decisions to bound.</p>\n", f.gave_up);
   out += cases_html(p);
 
+  // Of a case that fails, what fails; of the one that passes, all.
   std::size_t unpictured = 0;
   for (const CaseJudgement* c : pictured_cases(p)) {
     for (const OutputJudgement& o : c->outputs) {
-      const std::optional<OutputBuffers> buffers = source.read(c->id, o.name);
+      if (c->failing > 0 && o.failing == 0) continue;
+      const std::optional<OutputBuffers> buffers = source.read ? source.read(c->id, o.name) : std::nullopt;
       if (!buffers) continue;
       const ViewerHtml viewer = viewer_html(*c, o, *buffers, budget > 0);
       unpictured += budget == 0 && !o.map.empty();
