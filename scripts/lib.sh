@@ -4,7 +4,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=(cmake ninja-build g++ ccache pkg-config git
   libhwy-dev libtbb-dev libglm-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libxxhash-dev
-  libopenimageio-dev libgtest-dev libgmock-dev libbenchmark-dev libmpfr-dev glslang-tools)
+  libopenimageio-dev libgtest-dev libgmock-dev libbenchmark-dev libmpfr-dev
+  libvulkan-dev mesa-vulkan-drivers glslang-tools)
 
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$*"; exit 1; }

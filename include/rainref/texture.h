@@ -18,6 +18,9 @@ constexpr const char* name(Address address) {
   return names[static_cast<int>(address)];
 }
 
+/// What the texels were stored as, before they were decoded to float: a texture unit may filter at that precision.
+enum class TexelPrecision : std::uint8_t { float32, float16, unorm8 };
+
 /// A view of float texels with mip levels. Level l has width[l] x height[l] texels, row-major, channels interleaved,
 /// starting at texel offset[l]. Row 0 is v = 0.
 struct Texture {
@@ -28,6 +31,7 @@ struct Texture {
   std::int32_t width[max_levels] = {}, height[max_levels] = {}, offset[max_levels] = {};
   Address address_u = Address::clamp, address_v = Address::clamp;
   float border[4] = {0, 0, 0, 0};
+  TexelPrecision precision = TexelPrecision::float32;
 };
 
 }  // namespace rainref

@@ -51,6 +51,9 @@ BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {
   const int channels = info(a.format).channels, taken = count > 0 ? count : channels - first;
   view_.channels = taken;
   view_.levels = std::min(static_cast<int>(a.levels.size()), Texture::max_levels);
+  const FormatInfo::Kind kind = info(a.format).kind;
+  view_.precision = kind == FormatInfo::float16 ? TexelPrecision::float16
+                    : kind == FormatInfo::unorm8 || kind == FormatInfo::srgb8 ? TexelPrecision::unorm8 : TexelPrecision::float32;
   view_.address_u = input.address_u;
   view_.address_v = input.address_v;
   for (int c = 0; c < taken; ++c) view_.border[c] = input.border[static_cast<std::size_t>(first + c)];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -84,7 +85,6 @@ PackArray read_array(const JsonField& from, const Records& records) {
   out.range = {range[0].number(), range[1].number()};
   out.unit = from["unit"].text();
   out.meaning = from["channel_meaning"].text();
-  out.color_space = from["color_space"].text();
   return out;
 }
 
@@ -114,14 +114,34 @@ PackOutput read_output(const JsonField& from, const Records& records) {
   output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
   output.rules.judge = named<Judge, 4>(from["judge"]);
   output.rules.range = output.range;
+  output.rules.unit = output.unit;
+  output.rules.color_space = from["color_space"].text();
   return output;
 }
 
-float read_float(const JsonField& from) {
-  const JsonField field = from["bits"];
+std::uint32_t read_bits(const JsonField& field) {
   const std::string bits = field.text();
   if (bits.size() != 10 || !bits.starts_with("0x") || bits.find_first_not_of("0123456789abcdef", 2) != std::string::npos) field.fail("eight hexadecimal digits behind 0x");
-  return std::bit_cast<float>(static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16)));
+  return static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16));
+}
+float read_float(const JsonField& from) { return std::bit_cast<float>(read_bits(from["bits"])); }
+
+std::vector<std::byte> read_uniforms(const JsonField& from, const scene::UniformBlock& block) {
+  std::vector<std::byte> out(block.size);
+  const std::vector<JsonField> found = from.elements();
+  if (found.size() != block.members.size()) from.refuse(fmt::format("expected the {} members of {}, found {}", block.members.size(), block.name, found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const scene::Member& m = block.members[i];
+    const JsonField bits = found[i]["bits"];
+    if (found[i]["name"].text() != m.name) found[i]["name"].fail(fmt::format("'{}'", m.name));
+    const std::vector<JsonField> parts = m.components == 1 ? std::vector<JsonField>{bits} : bits.elements();
+    if (parts.size() != static_cast<std::size_t>(m.components)) bits.refuse(fmt::format("expected {} components, found {}", m.components, parts.size()));
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const std::uint32_t word = read_bits(parts[k]);
+      std::memcpy(out.data() + m.offset + 4 * k, &word, sizeof word);
+    }
+  }
+  return out;
 }
 
 PackCase read_case(const JsonField& from, const Records& records) {
@@ -180,6 +200,7 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
     run.step = read.step;
     run.level = read.level;
     if (read.id != run.folder()) c["id"].refuse(fmt::format("expected '{}', found '{}'", run.folder(), read.id));
+    pack.cases.back().block = read_uniforms(c["uniforms"], pack.pass(read.pass).block);
     const std::size_t size = pack.pass(read.pass).block.size;
     if (read.uniforms.bytes != size) c["uniform_block"]["bytes"].fail(fmt::format("the {} bytes of {}", size, pack.pass(read.pass).block.name));
   }

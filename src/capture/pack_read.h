@@ -26,7 +26,6 @@ struct PackArray {
   Array shape;                       ///< levels empty
   std::array<double, 2> range{0, 1};  ///< of the stored values
   std::string unit, meaning;
-  std::string color_space;            ///< "none": data
   std::vector<PackFileEntry> levels;  ///< one file for each level
 };
 struct PackInput : PackArray {
@@ -41,6 +40,7 @@ struct PackCase {
   int frame = 0, step = 0, level = -1;
   float time = 0, dt = 0;
   PackFileEntry uniforms;
+  std::vector<std::byte> block;  ///< the uniform block's bytes as its members' values say; 0 elsewhere
   std::vector<PackInput> inputs;
   std::vector<PackOutput> outputs;
 };

@@ -3,8 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "capture/keyed_model.h"
 #include "capture/pass_case.h"
 #include "math/deviant.h"
 #include "math/enclosure.h"
@@ -32,6 +34,8 @@ class PassModel {
   virtual bool needs_port() const { return false; }
   /// Whether value v is declared as not reproducible (a count of steps): it is held to its buffer's range, no more.
   virtual bool is_free(int) const { return false; }
+  /// Of an output of Judge::keyed; null: its records are judged by bits.
+  virtual const KeyedModel* keyed(std::string_view) const { return nullptr; }
 
  private:
   int width_, height_, values_;
@@ -62,8 +66,11 @@ std::unique_ptr<PassModel> model_of(Pass pass) {
 /// How an effect offers its passes to be judged.
 struct PassReadings {
   std::string pass;
+  /// Null where no output is judged by envelope.
   /// Throws Error(port_files) when the case lacks an input or has one of another shape.
   std::unique_ptr<PassModel> (*bind)(const PassCase&);
+  /// The reference's outputs, in the order of c.outputs, where they are judged by bits; else null. Throws like bind.
+  std::vector<Array> (*recompute)(const PassCase&) = nullptr;
 };
 
 }  // namespace rainref::capture

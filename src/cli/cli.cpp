@@ -162,14 +162,23 @@ int parse_and_run(int argc, const char* const* argv) {
   std::optional<std::string> validate_threads, mutate_threads;
   std::string validate_pack, validate_port, mutate_pack;
   CLI::App& validate_verb = *app.add_subcommand("validate", "Judge a GPU port's outputs against a pack");
-  validate_verb.add_option("PACK", validate_pack, "Folder of the pack")->required();
-  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack")->required();
+  SceneFlags shadow_flags;
+  std::optional<std::string> shadow;
+  validate_verb.add_option("PACK", validate_pack, "Folder of the pack; with --shadow the scene that the port ran");
+  std::optional<std::string> validate_exec, timeout, repeat;
+  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack");
+  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out}, which becomes a new folder or that of --port");
+  validate_verb.add_option("--timeout", timeout, "Seconds that the command may take (default: 600)");
+  validate_verb.add_option("--repeat", repeat, "Run the command so often and look for races");
+  validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time");
+  validate_verb.add_option("--size", shadow_flags.size, "With --shadow and a scene: its picture size, WxH");
+  validate_verb.add_option("--set", shadow_flags.set, "With --shadow and a scene: override one of its values, key=value")->allow_extra_args(false);
   validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: ieee, vulkan, webgpu, d3d, cuda or metal");
   validate_verb.add_option("--only", validate_request.only, "Judge this pass alone");
   validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
   validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them");
   add_report_options(validate_verb, validate_request.reports);
-  validate_verb.footer("Example: rainref validate out/pack --port out/port --profile vulkan");
+  validate_verb.footer("Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} {out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
 
   MutateRequest mutate_request;
   CLI::App& mutate_verb = *app.add_subcommand("mutate", "Which porting bugs a pack would catch");
@@ -228,6 +237,31 @@ int parse_and_run(int argc, const char* const* argv) {
     return text ? whole_number(*text, "--threads", 1, parallel::Executor::max_threads) : 0;
   };
   if (validate_verb.parsed()) {
+    if (shadow) {
+      if (shadow->empty()) throw Error(ExitCode::usage, "--shadow: expected a folder, found ''");
+      if (validate_exec || !validate_port.empty()) throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", validate_exec ? "--exec" : "--port"));
+      if (validate_pack.empty() && (shadow_flags.size || !shadow_flags.set.empty())) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
+      validate_request.shadow = *shadow;
+      shadow_flags.scene = validate_pack;
+      validate_request.scene = resolve(shadow_flags);
+    } else {
+      if (validate_pack.empty()) throw Error(ExitCode::usage, "validate: expected the folder of a PACK, or --shadow DIR");
+      if (shadow_flags.size || !shadow_flags.set.empty()) throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
+      if (!validate_exec && validate_port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
+    }
+    if (!validate_exec && (timeout || repeat)) throw Error(ExitCode::usage, fmt::format("{}: goes with --exec only", timeout ? "--timeout" : "--repeat"));
+    if (validate_exec) {
+      validate_request.exec = *validate_exec;
+      if (validate_request.exec.empty()) throw Error(ExitCode::usage, "--exec: expected a command, found ''");
+      if (validate_exec->find("{out}") == std::string::npos && validate_port.empty()) {
+        throw Error(ExitCode::usage, "--exec: expected {out} in the command, where the port's outputs go; or --port, the folder that it writes to");
+      }
+      if (timeout) validate_request.timeout_s = whole_number(*timeout, "--timeout", 1, 1000000);
+      if (repeat) validate_request.repeat = whole_number(*repeat, "--repeat", 1, 1000);
+      if (validate_request.repeat > 1 && validate_exec->find("{out}") == std::string::npos) {
+        throw Error(ExitCode::usage, "--repeat: expected {out} in the command: each run has a folder of its own");
+      }
+    }
     validate_request.pack = validate_pack;
     validate_request.port = validate_port;
     validate_request.threads = threads_of(validate_threads);

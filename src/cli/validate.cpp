@@ -1,38 +1,184 @@
 // `rainref validate` and `rainref mutate`.
+#include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
+#include <set>
+#include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "base/atomic_file.h"
+#include "capture/capture_recorder.h"
+#include "capture/manifest_write.h"
 #include "cli/commands.h"
+#include "cli/port_command.h"
 #include "cli/progress.h"
+#include "cli/registry.h"
+#include "conformance/profiles.h"
+#include "conformance/races.h"
 #include "conformance/report_text.h"
+#include "conformance/shadow.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
+#include "scene/toml.h"
 
 namespace rainref::cli {
 
 namespace {
 
-int validate(const ValidateRequest& request, Reports& reports) {
-  const capture::Pack pack(request.pack);
-  reports.check(pack);
-  const parallel::Executor executor(request.threads);
+namespace fs = std::filesystem;
+
+/// A folder for a port's command to write to: `wanted`, which must be new or empty.
+void make_empty(const fs::path& wanted) {
+  std::error_code error;
+  fs::create_directories(wanted, error);
+  if (error || !fs::is_directory(wanted, error)) {
+    throw Error(ExitCode::io, fmt::format("--port {}: cannot make this folder: {}", wanted.string(), error ? error.message() : "a file of that name exists"));
+  }
+  if (!fs::is_empty(wanted, error)) {
+    throw Error(ExitCode::usage, fmt::format("--port {}: expected a new or empty folder for --exec to write to, found one with files: they could be an older run's", wanted.string()));
+  }
+}
+
+/// Runs the port's command and gives the folders of its runs; a failure goes into the judgement.
+std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement) {
+  std::vector<fs::path> runs;
+  Progress progress("running the port", request.repeat);
+  for (int k = 1; k <= request.repeat; ++k) {
+    const fs::path out = request.repeat == 1 ? folder : folder / fmt::format("run.{}", k);
+    make_empty(out);
+    const CommandEnd end = run_command(with_folders(request.exec, request.pack, out), std::chrono::duration<double>(request.timeout_s));
+    if (!end.failure.empty()) {
+      judgement.status = conformance::Status::fail;
+      judgement.reason = request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure);
+      for (const std::string& line : end.last_lines) judgement.notes.push_back("the port printed: " + line);
+      return {};
+    }
+    runs.push_back(out);
+    progress.advance();
+  }
+  return runs;
+}
+
+/// A judgement, and what a page shows of it. The folders and the executor that it reads from live as long.
+struct Judged {
+  conformance::PortJudgement judgement;
+  conformance::PageSource source;
+};
+
+Judged judge_pack(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
+  const auto opened = std::make_shared<const capture::Pack>(request.pack);
+  const capture::Pack& pack = *opened;
+  conformance::ValidateOptions options;
+  options.profile = request.profile;
+  options.only = request.only;
+  // What is wrong with the request shows before the port is run.
+  static_cast<void>(conformance::profile(options.profile));
+  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+  std::vector<std::string> ids;
+  for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
+  reports.check(pack.passes, ids);
+
+  conformance::PortJudgement judgement;
+  judgement.pack = request.pack.string();
+  judgement.profile = request.profile;
+  judgement.effect = pack.effect;
+  judgement.variant = pack.variant;
+  judgement.scene = pack.scene;
+  std::shared_ptr<TemporaryRun> temporary;
+  std::vector<fs::path> runs{request.port};
+  if (!request.exec.empty()) {
+    if (request.port.empty()) temporary = std::make_shared<TemporaryRun>();
+    const fs::path folder = temporary ? temporary->path() : request.port;
+    judgement.port = request.port.empty() ? "the outputs of --exec" : request.port.string();
+    runs = run_port(request, folder, judgement);
+    if (runs.empty()) return {judgement, {}};
+  }
+  options.executor = &executor;
+  {
+    Progress progress("judging", static_cast<int>(pack.cases.size()));
+    options.progress = [&](int, int) { progress.advance(); };
+    const std::string shown = judgement.port;
+    judgement = conformance::validate(pack, runs.front(), options);
+    if (!shown.empty()) judgement.port = shown;
+  }
+  if (runs.size() > 1) {
+    conformance::add_races(conformance::find_races(pack, runs, request.only), judgement);
+    judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+  }
+  conformance::PageSource source = conformance::page_source(opened, runs.front());
+  source.read = [temporary, read = source.read](const std::string& id, const std::string& output) { return read(id, output); };
+  return {std::move(judgement), std::move(source)};
+}
+
+/// The plan of a dump: what the scene does in the frames that are there, or what the manifest beside them says.
+conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Executor& executor) {
+  const bool has_manifest = fs::exists(request.shadow / capture::manifest_name);
+  const auto manifest = [&] {
+    const capture::Pack pack(request.shadow);
+    if (!pack.with_inputs) throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from", request.shadow.string()));
+    return conformance::ShadowPlan::of_manifest(pack);
+  };
+  if (request.scene.scene.empty()) {
+    if (!has_manifest) throw Error(ExitCode::usage, fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", request.shadow.string()));
+    return manifest();
+  }
+  const scene::Config config = scene::load(request.scene.scene, request.scene.overrides, effect_table());
+  const EffectEntry& entry = effect(config.effect());
+  conformance::ShadowPlan plan = conformance::ShadowPlan::of_effect(*entry.info, config.variant(), request.scene.scene.filename().string());
+  std::set<int> frames;
+  for (const conformance::DumpedRun& run : conformance::dumped_runs(request.shadow, plan.effect, entry.info->pass_names(config.variant()))) frames.insert(run.frame);
+  std::vector<InputFile> inputs;
+  const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
+  capture::CaptureRecorder recorder(*entry.info, config.variant(), true, [&](int frame, std::string_view) { return frames.contains(frame); },
+                                    [&](const capture::PassCase& c) { plan.add(c, *entry.info); });
+  const int last = frames.empty() ? -1 : *frames.rbegin();
+  Progress progress(config.effect(), last + 1);
+  for (int frame = 0; frame <= last; ++frame) {
+    simulation->frame(&recorder);
+    progress.advance();
+  }
+  if (has_manifest) plan.take_files(manifest());
+  return plan;
+}
+
+Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
+  static_cast<void>(conformance::profile(request.profile));
+  if (!fs::is_directory(request.shadow)) throw Error(ExitCode::port_files, fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
+  const auto planned = std::make_shared<const conformance::ShadowPlan>(shadow_plan(request, executor));
+  const conformance::ShadowPlan& plan = *planned;
+  std::vector<std::string> passes;
+  for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
+  if (!request.only.empty() && std::find(passes.begin(), passes.end(), request.only) == passes.end()) {
+    throw Error(ExitCode::usage, fmt::format("--only: expected one of the passes {}, found '{}'{}", fmt::join(passes, ", "), request.only, did_you_mean(request.only, passes)));
+  }
+  const std::vector<conformance::DumpedRun> dumped = conformance::dumped_runs(request.shadow, plan.effect, passes);
+  if (dumped.empty()) {
+    throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {}.{}/0000.0, found none", request.shadow.string(), plan.effect, passes.front()));
+  }
+  std::vector<std::string> ids;
+  for (const conformance::DumpedRun& run : dumped) ids.push_back(run.id);
+  reports.check(plan.passes, ids);
   conformance::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
-  conformance::PortJudgement judgement;
-  {
-    Progress progress("judging", static_cast<int>(pack.cases.size()));
-    options.progress = [&](int, int) { progress.advance(); };
-    judgement = conformance::validate(pack, request.port, options);
-  }
-  judgement.command = request.command;
-  reports.apply_baseline(judgement);
-  fmt::print("{}", conformance::report_text(judgement));
-  reports.write(judgement, pack, request.port);
-  return conformance::exit_code(judgement, request.allow_untested);
+  Progress progress("judging", static_cast<int>(dumped.size()));
+  options.progress = [&](int, int) { progress.advance(); };
+  conformance::PortJudgement judgement = conformance::shadow(plan, request.shadow, dumped, options);
+  options.progress = nullptr;
+  return {std::move(judgement), conformance::page_source(planned, request.shadow, dumped, options)};
+}
+
+int validate(const ValidateRequest& request, Reports& reports) {
+  const parallel::Executor executor(request.threads);
+  Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
+  judged.judgement.command = request.command;
+  reports.apply_baseline(judged.judgement);
+  fmt::print("{}", conformance::report_text(judged.judgement));
+  reports.write(judged.judgement, judged.source);
+  return conformance::exit_code(judged.judgement, request.allow_untested);
 }
 
 }  // namespace

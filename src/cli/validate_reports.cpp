@@ -65,15 +65,15 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
   html_ = opened("--html", o.html);
 }
 
-void Reports::check(const capture::Pack& pack) const {
-  if (baseline_) baseline_->check(pack);
+void Reports::check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const {
+  if (baseline_) baseline_->check(passes, ids);
 }
 void Reports::apply_baseline(conformance::PortJudgement& judgement) const {
   if (baseline_) baseline_->apply(judgement);
 }
 
-void Reports::write(const conformance::PortJudgement& j, const capture::Pack& pack, const std::filesystem::path& port) {
-  if (html_) finish(html_, conformance::report_html(j, conformance::page_source(pack, port)));
+void Reports::write(const conformance::PortJudgement& j, const conformance::PageSource& source) {
+  if (html_) finish(html_, conformance::report_html(j, source));
   if (junit_) finish(junit_, conformance::report_junit(j, allow_untested_));
   if (json_) finish(json_, conformance::report_json(j, conformance::exit_code(j, allow_untested_)));
 }
@@ -81,7 +81,7 @@ void Reports::write(const conformance::PortJudgement& j, const capture::Pack& pa
 void Reports::write_error(const Error& error, const ValidateRequest& request) {
   conformance::PortJudgement j;
   j.pack = request.pack.string();
-  j.port = request.port.string();
+  j.port = request.shadow.empty() ? request.port.string() : request.shadow.string();
   j.profile = request.profile;
   j.command = request.command;
   j.reason = error.what();

@@ -1,14 +1,15 @@
 // The options of `validate` that write reports and read a baseline.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "capture/pack_read.h"
 #include "conformance/report_baseline.h"
+#include "conformance/report_source.h"
 #include "conformance/verdict.h"
 #include "rainref/error.h"
 
@@ -38,12 +39,12 @@ class Reports {
   /// baseline, an empty name, and two reports under one name.
   Reports(const ReportOptions& options, bool allow_untested);
 
-  /// Throws Error(usage) where the baseline names what the pack has not.
-  void check(const capture::Pack& pack) const;
+  /// Throws Error(usage) where the baseline names a pass, an output or a case that is not there.
+  void check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const;
   /// Lets the listed failures pass. Before write, and before the exit code is taken.
   void apply_baseline(conformance::PortJudgement& judgement) const;
-  /// Writes the files, each under its name only when whole. The pack and the port's folder give the pictures.
-  void write(const conformance::PortJudgement& judgement, const capture::Pack& pack, const std::filesystem::path& port);
+  /// Writes the files, each under its name only when whole.
+  void write(const conformance::PortJudgement& judgement, const conformance::PageSource& source);
   /// When nothing could be judged: the reports say why, so that none of an earlier run stays behind.
   void write_error(const Error& error, const ValidateRequest& request);
 

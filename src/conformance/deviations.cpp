@@ -35,6 +35,21 @@ void add_slips(std::vector<Deviation>& out) {
   }
 }
 
+/// A device that rounds its stores to halves the other way. Legal where a profile leaves it open.
+void add_stores(std::vector<Deviation>& out, const PassCase& c) {
+  const std::vector<Slot> slots = slots_of(c);
+  if (std::none_of(slots.begin(), slots.end(), [](const Slot& s) { return s.kind == FormatInfo::float16; })) return;
+  for (const HalfMode mode : {HalfMode::rtz, HalfMode::rne}) {
+    Deviation d;
+    d.name = mode == HalfMode::rtz ? "half stores toward zero" : "half stores to nearest";
+    d.sentence = mode == HalfMode::rtz ? "stores to binary16 truncate; port.json or the profile say that they round to nearest"
+                                       : "stores to binary16 round to nearest; port.json or the profile say that they truncate";
+    d.stores = mode;
+    d.legal = true;
+    out.push_back(std::move(d));
+  }
+}
+
 /// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
 /// from their own index.
 void add_constants(std::vector<Deviation>& out, const capture::PassModel& model) {
@@ -105,6 +120,18 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
           [m, old](PassCase& c) { std::copy(old.begin(), old.end(), c.uniforms.begin() + static_cast<std::ptrdiff_t>(m.offset)); });
     }
   }
+  // Members of one kind that are easily taken for each other: a missing aspect ratio, width for height.
+  const auto family = [](const scene::Member& m) { return m.name.substr(0, m.name.find_last_of('_') + 1) + m.unit; };
+  for (const scene::Member& m : pass.block.members) {
+    for (const scene::Member& other : pass.block.members) {
+      if (&m == &other || m.scalar != scene::Scalar::float32 || other.scalar != m.scalar || m.components != 1 || other.components != 1 || family(m) != family(other)) continue;
+      Deviation d;
+      d.name = fmt::format("uniform {} is {}", m.name, other.name);
+      d.sentence = fmt::format("{} has the value of {}", m.name, other.name);
+      d.alter_case = [m, other](PassCase& c) { std::memcpy(c.uniforms.data() + m.offset, c.uniforms.data() + other.offset, m.size()); };
+      out.push_back(std::move(d));
+    }
+  }
   Deviation shifted;
   shifted.name = "uniform block shifted by 4 bytes";
   shifted.sentence = "the uniform block's padding differs (std140 against a tight layout)";
@@ -166,6 +193,7 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
 std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model, const PassCase* before) {
   std::vector<Deviation> all;
   add_output_slips(all, c, before);
+  add_stores(all, c);
   add_slips(all);
   add_inputs(all, c, before);
   add_uniforms(all, pass, before);
@@ -173,10 +201,11 @@ std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCa
   return all;
 }
 
-DeviatedPass::DeviatedPass(const Deviation& deviation, const PassCase& c, Bind bind, const capture::PassModel& model)
-    : deviation_(deviation), case_(c), model_(model), slots_(slots_of(c)) {
+DeviatedPass::DeviatedPass(const Deviation& deviation, const PassCase& c, Bind bind, const capture::PassModel& model, HalfMode mode,
+                           const std::vector<Array>& finished)
+    : deviation_(deviation), case_(c), model_(model), mode_(deviation.stores.value_or(mode)), slots_(slots_of(c)) {
   if (deviation.alter_outputs) {
-    for (const capture::CaseOutput& o : c.outputs) finished_.push_back(o.array);
+    finished_ = finished;
     applies_ = deviation.alter_outputs(c, finished_);
   } else if (deviation.alter_case) {
     altered_ = c;
@@ -186,7 +215,7 @@ DeviatedPass::DeviatedPass(const Deviation& deviation, const PassCase& c, Bind b
   }
 }
 
-void DeviatedPass::store(Texel at, HalfMode mode, std::vector<Array>& out) const {
+void DeviatedPass::store(Texel at, std::vector<Array>& out) const {
   if (!finished_.empty()) {
     for (const Slot& s : slots_) {
       const std::size_t o = static_cast<std::size_t>(s.output), offset = s.offset(at.x, at.y);
@@ -199,8 +228,7 @@ void DeviatedPass::store(Texel at, HalfMode mode, std::vector<Array>& out) const
   (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];
-    const Rounding rounding = s.kind != FormatInfo::float16 || mode == HalfMode::either ? s.store_rounding : mode == HalfMode::rne ? Rounding::rne : Rounding::rtz;
-    store_value(s, values[v].v, rounding, out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
+    store_value(s, values[v].v, rounding_of(s, mode_), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
   }
 }
 

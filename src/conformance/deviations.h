@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct Deviation {
   std::string name, sentence;
   deviant::Behaviour behaviour;                          ///< what the arithmetic does
   std::function<void(capture::PassCase&)> alter_case;    ///< what the pass takes; null: as captured
-  std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)> alter_outputs;  ///< from the expected outputs; false: does not apply. Null: evaluated
+  std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)> alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
+  std::optional<HalfMode> stores;                        ///< how halves are stored, whatever was declared
   bool legal = false;  ///< a conforming GPU may do this: not a bug, but it explains differences
 
   bool is_evaluated() const { return !alter_outputs; }
@@ -38,16 +40,19 @@ struct Texel {
 /// What a deviation stores at some texels. Applied once, asked texel by texel.
 class DeviatedPass {
  public:
-  /// The case must outlive it. Throws Error when the altered case cannot be bound.
-  DeviatedPass(const Deviation& deviation, const capture::PassCase& c, Bind bind, const capture::PassModel& model);
+  /// `finished`: what the reference gives, its halves stored by `mode`. The case and the deviation must outlive it. Throws
+  /// Error when the altered case cannot be bound.
+  DeviatedPass(const Deviation& deviation, const capture::PassCase& c, Bind bind, const capture::PassModel& model, HalfMode mode,
+               const std::vector<capture::Array>& finished);
   bool applies() const { return applies_; }
   /// Writes the texel's stored bytes into `out`, arrays like c.outputs.
-  void store(Texel at, HalfMode mode, std::vector<capture::Array>& out) const;
+  void store(Texel at, std::vector<capture::Array>& out) const;
 
  private:
   const Deviation& deviation_;
   const capture::PassCase& case_;
   const capture::PassModel& model_;
+  HalfMode mode_;
   capture::PassCase altered_;
   std::unique_ptr<capture::PassModel> altered_model_;
   std::vector<capture::Array> finished_;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/keyed.h"
 #include "conformance/slots.h"
 #include "math/replay.h"
 #include "rainref/error.h"
@@ -22,6 +23,8 @@ using enclosed::Enclosure;
 enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, Rounding unorm) {
   enclosed::StoreRules rules = enclosed::store_rules(profile, unorm);
   rules.half = mode == HalfMode::rne ? enclosed::StoreRounding::rne : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz : enclosed::StoreRounding::either;
+  // What a profile says of overflow goes with the rounding that it asks for.
+  if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference) rules.half_overflow = enclosed::StoreOverflow::either;
   return rules;
 }
 HalfMode mode_of(enclosed::StoreRounding r) {
@@ -403,7 +406,8 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
   });
   const HalfMode declared = mode_of(options.profile->half_store);
   if (options.profile->reference || !has_half) result.modes = {declared == HalfMode::either ? HalfMode::rne : declared};
-  else if (declared != HalfMode::either) result.modes = {declared};
+  else if (declared != HalfMode::either && options.half_mode == declared) result.modes = {declared};
+  else if (declared != HalfMode::either) result.modes = {declared, declared == HalfMode::rne ? HalfMode::rtz : HalfMode::rne};
   else if (options.half_mode) result.modes = {*options.half_mode};
   else result.modes = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
 
@@ -415,7 +419,20 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
     j.id = c.folder();
     for (std::size_t o = 0; o < c.outputs.size(); ++o)
       if (c.outputs[o].judge == capture::Judge::bits) judge_bits(c.outputs[o], port[o], j);
+    std::string events;
+    for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+      if (c.outputs[o].judge != capture::Judge::keyed) continue;
+      KeyedJudgement k = judge_keyed(c.outputs[o], port[o], model ? model->keyed(c.outputs[o].name) : nullptr, *options.profile);
+      j.invocations += k.groups;
+      j.failing += k.failing;
+      j.ambiguous += k.ambiguous;
+      j.other_branch += k.other_branch;
+      j.gave_up += k.gave_up;
+      j.outputs.push_back(std::move(k.output));
+      if (const std::string text = k.events.text(); !text.empty()) events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);
+    }
     conclude(j);
+    if (!events.empty()) j.reason = events;
     if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) {
       j.status = Status::pass;
       j.reason = "taken as data: no GPU can reproduce it";
@@ -443,7 +460,7 @@ bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) cons
   return false;
 }
 
-std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor) {
+std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor, HalfMode mode) {
   const std::vector<Slot> slots = slots_of(c);
   std::vector<Array> out;
   for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
@@ -454,7 +471,7 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
         model.evaluate(x, y, values.data());
         for (std::size_t v = 0; v < slots.size(); ++v) {
           const Slot& s = slots[v];
-          store_value(s, values[v].v, s.store_rounding, out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+          store_value(s, values[v].v, rounding_of(s, mode), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
         }
       }
     }

@@ -15,11 +15,12 @@ struct JudgeOptions {
   const enclosed::Profile* profile;
   const enclosed::Profile* typical = nullptr;  ///< null: nothing warns
   const parallel::Executor* executor;
-  std::optional<HalfMode> half_mode;  ///< declared by the port; nothing: voted where the profile leaves it open
+  std::optional<HalfMode> half_mode;  ///< declared by the port
 };
 
-/// The three ways in which stores to binary16 may have been rounded, each judged; where the profile or the port settles
-/// it, only that one has cases.
+/// The ways in which stores to binary16 may have been rounded, each judged. Where the profile leaves it open these are rne,
+/// rtz and either, or the one that the port declares. Where it asks for one, that one and then the other, because drivers
+/// do not all obey; only that one where the port declares the same.
 struct ModeJudgements {
   std::vector<HalfMode> modes;
   std::vector<CaseJudgement> judgements;  ///< one for each mode
@@ -47,8 +48,9 @@ class InvocationJudge {
   HalfMode mode_;
 };
 
-/// The reference's outputs for a case: what the pack should hold.
-std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor);
+/// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding.
+std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor,
+                                              HalfMode mode = HalfMode::either);
 
 /// Status and reason of a case from its counts.
 void conclude(CaseJudgement& judgement);

@@ -24,8 +24,7 @@ std::vector<Texel> spread(const capture::PassModel& model, int most) {
   }
   return all;
 }
-bool differs(const std::vector<Slot>& slots, const PassCase& c, const std::vector<Array>& stored, const std::vector<Array>& plain, Texel t) {
-  static_cast<void>(c);
+bool differs(const std::vector<Slot>& slots, const std::vector<Array>& stored, const std::vector<Array>& plain, Texel t) {
   for (const Slot& s : slots) {
     const std::size_t o = static_cast<std::size_t>(s.output);
     if (s.code(stored[o], t.x, t.y) != s.code(plain[o], t.x, t.y)) return true;
@@ -33,38 +32,43 @@ bool differs(const std::vector<Slot>& slots, const PassCase& c, const std::vecto
   return false;
 }
 
+/// A rounding of half stores that a profile allows, and what the reference gives under it.
+struct Stores {
+  HalfMode mode;
+  std::vector<Array> finished;
+};
+std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCase& c, const capture::PassModel& model, const parallel::Executor& executor) {
+  using enclosed::StoreRounding;
+  std::vector<Stores> out;
+  if (profile.half_store != StoreRounding::rtz) out.push_back({HalfMode::rne, reference_outputs(c, model, executor, HalfMode::rne)});
+  if (profile.half_store != StoreRounding::rne) out.push_back({HalfMode::rtz, reference_outputs(c, model, executor, HalfMode::rtz)});
+  return out;
+}
+
 /// One deviation on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
 /// only where it is so under every rounding that the profile leaves open.
 void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
-                  const enclosed::Profile& profile, MutantJudgement& out) {
-  const DeviatedPass deviated(d, c, bind, model);
-  if (!deviated.applies()) return;
+                  const enclosed::Profile& profile, const std::vector<Stores>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
-  std::vector<Array> stored, plain;
-  for (const capture::CaseOutput& o : c.outputs) plain.push_back(o.array);
-  stored = plain;
-  std::vector<HalfMode> modes{HalfMode::rne, HalfMode::rtz};
-  if (profile.half_store == enclosed::StoreRounding::rne) modes = {HalfMode::rne};
-  if (profile.half_store == enclosed::StoreRounding::rtz) modes = {HalfMode::rtz};
-  const Deviation none{};
-  const DeviatedPass undeviated(none, c, bind, model);
-  std::int64_t fewest = -1;
-  for (const HalfMode mode : modes) {
-    const InvocationJudge judge(c, model, profile, mode);
+  std::int64_t fewest = -1, first_differing = 0;
+  for (const Stores& stores : all_stores) {
+    const DeviatedPass deviated(d, c, bind, model, stores.mode, stores.finished);
+    if (!deviated.applies()) return;
+    std::vector<Array> stored = stores.finished;
+    // A device that rounds the other way is judged as such, where a profile leaves it open.
+    const InvocationJudge judge(c, model, profile, d.stores && all_stores.size() > 1 ? *d.stores : stores.mode);
     std::int64_t outside = 0, differing = 0;
     for (const Texel t : texels) {
-      deviated.store(t, mode, stored);
-      undeviated.store(t, mode, plain);
-      if (!differs(slots, c, stored, plain, t)) continue;
+      deviated.store(t, stored);
+      if (!differs(slots, stored, stores.finished, t)) continue;
       ++differing;
       outside += !judge.accepts(t.x, t.y, stored);
     }
-    if (mode == modes.front()) {
-      out.compared += static_cast<std::int64_t>(texels.size());
-      out.differing += differing;
-    }
+    if (fewest < 0) first_differing = differing;
     fewest = fewest < 0 ? outside : std::min(fewest, outside);
   }
+  out.compared += static_cast<std::int64_t>(texels.size());
+  out.differing += first_differing;
   out.outside += fewest;
 }
 
@@ -89,6 +93,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
       const std::unique_ptr<capture::PassModel> model = bind(c);
       const std::vector<Texel> texels = spread(*model, invocations);
       const std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
+      const std::vector<Stores> stores = stores_under(chosen, c, *model, *options.executor);
       for (const Deviation& d : all) {
         if (places.contains(d.name)) continue;
         places[d.name] = report.mutants.size();
@@ -98,7 +103,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
         for (std::int64_t k = begin; k < end; ++k) {
           const Deviation& d = all[static_cast<std::size_t>(k)];
           try {
-            judge_mutant(d, c, bind, *model, texels, chosen, report.mutants[places[d.name]]);
+            judge_mutant(d, c, bind, *model, texels, chosen, stores, report.mutants[places[d.name]]);
           } catch (const Error&) {
             // the altered case is none that the pass can run: nothing to compare
           }

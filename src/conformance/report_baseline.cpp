@@ -33,7 +33,7 @@ bool is_blank(const std::string& text) { return text.find_first_not_of(" \t\r\n"
   const std::size_t shown = std::min<std::size_t>(known.size(), 8);
   const std::string more = known.size() > shown ? fmt::format(" and {} more", known.size() - shown) : "";
   throw Error(ExitCode::usage, at,
-              fmt::format("expected {} of the pack ({}{}), found '{}'{}", what, fmt::join(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shown), ", "), more, found,
+              fmt::format("expected {} ({}{}), found '{}'{}", what, fmt::join(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shown), ", "), more, found,
                           did_you_mean(found, known)));
 }
 
@@ -66,17 +66,18 @@ Baseline Baseline::parse(std::string_view toml, const std::string& file) {
   return baseline;
 }
 
-void Baseline::check(const capture::Pack& pack) const {
+void Baseline::check(const std::vector<capture::PackPass>& all, const std::vector<std::string>& ids) const {
   std::vector<std::string> passes;
-  for (const capture::PackPass& p : pack.passes) passes.push_back(p.name);
+  for (const capture::PackPass& p : all) passes.push_back(p.name);
   for (const Entry& e : entries_) {
-    if (std::find(passes.begin(), passes.end(), e.pass) == passes.end()) refuse(e.at, "a pass", e.pass, passes);
-    const std::vector<std::string>& outputs = pack.pass(e.pass).writes;
+    const auto pass = std::find(passes.begin(), passes.end(), e.pass);
+    if (pass == passes.end()) refuse(e.at, "a pass", e.pass, passes);
+    const std::vector<std::string>& outputs = all[static_cast<std::size_t>(pass - passes.begin())].writes;
     if (std::find(outputs.begin(), outputs.end(), e.output) == outputs.end()) refuse(e.at, fmt::format("an output of {}", e.pass), e.output, outputs);
     if (e.id.empty()) continue;
     std::vector<std::string> cases;
-    for (const capture::PackCase& c : pack.cases)
-      if (c.pass == e.pass) cases.push_back(c.id);
+    for (const std::string& id : ids)
+      if (id.find("." + e.pass + "/") != std::string::npos) cases.push_back(id);
     if (std::find(cases.begin(), cases.end(), e.id) == cases.end()) refuse(e.at, fmt::format("a case of {}", e.pass), e.id, cases);
   }
 }
@@ -99,7 +100,7 @@ void Baseline::apply(PortJudgement& j) const {
     if (p.status != Status::fail) continue;
     Status status = Status::pass;
     for (CaseJudgement& c : p.cases) {
-      bool all_known = c.status == Status::fail;
+      bool all_known = c.failing > 0 && !c.broken;
       for (OutputJudgement& o : c.outputs) {
         if (o.failing == 0) continue;
         if (const Entry* e = entry_for(p.pass, o.name, c.id)) o.known = e->reason;
@@ -112,7 +113,8 @@ void Baseline::apply(PortJudgement& j) const {
     p.status = status;
   }
   if (changed) {
-    j.first_bad_pass.clear();
+    const auto first = std::find_if(j.passes.begin(), j.passes.end(), [&](const PassJudgement& p) { return p.pass == j.first_bad_pass; });
+    if (first != j.passes.end() && first->status != Status::fail) j.first_bad_pass.clear();
     conclude(j);
   }
   for (std::size_t k = 0; k < entries_.size(); ++k) {

@@ -21,8 +21,9 @@ class Baseline {
   static Baseline read(const std::filesystem::path& file);
   static Baseline parse(std::string_view toml, const std::string& file);
 
-  /// Throws Error(usage) with the nearest name where an entry names a pass, an output or a case that the pack has not.
-  void check(const capture::Pack& pack) const;
+  /// Throws Error(usage) with the nearest name where an entry names a pass, an output or a case that is not among these. What
+  /// is broken for another reason than an output (CaseJudgement::broken) cannot be listed.
+  void check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const;
 
   /// Marks listed failures as known and settles the statuses anew. An entry of a judged pass that let nothing fail goes
   /// to `stale` and fails the run. Of two entries for one failure the one with a case counts.

@@ -61,7 +61,7 @@ std::string shape_text(const OutputJudgement& o) {
 std::string channel_name(int channel) { return std::string(1, "xyzw"[channel & 3]); }
 
 FailureText failure_text(const OutputJudgement& o, const Failure& f) {
-  if (o.records) return {fmt::format("record {}", f.x), "", "", "", "other bits"};
+  if (o.records) return {fmt::format("record {}", f.x), "", "", "", "differs"};
   const FormatInfo::Kind kind = info(o.format).kind;
   FailureText t;
   t.place = fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
@@ -70,6 +70,10 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   t.expected = enclosed::code_text(kind, f.expected);
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
   return t;
+}
+
+std::string cause_text(const Cause& c) {
+  return fmt::format("{}: {} (gives {} of {} failing texels bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of, c.inside);
 }
 
 std::string half_text(const PassJudgement& p) {

@@ -36,9 +36,12 @@ std::string channel_name(int channel);
 struct FailureText {
   std::string place;     ///< "(12, 3).x", "record 4"
   std::string got, accepted, expected;
-  std::string distance;  ///< "off by 3 codes", "is not a number", "other bits"
+  std::string distance;  ///< "off by 3 codes", "is not a number", "differs"
 };
 FailureText failure_text(const OutputJudgement& output, const Failure& failure);
+
+/// "upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
+std::string cause_text(const Cause& cause);
 
 /// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
 std::string half_text(const PassJudgement& pass);

@@ -1,14 +1,14 @@
 #include "conformance/report_html.h"
 
 #include <algorithm>
+#include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "conformance/report_figures.h"
 #include "conformance/report_html_parts.h"
 #include "conformance/report_markup.h"
-#include "port_dump/port_info.h"
-#include "port_dump/read_buffer.h"
 #include "rainref/version.h"
 
 namespace rainref::conformance {
@@ -29,15 +29,16 @@ std::string summary_html(const PortJudgement& j) {
   }
   if (const PassJudgement* bad = pass_named(j, j.first_bad_pass)) {
     const Figures f = figures_of(*bad);
-    std::string out = fmt::format("<a href=\"#pass-{0}\">{0}</a> is the first bad pass: {1} of {2} invocations ({3}) stored what <b>{4}</b> does not allow.", marked_up(bad->pass), f.failing, f.invocations,
-                                  share_text(f.failing, f.invocations), marked_up(j.profile));
+    std::string out = fmt::format("<a href=\"#pass-{0}\">{0}</a> is the first bad pass: ", marked_up(bad->pass));
+    if (f.outside > 0) out += fmt::format("{} of {} invocations ({}) stored what <b>{}</b> does not allow.", f.failing, f.invocations, share_text(f.failing, f.invocations), marked_up(j.profile));
+    else out += marked_up(bad->reason) + ".";
     std::string others;
     for (const PassJudgement& p : j.passes)
       if (p.status == Status::fail && &p != bad) others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
     if (!others.empty()) others += ".";
-    if (bad->causes.empty()) return out + " The cause is unknown." + others;
+    if (bad->causes.empty()) return out + (f.outside > 0 ? " The cause is unknown." : "") + others;
     const Cause& c = bad->causes[0];
-    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing texels bit for bit).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, others);
+    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing texels bit for bit, comes near {}).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, c.inside, others);
   }
   if (!j.reason.empty()) return marked_up(j.reason) + ".";
   const std::string equal = fmt::format("{} of the elements have the reference's own bits.", share_text(all.elements - all.differing, all.elements));
@@ -137,26 +138,6 @@ std::string table_html(std::string_view css_class, const std::vector<std::string
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
-}
-
-PageSource page_source(const capture::Pack& pack, const std::filesystem::path& port) {
-  PageSource source;
-  source.edges = pack.edges;
-  for (const capture::PackPass& p : pack.passes) source.sentences[p.name] = p.sentence;
-  source.read = [&pack, port, info = port_dump::read_port_info(port)](const std::string& id, const std::string& output) -> std::optional<OutputBuffers> {
-    for (const capture::PackCase& c : pack.cases) {
-      if (c.id != id) continue;
-      for (const capture::PackOutput& o : c.outputs) {
-        if (o.name != output) continue;
-        port_dump::ReadNotes notes;  // the judgement has them already
-        OutputBuffers b{pack.read(o), {}, {o.unit, o.color_space}};
-        b.port = port_dump::read_port_buffer(port / id, "out." + output, b.expected, info, notes);
-        return b;
-      }
-    }
-    return std::nullopt;
-  };
-  return source;
 }
 
 std::string report_html(const PortJudgement& j, const PageSource& source) {

@@ -28,12 +28,12 @@ std::string takes_html(const PassJudgement& p, const PageSource& source) {
 }
 
 std::string causes_html(const PassJudgement& p) {
-  if (p.status != Status::fail && p.status != Status::known) return "";
+  if (figures_of(p).outside == 0) return "";
   if (p.causes.empty()) return "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   std::string out = "<h3>Likely causes</h3>\n<ol class=\"causes\">\n";
   for (const Cause& c : p.causes) {
-    out += fmt::format("<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing texels bit for bit</span><meter min=\"0\" max=\"{}\" value=\"{}\">{}</meter></li>\n", marked_up(c.name), marked_up(c.sentence),
-                       c.explained, c.of, c.of, c.explained, share_text(c.explained, c.of));
+    out += fmt::format("<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing texels bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" value=\"{}\">{}</meter></li>\n", marked_up(c.name), marked_up(c.sentence),
+                       c.explained, c.of, c.inside, c.of, c.explained, share_text(c.explained, c.of));
   }
   return out + "</ol>\n";
 }
@@ -59,6 +59,18 @@ std::string cases_html(const PassJudgement& p) {
   std::string out = table_html("figures", {"verdict", "output", "shape", "elements outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose", "atypical", "free"}, rows, 3);
   if (skipped > 0) out += fmt::format("<p class=\"remark\">{} more outputs are not shown; --json lists all.</p>\n", skipped);
   return out;
+}
+
+/// Cases that fail, or could not be judged, for a reason that no output shows.
+std::string broken_html(const PassJudgement& p) {
+  std::string rows;
+  std::size_t count = 0;
+  for (const CaseJudgement& c : p.cases) {
+    if (!c.broken && (c.status != Status::untested || !c.outputs.empty())) continue;
+    if (++count <= shown_bad_rows) rows += fmt::format("<li>{} {}: {}</li>\n", status_pill(c.status), marked_up(c.id), marked_up(c.reason));
+  }
+  if (count > shown_bad_rows) rows += fmt::format("<li>{} more; --json lists all.</li>\n", count - shown_bad_rows);
+  return count == 0 ? "" : "<ul class=\"broken\">\n" + rows + "</ul>\n";
 }
 
 std::string known_html(const PassJudgement& p) {
@@ -93,8 +105,9 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
   const std::string css = status_class(p.status), name = marked_up(p.pass);
   std::string out = fmt::format("<section class=\"pass {}\" id=\"pass-{}\">\n<h2>{} {} <code class=\"dim\">{}</code></h2>\n", css, name, status_pill(p.status), name, marked_up(p.formula));
   if (const auto sentence = source.sentences.find(p.pass); sentence != source.sentences.end()) out += fmt::format("<p>{}</p>\n", marked_up(sentence->second));
-  if (p.pass == j.first_bad_pass) out += "<p class=\"first\">The first bad pass in the order of dataflow. It was given the reference's inputs, so no pass before it is to blame.</p>\n";
+  if (p.pass == j.first_bad_pass) out += fmt::format("<p class=\"first\">The first bad pass.{}</p>\n", p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either.");
   if (!p.reason.empty()) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
+  out += broken_html(p);
   out += known_html(p) + takes_html(p, source) + causes_html(p);
   if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
   const Figures f = figures_of(p);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -85,23 +86,39 @@ std::string outliers_html(const OutputJudgement& o) {
   return out;
 }
 
+/// Where a record lies, or null. A keyed list is in any order: its records are found by their id.
+const std::byte* record_at(const capture::Array& a, bool keyed, std::uint32_t index) {
+  const std::size_t size = a.element_bytes(), count = a.levels[0].size() / size;
+  if (!keyed) return index < count ? a.levels[0].data() + index * size : nullptr;
+  const auto id = std::find_if(a.record.members.begin(), a.record.members.end(), [](const scene::Member& m) { return m.name == "id"; });
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t found;
+    std::memcpy(&found, a.levels[0].data() + i * size + id->offset, sizeof found);
+    if (found == index) return a.levels[0].data() + i * size;
+  }
+  return nullptr;
+}
+
 /// Records have no picture: the fields that differ, record by record.
 std::string records_html(const OutputJudgement& o, const OutputBuffers& b) {
   if (o.failing == 0) return "";
   std::vector<std::vector<std::string>> rows;
-  const auto count_of = [](const capture::Array& a) { return a.levels[0].size() / a.element_bytes(); };
+  std::int64_t before = -1;
   for (const Failure& f : o.worst) {
-    const auto record = static_cast<std::size_t>(f.x);
-    if (record >= count_of(b.expected) || record >= count_of(b.port)) {
-      rows.push_back({fmt::format("{}", record), "", record >= count_of(b.port) ? "missing" : "not expected", ""});
+    if (f.x == before) continue;  // a keyed record has a failure for each field
+    before = f.x;
+    const bool keyed = b.expected.judge == capture::Judge::keyed;
+    const auto index = static_cast<std::uint32_t>(f.x);
+    const std::byte *want = record_at(b.expected.array, keyed, index), *have = record_at(b.port, keyed, index);
+    if (!want || !have) {
+      rows.push_back({fmt::format("{}", index), "", want ? "missing" : "not expected", ""});
       continue;
     }
-    for (const scene::Member& m : b.expected.record.members) {
+    for (const scene::Member& m : b.expected.array.record.members) {
       for (int k = 0; k < m.components; ++k) {
-        const std::size_t at = record * b.expected.element_bytes() + m.offset + 4 * static_cast<std::size_t>(k);
-        const std::byte *want = b.expected.levels[0].data() + at, *have = b.port.levels[0].data() + at;
-        if (!std::equal(want, want + 4, have))
-          rows.push_back({fmt::format("{}", record), marked_up(m.components == 1 ? m.name : m.name + "." + channel_name(k)), capture::scalar_text(have, m.scalar), capture::scalar_text(want, m.scalar)});
+        const std::size_t at = m.offset + 4 * static_cast<std::size_t>(k);
+        if (!std::equal(want + at, want + at + 4, have + at))
+          rows.push_back({fmt::format("{}", index), marked_up(m.components == 1 ? m.name : m.name + "." + channel_name(k)), capture::scalar_text(have + at, m.scalar), capture::scalar_text(want + at, m.scalar)});
       }
     }
   }
@@ -122,7 +139,7 @@ ViewerHtml viewer_html(const CaseJudgement& c, const OutputJudgement& o, const O
     if (!differing.empty()) out.html = title + differing;
     return out;
   }
-  const std::vector<View> views = with_pictures ? views_of(o, buffers.meaning, buffers.expected, buffers.port) : std::vector<View>();
+  const std::vector<View> views = with_pictures ? views_of(o, buffers.expected, buffers.port) : std::vector<View>();
   const std::string outliers = outliers_html(o);
   if (views.empty() && outliers.empty()) return out;
   out.html = title + fmt::format("<div class=\"viewer\" tabindex=\"0\" role=\"group\" aria-label=\"Pictures of {}/out.{}\">\n", marked_up(c.id), marked_up(o.name));

@@ -74,6 +74,7 @@ Json case_json(const CaseJudgement& c) {
   Json out{{"id", c.id},
            {"status", name(c.status)},
            {"reason", c.reason},
+           {"broken", c.broken},
            {"invocations", c.invocations},
            {"failing", c.failing},
            {"ambiguous", c.ambiguous},

@@ -37,7 +37,7 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   }
   if (o.failing > static_cast<std::int64_t>(shown_failures)) out += fmt::format("({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown_failures));
   if (p.causes.empty()) out += "cause unknown\n";
-  for (const Cause& c : p.causes) out += fmt::format("likely cause: {}: {} (gives {} of {} failing texels bit for bit)\n", c.name, c.sentence, c.explained, c.of);
+  for (const Cause& c : p.causes) out += fmt::format("likely cause: {}\n", cause_text(c));
   return out;
 }
 
@@ -52,7 +52,7 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
   } else if (c.status == Status::untested) {
     t.outcome = untested;
     t.message = fmt::format("UNTESTED: {}", c.reason);
-  } else if (!c.reason.empty()) {
+  } else if (!c.reason.empty() && c.status != Status::fail) {
     t.text = fmt::format("{}: {}\n", name(c.status), c.reason);
   }
   return t;
@@ -63,8 +63,9 @@ Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome unt
   suite.name = fmt::format("{}.{}", j.effect, p.pass);
   if (p.status == Status::untested && p.cases.empty()) suite.tests.push_back({untested, p.pass, fmt::format("UNTESTED: {}", p.reason), ""});
   for (const CaseJudgement& c : p.cases) {
+    if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason});
     for (const OutputJudgement& o : c.outputs) suite.tests.push_back(test_of(p, c, o, untested));
-    if (!c.outputs.empty()) continue;
+    if (!c.outputs.empty() || c.broken) continue;
     const bool open = c.status == Status::untested;
     suite.tests.push_back({open ? untested : Test::passed, c.id, open ? fmt::format("UNTESTED: {}", c.reason) : "", open ? "" : c.reason});
   }

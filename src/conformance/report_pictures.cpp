@@ -124,12 +124,13 @@ Display channel_display(const Array& expected, int channel, const std::string& l
   return {label, scale, {channel}, [low, high](const Texels& t, int x, int y, int c) { return eight_bits((t.value(x, y, c) - low) / (high - low)); }};
 }
 
-std::vector<Display> displays_of(const Meaning& meaning, const Array& expected, const Array& port) {
+std::vector<Display> displays_of(const capture::CaseOutput& output, const Array& port) {
+  const Array& expected = output.array;
   const int channels = info(expected.format).channels;
   std::vector<Display> out;
-  const bool colour = channels >= 3 && !meaning.color_space.empty() && meaning.color_space != "none";
+  const bool colour = channels >= 3 && !output.color_space.empty() && output.color_space != "none";
   if (!colour) {
-    for (int c = 0; c < channels; ++c) out.push_back(channel_display(expected, c, channel_name(c), unit_of(meaning.unit, c)));
+    for (int c = 0; c < channels; ++c) out.push_back(channel_display(expected, c, channel_name(c), unit_of(output.unit, c)));
     return out;
   }
   out.push_back(colour_display(expected));
@@ -224,11 +225,12 @@ const std::string& verdict_colour(int verdict) {
 }
 std::string difference_colour(std::int64_t codes, std::uint64_t largest) { return hex(difference_rgb(codes, largest)); }
 
-std::vector<View> views_of(const OutputJudgement& o, const Meaning& meaning, const Array& expected, const Array& port) {
+std::vector<View> views_of(const OutputJudgement& o, const capture::CaseOutput& output, const Array& port) {
+  const Array& expected = output.array;
   std::vector<View> views;
   if (o.records || o.map.empty()) return views;
   const int thinned = (std::max(o.width, o.height) + picture_side - 1) / picture_side;
-  for (const Display& d : displays_of(meaning, expected, port)) {
+  for (const Display& d : displays_of(output, port)) {
     const std::uint64_t largest = largest_difference(d, expected, port);
     View whole;
     whole.label = d.label;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "capture/array.h"
+#include "capture/pass_case.h"
 #include "conformance/verdict.h"
 
 namespace rainref::conformance {
@@ -14,12 +14,6 @@ namespace rainref::conformance {
 /// Whole outputs are shown with at most this many columns and rows; a larger one is thinned, and gets a window of
 /// `picture_window` texels at full size around its worst element.
 inline constexpr int picture_side = 768, picture_window = 256;
-
-/// What an output's values are, as its declaration says.
-struct Meaning {
-  std::string unit;         ///< one, or one for each channel: "m, m, m, 1"
-  std::string color_space;  ///< "none": data
-};
 
 /// One way to look at an output: colour, one channel, or a window of these. All pictures are PNG files of one size, row 0
 /// of the buffer at the bottom.
@@ -36,13 +30,14 @@ struct View {
   std::size_t bytes() const { return reference.size() + port.size() + difference.size() + verdict.size(); }
 };
 
-/// The views of an image output, colour or a channel each. The arrays have the same shape as the judgement.
+/// The views of an image output, colour or a channel each. The arrays have the same shape as the judgement; unit and colour
+/// space are those of `expected`.
 ///
 /// Colour is shown as stored where it is display codes, else by a power of two that brings the reference's brightest
 /// percent to white, sRGB-encoded. Data go from black, the reference's lowest percent, to white, its highest. Reference and
 /// port share the scale. The difference is port - reference in ordered codes (image/code_range.h), of colour the channel
 /// that differs most: blue where the port is lower, orange where it is higher, one step for each doubling.
-std::vector<View> views_of(const OutputJudgement& output, const Meaning& meaning, const capture::Array& expected, const capture::Array& port);
+std::vector<View> views_of(const OutputJudgement& output, const capture::CaseOutput& expected, const capture::Array& port);
 
 /// The colours of the verdict map, "#rrggbb": equal, inside, atypical, outside.
 const std::string& verdict_colour(int verdict);

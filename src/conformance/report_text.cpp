@@ -64,10 +64,16 @@ std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
 }
 
 std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
-  std::string out = fmt::format("\n{} {} is outside the as-written envelope of {} under profile {}{}\n", name(p.status), p.pass, p.formula, j.profile,
-                                p.pass == j.first_bad_pass ? "; first bad pass in the order of dataflow" : "");
+  std::string out = fmt::format("\n{} {}{}{}\n", name(p.status), p.pass,
+                                figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "",
+                                p.pass != j.first_bad_pass ? "" : p.inputs_are_good ? "; first bad pass, its inputs are good" : "; first bad pass");
   std::size_t shown = 0, skipped = 0;
   for (const CaseJudgement& c : p.cases) {
+    if (c.broken) {
+      if (shown == shown_outputs) ++skipped;
+      else out += fmt::format("  {}: {}\n", c.id, c.reason);
+      shown = std::min(shown + 1, shown_outputs);
+    }
     for (const OutputJudgement& o : c.outputs) {
       if (o.failing == 0) continue;
       if (shown == shown_outputs) {
@@ -79,9 +85,9 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
       if (!o.known.empty()) out += fmt::format("    known: {}\n", o.known);
     }
   }
-  if (skipped > 0) out += fmt::format("  ({} more failing outputs not shown)\n", skipped);
-  if (p.causes.empty()) out += "  cause unknown\n";
-  for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}: {} (gives {} of {} failing texels bit for bit)\n", c.name, c.sentence, c.explained, c.of);
+  if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
+  if (p.causes.empty() && figures_of(p).outside > 0) out += "  cause unknown\n";
+  for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}\n", cause_text(c));
   return out;
 }
 
@@ -90,13 +96,13 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
 std::string report_text(const PortJudgement& j) {
   std::string out = j.passes.empty() ? "" : table_text(j);
   for (const PassJudgement& p : j.passes)
-    if (p.status == Status::fail || p.status == Status::known) out += failures_text(p, j);
+    if ((p.status == Status::fail || p.status == Status::known) && !p.cases.empty()) out += failures_text(p, j);
   for (const std::string& s : j.stale) out += fmt::format("\nbaseline: {}\n", s);
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
   out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
   if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
   if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);
-  if (!j.reason.empty()) out += fmt::format("\n{}", j.reason);
+  if (!j.reason.empty()) out += fmt::format("\n  {}", j.reason);
   return out + "\n";
 }
 

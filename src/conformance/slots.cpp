@@ -47,6 +47,10 @@ bool is_nan(FormatInfo::Kind kind, const std::byte* at) {
   if (kind == FormatInfo::float32) return (loaded<std::uint32_t>(at) & 0x7fffffffu) > 0x7f800000u;
   return false;
 }
+Rounding rounding_of(const Slot& slot, HalfMode mode) {
+  if (slot.kind != FormatInfo::float16 || mode == HalfMode::either) return slot.store_rounding;
+  return mode == HalfMode::rne ? Rounding::rne : Rounding::rtz;
+}
 void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at) {
   const plain::Plain<float> x(value);
   const auto put = [&](auto stored) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capture/pass_case.h"
+#include "conformance/verdict.h"
 #include "image/code_range.h"
 
 namespace rainref::conformance {
@@ -29,6 +30,8 @@ std::vector<Slot> slots_of(const capture::PassCase& c);
 float stored_value(const Slot& slot, const std::byte* at);
 /// Whether a stored float is not a number.
 bool is_nan(FormatInfo::Kind kind, const std::byte* at);
+/// How a slot is stored where a device rounds its halves like this; `either` is the reference's own way.
+Rounding rounding_of(const Slot& slot, HalfMode mode);
 /// Stores as the reference does.
 void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at);
 

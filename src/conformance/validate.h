@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "capture/pack_read.h"
 #include "conformance/deviations.h"
 #include "conformance/verdict.h"
+#include "port_dump/port_info.h"
 #include "rainref/executor.h"
 
 namespace rainref::conformance {
@@ -23,10 +25,18 @@ struct ValidateOptions {
 
 /// The readings that this build has of an effect's passes; Error(usage) for an effect that it does not know.
 Bind binder(const std::string& effect, const std::string& pass);
+/// What recomputes the outputs of a pass that is judged by bits; null where nothing does.
+using Recompute = std::vector<capture::Array> (*)(const capture::PassCase&);
+Recompute recomputer(const std::string& effect, const std::string& pass);
 
-/// Judges the outputs in `port`, laid out as the pack. Throws Error(port_files) when a file is missing or cannot be what
-/// it should be, and when the pack's expected outputs are not this version's.
+/// Judges the outputs in `port`, laid out as the pack. Throws Error(port_files) when files are missing or cannot be what
+/// they should be, naming all of them, and when the pack's expected outputs are not this version's; Error(usage) when
+/// `port` is the pack's own folder.
 PortJudgement validate(const capture::Pack& pack, const std::filesystem::path& port, const ValidateOptions& options);
+
+/// What the port says of itself, for reports, and of its stores to binary16.
+void describe_port(const port_dump::PortInfo& info, PortJudgement& judgement);
+std::optional<HalfMode> declared_mode(const port_dump::PortInfo& port);
 
 /// One deviation on one pass of a pack.
 struct MutantJudgement {
@@ -49,7 +59,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
 /// What explains the failing texels of a case, best first; empty when nothing explains any.
 std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, Bind bind,
                             const capture::PassModel& model, const std::vector<capture::Array>& port, const CaseJudgement& judgement,
-                            const enclosed::Profile& profile, HalfMode mode, const parallel::Executor& executor);
+                            HalfMode mode, const parallel::Executor& executor);
 
 /// The status of the whole from its passes.
 void conclude(PortJudgement& judgement);

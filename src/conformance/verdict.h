@@ -61,6 +61,7 @@ struct CaseJudgement {
   std::string id;
   Status status = Status::untested;
   std::string reason;             ///< why, where it is not a plain pass or fail
+  bool broken = false;            ///< fails for `reason`, whatever its outputs are: a race, an input that is not the output it comes from
   std::int64_t invocations = 0;
   std::int64_t failing = 0;       ///< invocations that no alternative accepts
   std::int64_t ambiguous = 0;     ///< invocations with more than one alternative
@@ -74,7 +75,7 @@ struct Cause {
   std::string name, sentence;
   std::int64_t explained = 0;  ///< failing texels whose stored bits it gives exactly
   std::int64_t of = 0;         ///< failing texels replayed
-  std::int64_t inside = 0;     ///< failing texels that it brings into the envelope
+  std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
 };
 
 struct PassJudgement {

@@ -69,6 +69,20 @@ Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t
   return out;
 }
 
+// How far rounding the four weights of a cell may move its value. Rows and columns keep their sums, so that the error of
+// one weight enters the others with alternating signs; an H100 rounds by half a step, twice that is allowed.
+double weight_slack(double a, double b, double c, double d) {
+  const double twist = a - b - c + d;
+  return power_of_two(-profile().subtexel_bits) * (twist < 0 ? -twist : twist);
+}
+// One step of the texels' own precision at this magnitude.
+double storage_step(TexelPrecision precision, double magnitude) {
+  if (precision == TexelPrecision::unorm8) return 1.0 / 255;
+  if (precision == TexelPrecision::float32) return 0;
+  const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(magnitude) >> 52) - 1023;
+  return power_of_two(std::max(exponent - 10, -24));
+}
+
 }  // namespace
 
 int Span::index(std::int64_t i) const {
@@ -92,7 +106,8 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   // Coordinates so large that their integers do not matter any more.
   if (std::max({-x.lo, x.hi, -y.lo, y.hi}) > 0x1p40) return Enclosure::vacuous();
   const std::int64_t x0 = cell_of(x.lo), x1 = cell_of(x.hi), y0 = cell_of(y.lo), y1 = cell_of(y.hi);
-  double low = infinity, high = -infinity, least = infinity, greatest = -infinity;
+  double low = infinity, high = -infinity, least = infinity, greatest = -infinity, slack = 0;
+  const bool sampler = profile().subtexel_bits > 0;
   if ((x1 - x0 + 1) * (y1 - y0 + 1) > 16) {
     const Enclosure all = texel_hull(t, x, y, x0, x1 + 1, y0, y1 + 1, channel);
     if (all.is_vacuous()) return all;
@@ -109,6 +124,7 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
         const double c = texel_of(t, column, next_row, channel), d = texel_of(t, next_column, next_row, channel);
         least = std::min({least, a, b, c, d});
         greatest = std::max({greatest, a, b, c, d});
+        if (sampler) slack = std::max(slack, weight_slack(a, b, c, d));
         // Linear in each weight: the extrema are at the corners.
         for (const double f : {std::max(x.lo - i, 0.0), std::min(x.hi - i, 1.0)}) {
           const double bottom = a * (1 - f) + b * f, top = c * (1 - f) + d * f;
@@ -123,6 +139,11 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   }
   const double size = std::max(-least, greatest), gap = greatest - least;
   if (size == 0) return {0.0f, 0.0f};
+  if (sampler) {
+    slack += storage_step(t.precision, size);
+    low = std::max(low - slack, least);
+    high = std::min(high + slack, greatest);
+  }
   // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the
   // two weights x - floor(x), which is none but below 0.
   const double flushed = profile().flush == Flush::never ? 0x1p-147 : 0x1p-123;

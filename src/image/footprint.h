@@ -15,6 +15,7 @@ struct Texels {
   int channels, width, height;
   Address address_u, address_v;
   const float* border;
+  TexelPrecision precision = TexelPrecision::float32;
 };
 
 /// The coordinates, in texels, that a lookup may compute along one side. For repeat they are not reduced: indices wrap.
@@ -36,7 +37,9 @@ Span nearest_span(Address address, Enclosure u, int size);
 inline constexpr std::int64_t most_texels = 1 << 16;
 
 /// Bilinear filtering over all that the spans hold, each formula of mix: the hull over the cells; over more than 16
-/// cells the hull of their texels. It lies within the texels touched, but for the roundings of mix.
+/// cells the hull of their texels. It lies within the texels touched, but for the roundings of mix. Where the profile has a
+/// sampler, its four weights may be rounded to the subtexel bits (rows and columns keep their sums), and its result to the
+/// precision of the texels: an NVIDIA H100 does both.
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel);
 
 /// The texel that an unfiltered lookup takes: decided where the spans leave up to Replay::max_runs open.

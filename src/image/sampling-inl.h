@@ -42,13 +42,10 @@ RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   l.height_number = N(static_cast<float>(t.height[level]));
   return l;
 }
-/// A lookup's level, which it has held within the texture's; a number that slips can bend has its own rule.
-template <class Int>
-RAINREF_FN Int existing_level(Int level, int) { return level; }
-/// A level of each element's own.
+/// A level of each element's own, held within those that there are.
 template <class N, class T>
 RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
-  const auto level = existing_level(wanted, t.levels);
+  const auto level = clamp_index(wanted, N::uniform_int(t.levels));
   Level<N> l;
   // Each level halves the side above it, rounded down, to no less than 1.
   const auto one = N::uniform_int(1);
@@ -79,6 +76,12 @@ RAINREF_FN N texel_coordinate(Address address, N u, N size) {
   if (address == Address::border) return clamp(x, N(-1.0f), size);
   return clamp(x, N(0.0f), size - N(1.0f));
 }
+/// Of a nearest lookup: held within one texel of the image before the cut to integers; the index rule does the rest.
+template <class N>
+RAINREF_FN N nearest_coordinate(Address address, N u, N size) { return clamp(address_coordinate(address, u) * size, N(-1.0f), size); }
+/// As the sampler takes it: a number whose sampler is not exact has its own.
+template <class N>
+RAINREF_FN N level_of_detail(N lod) { return lod; }
 template <class Int>
 RAINREF_FN Int texel_index(Address address, Int i, Int size) {
   return address == Address::repeat ? wrap_index(i, size) : clamp_index(i, size);
@@ -120,9 +123,7 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
   const Level<N> l = uniform_level<N>(t, 0);
-  // Held within one texel of the image before the cut to integers; the index rule does the rest.
-  const N x = clamp(address_coordinate(t.address_u, u) * l.width_number, N(-1.0f), l.width_number);
-  const N y = clamp(address_coordinate(t.address_v, v) * l.height_number, N(-1.0f), l.height_number);
+  const N x = nearest_coordinate(t.address_u, u, l.width_number), y = nearest_coordinate(t.address_v, v, l.height_number);
   return load_texel<First, Count, N>(t, texel_column<N>(t, l, to_int(floor(x))), texel_row<N>(t, l, to_int(floor(y))));
 }
 
@@ -165,13 +166,13 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
 
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
-  const N last(static_cast<float>(t.levels - 1)), l = floor(clamp(lod, N(0.0f), last) + N(0.5f)), zero(0.0f);
+  const N last(static_cast<float>(t.levels - 1)), l = floor(clamp(level_of_detail(lod), N(0.0f), last) + N(0.5f)), zero(0.0f);
   return sample_level<First, Count, N>(t, any(l > zero) ? level_of<N>(t, to_int(l)) : uniform_level<N>(t, 0), u, v);
 }
 /// Where lod is whole the finer level alone counts, so that lanes which all lie on it need not read the other.
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
-  const N last(static_cast<float>(t.levels - 1)), l = clamp(lod, N(0.0f), last), l0 = floor(l), g = l - l0, zero(0.0f);
+  const N last(static_cast<float>(t.levels - 1)), l = clamp(level_of_detail(lod), N(0.0f), last), l0 = floor(l), g = l - l0, zero(0.0f);
   const Level<N> fine = any(l0 > zero) ? level_of<N>(t, to_int(l0)) : uniform_level<N>(t, 0);
   Channels<N, Count> out = sample_level<First, Count, N>(t, fine, u, v);
   const auto between = g > zero;

@@ -1,4 +1,4 @@
-// The slips of texture lookups. Text only; include it before sampling-inl.h, whose rule it bends.
+// The slips and liberties of texture lookups. Text only; include it before sampling-inl.h, whose rules it bends.
 
 template <class N>
 RAINREF_FN N texel_coordinate(Address address, N u, N size);
@@ -12,7 +12,8 @@ RAINREF_FN Address slipped(Address address) {
   }
 }
 RAINREF_FN deviant::Deviant texel_coordinate(Address address, deviant::Deviant u, deviant::Deviant size) {
-  const deviant::Deviant x = texel_coordinate<deviant::Deviant>(slipped(address), u, size);
+  const deviant::Sampler sampler;
+  const deviant::Deviant x = texel_coordinate<deviant::Deviant>(slipped(address), deviant::Deviant::of(sampler.coordinate(u.v)), size);
   const auto of = [](float value) { return deviant::Deviant::of(value); };
   const auto floor_of = [](float value) { return floor(plain::Plain<float>(value)).v; };
   switch (deviant::behaviour().slip) {
@@ -21,15 +22,18 @@ RAINREF_FN deviant::Deviant texel_coordinate(Address address, deviant::Deviant u
     case deviant::Slip::half_texel_missing: return of(x.v + 0.5f);
     case deviant::Slip::half_texel_twice: return of(x.v - 0.5f);
     case deviant::Slip::texel_after: return of(x.v + 1.0f);
-    default: return of(deviant::filtered_coordinate(x.v));
+    default: return of(sampler.texel(x.v));
   }
 }
+template <class N>
+RAINREF_FN N nearest_coordinate(Address address, N u, N size);
+RAINREF_FN deviant::Deviant nearest_coordinate(Address address, deviant::Deviant u, deviant::Deviant size) {
+  const deviant::Sampler sampler;
+  return deviant::Deviant::of(sampler.texel(nearest_coordinate<deviant::Deviant>(address, deviant::Deviant::of(sampler.coordinate(u.v)), size).v));
+}
+RAINREF_FN deviant::Deviant level_of_detail(deviant::Deviant lod) { return deviant::Deviant::of(deviant::Sampler().level(lod.v)); }
 /// Any integer has a texel, whatever a slip has done to it.
 RAINREF_FN plain::Index<deviant::Deviant> texel_index(Address address, plain::Index<deviant::Deviant> i, plain::Index<deviant::Deviant> size) {
   if (slipped(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};
   return clamp_index(i, size);
-}
-/// A missing minimum or maximum leaves the levels.
-RAINREF_FN plain::Index<deviant::Deviant> existing_level(plain::Index<deviant::Deviant> level, int levels) {
-  return {level.i < 0 ? 0 : level.i < levels ? level.i : levels - 1};
 }

@@ -28,7 +28,7 @@ RAINREF_FN Channels<enclosed::Enclosure, Count> points(const Channels<plain::Pla
 template <class T>
 RAINREF_FN enclosed::Texels texels_of(const T& t, const Level<enclosed::Enclosure>& l) {
   const float* first = t.texels + static_cast<std::ptrdiff_t>(l.offset.i) * t.channels;
-  return {first, t.channels, l.width.i, l.height.i, t.address_u, t.address_v, t.border};
+  return {first, t.channels, l.width.i, l.height.i, t.address_u, t.address_v, t.border, t.precision};
 }
 
 template <int First, int Count, class N, class T>

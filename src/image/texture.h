@@ -18,11 +18,12 @@ struct FixedTexture {
   int levels;
   const std::int32_t *width, *height, *offset;
   const float* border;
+  TexelPrecision precision;
 };
 /// The texture, which must have these rules and channels.
 template <Address U, Address V, int Count>
 inline FixedTexture<U, V, Count> fixed_texture(const Texture& t) {
-  return {t.texels, t.levels, t.width, t.height, t.offset, t.border};
+  return {t.texels, t.levels, t.width, t.height, t.offset, t.border, t.precision};
 }
 
 /// Owns the texels of a Texture. Made from an Image by exact decoding: half and float keep their values, unorm8 is

@@ -1,11 +1,16 @@
 #include "math/deviant.h"
 
+#include <algorithm>
 #include <array>
+
+#include "math/directed.h"
 
 namespace rainref::deviant {
 namespace {
 
 using Reference = plain::Plain<float>;
+using enclosed::Accuracy;
+using enclosed::Profile;
 
 thread_local Behaviour current;
 
@@ -17,12 +22,24 @@ std::uint64_t draw() {
   return z ^ z >> 31;
 }
 bool coin() { return draw() & 1; }
-/// In [-1, 1].
-double swing() { return static_cast<double>(draw() >> 11) * 0x1p-52 - 1; }
+/// In [-1, 1), or often an end.
+double swing() {
+  const std::uint64_t bits = draw();
+  if (current.lean != 0 && (bits & 6) != 0) return current.lean;
+  if (bits & 1) return bits & 2 ? 1 : -1;
+  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
+}
 
 bool is(Slip slip) { return current.slip == slip; }
 /// Whether this operation takes a liberty that is granted.
 bool take(bool Liberties::*liberty) { return current.liberties && current.liberties->*liberty && coin(); }
+bool may_contract() { return current.liberties && current.liberties->rules.contraction && coin(); }
+bool may_flush() { return current.liberties && current.liberties->rules.flush != enclosed::Flush::never && coin(); }
+/// Up, down, or as it is: which neighbour of an inexact result.
+bool may_round_to(bool up) {
+  if (!current.liberties || current.liberties->rules.basic != enclosed::BasicRounding::either) return false;
+  return current.lean != 0 && (draw() & 3) != 0 ? (current.lean > 0) == up : coin();
+}
 
 float beside(float x, bool up) {
   if (x == 0) return up ? 0x1p-149f : -0x1p-149f;
@@ -32,38 +49,46 @@ float beside(float x, bool up) {
 bool subnormal(float x) { return x != 0 && x < 0x1p-126f && x > -0x1p-126f; }
 float flushed(float x) {
   if (!subnormal(x)) return x;
-  if (is(Slip::flushed) || take(&Liberties::flush)) return x < 0 ? -0.0f : 0.0f;
+  if (is(Slip::flushed) || may_flush()) return x < 0 ? -0.0f : 0.0f;
   return x;
 }
 /// What happens to every result: `nearest` is it correctly rounded, `error` has the sign of exact - nearest.
 Deviant finish(float nearest, double error) {
   float r = nearest;
-  if (error != 0 && take(&Liberties::either_neighbour)) r = beside(r, error > 0);
+  if (error != 0 && may_round_to(error > 0)) r = beside(r, error > 0);
   if (is(Slip::half_intermediates)) r = to_float(to_half(r));
   return Deviant::of(flushed(r));
 }
-double ulp(double x) {
-  const double magnitude = x < 0 ? -x : x;
-  if (magnitude < 0x1p-126) return 0x1p-149;
-  const auto exponent = std::bit_cast<std::uint64_t>(magnitude) & 0x7ff0000000000000u;
-  return std::bit_cast<double>(exponent) * 0x1p-23;
-}
-/// A function's value with a random error of at most this many ULP and this much.
-Deviant erring(Reference reference, double exact, double ulps, double absolute = 0) {
-  if (!current.liberties || (ulps == 0 && absolute == 0)) return finish(reference.v, 0);
-  const double reach = ulps * ulp(exact) > absolute ? ulps * ulp(exact) : absolute;
-  return finish(static_cast<float>(exact + swing() * reach), 0);
-}
-double liberty(double Liberties::*of) { return current.liberties ? current.liberties->*of : 0; }
 double magnitude(double x) { return x < 0 ? -x : x; }
+double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52); }
 
-/// a b + c rounded once: the sum of an exact product and c, made odd where inexact, rounds as the exact sum would.
-float fused(float a, float b, float c) {
+double bound_of(double exact, const Accuracy& a, double x) {
+  // A little less, for what `exact` itself is off by.
+  return ((a.ulp + a.ulp_per_x * magnitude(x)) * enclosed::ulp_of(exact) + a.relative * magnitude(exact) + a.absolute) * (1 - 0x1p-20);
+}
+bool within(float r, double exact, double bound, const Accuracy& a) {
+  const bool changes_sign = a.absolute == 0 && r != 0 && (r < 0) != (exact < 0);
+  return magnitude(r - exact) <= bound && !changes_sign;
+}
+/// A function's value at x with a random error that the accuracy allows; `nearest` without liberties.
+Deviant erring(float nearest, double exact, Accuracy Profile::*accuracy, double x = 0) {
+  if (!current.liberties) return finish(nearest, 0);
+  const Accuracy& a = current.liberties->rules.*accuracy;
+  if (a.is_zero()) return finish(nearest, 0);
+  const double bound = bound_of(exact, a, x);
+  float r = static_cast<float>(exact + bound * swing());
+  if (!within(r, exact, bound, a)) r = beside(r, r < exact);
+  return finish(within(r, exact, bound, a) ? r : nearest, 0);
+}
+
+/// a b + c, made odd where inexact: it rounds to float as the exact value would (Boldo and Melquiond, Emulation of FMA,
+/// 2008).
+double odd_sum_of_product(float a, float b, float c) {
   const double p = static_cast<double>(a) * b, s = p + c, t = s - p, error = (p - (s - t)) + (c - t);
-  if (error == 0 || s == 0) return static_cast<float>(s);
+  if (error == 0 || s == 0) return s;
   auto bits = std::bit_cast<std::uint64_t>(s);
   if (!(bits & 1)) bits = (error > 0) == (s > 0) ? bits + 1 : bits - 1;
-  return static_cast<float>(std::bit_cast<double>(bits));
+  return std::bit_cast<double>(bits);
 }
 double exact(const Deviant& a) { return a.v; }
 Reference reference(const Deviant& a) { return Reference(a.v); }
@@ -80,10 +105,12 @@ Deviant::Deviant(float constant) : v(constant) {
 
 Deviant Deviant::add(Deviant a, Deviant b) {
   if (a.product_ || b.product_) {
-    if (is(Slip::fused) || take(&Liberties::contract)) {
+    if (is(Slip::fused) || may_contract()) {
       const bool first = a.product_ && !(b.product_ && take(&Liberties::reorder));
       const Deviant& p = first ? a : b;
-      return finish(fused(p.factor_, p.other_, first ? b.v : a.v), 0);
+      const double sum = odd_sum_of_product(p.factor_, p.other_, first ? b.v : a.v);
+      const float nearest = static_cast<float>(sum);
+      return finish(nearest, sum - nearest);
     }
   }
   const float s = a.v + b.v, t = s - a.v;
@@ -98,15 +125,30 @@ Deviant operator*(Deviant a, Deviant b) {
   return r;
 }
 Deviant operator/(Deviant a, Deviant b) {
-  if (is(Slip::reciprocal_division) || take(&Liberties::reciprocal)) return finish(a.v * (1.0f / b.v), 0);
+  if (is(Slip::reciprocal_division)) return finish(a.v * (1.0f / b.v), 0);
   if (is(Slip::division_by_estimate)) return finish(a.v * beside(1.0f / b.v, true), 0);
-  return erring(Reference(a.v) / Reference(b.v), exact(a) / b.v, liberty(&Liberties::division));
+  const double quotient = exact(a) / b.v;
+  if (take(&Liberties::reciprocal)) {
+    const Accuracy& allowed = current.liberties->rules.division;
+    if (const float r = a.v * (1.0f / b.v); within(r, quotient, bound_of(quotient, allowed, 0), allowed)) return finish(r, 0);
+  }
+  return erring(a.v / b.v, quotient, &Profile::division);
+}
+Deviant Deviant::load_unorm(Unorm8 code) {
+  // 0 and 1 are exact everywhere.
+  if (code.code == 0 || code.code == 255) return of(plain::to_float(code));
+  return erring(plain::to_float(code), code.code / 255.0, &Profile::unorm_load);
+}
+Deviant inverse_sqrt(Deviant a) {
+  const double root = 1 / __builtin_sqrt(exact(a));
+  return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
 }
 Deviant sqrt(Deviant a) {
   if (is(Slip::root_missing)) return a;
   if (is(Slip::root_by_inverse)) return a.v > 0 ? finish(1.0f / (1.0f / __builtin_sqrtf(a.v)), 0) : a;
   if (a.v == 0) return a;
-  return erring(sqrt(reference(a)), __builtin_sqrt(exact(a)), liberty(&Liberties::root));
+  if (current.liberties && current.liberties->rules.sqrt_is_inherited) return Deviant::of(1.0f) / inverse_sqrt(a);
+  return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
 }
 Deviant floor(Deviant a) {
   const Reference down = floor(reference(a));
@@ -127,34 +169,56 @@ Deviant mix(Deviant a, Deviant b, Deviant t) {
 
 Deviant exp(Deviant a) {
   if (is(Slip::exp_base_two)) return finish(exp2(reference(a)).v, 0);
-  return erring(exp(reference(a)), exp_real(Real64(exact(a))).v, liberty(&Liberties::exp) + liberty(&Liberties::exp_slope) * magnitude(exact(a)));
+  return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
 }
 Deviant exp2(Deviant a) {
   if (is(Slip::exp2_base_e)) return finish(exp(reference(a)).v, 0);
-  return erring(exp2(reference(a)), exp2_real(Real64(exact(a))).v, liberty(&Liberties::exp) + liberty(&Liberties::exp_slope) * magnitude(exact(a)));
+  return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
 }
+namespace {
+bool near_one(Deviant a) { return a.v >= 0.5f && a.v <= 2.0f; }
+/// Of liberties only: a GPU's pow may be made of it.
+Deviant log2(Deviant a) {
+  const double y = coefficients::log2_e * log_real(Real64(exact(a))).v;
+  return erring(static_cast<float>(y), y, near_one(a) ? &Profile::log2_near_one : &Profile::log2);
+}
+constexpr double degree = 0x1.1df46a2529d39p-6;  // pi / 180
+/// sin or cos, `exact` at x.
+Deviant wave(float nearest, double exact, double x) {
+  if (!current.liberties) return finish(nearest, 0);
+  const Profile& p = current.liberties->rules;
+  Accuracy a = p.sin_cos;
+  if (p.sin_cos_domain > 0 && magnitude(x) > p.sin_cos_domain) {
+    if (p.sin_cos_beyond == 0) return Deviant::of(static_cast<float>(swing()));
+    a.absolute = std::max(a.absolute, p.sin_cos_beyond * magnitude(x));
+  }
+  const double bound = bound_of(exact, a, x);
+  const float r = static_cast<float>(std::clamp(exact + bound * swing(), -1.0, 1.0));
+  return finish(within(r, exact, bound, a) ? r : nearest, 0);
+}
+}  // namespace
 Deviant log(Deviant a) {
-  const bool near_one = a.v >= 0.5f && a.v <= 2.0f;
-  return erring(log(reference(a)), log_real(Real64(exact(a))).v, liberty(&Liberties::log), near_one ? liberty(&Liberties::log_absolute) : 0);
+  return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
 }
 Deviant pow(Deviant a, Deviant b) {
   if (is(Slip::pow_squared)) return a * a;
-  return erring(pow(reference(a), reference(b)), pow_real(Real64(exact(a)), Real64(exact(b))).v, liberty(&Liberties::power));
-}
-namespace {
-constexpr double degree = 0x1.1df46a2529d39p-6;  // pi / 180
+  if (current.liberties && a.v > 0 && current.liberties->rules.pow_is_inherited) return exp2(b * log2(a));
+  const float nearest = pow(reference(a), reference(b)).v;
+  return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
 }
 Deviant sin(Deviant a) {
   const double x = is(Slip::degrees) ? exact(a) * degree : exact(a);
-  return erring(sin(Reference(static_cast<float>(x))), sin_real(Real64(x)).v, 0, liberty(&Liberties::sine_absolute));
+  return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
 }
 Deviant cos(Deviant a) {
   const double x = is(Slip::degrees) ? exact(a) * degree : exact(a);
-  return erring(cos(Reference(static_cast<float>(x))), cos_real(Real64(x)).v, 0, liberty(&Liberties::sine_absolute));
+  return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
 }
 Deviant atan2(Deviant y, Deviant x) {
   if (is(Slip::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
-  return erring(atan2(reference(y), reference(x)), atan2_real(Real64(exact(y)), Real64(exact(x))).v, liberty(&Liberties::atan2));
+  // Not every device keeps the sign of a zero.
+  if (current.liberties && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
+  return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
 }
 
 namespace {
@@ -188,10 +252,20 @@ Deviant sum_any_order_in_pairs(Deviant a, Deviant b, Deviant c, Deviant d) {
 }
 Deviant smoothstep(float edge0, float edge1, Deviant x) {
   if (is(Slip::smoothstep_linear)) return plain::saturate((x - Deviant(edge0)) / Deviant(edge1 - edge0));
-  return plain::smoothstep<Deviant>(edge0, edge1, x);
+  if (!current.liberties) return plain::smoothstep<Deviant>(edge0, edge1, x);
+  // The edges' difference is the device's own.
+  const Deviant t = plain::saturate((x - Deviant(edge0)) / (Deviant(edge1) - Deviant(edge0)));
+  return t * t * (Deviant(3.0f) - Deviant(2.0f) * t);
 }
+Deviant uniform_quotient(float a, float b, Deviant) { return current.liberties ? Deviant(a) / Deviant(b) : Deviant(a / b); }
 plain::Vec3<Deviant> normalize(const plain::Vec3<Deviant>& a) {
   if (is(Slip::normalize_missing)) return a;
+  if (take(&Liberties::normalize_any)) {
+    const Deviant squared = plain::dot(a, a);
+    if (coin()) return inverse_sqrt(squared) * a;
+    const Deviant length = sqrt(squared);
+    return {a.x / length, a.y / length, a.z / length};
+  }
   return plain::normalize<Deviant>(a);
 }
 plain::Vec3<Deviant> reflect(const plain::Vec3<Deviant>& v, const plain::Vec3<Deviant>& n) {
@@ -208,12 +282,29 @@ Deviant nearest_octave(Deviant x) {
   return level;
 }
 
-float filtered_coordinate(float x) {
-  if (!current.liberties || current.liberties->subtexel_bits == 0) return x;
-  const float steps = static_cast<float>(1 << current.liberties->subtexel_bits);
-  // Cut, rounded, or anything between.
-  const float offset = static_cast<float>(0.5 + 0.5 * swing());
-  return floor(Reference(x * steps + offset)).v / steps;
+Sampler::Sampler() : is_used(current.liberties && current.liberties->rules.subtexel_bits > 0 && coin()) {}
+float Sampler::coordinate(float u) const {
+  if (!is_used || current.liberties->rules.coordinate_bits == 0) return u;
+  // 0.9 leaves room for the rounding of the sum.
+  return static_cast<float>(u + 0.9 * swing() * u * power_of_two(-current.liberties->rules.coordinate_bits));
+}
+namespace {
+/// x in fixed point: cut, rounded, or anything between.
+float snapped(float x, int bits) {
+  const double steps = power_of_two(bits), offset = std::min(0.5 + 0.5 * swing(), 1 - 0x1p-20);
+  return static_cast<float>(floor(plain::Plain<double>(plain::Plain<double>(x * steps + offset))).v / steps);
+}
+}  // namespace
+float Sampler::texel(float x) const { return is_used ? snapped(x, current.liberties->rules.subtexel_bits) : x; }
+float Sampler::level(float lod) const {
+  return current.liberties && current.liberties->rules.lod_bits > 0 ? snapped(lod, current.liberties->rules.lod_bits) : lod;
+}
+
+Liberties liberties_of(const Profile& p) {
+  Liberties all;
+  all.rules = p;
+  all.reorder = all.mix_either = all.reciprocal = all.normalize_any = !p.reference;
+  return all;
 }
 
 const std::vector<SlipInfo>& slips() {

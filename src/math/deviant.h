@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/plain.h"
+#include "math/profile.h"
 
 namespace rainref::deviant {
 
@@ -42,16 +43,17 @@ struct SlipInfo {
 /// Every slip but none and constant, in the order in which a diagnosis tries them.
 const std::vector<SlipInfo>& slips();
 
-/// How much a conforming machine may differ, drawn at random at every operation. Errors in ULP of the exact result.
+/// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and samplers of
+/// a profile, and formulas that a profile does not name because every one of them allows them.
 struct Liberties {
-  bool either_neighbour = false;  ///< basic operations may round either way
-  bool contract = false, reorder = false, flush = false, mix_either = false, reciprocal = false;
-  double division = 0, root = 0, exp = 0, log = 0, power = 0, atan2 = 0;
-  double exp_slope = 0;       ///< of exp and exp2: ULP for each unit of |x|
-  double log_absolute = 0;    ///< of log in [1/2, 2] where it is larger
-  double sine_absolute = 0;   ///< of sin and cos
-  int subtexel_bits = 0;      ///< bits of a filter's weights; 0: computed in float
+  enclosed::Profile rules;
+  bool reorder = false;         ///< sums in any order and grouping
+  bool mix_either = false;      ///< a + (b - a) t too
+  bool reciprocal = false;      ///< a (1 / b) where that lies within the division's error
+  bool normalize_any = false;   ///< a / |a| and a inversesqrt(a . a) too
 };
+/// Exactly what the profile allows; nothing for one that is the reference.
+Liberties liberties_of(const enclosed::Profile& profile);
 
 /// What the calling thread's Deviants do.
 struct Behaviour {
@@ -59,6 +61,7 @@ struct Behaviour {
   float constant = 0, replacement = 0;      ///< of Slip::constant
   const Liberties* liberties = nullptr;
   std::uint64_t random = 1;                 ///< state of the liberties' draws
+  int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
   std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
 };
 Behaviour& behaviour();
@@ -91,7 +94,10 @@ class Deviant {
     return d;
   }
   template <class Storage>
-  static Deviant load(const Storage* p) { return of(plain::to_float(*p)); }
+  static Deviant load(const Storage* p) {
+    if constexpr (std::is_same_v<Storage, Unorm8>) return load_unorm(*p);
+    else return of(plain::to_float(*p));
+  }
   static Deviant index(int first) { return of(static_cast<float>(first)); }
   static Int uniform_int(int value) { return {value}; }
 
@@ -109,8 +115,8 @@ class Deviant {
   friend bool operator>(Deviant a, Deviant b) { return b < a; }
   friend bool operator>=(Deviant a, Deviant b) { return b <= a; }
   friend Deviant select(bool m, Deviant a, Deviant b) { return m ? a : b; }
-  friend Deviant min(Deviant a, Deviant b) { return behaviour().slip == Slip::minimum_missing ? a : b.v < a.v ? b : a; }
-  friend Deviant max(Deviant a, Deviant b) { return behaviour().slip == Slip::maximum_missing ? a : a.v < b.v ? b : a; }
+  friend Deviant min(Deviant a, Deviant b) { return of(behaviour().slip == Slip::minimum_missing ? a.v : b.v < a.v ? b.v : a.v); }
+  friend Deviant max(Deviant a, Deviant b) { return of(behaviour().slip == Slip::maximum_missing ? a.v : a.v < b.v ? b.v : a.v); }
   friend Deviant abs(Deviant a) { return a.v < 0 && behaviour().slip != Slip::abs_missing ? -a : a; }
   friend Deviant sqrt(Deviant a);
   friend Deviant square(Deviant a) { return behaviour().slip == Slip::square_missing ? a : a * a; }
@@ -130,8 +136,12 @@ class Deviant {
   friend Deviant cos(Deviant a);
   friend Deviant atan2(Deviant y, Deviant x);
 
+  /// 1 / sqrt(a) in one instruction: passes do not name it, liberties do.
+  friend Deviant inverse_sqrt(Deviant a);
+
  private:
   static Deviant add(Deviant a, Deviant b);
+  static Deviant load_unorm(Unorm8 code);
 
   // A product that the next addition may fuse: v = factor_ times other_, rounded.
   float factor_ = 0, other_ = 0;
@@ -147,8 +157,16 @@ plain::Vec3<Deviant> normalize(const plain::Vec3<Deviant>& a);
 plain::Vec3<Deviant> reflect(const plain::Vec3<Deviant>& v, const plain::Vec3<Deviant>& n);
 plain::Vec3<Deviant> refract(const plain::Vec3<Deviant>& v, const plain::Vec3<Deviant>& n, float eta);
 Deviant nearest_octave(Deviant x);
+Deviant uniform_quotient(float a, float b, Deviant);
 
-/// A texel coordinate as a texture unit with the granted bits of precision may take it.
-float filtered_coordinate(float x);
+/// One lookup by a sampler or by arithmetic, as the liberties have it: what it takes for a normalized coordinate, for one
+/// in texels, and for a level of detail.
+struct Sampler {
+  Sampler();
+  bool is_used;
+  float coordinate(float u) const;
+  float texel(float x) const;
+  float level(float lod) const;
+};
 
 }  // namespace rainref::deviant

@@ -23,8 +23,6 @@ double least(double low, double high, const Accuracy& a, double x_magnitude) {
   return power <= high ? std::min(at_low, power - error_at(power, a, x_magnitude)) : at_low;
 }
 
-bool rounds_products() { return profile().basic == BasicRounding::nearest && !profile().contraction; }
-
 struct Range {
   double low, high;
 };
@@ -34,8 +32,23 @@ Range products(Enclosure a, Enclosure b) {
   return {low, high};
 }
 Enclosure product(Range r) {
-  if (rounds_products()) return Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high));
-  return Enclosure::checked(float_below(r.low), float_above(r.high));
+  const Profile& p = profile();
+  const bool nearest = p.basic == BasicRounding::nearest;
+  Enclosure out = nearest ? Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high)) : Enclosure::checked(float_below(r.low), float_above(r.high));
+  if (p.contraction && !out.is_vacuous()) {
+    out.is_product = true;
+    out.product_lo = r.low;
+    out.product_hi = r.high;
+  }
+  return out;
+}
+
+/// a + b to the nearest float: the sum in double is made odd where it is inexact, so that it rounds as the exact one would.
+float nearest_sum(double a, double b) {
+  const double s = a + b, t = s - a, error = (a - (s - t)) + (b - t);
+  auto bits = std::bit_cast<std::uint64_t>(s);
+  if (error != 0 && !(bits & 1)) bits = (error > 0) == (s > 0) ? bits + 1 : bits - 1;
+  return static_cast<float>(std::bit_cast<double>(bits));
 }
 
 }  // namespace
@@ -67,6 +80,21 @@ Enclosure operator*(Enclosure a, Enclosure b) {
   if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
   if (profile().reference && a.is_point() && b.is_point()) return Enclosure::checked(a.lo * b.lo, a.lo * b.lo);
   return product(products(a, b));
+}
+
+Enclosure contracted_sum(Enclosure a, Enclosure b) {
+  if (a.is_vacuous() || b.is_vacuous()) return Enclosure::vacuous();
+  // One product at most goes in unrounded.
+  float low = a.lo + b.lo, high = a.hi + b.hi;
+  if (a.is_product) {
+    low = std::min(low, nearest_sum(a.product_lo, b.lo));
+    high = std::max(high, nearest_sum(a.product_hi, b.hi));
+  }
+  if (b.is_product) {
+    low = std::min(low, nearest_sum(b.product_lo, a.lo));
+    high = std::max(high, nearest_sum(b.product_hi, a.hi));
+  }
+  return Enclosure::checked(low, high);
 }
 
 Enclosure square(Enclosure a) {
@@ -132,7 +160,9 @@ Enclosure fract(Enclosure a) {
   if (profile().reference && a.is_point()) return a - cell;
   if (cell.is_vacuous()) return cell;
   if (!cell.is_point()) return {0.0f, 1.0f};
-  return Enclosure::checked(std::max(sum_below(a.lo, -cell.lo), 0.0f), std::min(sum_above(a.hi, -cell.lo), 1.0f));
+  // A product that was rounded up to the integer may lie below it where it is fused.
+  const Enclosure rest = outward_sum(a, -cell);
+  return rest.is_vacuous() ? rest : Enclosure(a.is_product ? rest.lo : std::max(rest.lo, 0.0f), std::min(rest.hi, 1.0f));
 }
 
 Enclosure mix(Enclosure a, Enclosure b, Enclosure t) {
@@ -142,6 +172,8 @@ Enclosure mix(Enclosure a, Enclosure b, Enclosure t) {
     return profile().reference ? published : hull(published, a + (b - a) * t);
   }
   if (a.is_vacuous() || b.is_vacuous() || t.is_vacuous()) return Enclosure::vacuous();
+  a = a.unrounded();
+  b = b.unrounded();
   // The exact function is linear in each argument: its extrema lie at corners. Then the roundings of either formula,
   // (1 - t), two products and a sum, or (b - a), a product and a sum, each relative to what it rounds.
   double low = 0x1p1000, high = -0x1p1000;

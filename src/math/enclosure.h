@@ -2,9 +2,10 @@
 // give.
 //
 // It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), Replay
-// runs what an interval does not settle (replay.h). Every operation rounds outward, which covers both neighbours of a
-// result and its fusion with a later addition; exact results stay points. Under the profile `ieee` nothing is widened
-// and a point has the bits of Plain<float>.
+// runs what an interval does not settle (replay.h). Where a profile lets a result be either neighbour, operations round
+// outward, which covers fusion too; where it rounds to nearest, a product remembers what it was before its rounding for
+// the addition that fuses it. Exact results stay points. Under the profile `ieee` nothing is widened and a point has the
+// bits of Plain<float>.
 //
 // What may be infinite, not a number or undefined is vacuous, the interval of everything; it stays vacuous through all
 // that is computed from it.
@@ -23,6 +24,9 @@ class Enclosure {
   static constexpr int size() { return 1; }
 
   float lo, hi;  ///< never NaN; lo <= hi
+  /// Of a product that an addition may take before it is rounded: its exact range.
+  bool is_product = false;
+  double product_lo = 0, product_hi = 0;
 
   Enclosure() : lo(0), hi(0) {}
   /// A literal or a uniform. A subnormal may count as zero.
@@ -50,17 +54,27 @@ class Enclosure {
   static Int uniform_int(int value) { return {value}; }
 
   friend Enclosure operator+(Enclosure a, Enclosure b) {
-    if (profile().basic == BasicRounding::nearest) return checked(a.lo + b.lo, a.hi + b.hi);
-    return outward_sum(a, b);
+    if (profile().basic != BasicRounding::nearest) return outward_sum(a, b);
+    return a.is_product || b.is_product ? contracted_sum(a, b) : checked(a.lo + b.lo, a.hi + b.hi);
   }
-  friend Enclosure operator-(Enclosure a) { return {-a.hi, -a.lo}; }
+  friend Enclosure operator-(Enclosure a) {
+    Enclosure out(-a.hi, -a.lo);
+    out.is_product = a.is_product;
+    out.product_lo = -a.product_hi;
+    out.product_hi = -a.product_lo;
+    return out;
+  }
   friend Enclosure operator-(Enclosure a, Enclosure b) { return a + -b; }
   friend Enclosure operator*(Enclosure a, Enclosure b);
   friend Enclosure operator/(Enclosure a, Enclosure b);
   /// The sum with every rounding and with none, whatever the profile's basic rounding.
   friend Enclosure outward_sum(Enclosure a, Enclosure b) {
+    a = a.unrounded();
+    b = b.unrounded();
     return checked(sum_below(a.lo, b.lo), sum_above(a.hi, b.hi));
   }
+  /// The number before and after its rounding.
+  Enclosure unrounded() const { return is_product ? checked(float_below(product_lo), float_above(product_hi)) : *this; }
 
   // An exact tie of points is settled.
   friend bool operator<(Enclosure a, Enclosure b) { return a.hi < b.lo || (a.lo < b.hi && choose(2) != 0); }
@@ -68,7 +82,11 @@ class Enclosure {
   friend bool operator>(Enclosure a, Enclosure b) { return b < a; }
   friend bool operator>=(Enclosure a, Enclosure b) { return b <= a; }
   friend Enclosure select(bool m, Enclosure a, Enclosure b) { return m ? a : b; }
-  friend Enclosure hull(Enclosure a, Enclosure b) { return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? b.hi : a.hi}; }
+  friend Enclosure hull(Enclosure a, Enclosure b) {
+    a = a.unrounded();
+    b = b.unrounded();
+    return {a.lo < b.lo ? a.lo : b.lo, a.hi < b.hi ? b.hi : a.hi};
+  }
   friend Enclosure min(Enclosure a, Enclosure b) {
     if (a.is_vacuous() || b.is_vacuous()) return vacuous();
     return {b.lo < a.lo ? b.lo : a.lo, b.hi < a.hi ? b.hi : a.hi};
@@ -81,6 +99,7 @@ class Enclosure {
     if (a.is_vacuous()) return a;
     if (a.lo >= 0) return a;
     if (a.hi <= 0) return -a;
+    a = a.unrounded();
     return {0.0f, -a.lo < a.hi ? a.hi : -a.lo};
   }
   friend Enclosure square(Enclosure a);
@@ -90,7 +109,7 @@ class Enclosure {
 
   /// Where the integer is open: one candidate of up to Replay::max_runs, else the interval of all of them.
   friend Enclosure floor(Enclosure a);
-  /// a - floor(a) in [0, 1], of the candidate that floor takes; [0, 1] where there are too many.
+  /// a - floor(a) in [0, 1] but for a fused product, of the candidate that floor takes; [0, 1] where there are too many.
   friend Enclosure fract(Enclosure a);
   /// Gives the invocation up where a is not one integer.
   friend Int to_int(Enclosure a) {
@@ -130,6 +149,7 @@ class Enclosure {
   }
 
  private:
+  friend Enclosure contracted_sum(Enclosure a, Enclosure b);
   static Enclosure load_unorm(float x);
 };
 

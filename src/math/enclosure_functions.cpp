@@ -156,7 +156,10 @@ Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
   // The cubic grows with t; its three roundings are relative to it.
   const auto cubic = [](double s) { return s * s * (3 - 2 * s); };
   const double unit = profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
-  return not_negative(widened(cubic(t.lo), cubic(t.hi), {.relative = 3.001 * unit, .absolute = 0x1p-147}, 0));
+  const Enclosure grown = not_negative(widened(cubic(t.lo), cubic(t.hi), {.relative = 3.001 * unit, .absolute = 0x1p-147}, 0));
+  // As written it is tighter where t is nearly a point and the roundings are few.
+  const Enclosure written = (t * t * (Enclosure(3.0f) - Enclosure(2.0f) * t)).unrounded();
+  return {std::max(grown.lo, written.lo), std::min(grown.hi, written.hi)};
 }
 
 Enclosure nearest_octave(Enclosure x) {

@@ -127,7 +127,7 @@ EffectInfo make() {
   };
   const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
   const std::string around =
-      "latitude/longitude, width not height / 6: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + asin(y) / pi, row 0 looks straight down; "
+      "latitude/longitude, width not height / 6: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down; "
       "cube, height = 6 width: faces +x -x +y -y +z -z below each other, each from its first row as graphics APIs orient it";
   info.buffers = {
       {"craters", "records", "The size classes of drops, smallest first: amplitude and radius; x and y are 0.", "1", one, "none", "none", "none", "", "Drop", correct},

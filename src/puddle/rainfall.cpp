@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 #include "rain/rain.h"
+#include "rainref/error.h"
 #include "random/counter.h"
 
 namespace rainref::puddle {
@@ -12,7 +15,26 @@ namespace {
 constexpr double gravity = 9.80665;       // m/s^2, CGPM 1901
 constexpr double energy_share = 0.01;     // of the impact that goes into the wave; the rest splashes and stirs
 constexpr double crater_per_diameter = 7; // crater radius over drop diameter
+constexpr std::int32_t reflecting = 0, periodic = 1, fixed = 2;  // RainfallUniforms::boundary
 constexpr double least_radius = 3;        // texels; a smaller crater would not be resolved, so its energy is spread
+
+/// A drop with its images beyond the edges, as Rainfall::drops says.
+void add_with_images(const Drop& drop, const RainfallUniforms& u, std::vector<Drop>& out) {
+  out.push_back(drop);
+  if (u.boundary == fixed) return;
+  // The place, and its image beyond the lower and the upper edge of a side; exact, because places have few bits.
+  const auto images = [&](float at, std::uint32_t size) {
+    const auto side = static_cast<float>(size);
+    return u.boundary == periodic ? std::array{at, at - side, at + side} : std::array{at, -at, 2 * side - at};
+  };
+  const auto reaches = [&](float at, std::uint32_t size) { return at + drop.radius > 0 && at - drop.radius < static_cast<float>(size); };
+  const auto xs = images(drop.x, u.columns), ys = images(drop.y, u.rows);
+  for (std::size_t j = 0; j < ys.size(); ++j) {
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      if ((i > 0 || j > 0) && reaches(xs[i], u.columns) && reaches(ys[j], u.rows)) out.push_back({xs[i], ys[j], drop.amplitude, drop.radius});
+    }
+  }
+}
 
 }  // namespace
 
@@ -34,50 +56,43 @@ Rainfall::Rainfall(const Settings& s, double stored_per_metre)
   }
 }
 
-std::vector<Drop> Rainfall::drops(std::int64_t step) const {
+std::vector<Drop> drops_of(const RainfallUniforms& u, std::span<const Drop> craters, std::span<const std::uint32_t> thresholds) {
   std::vector<Drop> out;
-  if (craters_.empty()) return out;
-  // Steps beyond 2^32 start over: at 240 steps a second after 207 days.
-  const auto k = static_cast<std::uint32_t>(step);
-  const int count = count_.count(random::block(seed_, random::Purpose::puddle_drop_count, k, 0)[0]);
+  if (craters.empty()) return out;
+  constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
+  if (craters.size() != Rainfall::sizes || u.threshold_count < 0 || static_cast<std::size_t>(u.threshold_count) > thresholds.size() || u.first_count < 0 || u.first_count > most ||
+      u.threshold_count > most) {
+    throw Error(ExitCode::port_files, fmt::format("raindrops: expected {} craters and at most {} thresholds, found {} craters, {} thresholds, first_count {}, threshold_count {}",
+                                                  int{Rainfall::sizes}, most, craters.size(), thresholds.size(), u.first_count, u.threshold_count));
+  }
+  const std::uint64_t seed = u.seed[0] | static_cast<std::uint64_t>(u.seed[1]) << 32;
+  const auto used = thresholds.first(static_cast<std::size_t>(u.threshold_count));
+  const std::uint32_t word = random::block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0];
+  const auto count = u.first_count + static_cast<int>(std::upper_bound(used.begin(), used.end(), word) - used.begin());
   for (int i = 0; i < count; ++i) {
-    const random::Block r = random::block(seed_, random::Purpose::puddle_drop, k, static_cast<std::uint32_t>(i));
-    Drop drop = craters_[r[2] >> 22];
-    drop.x = static_cast<float>(((r[0] >> 16) * width_) >> 8) * 0x1p-8f;
-    drop.y = static_cast<float>(((r[1] >> 16) * height_) >> 8) * 0x1p-8f;
-    add_with_images(drop, out);
+    const random::Block r = random::block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
+    Drop drop = craters[r[2] >> 22];
+    drop.x = static_cast<float>(((r[0] >> 16) * u.columns) >> 8) * 0x1p-8f;
+    drop.y = static_cast<float>(((r[1] >> 16) * u.rows) >> 8) * 0x1p-8f;
+    add_with_images(drop, u, out);
   }
   return out;
 }
+
+std::vector<Drop> Rainfall::drops(std::int64_t step) const { return drops_of(uniforms(step), craters_, count_.thresholds()); }
 
 RainfallUniforms Rainfall::uniforms(std::int64_t step) const {
   RainfallUniforms u{};
   u.seed[0] = static_cast<std::uint32_t>(seed_);
   u.seed[1] = static_cast<std::uint32_t>(seed_ >> 32);
+  // Steps beyond 2^32 start over: at 240 steps a second after 207 days.
   u.step = static_cast<std::uint32_t>(step);
   u.first_count = count_.first();
   u.columns = width_;
   u.rows = height_;
-  u.boundary = boundary_ == Boundary::reflecting ? 0 : boundary_ == Boundary::periodic ? 1 : 2;
+  u.boundary = boundary_ == Boundary::reflecting ? reflecting : boundary_ == Boundary::periodic ? periodic : fixed;
   u.threshold_count = static_cast<std::int32_t>(count_.thresholds().size());
   return u;
-}
-
-void Rainfall::add_with_images(const Drop& drop, std::vector<Drop>& out) const {
-  out.push_back(drop);
-  if (boundary_ == Boundary::fixed) return;
-  // The place, and its image beyond the lower and the upper edge of a side; exact, because places have few bits.
-  const auto images = [&](float at, std::uint32_t size) {
-    const auto side = static_cast<float>(size);
-    return boundary_ == Boundary::periodic ? std::array{at, at - side, at + side} : std::array{at, -at, 2 * side - at};
-  };
-  const auto reaches = [&](float at, std::uint32_t size) { return at + drop.radius > 0 && at - drop.radius < static_cast<float>(size); };
-  const auto xs = images(drop.x, width_), ys = images(drop.y, height_);
-  for (std::size_t j = 0; j < ys.size(); ++j) {
-    for (std::size_t i = 0; i < xs.size(); ++i) {
-      if ((i > 0 || j > 0) && reaches(xs[i], width_) && reaches(ys[j], height_)) out.push_back({xs[i], ys[j], drop.amplitude, drop.radius});
-    }
-  }
 }
 
 }  // namespace rainref::puddle

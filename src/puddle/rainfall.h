@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "puddle/uniforms.h"
@@ -9,6 +10,10 @@
 #include "rainref/puddle.h"
 
 namespace rainref::puddle {
+
+/// The drops of a step, from what the GPU takes: the count by thresholds, ascending, place and size from a hash of (seed,
+/// step, i). Throws Error(port_files) when the uniforms name more thresholds, size classes or drops than there can be.
+std::vector<Drop> drops_of(const RainfallUniforms& uniforms, std::span<const Drop> craters, std::span<const std::uint32_t> thresholds);
 
 /// Drops of step k are a function of (seed, k): the count by a Poisson table, place and size from a hash of (seed, k, i).
 class Rainfall {
@@ -36,7 +41,6 @@ class Rainfall {
   std::uint64_t seed_;
   std::uint32_t width_, height_;
   Boundary boundary_;
-  void add_with_images(const Drop& drop, std::vector<Drop>& out) const;
   double mean_ = 0;
   random::PoissonTable count_;
   std::vector<Drop> craters_;

@@ -1,10 +1,14 @@
 #include "puddle/readings.h"
 
 #include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
 
 #include "capture/bound_texture.h"
 #include "puddle/every_reading.h"
 #include "puddle/kernels.h"
+#include "puddle/rainfall.h"
 #include "rainref/error.h"
 
 namespace rainref::puddle {
@@ -151,6 +155,11 @@ std::unique_ptr<PassModel> bind_shade(const PassCase& c) {
   m.normal = texture("normal");
   m.environment = texture("environment");
   m.ground = texture("ground");
+  const Texture around = m.environment.view();
+  if (m.uniforms.environment_is_cube != 0 && around.height[0] != 6 * around.width[0]) {
+    throw Error(ExitCode::port_files, fmt::format("{}: uniform environment_is_cube is {}, but in.environment is {}x{}: six faces below each other were expected", c.folder(),
+                                                  m.uniforms.environment_is_cube, around.width[0], around.height[0]));
+  }
   if (m.corrected) {
     m.relief = texture("relief");
     m.bed = texture("bed");
@@ -190,11 +199,24 @@ std::unique_ptr<PassModel> bind_display(const PassCase& c) {
   return capture::model_of(std::move(m));
 }
 
+// ---- raindrops, corrected --------------------------------------------------------------------------------------------
+std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
+  std::vector<std::uint32_t> thresholds;
+  for (const CountThreshold& t : capture::records_of<CountThreshold>(capture::record_input(c, "count_thresholds"))) thresholds.push_back(t.threshold);
+  const std::vector<Drop> craters = capture::records_of<Drop>(capture::record_input(c, "craters"));
+  const std::vector<Drop> drops = drops_of(capture::uniforms_of<RainfallUniforms>(c), craters, thresholds);
+  capture::Array out = c.outputs.front().array;
+  out.width = static_cast<int>(drops.size());
+  const auto bytes = std::as_bytes(std::span(drops));
+  out.levels = {{bytes.begin(), bytes.end()}};
+  return {out};
+}
+
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all{
-      {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit}, {"shade", bind_shade}, {"display", bind_display}};
+      {"raindrops", nullptr, recompute_raindrops}, {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit}, {"shade", bind_shade}, {"display", bind_display}};
   return all;
 }
 

@@ -7,8 +7,8 @@
 
 namespace rainref::puddle {
 
-/// wave_step, surface_hit, shade and display, of both variants. raindrops and ground_noise are compared by bits or taken
-/// as data.
+/// wave_step, surface_hit, shade and display, of both variants, and raindrops, corrected, which is compared by bits.
+/// raindrops as published and ground_noise are taken as data.
 const std::vector<capture::PassReadings>& readings();
 
 /// surface_hit is judged by the gap between its hit and the water: see surface_hit_model.cpp.

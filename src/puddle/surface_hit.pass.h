@@ -1,10 +1,13 @@
 // Pass surface_hit: where the view ray of a pixel meets the water, and the normal there.
 
+/// From the eye to the pixel's centre on the image plane.
 template <class N>
-RAINREF_FN Vec3<N> camera_ray(const CameraUniforms& c, N px, N py) {
+RAINREF_FN Vec3<N> to_image_plane(const CameraUniforms& c, N px, N py) {
   const N sx = N(c.plane_left) + (px + N(0.5f)) * N(c.pixel_scale), sy = N(c.plane_bottom) + (py + N(0.5f)) * N(c.pixel_scale);
-  return normalize(Vec3<N>(c.forward) + sx * Vec3<N>(c.right) + sy * Vec3<N>(c.up));
+  return Vec3<N>(c.forward) + sx * Vec3<N>(c.right) + sy * Vec3<N>(c.up);
 }
+template <class N>
+RAINREF_FN Vec3<N> camera_ray(const CameraUniforms& c, N px, N py) { return normalize(to_image_plane(c, px, py)); }
 
 template <class N>
 struct SurfaceHit {

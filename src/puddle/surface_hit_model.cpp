@@ -3,9 +3,11 @@
 //
 // as-published: t' = t + f(t) along the ray, f the distance to the box. An error e of t becomes |1 + f'| e: the two ends
 // of the interval of t are marched, and drawn apart by what f' may be below -1. Each round in which f may be under epsilon
-// is a possible end; which of them is the port's, its own count of rounds says.
+// is a possible end; which of them is the port's, its own count of rounds says. A ray that has passed the box for good
+// misses, however uncertain its t has become.
 // corrected: the march stops at the first place that it visits where the gap is under epsilon, and passes no crossing. The
-// stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step.
+// stretches of the ray where that may be are the alternatives; within one the pass's own text makes the last step. Where
+// the ray meets the plane, intervals of t and d lose that their errors cancel: that place has an enclosure of its own.
 // March steps of corrected are free: they depend on every decision on the way.
 #include <algorithm>
 #include <cmath>
@@ -27,6 +29,7 @@ struct SurfaceHitPass {
   SurfaceHitUniforms uniforms;
   bool corrected;
   BoundTexture wave, bounds;
+  float lowest;  ///< texel of the wave
 
   template <class N>
   void operator()(int x, int y, N* out) const {
@@ -69,8 +72,9 @@ Enclosure along(const Vector& origin, const Vector& d, const float* port) {
 // ---- as published --------------------------------------------------------------------------------------------------
 class PublishedMarch {
  public:
-  PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, int px, int py)
-      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))) {}
+  PublishedMarch(const SurfaceHitUniforms& u, const Texture& wave, float lowest, int px, int py)
+      : u_(u), wave_(wave), origin_(u.camera.position), d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
+        lowest_(lowest - 1e-5 * std::max(1.0f, -lowest)) {}
 
   /// The ends that the march may have; empty: more than a port can be held to.
   struct End {
@@ -84,6 +88,10 @@ class PublishedMarch {
     double low = 0, high = 0;
     for (int round = 0; round < limit; ++round) {
       const double off = off_ray(round, high);
+      if (passed_for_good(low, off)) {
+        found.push_back({Enclosure(), limit - 1, false});
+        return found;
+      }
       const Enclosure f_low = distance(low, low, off), f_high = low == high ? f_low : distance(high, high, off);
       const Enclosure f = low == high ? f_low : distance(low, high, off);
       if (f.is_vacuous()) return {};
@@ -143,6 +151,17 @@ class PublishedMarch {
   }
   Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
 
+  /// Whether f stays at epsilon or more from t = low on: beside a face of the box and moving away from it.
+  bool passed_for_good(double low, double off) const {
+    const Vector p = point(low, low, off);
+    const auto beside = [&](Enclosure c, Enclosure d, int k) {
+      const double gap = d.lo >= 0 ? static_cast<double>(c.lo) - u_.half_size[k] : d.hi <= 0 ? -static_cast<double>(c.hi) - u_.half_size[k] : 0;
+      return gap > 2 * u_.epsilon;
+    };
+    const bool above = d_.y.lo >= 0 && p.y.lo + lowest_ - u_.half_size[1] > 2 * u_.epsilon;
+    return above || beside(p.x, d_.x, 0) || beside(p.z, d_.z, 2);
+  }
+
   /// A lower bound of f' on [low, high]. Over the box f is the gap to the displaced top, |y + h(x, z)| - b_y; beside it a
   /// length of three parts, whose slope is bounded by theirs together.
   double steepest_fall(double low, double high, double off) const {
@@ -155,8 +174,7 @@ class PublishedMarch {
     const Range x = times(sx, d_.x), z = times(sz, d_.z);
     const double rise_low = d_.y.lo + x.low + z.low, rise_high = d_.y.hi + x.high + z.high;
     const bool over_box = abs(p.x).hi <= u_.half_size[0] && abs(p.z).hi <= u_.half_size[2];
-    // The wave is stored in [0, 1], so that a point above y = 0 has y + h > 0.
-    if (over_box && p.y.lo > 0) return std::min(rise_low, 0.0);
+    if (over_box && p.y.lo + lowest_ > 0) return std::min(rise_low, 0.0);
     const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(), dz = d_.z.magnitude();
     return -std::sqrt(dx * dx + vertical * vertical + dz * dz);
   }
@@ -196,6 +214,7 @@ class PublishedMarch {
   const SurfaceHitUniforms& u_;
   const Texture& wave_;
   Vector origin_, d_;
+  double lowest_;  ///< no filtered height is below this
 };
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
@@ -222,14 +241,43 @@ class CorrectedDescent {
         return every::SurfaceHit<Enclosure>();
       }
       const Landing& chosen = landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
+      if (!chosen.leaves) return hit_near(ray, over, port, chosen);
       state.t = chosen.t;
       state.above = min(chosen.above, stopping());
-      if (!chosen.leaves) narrow(ray, over, port, state);
     }
-    return every::landed(u_, wave_, ray, over, state);
+    every::SurfaceHit<Enclosure> out = every::landed(u_, wave_, ray, over, state);
+    out.position = common_part(out.position, plane_point(px, py, ray));
+    return out;
   }
 
  private:
+  /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a division
+  /// and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two components.
+  Vector plane_point(int px, int py, const every::Descent<Enclosure>& ray) const {
+    const enclosed::Profile& p = enclosed::profile();
+    const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
+    const double division = std::max(unit, p.division.ulp * 0x1p-23 + p.division.relative), many = 1 + 1e-6;
+    const double of_t = (division + 2 * unit) * many, of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
+    const Vector v = every::to_image_plane(u_.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)));
+    const double height = ray.origin.y.lo;
+    // o + height * ratio (1 + e), |e| <= error.
+    const auto coordinate = [&](Enclosure o, double low, double high, double error) {
+      const double a = height * low, b = height * high, slack = 0x1p-48 * (std::abs(a) + std::abs(b) + o.magnitude()) + 0x1p-120;
+      const double from = o.lo + (a - error * std::abs(a) - slack), to = o.hi + (b + error * std::abs(b) + slack);
+      return p.basic == enclosed::BasicRounding::nearest ? Enclosure(static_cast<float>(from), static_cast<float>(to)) : around(from, to);
+    };
+    const auto sideways = [&](Enclosure o, Enclosure side) {
+      const double q[4] = {-side.lo / static_cast<double>(v.y.lo), -side.lo / static_cast<double>(v.y.hi), -side.hi / static_cast<double>(v.y.lo), -side.hi / static_cast<double>(v.y.hi)};
+      return coordinate(o, *std::min_element(q, q + 4), *std::max_element(q, q + 4), of_ratio);
+    };
+    if (!(v.y.hi < 0) || !(height >= 0)) return Vector(Enclosure::vacuous(), Enclosure::vacuous(), Enclosure::vacuous());
+    return Vector(sideways(ray.origin.x, v.x), coordinate(ray.origin.y, -1, -1, of_t), sideways(ray.origin.z, v.z));
+  }
+  static Vector common_part(const Vector& a, const Vector& b) {
+    const auto of = [](Enclosure x, Enclosure y) { return Enclosure(std::max(x.lo, y.lo), std::min(x.hi, y.hi)); };
+    return Vector(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z));
+  }
+
   /// A stretch of the ray where the march may stop.
   struct Landing {
     Enclosure t, above;
@@ -265,7 +313,7 @@ class CorrectedDescent {
       if (gap.lo < u_.epsilon) {
         // Once under the water for sure, no march gets further, but by the steps whose proof allows for rounding.
         const Enclosure after = every::gap_above(u_, wave_, ray, Enclosure(piece.hi));
-        crossed = after.hi < -0.5 * u_.epsilon;
+        crossed = after.hi < -std::min(0.5 * u_.epsilon, 4 * width_of(after) + 1e-5 * u_.surface_top);
         if (!found.empty() && found.back().t.hi >= piece.lo) {
           found.back().t = hull(found.back().t, piece);
           found.back().above = hull(found.back().above, gap);
@@ -296,37 +344,49 @@ class CorrectedDescent {
     l.t = around(low, high);
     l.above = above;
   }
-  /// The part of the stretch from which the last step may have led to the port's position.
-  void narrow(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port, every::DescentState<Enclosure>& state) const {
-    const Enclosure own = along(ray.origin, ray.d, port);
-    if (own.is_vacuous()) return;
-    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(state.above.hi, u_.epsilon));
-    const double low = std::max<double>(state.t.lo, own.lo - longest), high = std::min<double>(state.t.hi, own.hi);
-    if (low > high) return;
-    state.t = around(low, high);
-    // Piece by piece: those whose last step may end where the port's did.
-    constexpr int pieces = 16;
-    const double step = width_of(state.t) / pieces;
-    double first = high, last = low;
-    Enclosure above = Enclosure::vacuous();
-    for (int k = 0; k < pieces; ++k) {
-      const Enclosure t = around(low + k * step, low + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
-      if (gap.lo >= u_.epsilon) continue;
-      const every::DescentState<Enclosure> part{t, min(gap, stopping()), state.step, state.iterations};
-      bool reaches = false;
-      enclosed::Replay replay;
-      const bool settled = replay.for_each_alternative([&] {
-        const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
-        reaches |= end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]);
-      });
-      if (!reaches && settled) continue;
-      first = std::min(first, static_cast<double>(t.lo));
-      last = std::max(last, static_cast<double>(t.hi));
-      above = above.is_vacuous() ? part.above : hull(above, part.above);
+  /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did, each by
+  /// itself, because t and the gap depend on each other. All of the stretch where no piece does.
+  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port, const Landing& stretch) const {
+    const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
+    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
+    double low = stretch.t.lo, high = stretch.t.hi;
+    if (!own.is_vacuous()) {
+      low = std::max<double>(low, own.lo - longest);
+      high = std::min<double>(high, own.hi);
     }
-    if (first > last) return;
-    state.t = around(first, last);
-    state.above = above;
+    every::SurfaceHit<Enclosure> out;
+    bool found = false;
+    for (const int pieces : {16, 48}) {
+      if (low > high) break;
+      const double step = (high - low) / pieces, begin = low;
+      double first = high, last = low;
+      found = false;
+      for (int k = 0; k < pieces; ++k) {
+        const Enclosure t = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
+        if (gap.lo >= u_.epsilon) continue;
+        const every::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
+        enclosed::Replay replay;
+        const bool settled = replay.for_each_alternative([&] {
+          const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
+          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
+          out = found ? hull_of(out, end) : end;
+          found = true;
+          first = std::min(first, static_cast<double>(t.lo));
+          last = std::max(last, static_cast<double>(t.hi));
+        });
+        if (!settled) return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+      }
+      if (!found) break;
+      low = first;
+      high = last;
+    }
+    return found ? out : every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+  }
+  static every::SurfaceHit<Enclosure> hull_of(every::SurfaceHit<Enclosure> a, const every::SurfaceHit<Enclosure>& b) {
+    const auto add = [](Vector& to, const Vector& v) { to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z)); };
+    add(a.position, b.position);
+    add(a.normal, b.normal);
+    return a;
   }
 
   /// The largest gap at which a march stops.
@@ -348,7 +408,7 @@ class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
     if (enclosed::profile().reference) return p(x, y, out);
     const Texture wave = p.wave.view();
     if (p.corrected) return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
-    const PublishedMarch march(p.uniforms, wave, x, y);
+    const PublishedMarch march(p.uniforms, wave, p.lowest, x, y);
     const std::vector<PublishedMarch::End> ends = march.ends();
     if (ends.empty()) return enclosed::give_up();
     SurfaceHitPass::write(march.at(PublishedMarch::nearest(ends, port), port), out);
@@ -365,6 +425,8 @@ std::unique_ptr<capture::PassModel> bind_surface_hit(const PassCase& c) {
   p.uniforms = capture::uniforms_of<SurfaceHitUniforms>(c);
   p.corrected = c.corrected();
   p.wave = BoundTexture(capture::image_input(c, "wave"), p.corrected ? 0 : 1, 1);
+  const Texture wave = p.wave.view();
+  p.lowest = *std::min_element(wave.texels, wave.texels + static_cast<std::ptrdiff_t>(wave.width[0]) * wave.height[0]);
   if (p.corrected) p.bounds = BoundTexture(capture::image_input(c, "bounds"));
   return std::make_unique<SurfaceHitModel>(std::move(p));
 }

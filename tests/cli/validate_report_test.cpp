@@ -92,7 +92,7 @@ TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
     options.insert(options.begin(), {"validate", "pack", "--port", "bad"});
     expect_refusal(options, code, message);
   };
-  refused({"--baseline", "typo.toml"}, 2, HasSubstr("typo.toml:2:1: expected a pass of the pack (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?"));
+  refused({"--baseline", "typo.toml"}, 2, HasSubstr("typo.toml:2:1: expected a pass (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?"));
   refused({"--baseline", "silent.toml"}, 2, HasSubstr("expected a reason, found none"));
   refused({"--baseline", "none.toml"}, 4, HasSubstr("none.toml"));
   refused({"--baseline", ""}, 2, HasSubstr("--baseline: expected a file, found ''"));

@@ -91,7 +91,7 @@ inline PortJudgement example_judgement() {
   shade.half_mode_voted = true;
   shade.half_mode = HalfMode::rtz;
   shade.half_votes = {8, 2, 2};
-  shade.causes.push_back({"upside down", "the buffer is stored from the bottom up", 2, 2, 0});
+  shade.causes.push_back({"upside down", "the buffer is stored from the bottom up", 2, 2, 1});
   j.notes.push_back("port/x.exr: one note");
   return j;
 }

@@ -41,11 +41,13 @@ TEST(ReportBaseline, WhatItRefuses) {
 
 TEST(ReportBaseline, NamesMustBeThePacks) {
   const capture::Pack pack(small_pack("puddle-corrected"));
-  const auto check = [&](const std::string& toml) { Baseline::parse(toml, "b.toml").check(pack); };
+  std::vector<std::string> ids;
+  for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
+  const auto check = [&](const std::string& toml) { Baseline::parse(toml, "b.toml").check(pack.passes, ids); };
   EXPECT_NO_THROW(check("[shade.colour]\nreason = 'x'\n[surface_hit.hit.\"puddle.surface_hit/0012.0\"]\nreason = 'y'\n"));
   EXPECT_EQ(refusal([&] { check("\n[shad.colour]\nreason = 'x'\n"); }),
-            "b.toml:3:1: expected a pass of the pack (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?");
-  EXPECT_EQ(refusal([&] { check("[surface_hit.hid]\nreason = 'x'\n"); }), "b.toml:2:1: expected an output of surface_hit of the pack (hit, normal), found 'hid'; did you mean 'hit'?");
+            "b.toml:3:1: expected a pass (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?");
+  EXPECT_EQ(refusal([&] { check("[surface_hit.hid]\nreason = 'x'\n"); }), "b.toml:2:1: expected an output of surface_hit (hit, normal), found 'hid'; did you mean 'hit'?");
   EXPECT_THAT(refusal([&] { check("[shade.colour.\"puddle.shade/0010.0\"]\nreason = 'x'\n"); }), HasSubstr("found 'puddle.shade/0010.0'; did you mean 'puddle.shade/0011.0'?"));
 }
 
@@ -105,6 +107,25 @@ TEST(ReportBaseline, WhatNoLongerFailsIsAnError) {
   j = example_judgement();
   Baseline::parse("[shade.colour.\"rain.shade/0001.0\"]\nreason = 'x'\n", "b.toml").apply(j);
   EXPECT_THAT(j.stale, ElementsAre(HasSubstr("[shade.colour.\"rain.shade/0001.0\"] no longer fails")));
+}
+
+TEST(ReportBaseline, WhatIsBrokenIsNotKnown) {
+  PortJudgement j = example_judgement();
+  CaseJudgement& c = j.passes[3].cases[0];
+  c.broken = true;
+  c.reason = "race";
+  Baseline::parse("[shade.colour]\nreason = 'x'\n", "b.toml").apply(j);
+  EXPECT_EQ(c.status, Status::fail);
+  EXPECT_EQ(j.status, Status::fail);
+  // No output fails, so there is nothing that an entry could be about.
+  j = example_judgement();
+  OutputJudgement& o = j.passes[3].cases[0].outputs[0];
+  o.failing = 0;
+  o.worst.clear();
+  j.passes[3].cases[0].failing = 0;
+  j.passes[3].cases[0].broken = true;
+  Baseline::parse("", "b.toml").apply(j);
+  EXPECT_EQ(j.passes[3].status, Status::fail);
 }
 
 TEST(ReportBaseline, APassThatWasNotJudgedIsNotStale) {

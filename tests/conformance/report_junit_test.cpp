@@ -63,7 +63,7 @@ TEST_F(ReportJunit, ASuiteForEachPassACaseForEachOutput) {
   EXPECT_EQ(asked(j, false, "string(//testsuite[4]/testcase[1]/failure/@message)"), "6 of 32 elements outside");
   const std::string text = asked(j, false, "string(//testsuite[4]/testcase[1]/failure)");
   EXPECT_THAT(text, HasSubstr("(0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  expected 1 (0x3c00)  off by 3 codes\n"));
-  EXPECT_THAT(text, HasSubstr("likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit)"));
+  EXPECT_THAT(text, HasSubstr("likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes near 1)"));
   EXPECT_EQ(asked(j, false, "count(//testsuite[4]/testcase[2]/*)"), "0");
   EXPECT_THAT(asked(j, false, "string(//testsuite[2]/testcase[1]/system-out)"), HasSubstr("WARN: 2 elements"));
   EXPECT_EQ(asked(j, false, "string(//testsuite[1]/properties/property[@name=\"device\"]/@value)"), "Test & <Device>");
@@ -98,6 +98,19 @@ TEST_F(ReportJunit, KnownFailuresAreSkippedAndStaleOnesFail) {
   j.status = Status::fail;
   EXPECT_EQ(bad(j, false), 1);
   EXPECT_EQ(asked(j, false, "string(//testsuite[@name=\"baseline\"]/testcase/@name)"), j.stale[0]);
+}
+
+TEST_F(ReportJunit, WhatIsBrokenFailsByItself) {
+  PortJudgement j = example_judgement();
+  j.passes = {j.passes[0]};
+  CaseJudgement& c = j.passes[0].cases[0];
+  j.status = j.passes[0].status = c.status = Status::fail;
+  c.broken = true;
+  c.reason = "uniform x is not a number";
+  EXPECT_EQ(bad(j, false), 1);
+  EXPECT_EQ(asked(j, false, "string(//failure/@message)"), c.reason);
+  c.outputs.clear();
+  EXPECT_EQ(bad(j, false), 1);
 }
 
 TEST_F(ReportJunit, NothingJudgedIsAnError) {

@@ -37,7 +37,7 @@ class ReportPage : public testing::Test {
     options.executor = &executor;
     PortJudgement j = validate(pack, port, options);
     j.command = "rainref validate pack --port port";
-    return report_html(j, page_source(pack, port));
+    return report_html(j, page_source(std::make_shared<const capture::Pack>(pack.folder()), port));
   }
   static std::size_t count(const std::string& text, const std::string& what) {
     std::size_t n = 0;

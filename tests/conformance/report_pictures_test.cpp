@@ -31,6 +31,14 @@ void set(Array& a, int x, int y, int channel, T value) {
   std::memcpy(a.levels[0].data() + static_cast<std::size_t>((y * a.width + x) * f.texel_bytes() + channel * f.channel_bytes), &value, sizeof value);
 }
 
+capture::CaseOutput output_of(Array array, const std::string& unit, const std::string& color_space) {
+  capture::CaseOutput o;
+  o.array = std::move(array);
+  o.unit = unit;
+  o.color_space = color_space;
+  return o;
+}
+
 /// A PNG's colours, read back.
 class Decoded {
  public:
@@ -59,7 +67,7 @@ TEST(ReportPictures, CodesAreShownAsStoredWithRowZeroAtTheBottom) {
   set(expected, 1, 0, 2, std::uint8_t{7});
   Array port = expected;
   set(port, 0, 2, 1, std::uint8_t{1});
-  const std::vector<View> views = views_of(o, {"1", "sRGB"}, expected, port);
+  const std::vector<View> views = views_of(o, output_of(expected, "1", "sRGB"), port);
   ASSERT_EQ(views.size(), 1u);
   EXPECT_EQ(views[0].label, "colour");
   EXPECT_EQ(views[0].scale, "codes as stored");
@@ -86,7 +94,7 @@ TEST(ReportPictures, TheDifferenceHasSignAndScale) {
   set(port, 1, 0, 0, bits + 1);
   set(port, 2, 0, 0, bits - 900);
   set(port, 3, 0, 0, 0x7fc00000u);
-  const std::vector<View> views = views_of(o, {"m", "none"}, expected, port);
+  const std::vector<View> views = views_of(o, output_of(expected, "m", "none"), port);
   ASSERT_EQ(views.size(), 1u);
   EXPECT_EQ(views[0].largest, 900u);
   EXPECT_TRUE(views[0].has_nan);
@@ -111,14 +119,14 @@ TEST(ReportPictures, RadianceIsExposedByStops) {
     for (int c = 0; c < 4; ++c) set(expected, x, 0, c, to_half(c == 3 ? 1.0f : 8.0f));
   Array port = expected;
   set(port, 0, 0, 0, to_half(2.0f));
-  const std::vector<View> views = views_of(o, {"1", "linear Rec. 709"}, expected, port);
+  const std::vector<View> views = views_of(o, output_of(expected, "1", "linear Rec. 709"), port);
   ASSERT_EQ(views.size(), 1u);  // alpha is 1 everywhere
   EXPECT_EQ(views[0].scale, "exposure -3 stops, sRGB-encoded");
   EXPECT_EQ(Decoded(views[0].reference).at(0, 0), "#ffffff");
   // sRGB(1/4) = 1.055 * 0.25^(1/2.4) - 0.055 = 0.53710, of 255: 136.96.
   EXPECT_EQ(Decoded(views[0].port).at(0, 0), "#89ffff");
   set(port, 1, 0, 3, to_half(0.5f));
-  EXPECT_EQ(views_of(o, {"1", "linear Rec. 709"}, expected, port).size(), 2u);
+  EXPECT_EQ(views_of(o, output_of(expected, "1", "linear Rec. 709"), port).size(), 2u);
 }
 
 TEST(ReportPictures, DataHaveAViewForEachChannelWithItsScale) {
@@ -128,7 +136,7 @@ TEST(ReportPictures, DataHaveAViewForEachChannelWithItsScale) {
     set(expected, x, 0, 0, to_half(static_cast<float>(x - 50)));
     set(expected, x, 0, 1, to_half(3.0f));
   }
-  const std::vector<View> views = views_of(o, {"m, s", "none"}, expected, expected);
+  const std::vector<View> views = views_of(o, output_of(expected, "m, s", "none"), expected);
   ASSERT_EQ(views.size(), 2u);
   EXPECT_EQ(views[0].label, "x");
   EXPECT_EQ(views[0].scale, "black -49, white 49 m");
@@ -152,7 +160,7 @@ TEST(ReportPictures, LargeOutputsAreThinnedButNoFailureIsLost) {
   f.x = 1001;
   f.y = 202;
   o.worst.push_back(f);
-  const std::vector<View> views = views_of(o, {"1", "none"}, expected, port);
+  const std::vector<View> views = views_of(o, output_of(expected, "1", "none"), port);
   ASSERT_EQ(views.size(), 2u);
   EXPECT_EQ(views[0].thinned, 3);
   const Decoded whole(views[0].verdict), difference(views[0].difference);

@@ -69,12 +69,12 @@ TEST(ReportText, OneAlignedLineForEachPass) {
 
 TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
   const std::string text = report_text(example_judgement());
-  EXPECT_THAT(text, HasSubstr("\nFAIL shade is outside the as-written envelope of rain.shade/1 under profile vulkan; first bad pass in the order of dataflow\n"
+  EXPECT_THAT(text, HasSubstr("\nFAIL shade is outside the as-written envelope of rain.shade/1 under profile vulkan; first bad pass, its inputs are good\n"
                               "  rain.shade/0000.0/out.colour (rgba16f 4x2): 6 of 32 elements outside (18.75 %)\n"
                               "    (2, 0).y  got nan (0x7e01)  accepted 0.125 (0x3000) to 0.125122 (0x3001)  is not a number\n"
                               "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes\n"
                               "    (4 more not shown)\n"
-                              "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit)\n"));
+                              "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes near 1)\n"));
   EXPECT_THAT(text, HasSubstr("note: port/x.exr: one note\n"));
   EXPECT_THAT(text, ContainsRegex("\nFAIL: port against pack, profile vulkan, Vulkan 1.3 Test & <Device> \\(1 FAIL, 1 UNTESTED, 1 WARN, 1 PASS\\)\n$"));
 }
@@ -85,7 +85,19 @@ TEST(ReportText, ManyFailingOutputsAreCounted) {
   for (int k = 0; k < 8; ++k) shade.cases.push_back(shade.cases[0]);
   shade.causes.clear();
   const std::string text = report_text(j);
-  EXPECT_THAT(text, HasSubstr("  (5 more failing outputs not shown)\n  cause unknown\n"));
+  EXPECT_THAT(text, HasSubstr("  (5 more failures not shown)\n  cause unknown\n"));
+}
+
+TEST(ReportText, WhatIsBrokenSaysWhy) {
+  PortJudgement j = example_judgement();
+  PassJudgement& wave = j.passes[0];
+  wave.status = wave.cases[0].status = Status::fail;
+  wave.cases[0].broken = true;
+  wave.reason = wave.cases[0].reason = "race: differs between runs 1 and 2";
+  j.first_bad_pass = "wave";
+  wave.inputs_are_good = false;
+  const std::string text = report_text(j);
+  EXPECT_THAT(text, HasSubstr("\nFAIL wave; first bad pass\n  rain.wave/0000.0: race: differs between runs 1 and 2\n\nFAIL shade is outside"));
 }
 
 TEST(ReportText, KnownFailuresKeepTheirReason) {

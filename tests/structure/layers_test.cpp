@@ -20,7 +20,7 @@ const std::map<std::string, int> floors{{"base", 0},         {"math", 1},    {"i
                                         {"compositor", 6},   {"conformance", 6}, {"port_dump", 6}, {"cli", 7}};
 // Public headers, by the floor that implements them.
 const std::map<std::string, int> public_floors{{"version", 0}, {"error", 0}, {"storage", 1}, {"image", 2}, {"texture", 2}, {"recorder", 2}, {"executor", 3}, {"puddle", 5}};
-// On floor 4 a room may include these; every other pair of rooms on one floor keeps apart.
+// A room may include these of its own floor; every other pair of rooms on one floor keeps apart.
 const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"scene"}}, {"night_street", {"scene"}}, {"conformance", {"port_dump"}}};
 
 struct Library {

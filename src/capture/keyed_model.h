@@ -1,0 +1,30 @@
+// A pass whose output is a list of records with ids, read as enclosures: what conformance judges such a list by.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/enclosure.h"
+
+namespace rainref::capture {
+
+/// What one alternative says of one id.
+struct KeyedRecord {
+  std::uint32_t id = 0;
+  bool lives = true;                       ///< false: the list has no record of this id; the fields mean nothing
+  std::vector<enclosed::Enclosure> floats;  ///< of each float of the record, in the order of declaration, padding left out
+  std::vector<std::uint32_t> words;         ///< bits of each other integer, likewise, the id left out
+};
+
+/// Groups of records that share decisions: a drop that another one captures is in the group of its captor, so that the
+/// two agree on what happened. Most groups hold one id. Evaluation is thread-safe.
+class KeyedModel {
+ public:
+  virtual ~KeyedModel() = default;
+  virtual int groups() const = 0;
+  /// Appends a record for every id that the group may give, under the profile and replay in force; the same ids in every
+  /// alternative. No id is in two groups.
+  virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;
+};
+
+}  // namespace rainref::capture

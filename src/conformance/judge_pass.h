@@ -1,0 +1,42 @@
+// Judging every run of one pass that a port made, one run in memory at a time.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "conformance/deviations.h"
+#include "conformance/judge.h"
+#include "conformance/verdict.h"
+
+namespace rainref::conformance {
+
+/// A run of a pass by a port.
+struct PortRun {
+  capture::PassCase c;                 ///< what the pass took; c.outputs: what the reference gives for it
+  std::vector<capture::Array> stored;  ///< what the port gave, in the order of c.outputs
+  std::string broken;                  ///< why the run fails whatever its outputs are; "": it does not
+  std::string untested;                ///< why it cannot be judged; "": it can
+};
+
+/// Run k of a pass, in the order of execution.
+using LoadRun = std::function<PortRun(std::size_t k)>;
+/// Called with each run before it is judged, with the pass's model, or null where no output is judged by envelope:
+/// checks c.outputs, or computes them.
+using SettleRun = std::function<void(PortRun&, const capture::PassModel*)>;
+
+struct PassRuns {
+  std::size_t count = 0;
+  LoadRun load;
+  SettleRun settle;
+  std::function<void()> done_one;  ///< after each run; may be null
+  bool diagnose = true;
+};
+
+/// `bind` may be null when no output of the pass is judged by envelope.
+PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const JudgeOptions& options);
+
+/// Whether an output is judged by envelope.
+bool is_enveloped(const capture::PassCase& c);
+
+}  // namespace rainref::conformance

@@ -1,0 +1,41 @@
+// Judging a list of records by their ids: the order of the list is free, as parallel appends leave it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capture/keyed_model.h"
+#include "capture/pass_case.h"
+#include "conformance/verdict.h"
+#include "math/profile.h"
+
+namespace rainref::conformance {
+
+/// Ids that something happened to, ascending, without repetition.
+struct KeyedEvents {
+  std::vector<std::uint32_t> missing;    ///< must live and do not: a death or capture too many, a birth too few
+  std::vector<std::uint32_t> extra;      ///< live and may not: a death, capture or merge that did not happen, a birth too many
+  std::vector<std::uint32_t> duplicate;  ///< of more than one record
+  std::vector<std::uint32_t> outside;    ///< live rightly, with a float outside its envelope or an integer of other bits
+  /// "" or "missing: 3, 17; duplicate: 4": at most eight ids of each kind.
+  std::string text() const;
+};
+
+struct KeyedJudgement {
+  OutputJudgement output;  ///< elements and failing count fields; Failure::x is the id, channel the field, id left out
+  KeyedEvents events;
+  std::int64_t groups = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
+};
+
+/// Whether a record has a key: the member `id`, one uint.
+bool has_key(const scene::UniformBlock& record);
+
+/// Judges a port's list. A group of ids passes when one alternative of the model holds all of it: who lives, their floats
+/// by envelope, their integers by bits. Ids that no group knows are extra. A group with too many alternatives is vacuous.
+/// Without a model each expected record is a group whose fields must have the expected bits.
+/// Throws Error(internal) for a record without a key or a model that does not fit it, Error(port_files) when the expected
+/// list has an id twice.
+KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const capture::Array& port, const capture::KeyedModel* model, const enclosed::Profile& profile);
+
+}  // namespace rainref::conformance

@@ -1,0 +1,174 @@
+// port_mutants: what the seeded bugs of mutants.json do to the outputs, and what the judge says of each.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "ports/runner/dispatch.h"
+
+namespace port_runner {
+namespace {
+
+constexpr const char* usage =
+    "usage: port_mutants --mutants FILE --packs DIR --spirv DIR [--device N|cpu] [--ids ID,ID...] [--rainref PROGRAM --out DIR]\n"
+    "Prints for each mutant how many elements it changes and by how many storage codes at most. With --rainref each is\n"
+    "judged, too: exit 1 when a verdict is not the expected one.\n";
+
+struct Mutant {
+  int id;
+  std::string pass, variant, wrong, expected;
+};
+/// What a mutant changes against the port as it is meant.
+struct Change {
+  std::size_t elements = 0, changed = 0;
+  std::int64_t largest = 0;  ///< storage codes; records: bits that differ count as one
+};
+
+// Codes of a format in the order of their values; both zeros are 0.
+std::int64_t ordered(const std::uint8_t* at, std::size_t bytes, bool is_float) {
+  std::uint32_t code = 0;
+  std::memcpy(&code, at, bytes);
+  const std::uint32_t sign = is_float ? 1u << (8 * bytes - 1) : 0;
+  return code & sign ? -static_cast<std::int64_t>(code & (sign - 1)) : code;
+}
+void compare(const Array& meant, const Array& mutated, Change& change) {
+  const bool is_float = meant.type[2] == 'f', is_records = meant.type[0] == '[';
+  const std::size_t bytes = is_records || meant.type[3] == '4' ? 4 : meant.type[3] == '2' ? 2 : 1;
+  const std::size_t common = std::min(meant.bytes.size(), mutated.bytes.size()), all = std::max(meant.bytes.size(), mutated.bytes.size());
+  for (std::size_t at = 0; at < all; at += bytes) {
+    ++change.elements;
+    std::int64_t distance = 1;
+    if (at < common) distance = std::abs(ordered(&meant.bytes[at], bytes, is_float) - ordered(&mutated.bytes[at], bytes, is_float));
+    if (is_records) distance = std::min<std::int64_t>(distance, 1);
+    change.changed += distance != 0;
+    change.largest = std::max(change.largest, distance);
+  }
+}
+
+std::vector<Mutant> read_mutants(const fs::path& file) {
+  std::vector<Mutant> mutants;
+  try {
+    const nlohmann::json all = nlohmann::json::parse(read_file(file));
+    for (const nlohmann::json& m : all.at("mutants")) {
+      mutants.push_back({m.at("id"), m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected")});
+    }
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(file.string() + ": " + e.what());
+  }
+  return mutants;
+}
+
+struct Port {
+  Pack pack;
+  std::map<std::string, std::vector<Array>> meant;  ///< by case: the outputs without a bug
+};
+class Judge {
+ public:
+  Judge(std::string program, fs::path out) : program_(std::move(program)), out_(std::move(out)) {}
+  bool is_asked() const { return !program_.empty(); }
+  /// The verdict on the outputs under out(): the first word of the last line, PASS, WARN, FAIL or UNTESTED; "ERROR" for
+  /// anything else, a crash included.
+  std::string ask(const fs::path& pack, const std::string& pass) const {
+    const std::string command = "'" + program_ + "' validate '" + pack.string() + "' --port '" + out_.string() + "' --only " + pass + " >'" +
+                                (out_ / "verdict.txt").string() + "' 2>&1";
+    const int status = std::system(command.c_str());
+    const std::vector<std::uint8_t> bytes = read_file(out_ / "verdict.txt");
+    std::string text(bytes.begin(), bytes.end());
+    while (text.ends_with('\n')) text.pop_back();
+    const std::size_t line = text.rfind('\n') + 1, colon = text.find(':', line);
+    const std::string word = colon == std::string::npos ? "" : text.substr(line, colon - line);
+    const bool is_good = word == "PASS" || word == "WARN", is_bad = word == "FAIL" || word == "UNTESTED";
+    return (is_good && status == 0) || (is_bad && status == 1 << 8) ? word : "ERROR";
+  }
+  const fs::path& out() const { return out_; }
+
+ private:
+  std::string program_;
+  fs::path out_;
+};
+// What the judge may say of a mutant: FAIL, or nothing against a change that a conforming device may make as well. A pass
+// that the profile cannot bound is UNTESTED whatever the port does.
+bool agrees(const std::string& verdict, const std::string& expected) {
+  if (expected == "FAIL" || expected == "UNTESTED") return verdict == expected;
+  return verdict == "PASS" || verdict == "WARN";
+}
+
+int run(const std::map<std::string, std::string>& options) {
+  const auto option = [&](const std::string& key) { return options.contains(key) ? options.at(key) : std::string(); };
+  if (option("--mutants").empty() || option("--packs").empty() || option("--spirv").empty()) throw Error(usage);
+  const std::vector<Mutant> mutants = read_mutants(option("--mutants"));
+  const auto programs = read_programs(option("--spirv"));
+  const Device device(option("--device"));
+  const Judge judge(option("--rainref"), option("--out"));
+  if (judge.is_asked() && judge.out().empty()) throw Error("--out: expected a folder, for the judge\n" + std::string(usage));
+  std::set<std::string> wanted;
+  for (std::string ids = option("--ids"); !ids.empty();) {
+    const std::size_t comma = std::min(ids.find(','), ids.size());
+    wanted.insert(ids.substr(0, comma));
+    ids.erase(0, comma + 1);
+  }
+
+  std::map<std::string, Port> ports;
+  int wrong_verdicts = 0, small = 0, judged = 0;
+  std::printf("%4s %-12s %-13s %9s %9s  %s%s\n", "id", "pass", "variant", "changed", "codes", judge.is_asked() ? "verdict   " : "", "expected");
+  for (const Mutant& m : mutants) {
+    if (!wanted.empty() && !wanted.contains(std::to_string(m.id))) continue;
+    Port& port = ports.try_emplace(m.variant).first->second;
+    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / ("puddle-" + m.variant));
+    Change change;
+    for (const Case& c : port.pack.cases) {
+      if (c.pass != m.pass) continue;
+      const auto program = programs.find(c.formula);
+      if (program == programs.end()) throw Error("mutant " + std::to_string(m.id) + ": no program for " + c.formula);
+      auto& meant = port.meant[c.id];
+      if (meant.empty()) meant = run_case(device, port.pack, c, program->second, {});
+      const std::vector<Array> outputs = run_case(device, port.pack, c, program->second, {{0, m.id}});
+      for (std::size_t i = 0; i < outputs.size(); ++i) {
+        compare(meant[i], outputs[i], change);
+        if (!judge.is_asked()) continue;
+        const std::string& name = program->second.outputs[i];
+        const auto buffer = std::find_if(c.outputs.begin(), c.outputs.end(), [&](const Buffer& b) { return b.name == name; });
+        write_npy(judge.out() / buffer->file, outputs[i]);
+      }
+    }
+    if (change.elements == 0) throw Error("mutant " + std::to_string(m.id) + ": the pack has no case of " + m.pass);
+    small += change.largest < 8;
+    ++judged;
+    std::string verdict;
+    if (judge.is_asked()) {
+      verdict = judge.ask(port.pack.folder, m.pass);
+      const bool is_expected = agrees(verdict, m.expected);
+      wrong_verdicts += !is_expected;
+      verdict += is_expected ? "" : "!";
+      verdict.resize(10, ' ');
+    }
+    const double share = static_cast<double>(change.changed) / static_cast<double>(change.elements);
+    std::printf("%4d %-12s %-13s %8.2f%% %9lld  %s%-17s %s\n", m.id, m.pass.c_str(), m.variant.c_str(), 100 * share,
+                static_cast<long long>(change.largest), verdict.c_str(), m.expected.c_str(), m.wrong.c_str());
+    std::fflush(stdout);
+  }
+  std::printf("%d mutants, %d of them change no element by 8 codes or more\n", judged, small);
+  if (wrong_verdicts > 0) std::printf("%d verdicts are not the expected ones (!)\n", wrong_verdicts);
+  return wrong_verdicts > 0 || judged == 0 ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace port_runner
+
+int main(int argc, char** argv) try {
+  std::map<std::string, std::string> options;
+  const std::set<std::string> known{"--mutants", "--packs", "--spirv", "--device", "--ids", "--rainref", "--out"};
+  for (int i = 1; i < argc; i += 2) {
+    if (i + 1 == argc || !known.contains(argv[i])) throw port_runner::Error(std::string(argv[i]) + ": unknown, or without its value\n" + port_runner::usage);
+    options[argv[i]] = argv[i + 1];
+  }
+  return port_runner::run(options);
+} catch (const port_runner::Error& e) {
+  std::fprintf(stderr, "port_mutants: %s\n", e.what());
+  return 2;
+}

@@ -1,0 +1,172 @@
+// The ports on a software device: they run, the judge passes them, and it catches bugs seeded in them.
+#include <algorithm>
+#include <cstdlib>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/temporary_folder.h"
+
+namespace rainref {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV;
+std::string pack_of(const std::string& variant) { return source + "/tests/packs/puddle-" + variant; }
+
+struct Outcome {
+  int code;
+  std::string text;  ///< standard output and error
+};
+Outcome call(const std::string& command) {
+  const TemporaryFolder folder;
+  const fs::path log = folder / "log";
+  const int status = std::system((command + " >'" + log.string() + "' 2>&1").c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log)};
+}
+// The software device, the same on every machine. A driver is not built with sanitizers: it leaks what it keeps, and its threads
+// look like races; the runner itself has one thread.
+const std::string quiet = "ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=report_bugs=0 ";
+Outcome run_port(const std::string& pack, const fs::path& out, const std::string& more = "", const std::string& language = "glsl") {
+  return call(quiet + RAINREF_PORT_RUNNER " --device cpu --pack '" + pack + "' --spirv '" + spirv + "/" + language + "' --out '" +
+              out.string() + "' " + more);
+}
+Outcome judge(const std::string& pack, const fs::path& port, const std::string& more = "") {
+  return call(RAINREF_PROGRAM " validate '" + pack + "' --port '" + port.string() + "' " + more);
+}
+
+class Port : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Variants, Port, testing::Values("as-published", "corrected"),
+                         [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
+
+TEST_P(Port, RunsEveryJudgedPassTwiceAlike) {
+  const TemporaryFolder folder;
+  const std::string pack = pack_of(GetParam());
+  const Outcome run = run_port(pack, folder.path(), "--repeat 2");
+  ASSERT_EQ(run.code, 0) << run.text;
+  int outputs = 0;
+  const auto manifest = nlohmann::json::parse(contents(pack + "/manifest.json"));
+  for (const auto& c : manifest["cases"]) {
+    for (const auto& output : c["outputs"]) {
+      if (output["judge"] == "input_only") continue;
+      const fs::path file = folder / output["file"];
+      ASSERT_TRUE(fs::exists(file)) << file;
+      EXPECT_EQ(fs::file_size(file), output["bytes"]) << file;
+      ++outputs;
+    }
+  }
+  EXPECT_GE(outputs, 10);
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "port.json"))["api"], "Vulkan");
+}
+
+TEST_P(Port, PassesUnderTheProfileOfItsApi) {
+  const TemporaryFolder folder;
+  const std::string pack = pack_of(GetParam());
+  ASSERT_EQ(run_port(pack, folder.path()).code, 0);
+  const Outcome verdict = judge(pack, folder.path());
+  // The published march of a grazing ray has no useful bound, so that pass may be left unjudged; never failed.
+  EXPECT_THAT(verdict.text, testing::Not(HasSubstr("FAIL"))) << verdict.text;
+  EXPECT_EQ(judge(pack, folder.path(), "--allow-untested").code, 0) << verdict.text;
+  for (const char* pass : {"wave_step", "shade", "display"}) EXPECT_EQ(judge(pack, folder.path(), std::string("--only ") + pass).code, 0) << pass;
+}
+
+TEST_P(Port, PassesWhereTheShaderBlendsTexelsItself) {
+  const TemporaryFolder folder;
+  const std::string pack = pack_of(GetParam());
+  ASSERT_EQ(run_port(pack, folder.path(), "--only surface_hit --spec 3=1").code, 0);
+  EXPECT_EQ(judge(pack, folder.path(), "--only surface_hit").text.find("FAIL"), std::string::npos);
+}
+
+TEST(Port, DisplayInHlslPasses) {
+  const TemporaryFolder folder;
+  const Outcome run = run_port(pack_of("corrected"), folder.path(), "", "hlsl");
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, HasSubstr("no program for")) << "the other passes are not ported, and the runner says so";
+  const Outcome verdict = judge(pack_of("corrected"), folder.path(), "--only display");
+  EXPECT_EQ(verdict.code, 0) << verdict.text;
+}
+
+TEST(Port, WaveStepInCudaPasses) {
+  if (!fs::exists(spirv + "/cuda_wave_step")) GTEST_SKIP() << "built without nvcc";
+  const TemporaryFolder folder;
+  const Outcome run = call(quiet + "'" + spirv + "/cuda_wave_step' '" + pack_of("corrected") + "' '" + folder.path().string() + "'");
+  if (run.text.find("cudaGetDeviceProperties") != std::string::npos) GTEST_SKIP() << "no CUDA device: " << run.text;
+  ASSERT_EQ(run.code, 0) << run.text;
+  const Outcome verdict = judge(pack_of("corrected"), folder.path(), "--only wave_step --profile cuda");
+  EXPECT_EQ(verdict.code, 0) << verdict.text;
+}
+
+// One or two bugs of each pass; scripts/full/mutants has them all.
+TEST(Port, SeededBugsGetTheirVerdicts) {
+  const TemporaryFolder folder;
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/mutants.json' --packs '" + source +
+                           "/tests/packs' --spirv '" + spirv + "/glsl' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() +
+                           "' --ids 101,106,111,115,138,139,141,203,252,268,322,334,353,364,412,456,461,504,507");
+  EXPECT_EQ(all.code, 0) << all.text;
+}
+
+TEST(Port, MutantsAreManyAndNamedOnce) {
+  const auto all = nlohmann::json::parse(contents(source + "/tests/ports/mutants.json"))["mutants"];
+  EXPECT_GE(all.size(), 40u);
+  std::string shaders;
+  for (const auto& file : fs::directory_iterator(source + "/tests/ports/glsl")) shaders += contents(file.path());
+  std::vector<std::string> names;
+  for (const auto& m : all) {
+    names.push_back(m["id"].dump() + m["pass"].dump() + m["variant"].dump());
+    EXPECT_TRUE(std::regex_search(shaders, std::regex("BUG [!=]= " + m["id"].dump() + "\\b"))) << "no shader has bug " << m["id"];
+    const std::vector<std::string> verdicts{"FAIL", "equivalent", "below-storage-ulp", "inside-envelope", "UNTESTED"};
+    EXPECT_THAT(verdicts, testing::Contains(m["expected"])) << m;
+    EXPECT_EQ(m["expected"] != "FAIL", m.contains("reason")) << m;
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+// The blocks in the shaders are what describe prints for this version.
+TEST(Port, UniformBlocksAreTheDescribedOnes) {
+  const std::string described = call(RAINREF_PROGRAM " describe puddle --layout glsl").text;
+  int blocks = 0;
+  for (const auto& file : fs::directory_iterator(source + "/tests/ports/glsl")) {
+    const std::string text = contents(file.path());
+    for (const char* opening : {"layout(std140, binding = 0) uniform ", "struct Drop {"}) {
+      const std::size_t begin = text.find(opening);
+      if (begin == std::string::npos) continue;
+      const std::string block = text.substr(begin, text.find("\n}", begin) + 2 - begin);
+      EXPECT_THAT(described, HasSubstr(block)) << file.path();
+      ++blocks;
+    }
+  }
+  EXPECT_GE(blocks, 8);
+}
+
+// ---- the runner refuses what it cannot run -------------------------------------------------------------------------
+TEST(PortRunner, NamesTheFileAndWhatItExpected) {
+  const TemporaryFolder folder;
+  const fs::path pack = folder / "pack";
+  fs::copy(pack_of("corrected"), pack, fs::copy_options::recursive);
+  const fs::path wave = pack / "puddle.wave_step/0011.0/in.wave.npy";
+  fs::copy_file(pack / "puddle.display/0011.0/out.picture.npy", wave, fs::copy_options::overwrite_existing);
+  EXPECT_THAT(run_port(pack, folder / "out", "--only wave_step").text,
+              HasSubstr("in.wave.npy: expected '<f2' (19, 29, 2), found '|u1' (21, 35, 4)"));
+  fs::remove(wave);
+  EXPECT_THAT(run_port(pack, folder / "out", "--only wave_step").text, HasSubstr("in.wave.npy: cannot be read"));
+  put(pack / "puddle.display/0011.0/uniforms.bin", "short");
+  EXPECT_THAT(run_port(pack, folder / "out", "--only display").text, HasSubstr("uniforms.bin: expected 16 bytes, found 5"));
+  put(pack / "manifest.json", R"({"format": "rainref.pack", "version": 2})");
+  EXPECT_THAT(run_port(pack, folder / "out").text, HasSubstr("this runner knows version 1, the pack has 2"));
+}
+TEST(PortRunner, RefusesUnknownOptionsDevicesAndPasses) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--sped 0=1").text, HasSubstr("--sped: unknown"));
+  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--spec 0").text, HasSubstr("--spec: expected ID=VALUE, found '0'"));
+  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--device 99").text, HasSubstr("--device 99: expected cpu or a number below"));
+  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--only sheen").text, HasSubstr("no case of this pass has a program"));
+  EXPECT_THAT(call(RAINREF_PORT_RUNNER " --list").text, HasSubstr("llvmpipe"));
+}
+
+}  // namespace
+}  // namespace rainref

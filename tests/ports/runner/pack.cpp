@@ -1,0 +1,135 @@
+#include "ports/runner/pack.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace port_runner {
+namespace {
+
+using nlohmann::json;
+
+const std::map<std::string, Format> formats{
+    {"r8", {VK_FORMAT_R8_UNORM, "'|u1'", 1, 1}},          {"rg8", {VK_FORMAT_R8G8_UNORM, "'|u1'", 2, 2}},
+    {"rgba8", {VK_FORMAT_R8G8B8A8_UNORM, "'|u1'", 4, 4}}, {"rgba8_srgb", {VK_FORMAT_R8G8B8A8_SRGB, "'|u1'", 4, 4}},
+    {"r16f", {VK_FORMAT_R16_SFLOAT, "'<f2'", 1, 2}},      {"rg16f", {VK_FORMAT_R16G16_SFLOAT, "'<f2'", 2, 4}},
+    {"rgba16f", {VK_FORMAT_R16G16B16A16_SFLOAT, "'<f2'", 4, 8}},
+    {"r32f", {VK_FORMAT_R32_SFLOAT, "'<f4'", 1, 4}},      {"rg32f", {VK_FORMAT_R32G32_SFLOAT, "'<f4'", 2, 8}},
+    {"rgba32f", {VK_FORMAT_R32G32B32A32_SFLOAT, "'<f4'", 4, 16}},
+    {"r32ui", {VK_FORMAT_R32_UINT, "'<u4'", 1, 4}}};
+
+json read_json(const fs::path& file) {
+  const std::vector<std::uint8_t> bytes = read_file(file);
+  try {
+    return json::parse(bytes);
+  } catch (const json::exception& e) {
+    throw Error(file.string() + ": " + e.what());
+  }
+}
+
+// The NPY type of a record: its fields one after the other, as the manifest declares them.
+std::string record_type(const json& record) {
+  std::string type = "[";
+  for (const json& member : record.at("members")) {
+    const std::string scalar = member.at("type");
+    type += std::string(type.size() > 1 ? ", " : "") + "('" + member.at("name").get<std::string>() + "', " +
+            (scalar == "float" ? "'<f4'" : scalar == "int" ? "'<i4'" : "'<u4'");
+    const int components = member.at("components");
+    type += components > 1 ? ", (" + std::to_string(components) + ",))" : ")";
+  }
+  return type + "]";
+}
+
+Buffer read_buffer(const json& from, const json& records) {
+  Buffer b;
+  b.name = from.at("name");
+  b.file = from.at("file");
+  const std::string format = from.at("format");
+  if (format == "records") {
+    b.is_records = true;
+    b.count = from.at("count");
+    const auto record = std::find_if(records.begin(), records.end(), [&](const json& r) { return r.at("name") == from.at("record"); });
+    if (record == records.end()) throw Error("buffer " + b.name + ": no such record: " + from.at("record").get<std::string>());
+    b.record_bytes = record->at("size");
+    b.record_type = record_type(*record);
+    return b;
+  }
+  const auto known = formats.find(format);
+  if (known == formats.end()) throw Error("buffer " + b.name + ": unknown format " + format);
+  b.format = known->second;
+  b.levels.push_back({from.at("width"), from.at("height"), b.file});
+  for (const json& mip : from.value("mips", json::array())) b.levels.push_back({mip.at("width"), mip.at("height"), mip.at("file")});
+  b.address_u = from.value("address_u", "clamp");
+  b.address_v = from.value("address_v", "clamp");
+  b.filter = from.value("mag_filter", "none");
+  b.mip_filter = from.value("mip_filter", "none");
+  if (const auto border = from.find("border"); border != from.end() && border->is_array()) b.border = border->get<std::vector<float>>();
+  return b;
+}
+
+Case read_case(const json& from, const json& manifest) {
+  Case c;
+  c.id = from.at("id");
+  c.pass = from.at("pass");
+  for (const json& pass : manifest.at("passes")) {
+    if (pass.at("name") == c.pass) c.formula = pass.at("formula");
+  }
+  c.uniform_file = from.at("uniform_block").at("file");
+  c.uniform_bytes = from.at("uniform_block").at("bytes");
+  const json records = manifest.value("records", json::array());
+  for (const json& input : from.at("inputs")) c.inputs.push_back(read_buffer(input, records));
+  for (const json& output : from.at("outputs")) c.outputs.push_back(read_buffer(output, records));
+  return c;
+}
+
+}  // namespace
+
+Pack read_pack(const fs::path& folder) {
+  const fs::path file = folder / "manifest.json";
+  const json manifest = read_json(file);
+  try {
+    if (manifest.at("format") != "rainref.pack") throw Error("format: expected rainref.pack");
+    if (manifest.at("version") > 1) throw Error("version: this runner knows version 1, the pack has " + manifest.at("version").dump());
+    Pack pack{folder, {}};
+    for (const json& c : manifest.at("cases")) pack.cases.push_back(read_case(c, manifest));
+    return pack;
+  } catch (const std::exception& e) {
+    throw Error(file.string() + ": " + e.what());
+  }
+}
+
+std::map<std::string, Program> read_programs(const fs::path& folder) {
+  const fs::path file = folder / "bindings.json";
+  const json all = read_json(file);
+  std::map<std::string, Program> programs;
+  try {
+    for (const auto& [formula, from] : all.at("programs").items()) {
+      Program p;
+      p.spirv = folder / from.at("spirv").get<std::string>();
+      p.inputs = from.at("inputs").get<std::vector<std::string>>();
+      p.outputs = from.at("outputs").get<std::vector<std::string>>();
+      for (const json& fact : from.value("constants", json::array())) p.constants.push_back({fact.at("id"), fact.at("key"), fact.at("input")});
+      p.one_group = from.value("one_group", false);
+      p.capacity = from.value("capacity", 0u);
+      programs.emplace(formula, std::move(p));
+    }
+  } catch (const std::exception& e) {
+    throw Error(file.string() + ": " + e.what());
+  }
+  return programs;
+}
+
+std::int32_t value(const Fact& fact, const Case& of) {
+  const auto input = std::find_if(of.inputs.begin(), of.inputs.end(), [&](const Buffer& b) { return b.name == fact.input; });
+  if (fact.key == "present") return input == of.inputs.end() ? 0 : 1;
+  if (input == of.inputs.end()) throw Error(of.id + ": no input " + fact.input + " to take " + fact.key + " from");
+  const std::string& address = fact.key == "address_u" ? input->address_u : input->address_v;
+  const char* const names[] = {"clamp", "repeat", "border", "mirror"};
+  const auto name = std::find(std::begin(names), std::end(names), address);
+  if ((fact.key != "address_u" && fact.key != "address_v") || name == std::end(names)) {
+    throw Error(of.id + ": input " + fact.input + ": " + fact.key + " " + address + " is no constant");
+  }
+  return static_cast<std::int32_t>(name - std::begin(names));
+}
+
+}  // namespace port_runner
