@@ -44,6 +44,17 @@ class Shadow {
     }
   }
 
+  PortRun run(const std::string& id) {
+    const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == id; });
+    if (found == runs_.end()) throw Error(ExitCode::internal, fmt::format("no run {}", id));
+    PortRun out = load(*found);
+    if (!out.untested.empty()) return out;
+    std::unique_ptr<capture::PassModel> model;
+    if (is_enveloped(out.c)) model = binder(plan_.effect, found->pass)(out.c);
+    settle(pass_of(*found), out, model.get());
+    return out;
+  }
+
   PortJudgement judge() {
     read_all();
     PortJudgement result;
@@ -276,6 +287,10 @@ class Shadow {
 PortJudgement shadow(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options) {
   static_cast<void>(profile(options.profile));
   return Shadow(plan, folder, dumped, options).judge();
+}
+
+PortRun shadow_run(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options, const std::string& id) {
+  return Shadow(plan, folder, dumped, options).run(id);
 }
 
 }  // namespace rainref::conformance

@@ -132,7 +132,10 @@ void ShadowPlan::add(const PassCase& from, const capture::EffectInfo& info_of_ef
   }
   for (capture::CaseOutput& output : run.c.outputs) {
     output.array = shape_of(std::move(output.array));
-    output.range = is_unorm(output.array) ? std::array<double, 2>{0, 1} : info_of_effect.buffer(output.name, variant).range;
+    const capture::BufferInfo& buffer = info_of_effect.buffer(output.name, variant);
+    output.range = is_unorm(output.array) ? std::array<double, 2>{0, 1} : buffer.range;
+    output.unit = buffer.unit;
+    output.color_space = buffer.colour_space;
   }
   frames.insert(from.frame);
 }
