@@ -10,6 +10,7 @@
 #include "conformance/report_figures.h"
 #include "conformance/report_html_parts.h"
 #include "conformance/report_markup.h"
+#include "conformance/report_pictures.h"
 
 namespace rainref::conformance {
 namespace {
