@@ -140,7 +140,8 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   const double size = std::max(-least, greatest), gap = greatest - least;
   if (size == 0) return {0.0f, 0.0f};
   if (sampler) {
-    slack += storage_step(t.precision, size);
+    // At the value's own magnitude, which may be far below that of a texel beside it.
+    slack += storage_step(t.precision, std::max(slack - low, high + slack));
     low = std::max(low - slack, least);
     high = std::min(high + slack, greatest);
   }

@@ -25,7 +25,7 @@ bool coin() { return draw() & 1; }
 /// In [-1, 1), or often an end.
 double swing() {
   const std::uint64_t bits = draw();
-  if (current.lean != 0 && (bits & 6) != 0) return current.lean;
+  if (current.lean != 0 && (bits & 14) != 0) return current.lean;
   if (bits & 1) return bits & 2 ? 1 : -1;
   return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
 }
@@ -38,7 +38,7 @@ bool may_flush() { return current.liberties && current.liberties->rules.flush !=
 /// Up, down, or as it is: which neighbour of an inexact result.
 bool may_round_to(bool up) {
   if (!current.liberties || current.liberties->rules.basic != enclosed::BasicRounding::either) return false;
-  return current.lean != 0 && (draw() & 3) != 0 ? (current.lean > 0) == up : coin();
+  return current.lean != 0 && (draw() & 7) != 0 ? (current.lean > 0) == up : coin();
 }
 
 float beside(float x, bool up) {
@@ -310,7 +310,7 @@ float Sampler::blend(float in_float, float a, float b, float c, float d, bool in
   if (!is_used) return in_float;
   const double twist = inside_cell ? magnitude(static_cast<double>(a) - b - c + d) : 0;  // weights of 0 stay 0
   double value = in_float + swing() * power_of_two(-current.liberties->rules.subtexel_bits) * twist;
-  const bool up = current.lean != 0 && (draw() & 3) != 0 ? current.lean > 0 : coin();
+  const bool up = current.lean != 0 && (draw() & 7) != 0 ? current.lean > 0 : coin();
   if (bits == 0) {
     value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + (up ? 1 - 0x1p-20 : 0)))).v / 255;
   } else if (bits == 11) {

@@ -146,13 +146,15 @@ class PublishedMarch {
   }
 
  private:
-  /// By how much rounding in each step may have moved a coordinate off the ray.
+  /// By how much rounding in each step may have moved a coordinate off the ray: each sum by an ULP, or half of one, of
+  /// a place between the eye and t, each product by that of its step; the steps add up to t.
   double off_ray(int rounds, double t) const {
-    const double size =
-        std::max({std::abs(static_cast<double>(origin_.x.hi)), std::abs(static_cast<double>(origin_.y.hi)),
-                  std::abs(static_cast<double>(origin_.z.hi))}) +
-        t;
-    return 2 * rounds * 0x1p-23 * size;  // the product and the sum, each by an ULP
+    const double unit = enclosed::profile().basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
+    double far = 0;
+    const Enclosure o[3] = {origin_.x, origin_.y, origin_.z}, d[3] = {d_.x, d_.y, d_.z};
+    for (int k = 0; k < 3; ++k)
+      far = std::max({far, o[k].magnitude(), std::abs(o[k].lo + t * d[k].lo), std::abs(o[k].hi + t * d[k].hi)});
+    return 1.01 * unit * (rounds * far + t);
   }
   Vector point(double low, double high, double off) const {
     const auto coordinate = [&](Enclosure o, Enclosure d) {
