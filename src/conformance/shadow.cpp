@@ -239,6 +239,8 @@ class Shadow {
 
   /// What the reference gives for the port's inputs.
   void settle(const capture::PackPass& pass, PortRun& run, const capture::PassModel* model) const {
+    const capture::PassReadings* readings = readings_of(plan_.effect, pass.name);
+    if (run.broken.empty() && readings && readings->doubt) run.broken = readings->doubt(run.c);
     std::vector<Array> reference;
     if (model) reference = reference_outputs(run.c, *model, *options_.executor);
     std::optional<std::vector<Array>> recomputed;
@@ -246,12 +248,11 @@ class Shadow {
       capture::CaseOutput& output = run.c.outputs[o];
       if (output.judge == capture::Judge::envelope) output.array = reference[o];
       if (output.judge != capture::Judge::bits) continue;
-      const Recompute recompute = recomputer(plan_.effect, pass.name);
-      if (!recompute) {
+      if (!readings || !readings->recompute) {
         run.untested = fmt::format("this build does not recompute {}", pass.name);
         return;
       }
-      if (!recomputed) recomputed = recompute(run.c);
+      if (!recomputed) recomputed = readings->recompute(run.c);
       output.array = (*recomputed)[o];
     }
   }

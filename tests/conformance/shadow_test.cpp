@@ -50,7 +50,6 @@ TEST_F(ShadowTest, AFreeRunOfAConformingDevicePasses) {
   EXPECT_EQ(judge(port.pack, folder.path()).status, Status::fail);
   EXPECT_EQ(pass_of(j, "wave_step").half_mode, HalfMode::rtz);
   EXPECT_TRUE(pass_of(j, "display").inputs_are_good);
-  // bounds are the host's for the reference's water; they are taken as they are.
   EXPECT_THAT(j.notes, Contains(HasSubstr("wave_step was not compared with the output of wave_step, which is not there in 1 run")));
 }
 
@@ -150,6 +149,19 @@ TEST_F(ShadowTest, RaindropsAreRecomputedFromThePortsUniforms) {
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "raindrops");
   EXPECT_EQ(pass_of(j, "raindrops").cases[2].outputs[0].worst[0].x, 0);
+}
+
+// What the host makes of the water for the march must hold for the port's own water.
+TEST_F(ShadowTest, BoundsOfAnotherFrameFail) {
+  port.before = [](PassCase& c) {
+    if (c.folder() != "puddle.surface_hit/0012.0") return;
+    Array& bounds = input_of(c, "bounds").array;
+    const float flat[2] = {1e-4f, 1e-3f};  // of water at rest
+    std::memcpy(bounds.levels[0].data(), flat, sizeof flat);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "surface_hit") << why(j);
+  EXPECT_THAT(pass_of(j, "surface_hit").reason, AllOf(HasSubstr("in.bounds at (0, 0) says height 0.0001 m"), HasSubstr("of another frame?")));
 }
 
 TEST_F(ShadowTest, ACounterOfAnotherRunFails) {
