@@ -16,6 +16,7 @@ namespace rainref::conformance {
 namespace {
 
 constexpr std::size_t shown_outliers = 12;
+constexpr int small_columns = 320;  // wider pictures stand two in a row, where a browser would leave out pixels of four
 
 std::string base64(const std::vector<std::byte>& bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -59,8 +60,8 @@ std::string verdict_legend(const OutputJudgement& o) {
 }
 
 std::string view_html(const View& v, const OutputJudgement& o) {
-  std::string out = fmt::format("<div class=\"view\" data-label=\"{}\" data-x0=\"{}\" data-y0=\"{}\" data-width=\"{}\" data-height=\"{}\" data-thinned=\"{}\">\n<div class=\"panes\">\n", marked_up(v.label), v.x0, v.y0, v.width,
-                                v.height, v.thinned);
+  std::string out = fmt::format("<div class=\"view\" data-label=\"{}\" data-x0=\"{}\" data-y0=\"{}\" data-width=\"{}\" data-height=\"{}\" data-thinned=\"{}\">\n<div class=\"panes{}\">\n", marked_up(v.label), v.x0, v.y0, v.width,
+                                v.height, v.thinned, v.width / v.thinned > small_columns ? " large" : "");
   const std::string scale = marked_up(v.scale) + (v.has_nan ? "; <span class=\"nan\">magenta: not a number</span>" : "");
   out += pane("reference", v.reference, v, "<b>reference</b> " + scale);
   out += pane("port", v.port, v, "<b>port</b> same scale");

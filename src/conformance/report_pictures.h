@@ -13,7 +13,7 @@ namespace rainref::conformance {
 
 /// Whole outputs are shown with at most this many columns and rows; a larger one is thinned, and gets a window of
 /// `picture_window` texels at full size around its worst element.
-inline constexpr int picture_side = 768, picture_window = 256;
+inline constexpr int picture_side = 640, picture_window = 256;
 
 /// One way to look at an output: colour, one channel, or a window of these. All pictures are PNG files of one size, row 0
 /// of the buffer at the bottom.
