@@ -118,7 +118,9 @@ void CaptureRecorder::pass(const PassCall& call) {
   if (!declared) throw Error(ExitCode::internal, fmt::format("pass {} is not declared for {}", call.pass, variant_));
   for (const PassOutput& output : call.outputs) {
     const bool is_records = std::holds_alternative<RecordView>(output.content);
-    open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, declared->judge});
+    const BufferInfo& buffer = effect_.buffer(output.name, variant_);
+    open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, declared->judge, buffer.range,
+                              buffer.unit, buffer.colour_space});
   }
   PassCase done = std::move(*open_);
   open_.reset();

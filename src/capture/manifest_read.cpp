@@ -114,6 +114,8 @@ PackOutput read_output(const JsonField& from, const Records& records) {
   output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
   output.rules.judge = named<Judge, 4>(from["judge"]);
   output.rules.range = output.range;
+  output.rules.unit = output.unit;
+  output.rules.color_space = from["color_space"].text();
   return output;
 }
 

@@ -148,7 +148,7 @@ PassCase Pack::read(const PackCase& entry) const {
   return c;
 }
 
-std::string Pack::file_beside() const {
+std::string Pack::file_beside(std::string_view besides) const {
   std::set<std::string> named{manifest_name};
   for (const PackCase& c : cases) {
     named.insert(c.uniforms.path);
@@ -161,7 +161,7 @@ std::string Pack::file_beside() const {
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
     if (entry.is_directory() && !entry.is_symlink()) continue;
     std::string path = fs::relative(entry.path(), folder_).generic_string();
-    if (!named.contains(path)) return path;
+    if (!named.contains(path) && path != besides) return path;
   }
   return "";
 }

@@ -82,8 +82,8 @@ class Pack {
   Array read(const PackArray& array) const;
   std::vector<std::byte> read_file(const PackFileEntry& file) const;
 
-  /// A file below the folder that the manifest does not name, or "".
-  std::string file_beside() const;
+  /// A file below the folder that the manifest does not name, or "". One of the name `besides` does not count.
+  std::string file_beside(std::string_view besides = "") const;
 
  private:
   std::filesystem::path folder_;

@@ -31,6 +31,7 @@ struct CaseOutput {
   Rounding store_rounding = Rounding::rne;
   Judge judge = Judge::envelope;
   std::array<double, 2> range{0, 1};  ///< of the stored values, as declared
+  std::string unit = "", color_space = "none";  ///< as declared: one unit or one for each channel; "none" of data
 };
 
 struct PassCase {

@@ -71,6 +71,8 @@ struct PassReadings {
   std::unique_ptr<PassModel> (*bind)(const PassCase&);
   /// The reference's outputs, in the order of c.outputs, where they are judged by bits; else null. Throws like bind.
   std::vector<Array> (*recompute)(const PassCase&) = nullptr;
+  /// Why what the host derived from the other inputs cannot belong to them, or ""; null where nothing is derived.
+  std::string (*doubt)(const PassCase&) = nullptr;
 };
 
 }  // namespace rainref::capture

@@ -177,6 +177,7 @@ int parse_and_run(int argc, const char* const* argv) {
   validate_verb.add_option("--only", validate_request.only, "Judge this pass alone");
   validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
   validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them");
+  add_report_options(validate_verb, validate_request.reports);
   validate_verb.footer("Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} {out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
 
   MutateRequest mutate_request;
@@ -264,7 +265,7 @@ int parse_and_run(int argc, const char* const* argv) {
     validate_request.pack = validate_pack;
     validate_request.port = validate_port;
     validate_request.threads = threads_of(validate_threads);
-    for (int i = 0; i < argc; ++i) validate_request.command += fmt::format("{}{}", i == 0 ? "" : " ", i == 0 ? "rainref" : argv[i]);
+    validate_request.command = command_text(argc, argv);
     return validate(validate_request);
   }
   if (mutate_verb.parsed()) {

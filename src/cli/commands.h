@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/validate_reports.h"
+
 namespace rainref::cli {
 
 /// Options that `run`, `hash` and `pack` share.
@@ -43,6 +45,7 @@ struct ValidateRequest {
   bool allow_untested = false;
   int threads = 0;
   std::string command;  ///< as typed, for the report
+  ReportOptions reports;
 };
 struct MutateRequest {
   std::filesystem::path pack;

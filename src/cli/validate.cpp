@@ -61,14 +61,24 @@ std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& f
   return runs;
 }
 
-conformance::PortJudgement judge_pack(const ValidateRequest& request) {
-  const capture::Pack pack(request.pack);
+/// A judgement, and what a page shows of it. The folders and the executor that it reads from live as long.
+struct Judged {
+  conformance::PortJudgement judgement;
+  conformance::PageSource source;
+};
+
+Judged judge_pack(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
+  const auto opened = std::make_shared<const capture::Pack>(request.pack);
+  const capture::Pack& pack = *opened;
   conformance::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
   // What is wrong with the request shows before the port is run.
   static_cast<void>(conformance::profile(options.profile));
   if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+  std::vector<std::string> ids;
+  for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
+  reports.check(pack.passes, ids);
 
   conformance::PortJudgement judgement;
   judgement.pack = request.pack.string();
@@ -76,16 +86,15 @@ conformance::PortJudgement judge_pack(const ValidateRequest& request) {
   judgement.effect = pack.effect;
   judgement.variant = pack.variant;
   judgement.scene = pack.scene;
-  std::optional<TemporaryRun> temporary;
+  std::shared_ptr<TemporaryRun> temporary;
   std::vector<fs::path> runs{request.port};
   if (!request.exec.empty()) {
-    if (request.port.empty()) temporary.emplace();
+    if (request.port.empty()) temporary = std::make_shared<TemporaryRun>();
     const fs::path folder = temporary ? temporary->path() : request.port;
     judgement.port = request.port.empty() ? "the outputs of --exec" : request.port.string();
     runs = run_port(request, folder, judgement);
-    if (runs.empty()) return judgement;
+    if (runs.empty()) return {judgement, {}};
   }
-  const parallel::Executor executor(request.threads);
   options.executor = &executor;
   {
     Progress progress("judging", static_cast<int>(pack.cases.size()));
@@ -98,7 +107,9 @@ conformance::PortJudgement judge_pack(const ValidateRequest& request) {
     conformance::add_races(conformance::find_races(pack, runs, request.only), judgement);
     judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
   }
-  return judgement;
+  conformance::PageSource source = conformance::page_source(opened, runs.front());
+  source.read = [temporary, read = source.read](const std::string& id, const std::string& output) { return read(id, output); };
+  return {std::move(judgement), std::move(source)};
 }
 
 /// The plan of a dump: what the scene does in the frames that are there, or what the manifest beside them says.
@@ -107,7 +118,8 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
   const auto manifest = [&] {
     const capture::Pack pack(request.shadow);
     if (!pack.with_inputs) throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from", request.shadow.string()));
-    return conformance::ShadowPlan::of_manifest(pack);
+    // A capture of rainref shares equal files. A port that dumped files of its own has dumped all of them.
+    return conformance::ShadowPlan::of_manifest(pack, pack.file_beside("port.json").empty());
   };
   if (request.scene.scene.empty()) {
     if (!has_manifest) throw Error(ExitCode::usage, fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", request.shadow.string()));
@@ -132,11 +144,11 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
   return plan;
 }
 
-conformance::PortJudgement judge_shadow(const ValidateRequest& request) {
+Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
   static_cast<void>(conformance::profile(request.profile));
   if (!fs::is_directory(request.shadow)) throw Error(ExitCode::port_files, fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
-  const parallel::Executor executor(request.threads);
-  const conformance::ShadowPlan plan = shadow_plan(request, executor);
+  const auto planned = std::make_shared<const conformance::ShadowPlan>(shadow_plan(request, executor));
+  const conformance::ShadowPlan& plan = *planned;
   std::vector<std::string> passes;
   for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
   if (!request.only.empty() && std::find(passes.begin(), passes.end(), request.only) == passes.end()) {
@@ -146,22 +158,40 @@ conformance::PortJudgement judge_shadow(const ValidateRequest& request) {
   if (dumped.empty()) {
     throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {}.{}/0000.0, found none", request.shadow.string(), plan.effect, passes.front()));
   }
+  std::vector<std::string> ids;
+  for (const conformance::DumpedRun& run : dumped) ids.push_back(run.id);
+  reports.check(plan.passes, ids);
   conformance::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
   Progress progress("judging", static_cast<int>(dumped.size()));
   options.progress = [&](int, int) { progress.advance(); };
-  return conformance::shadow(plan, request.shadow, dumped, options);
+  conformance::PortJudgement judgement = conformance::shadow(plan, request.shadow, dumped, options);
+  options.progress = nullptr;
+  return {std::move(judgement), conformance::page_source(planned, request.shadow, dumped, options)};
+}
+
+int validate(const ValidateRequest& request, Reports& reports) {
+  const parallel::Executor executor(request.threads);
+  Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
+  judged.judgement.command = request.command;
+  reports.apply_baseline(judged.judgement);
+  fmt::print("{}", conformance::report_text(judged.judgement));
+  reports.write(judged.judgement, judged.source);
+  return conformance::exit_code(judged.judgement, request.allow_untested);
 }
 
 }  // namespace
 
 int validate(const ValidateRequest& request) {
-  conformance::PortJudgement judgement = request.shadow.empty() ? judge_pack(request) : judge_shadow(request);
-  judgement.command = request.command;
-  fmt::print("{}", conformance::report_text(judgement));
-  return conformance::exit_code(judgement, request.allow_untested);
+  Reports reports(request.reports, request.allow_untested);
+  try {
+    return validate(request, reports);
+  } catch (const Error& e) {
+    if (e.code() == ExitCode::port_files) reports.write_error(e, request);
+    throw;
+  }
 }
 
 int mutate(const MutateRequest& request) {

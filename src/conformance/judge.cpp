@@ -320,6 +320,17 @@ class CaseJudge {
   std::vector<Slot> slots_;
 };
 
+/// The first channel of a texel whose bits differ, as a failure says it.
+void set_first_difference(const FormatInfo& format, const std::byte* want, const std::byte* have, Failure& f) {
+  const auto bytes = static_cast<std::size_t>(format.channel_bytes);
+  while (std::memcmp(want + static_cast<std::size_t>(f.channel) * bytes, have + static_cast<std::size_t>(f.channel) * bytes, bytes) == 0) ++f.channel;
+  const std::size_t at = static_cast<std::size_t>(f.channel) * bytes;
+  f.got = enclosed::ordered_code(format.kind, have + at);
+  f.expected = f.low = f.high = enclosed::ordered_code(format.kind, want + at);
+  f.not_a_number = is_nan(format.kind, have + at);
+  f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, distance(f.got, {f.low, f.high}));
+}
+
 /// Bits against bits, texel by texel or record by record.
 void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudgement& j) {
   OutputJudgement out;
@@ -340,9 +351,10 @@ void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudg
     if (!out.records) out.map[i] = 3;
     if (out.worst.size() < OutputJudgement::max_failures) {
       Failure f;
-      f.x = static_cast<int>(i % static_cast<std::size_t>(std::max(1, out.records ? 1 << 30 : out.width)));
+      f.x = static_cast<int>(out.records ? i : i % static_cast<std::size_t>(out.width));
       f.y = out.records ? 0 : static_cast<int>(i / static_cast<std::size_t>(out.width));
       f.distance = 1;
+      if (!out.records) set_first_difference(info(out.format), want.data() + i * size, have.data() + i * size, f);
       out.worst.push_back(f);
     }
   }
@@ -354,7 +366,7 @@ void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudg
 }  // namespace
 
 const char* name(Status status) {
-  constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED"};
+  constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED", "KNOWN"};
   return names[static_cast<int>(status)];
 }
 const char* name(HalfMode mode) {
@@ -362,7 +374,7 @@ const char* name(HalfMode mode) {
   return names[static_cast<int>(mode)];
 }
 Status worse(Status a, Status b) {
-  const auto rank = [](Status s) { return s == Status::fail ? 3 : s == Status::untested ? 2 : s == Status::warn ? 1 : 0; };
+  const auto rank = [](Status s) { return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : 0; };
   return rank(a) >= rank(b) ? a : b;
 }
 

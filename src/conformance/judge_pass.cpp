@@ -33,6 +33,7 @@ ModeJudgements not_judged(const PortRun& run) {
   j.id = run.c.folder();
   j.status = run.broken.empty() ? Status::untested : Status::fail;
   j.reason = run.broken.empty() ? run.untested : run.broken;
+  j.broken = !run.broken.empty();
   return out;
 }
 
@@ -120,6 +121,7 @@ PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRun
         if (run.broken.empty()) continue;
         j.status = Status::fail;
         j.reason = run.broken;
+        j.broken = true;
       }
     }
     if (runs.done_one) runs.done_one();

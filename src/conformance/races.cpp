@@ -86,6 +86,7 @@ void add_races(const std::vector<Race>& races, PortJudgement& judgement) {
       if (found == own.end()) continue;
       c.status = Status::fail;
       c.reason = (*found)->text();
+      c.broken = true;
     }
   }
   judgement.first_bad_pass.clear();

@@ -1,88 +1,109 @@
 #include "conformance/report_text.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "image/code_range.h"
+#include "conformance/report_figures.h"
 
 namespace rainref::conformance {
 namespace {
 
-std::string channel_name(int channel) { return std::string(1, "xyzw"[channel & 3]); }
+constexpr std::size_t shown_outputs = 4;   // of a pass that fails
+constexpr std::size_t shown_failures = 3;  // of an output
 
-std::string failure_line(const OutputJudgement& o, const Failure& f) {
-  if (o.records) return fmt::format("record {}: other bits than expected", f.x);
-  const FormatInfo::Kind kind = info(o.format).kind;
-  const std::string place = fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
-  if (f.not_a_number) return fmt::format("{} is not a number", place);
-  const std::string accepted = f.low == f.high ? enclosed::code_text(kind, f.low)
-                                               : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
-  return fmt::format("{}  got {}  accepted {}  off by {} code{}", place, enclosed::code_text(kind, f.got), accepted, f.distance, f.distance == 1 ? "" : "s");
+std::vector<std::string> row_of(const PassJudgement& p) {
+  const Figures f = figures_of(p);
+  if (f.elements == 0) return {name(p.status), p.pass, "nothing judged", "-", "-", "-", "-", "-", "-"};
+  return {name(p.status), p.pass, fmt::format("{} of {}", f.failing, f.invocations), share_text(f.bounded(), f.judged()), width_text(f.median_width),
+          width_text(f.p99_width), fmt::format("{}", f.ambiguous), share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged())};
 }
 
-struct Sums {
-  std::int64_t invocations = 0, failing = 0, ambiguous = 0, other_branch = 0, elements = 0, vacuous = 0, loose = 0, free = 0, atypical = 0, differing = 0;
-  double median = 0;
-};
-Sums sums_of(const PassJudgement& p) {
-  Sums s;
+/// What the columns do not say of a pass.
+std::vector<std::string> remarks_on(const PassJudgement& p) {
+  const Figures f = figures_of(p);
+  std::vector<std::string> out;
+  if (!p.reason.empty()) out.push_back(p.reason);
+  if (f.atypical > 0 && p.status != Status::warn) out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
+  if (f.other_branch > 0) out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
+  if (f.gave_up > 0) out.push_back(fmt::format("{} invocations with too many open decisions to bound", f.gave_up));
+  if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
+  if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
+  return out;
+}
+
+/// Columns as wide as their widest cell; the first two are words, the others numbers.
+std::string table_text(const PortJudgement& j) {
+  std::vector<std::vector<std::string>> rows{{"", "pass", "outside", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"}};
+  for (const PassJudgement& p : j.passes) rows.push_back(row_of(p));
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  std::string out;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string line;
+    for (std::size_t k = 0; k < rows[r].size(); ++k)
+      line += k < 2 ? fmt::format("{:<{}}  ", rows[r][k], widths[k]) : fmt::format("{:>{}}{}", rows[r][k], widths[k], k + 1 < rows[r].size() ? "  " : "");
+    out += line + "\n";
+    if (r == 0) continue;
+    for (const std::string& remark : remarks_on(j.passes[r - 1])) out += fmt::format("{:{}}{}\n", "", widths[0] + 2, remark);
+  }
+  return out;
+}
+
+std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
+  std::string out = fmt::format("  {}/out.{} ({}): {} of {} elements outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements, share_text(o.failing, o.elements));
+  const std::size_t shown = std::min(shown_failures, o.worst.size());
+  for (std::size_t k = 0; k < shown; ++k) {
+    const FailureText t = failure_text(o, o.worst[k]);
+    out += t.got.empty() ? fmt::format("    {}  {}\n", t.place, t.distance) : fmt::format("    {}  got {}  accepted {}  {}\n", t.place, t.got, t.accepted, t.distance);
+  }
+  if (o.failing > static_cast<std::int64_t>(shown)) out += fmt::format("    ({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown));
+  return out;
+}
+
+std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
+  std::string out = fmt::format("\n{} {}{}{}\n", name(p.status), p.pass,
+                                figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "",
+                                p.pass != j.first_bad_pass ? "" : p.inputs_are_good ? "; first bad pass, its inputs are good" : "; first bad pass");
+  std::size_t shown = 0, skipped = 0;
   for (const CaseJudgement& c : p.cases) {
-    s.invocations += c.invocations;
-    s.failing += c.failing;
-    s.ambiguous += c.ambiguous;
-    s.other_branch += c.other_branch;
+    if (c.broken) {
+      if (shown == shown_outputs) ++skipped;
+      else out += fmt::format("  {}: {}\n", c.id, c.reason);
+      shown = std::min(shown + 1, shown_outputs);
+    }
     for (const OutputJudgement& o : c.outputs) {
-      s.elements += o.elements;
-      s.vacuous += o.vacuous;
-      s.loose += o.loose;
-      s.free += o.free;
-      s.atypical += o.atypical;
-      s.differing += o.differing;
-      s.median = std::max(s.median, o.median_width);
+      if (o.failing == 0) continue;
+      if (shown == shown_outputs) {
+        ++skipped;
+        continue;
+      }
+      ++shown;
+      out += output_text(c, o);
+      if (!o.known.empty()) out += fmt::format("    known: {}\n", o.known);
     }
   }
-  return s;
-}
-double percent(std::int64_t part, std::int64_t of) { return of == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(of); }
-
-std::string pass_line(const PassJudgement& p) {
-  const Sums s = sums_of(p);
-  std::string line = fmt::format("{:<9} {:<12}", name(p.status), p.pass);
-  if (s.elements > 0) {
-    const std::int64_t judged = s.elements - s.free;
-    line += fmt::format(" {} of {} invocations outside; bounded {:.2f} %, median width {:.0f} codes, loose {:.2f} %, ambiguous {} ({} took the other branch)", s.failing,
-                        s.invocations, percent(judged - s.vacuous, judged), s.median, percent(s.loose, judged), s.ambiguous, s.other_branch);
-    if (s.free > 0) line += fmt::format(", {} values free", s.free);
-  }
-  if (p.half_mode_voted) line += fmt::format("; half stores: {}", name(p.half_mode));
-  if (!p.reason.empty()) line += fmt::format("\n          {}", p.reason);
-  return line + "\n";
+  if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
+  if (p.causes.empty() && figures_of(p).outside > 0) out += "  cause unknown\n";
+  for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}\n", cause_text(c));
+  return out;
 }
 
 }  // namespace
 
 std::string report_text(const PortJudgement& j) {
-  std::string out;
-  for (const PassJudgement& p : j.passes) out += pass_line(p);
-  for (const PassJudgement& p : j.passes) {
-    if (p.status != Status::fail || sums_of(p).failing == 0) continue;
-    out += fmt::format("\n{} is outside the as-written envelope of {} under profile {}{}\n", p.pass, p.formula, j.profile,
-                       p.pass == j.first_bad_pass ? " (first bad pass)" : "");
-    for (const CaseJudgement& c : p.cases) {
-      for (const OutputJudgement& o : c.outputs) {
-        if (o.failing == 0) continue;
-        out += fmt::format("  {}/out.{}: {} of {} elements outside ({:.3f} %)\n", c.id, o.name, o.failing, o.elements, percent(o.failing, o.elements));
-        for (std::size_t k = 0; k < std::min<std::size_t>(3, o.worst.size()); ++k) out += fmt::format("    {}\n", failure_line(o, o.worst[k]));
-      }
-    }
-    if (p.causes.empty()) out += "  cause unknown\n";
-    for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}: {} (gives {} of {} failing texels bit for bit, comes near {})\n", c.name, c.sentence, c.explained, c.of, c.inside);
-  }
+  std::string out = j.passes.empty() ? "" : table_text(j);
+  for (const PassJudgement& p : j.passes)
+    if ((p.status == Status::fail || p.status == Status::known) && !p.cases.empty()) out += failures_text(p, j);
+  for (const std::string& s : j.stale) out += fmt::format("\nbaseline: {}\n", s);
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
-  out += fmt::format("\n{}: {} against {}, profile {}{}\n", name(j.status), j.port, j.pack, j.profile, j.device.empty() ? "" : fmt::format(", {} {}", j.api, j.device));
-  if (!j.reason.empty()) out += fmt::format("  {}\n", j.reason);
-  return out;
+  out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
+  if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
+  if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);
+  if (!j.reason.empty()) out += fmt::format("\n  {}", j.reason);
+  return out + "\n";
 }
 
 std::string report_text(const MutationReport& r, bool all) {
@@ -102,12 +123,6 @@ std::string report_text(const MutationReport& r, bool all) {
   for (const std::string& u : r.unjudged) out += fmt::format("not judged: {}\n", u);
   out += fmt::format("{} of {} deviations that change something would be caught under {} ({} change nothing on this pack)\n", caught, bugs, r.profile, equivalent);
   return out;
-}
-
-int exit_code(const PortJudgement& j, bool allow_untested) {
-  if (j.status == Status::pass || j.status == Status::warn) return 0;
-  if (j.status == Status::fail || !allow_untested) return 1;
-  return std::any_of(j.passes.begin(), j.passes.end(), [](const PassJudgement& p) { return p.status == Status::pass || p.status == Status::warn; }) ? 0 : 1;
 }
 
 }  // namespace rainref::conformance

@@ -44,6 +44,17 @@ class Shadow {
     }
   }
 
+  PortRun run(const std::string& id) {
+    const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == id; });
+    if (found == runs_.end()) throw Error(ExitCode::internal, fmt::format("no run {}", id));
+    PortRun out = load(*found);
+    if (!out.untested.empty()) return out;
+    std::unique_ptr<capture::PassModel> model;
+    if (is_enveloped(out.c)) model = binder(plan_.effect, found->pass)(out.c);
+    settle(pass_of(*found), out, model.get());
+    return out;
+  }
+
   PortJudgement judge() {
     read_all();
     PortJudgement result;
@@ -228,6 +239,8 @@ class Shadow {
 
   /// What the reference gives for the port's inputs.
   void settle(const capture::PackPass& pass, PortRun& run, const capture::PassModel* model) const {
+    const capture::PassReadings* readings = readings_of(plan_.effect, pass.name);
+    if (run.broken.empty() && readings && readings->doubt) run.broken = readings->doubt(run.c);
     std::vector<Array> reference;
     if (model) reference = reference_outputs(run.c, *model, *options_.executor);
     std::optional<std::vector<Array>> recomputed;
@@ -235,12 +248,11 @@ class Shadow {
       capture::CaseOutput& output = run.c.outputs[o];
       if (output.judge == capture::Judge::envelope) output.array = reference[o];
       if (output.judge != capture::Judge::bits) continue;
-      const Recompute recompute = recomputer(plan_.effect, pass.name);
-      if (!recompute) {
+      if (!readings || !readings->recompute) {
         run.untested = fmt::format("this build does not recompute {}", pass.name);
         return;
       }
-      if (!recomputed) recomputed = recompute(run.c);
+      if (!recomputed) recomputed = readings->recompute(run.c);
       output.array = (*recomputed)[o];
     }
   }
@@ -276,6 +288,10 @@ class Shadow {
 PortJudgement shadow(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options) {
   static_cast<void>(profile(options.profile));
   return Shadow(plan, folder, dumped, options).judge();
+}
+
+PortRun shadow_run(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options, const std::string& id) {
+  return Shadow(plan, folder, dumped, options).run(id);
 }
 
 }  // namespace rainref::conformance

@@ -59,7 +59,7 @@ std::string content_hash(const Array& array) {
   return hasher.finish().text();
 }
 
-ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack) {
+ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files) {
   ShadowPlan plan;
   plan.effect = pack.effect;
   plan.variant = pack.variant;
@@ -78,7 +78,7 @@ ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack) {
     c.time = from.time;
     c.dt = from.dt;
     c.uniforms = from.block;
-    run.uniform_file = from.uniforms.path;
+    if (shares_files) run.uniform_file = from.uniforms.path;
     for (const capture::PackInput& input : from.inputs) {
       c.inputs.push_back(input.rules);
       c.inputs.back().array = input.shape;
@@ -86,7 +86,7 @@ ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack) {
       Hasher hasher(0);
       for (const capture::PackFileEntry& level : input.levels) hasher.add(level.xxh3);
       run.input_hashes.push_back(hasher.finish().text());
-      run.input_stems.push_back(stem_of(input.levels.front().path));
+      run.input_stems.push_back(shares_files ? stem_of(input.levels.front().path) : "");
     }
     for (const capture::PackOutput& output : from.outputs) {
       c.outputs.push_back(output.rules);
@@ -132,7 +132,10 @@ void ShadowPlan::add(const PassCase& from, const capture::EffectInfo& info_of_ef
   }
   for (capture::CaseOutput& output : run.c.outputs) {
     output.array = shape_of(std::move(output.array));
-    output.range = is_unorm(output.array) ? std::array<double, 2>{0, 1} : info_of_effect.buffer(output.name, variant).range;
+    const capture::BufferInfo& buffer = info_of_effect.buffer(output.name, variant);
+    output.range = is_unorm(output.array) ? std::array<double, 2>{0, 1} : buffer.range;
+    output.unit = buffer.unit;
+    output.color_space = buffer.colour_space;
   }
   frames.insert(from.frame);
 }

@@ -34,8 +34,9 @@ struct ShadowPlan {
   /// Whether `runs` is all that there can be in these frames; else a port may have dumped other frames too.
   bool from_scene = false;
 
-  /// From a manifest that lies beside the dumps: each of its cases should be there.
-  static ShadowPlan of_manifest(const capture::Pack& pack);
+  /// From a manifest that lies beside the dumps: each of its cases should be there. With `shares_files` inputs and
+  /// uniforms may lie where the manifest says, else each run has all of its own.
+  static ShadowPlan of_manifest(const capture::Pack& pack, bool shares_files);
   /// For a run of the scene, whose cases go to add(), every case of the frames in question.
   static ShadowPlan of_effect(const capture::EffectInfo& effect, const std::string& variant, const std::string& scene);
   void add(const capture::PassCase& run, const capture::EffectInfo& effect);

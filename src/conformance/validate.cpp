@@ -68,16 +68,14 @@ void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
 
 }  // namespace
 
-Bind binder(const std::string& effect, const std::string& pass) {
+const capture::PassReadings* readings_of(const std::string& effect, const std::string& pass) {
   for (const capture::PassReadings& r : readings_of(effect))
-    if (r.pass == pass) return r.bind;
+    if (r.pass == pass) return &r;
   return nullptr;
 }
-
-Recompute recomputer(const std::string& effect, const std::string& pass) {
-  for (const capture::PassReadings& r : readings_of(effect))
-    if (r.pass == pass) return r.recompute;
-  return nullptr;
+Bind binder(const std::string& effect, const std::string& pass) {
+  const capture::PassReadings* readings = readings_of(effect, pass);
+  return readings ? readings->bind : nullptr;
 }
 
 void conclude(PortJudgement& j) {

@@ -23,11 +23,10 @@ struct ValidateOptions {
   std::function<void(int done, int of)> progress;  ///< after each case; may be null
 };
 
-/// The readings that this build has of an effect's passes; Error(usage) for an effect that it does not know.
+/// The readings that this build has of a pass, or null; Error(usage) for an effect that it does not know.
+const capture::PassReadings* readings_of(const std::string& effect, const std::string& pass);
+/// Its binder; null where no output is judged by envelope.
 Bind binder(const std::string& effect, const std::string& pass);
-/// What recomputes the outputs of a pass that is judged by bits; null where nothing does.
-using Recompute = std::vector<capture::Array> (*)(const capture::PassCase&);
-Recompute recomputer(const std::string& effect, const std::string& pass);
 
 /// Judges the outputs in `port`, laid out as the pack. Throws Error(port_files) when files are missing or cannot be what
 /// they should be, naming all of them, and when the pack's expected outputs are not this version's; Error(usage) when

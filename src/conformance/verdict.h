@@ -14,11 +14,12 @@ enum class Status : std::uint8_t {
   pass,
   warn,     ///< inside what the profile allows, but outside what real devices do, or with an open question
   fail,     ///< an element outside, a NaN, a crash
-  untested  ///< nothing was judged, or too much of it was vacuous
+  untested, ///< nothing was judged, or too much of it was vacuous
+  known     ///< fails, and the baseline says why it may
 };
-/// "PASS", "WARN", "FAIL", "UNTESTED".
+/// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN".
 const char* name(Status status);
-/// The worse: fail over untested over warn over pass.
+/// The worse: fail over untested over known over warn over pass.
 Status worse(Status a, Status b);
 
 /// How a device rounds its stores to binary16, voted over all elements.
@@ -47,6 +48,7 @@ struct OutputJudgement {
   std::int64_t loose = 0;         ///< wider than 1/256
   std::int64_t atypical = 0;      ///< inside the profile, outside what real devices do
   std::int64_t free = 0;          ///< declared as not reproducible: only its range is checked
+  std::string known;              ///< why the baseline lets it fail; "": it does not
   double median_width = 0, p99_width = 0;  ///< of the accepted codes, in codes: 0 where one code is accepted
   std::vector<Failure> worst;     ///< in order of distance, then of place; at most max_failures
   static constexpr std::size_t max_failures = 100;
@@ -59,6 +61,7 @@ struct CaseJudgement {
   std::string id;
   Status status = Status::untested;
   std::string reason;             ///< why, where it is not a plain pass or fail
+  bool broken = false;            ///< fails for `reason`, whatever its outputs are: a race, an input that is not the output it comes from
   std::int64_t invocations = 0;
   std::int64_t failing = 0;       ///< invocations that no alternative accepts
   std::int64_t ambiguous = 0;     ///< invocations with more than one alternative
@@ -96,6 +99,7 @@ struct PortJudgement {
   std::string first_bad_pass;  ///< in the order of dataflow
   std::vector<PassJudgement> passes;  ///< in the order of execution
   std::vector<std::string> notes;
+  std::vector<std::string> stale;  ///< what the baseline lists and did not fail: each a sentence, each fails the run
 };
 
 }  // namespace rainref::conformance

@@ -21,10 +21,9 @@ void require(bool holds, std::string_view what) {
   if (!holds) throw Error(ExitCode::internal, fmt::format("writing a picture: {}", what));
 }
 
-/// Encodes interleaved texels in the native types that the spec names, in memory, and writes the file at one stroke:
-/// OpenImageIO would open the final name, and its errors do not tell why a disk refused.
-void encode(const std::filesystem::path& path, const char* writer, const OIIO::ImageSpec& spec,
-            const std::vector<std::byte>& texels) {
+/// Encodes interleaved texels in the native types that the spec names, in memory: OpenImageIO would open the final name,
+/// and its errors do not tell why a disk refused. `name` is for messages.
+std::vector<std::byte> encoded(const std::string& name, const char* writer, const OIIO::ImageSpec& spec, const std::vector<std::byte>& texels) {
   configure_openimageio();
   std::vector<unsigned char> bytes;
   std::string problem;
@@ -35,7 +34,7 @@ void encode(const std::filesystem::path& path, const char* writer, const OIIO::I
     require(output->set_ioproxy(&memory), fmt::format("this OpenImageIO cannot write {} to memory", writer));
     // The data are in the file's own types: for one type to be named, for several to be left unknown.
     const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeUnknown;
-    const bool whole = output->open(path.string(), spec) && output->write_image(type, texels.data()) && output->close();
+    const bool whole = output->open(name, spec) && output->write_image(type, texels.data()) && output->close();
     if (!whole || output->has_error()) problem = output->geterror();
     if (!whole && problem.empty()) problem = "no reason given";
   } catch (const Error&) {
@@ -43,8 +42,30 @@ void encode(const std::filesystem::path& path, const char* writer, const OIIO::I
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  if (!problem.empty()) throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), problem));
-  write_file(path, std::as_bytes(std::span(bytes)));
+  if (!problem.empty()) throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", name, problem));
+  const auto written = std::as_bytes(std::span(bytes));
+  return {written.begin(), written.end()};
+}
+
+/// Copies the first `bytes` bytes of every texel of `in` to every `step` bytes from `out` on.
+void interleave(const Image& in, std::size_t bytes, std::size_t step, std::byte* out) {
+  const std::size_t texel_bytes = info(in.format()).texel_bytes();
+  for (int y = 0; y < in.height(); ++y) {
+    const std::byte* row = in.row_bytes(y);
+    for (int x = 0; x < in.width(); ++x, row += texel_bytes, out += step) std::memcpy(out, row, bytes);
+  }
+}
+
+std::vector<std::byte> encoded_png(const std::string& name, const Image& image, PngChannels channels) {
+  require(image.format() == Format::rgba8 || image.format() == Format::rgba8_srgb, "a PNG is made of rgba8");
+  const int count = channels == PngChannels::rgb ? 3 : 4;
+  OIIO::ImageSpec spec(image.width(), image.height(), count, OIIO::TypeUInt8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // else colour would be divided by alpha
+  spec.attribute("png:compressionLevel", 6);
+  if (image.format() == Format::rgba8_srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+  std::vector<std::byte> texels(static_cast<std::size_t>(count) * image.width() * image.height());
+  interleave(image, count, count, texels.data());
+  return encoded(name, "png", spec, texels);
 }
 
 OIIO::TypeDesc channel_type(Format format) {
@@ -69,28 +90,13 @@ void add_channels(const Layer& layer, std::set<std::string>& taken, OIIO::ImageS
   }
 }
 
-/// Copies the first `bytes` bytes of every texel of `in` to every `step` bytes from `out` on.
-void interleave(const Image& in, std::size_t bytes, std::size_t step, std::byte* out) {
-  const std::size_t texel_bytes = info(in.format()).texel_bytes();
-  for (int y = 0; y < in.height(); ++y) {
-    const std::byte* row = in.row_bytes(y);
-    for (int x = 0; x < in.width(); ++x, row += texel_bytes, out += step) std::memcpy(out, row, bytes);
-  }
-}
-
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels) {
-  require(image.format() == Format::rgba8 || image.format() == Format::rgba8_srgb, "a PNG is made of rgba8");
-  const int count = channels == PngChannels::rgb ? 3 : 4;
-  OIIO::ImageSpec spec(image.width(), image.height(), count, OIIO::TypeUInt8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // else colour would be divided by alpha
-  spec.attribute("png:compressionLevel", 6);
-  if (image.format() == Format::rgba8_srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-  std::vector<std::byte> texels(static_cast<std::size_t>(count) * image.width() * image.height());
-  interleave(image, count, count, texels.data());
-  encode(path, "png", spec, texels);
+  write_file(path, encoded_png(path.string(), image, channels));
 }
+
+std::vector<std::byte> png_bytes(const Image& image, PngChannels channels) { return encoded_png("picture.png", image, channels); }
 
 void write_exr(const std::filesystem::path& path, const std::vector<Layer>& layers) {
   require(!layers.empty(), "an EXR needs a layer");
@@ -121,7 +127,7 @@ void write_exr(const std::filesystem::path& path, const std::vector<Layer>& laye
     interleave(*layer.image, bytes, texel_bytes, out);
     out += bytes;
   }
-  encode(path, "openexr", spec, texels);
+  write_file(path, encoded(path.string(), "openexr", spec, texels));
 }
 
 }  // namespace rainref::image_io

@@ -1,6 +1,7 @@
 // Writing pictures: PNG for the eye, EXR for numbers. The same image gives the same bytes at any time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,6 +16,9 @@ enum class PngChannels : std::uint8_t { rgb, rgba };
 /// Writes an rgba8 or rgba8_srgb image as an 8-bit PNG, row 0 on top; rgb leaves alpha out. Codes are stored as they
 /// are; rgba8_srgb also marks the file as sRGB. Throws Error(io) naming the file; nothing half-written stays behind.
 void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels = PngChannels::rgb);
+
+/// The bytes of such a file, for a page that holds its pictures.
+std::vector<std::byte> png_bytes(const Image& image, PngChannels channels = PngChannels::rgb);
 
 /// Channels of an EXR file that come from one image.
 struct Layer {

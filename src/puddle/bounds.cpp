@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "capture/bound_texture.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 
@@ -56,6 +59,40 @@ TextureData surface_bounds(const Settings& s, const float* decoded, const parall
   // Half a texel less than a block would do; the rest is for rounding.
   u.bounds_reach = static_cast<float>((extent_block - 1) * s.cell_size);
   return TextureData(std::move(texels), 2, columns, rows, Address::clamp, Address::clamp);
+}
+
+std::string doubt_bounds(const capture::PassCase& c) {
+  if (!c.corrected()) return "";
+  const capture::BoundTexture wave(capture::image_input(c, "wave"), 0, 1), bounds(capture::image_input(c, "bounds"));
+  const Texture water = wave.view(), said = bounds.view();
+  const auto u = capture::uniforms_of<SurfaceHitUniforms>(c);
+  const int width = water.width[0], height = water.height[0];
+  const int columns = (width + extent_block - 1) / extent_block, rows = (height + extent_block - 1) / extent_block;
+  if (said.width[0] != columns || said.height[0] != rows)
+    return fmt::format("in.bounds is {}x{}, a wave of {}x{} has {}x{} blocks", said.width[0], said.height[0], width, height, columns, rows);
+  // Without the margins of surface_bounds, which cover the rounding of whoever computes them otherwise.
+  const double to_slope = 2.0 * u.normal_gain * u.height_scale * 0x1.6a09e667f3bcdp+0;
+  const float rest = -u.height_bias / u.height_scale;
+  std::vector<Extent> blocks(static_cast<std::size_t>(columns));
+  for (int y = 0; y < rows; ++y) {
+    const parallel::Tile tile{0, y * extent_block, width, std::min(height, (y + 1) * extent_block)};
+    extents_of_rows(water.texels, width, height, rest, tile, blocks.data());
+    for (int x = 0; x < columns; ++x) {
+      const Extent& e = blocks[static_cast<std::size_t>(x)];
+      const double top = static_cast<double>(e.height) * u.height_scale, slope = e.difference * to_slope;
+      const auto text = [&](const std::string& what, float said_top, float said_slope) {
+        return fmt::format("{} says height {:.6g} m and slope {:.6g}, the water in block ({}, {}) has {:.6g} m and {:.6g}: of another frame?", what, said_top, said_slope, x, y, top, slope);
+      };
+      if (top > u.surface_top || slope > u.surface_slope) return text("uniform surface_top or surface_slope", u.surface_top, u.surface_slope);
+      for (int v = std::max(0, y - 1); v <= std::min(rows - 1, y + 1); ++v) {
+        for (int w = std::max(0, x - 1); w <= std::min(columns - 1, x + 1); ++w) {
+          const float* texel = said.texels + 2 * (static_cast<std::ptrdiff_t>(v) * columns + w);
+          if (top > texel[0] || slope > texel[1]) return text(fmt::format("in.bounds at ({}, {})", w, v), texel[0], texel[1]);
+        }
+      }
+    }
+  }
+  return "";
 }
 
 }  // namespace rainref::puddle

@@ -1,6 +1,9 @@
 // Bounds of the water's height and slope, which let the march of surface_hit take long steps.
 #pragma once
 
+#include <string>
+
+#include "capture/pass_case.h"
 #include "image/texture.h"
 #include "puddle/uniforms.h"
 #include "rainref/executor.h"
@@ -13,5 +16,9 @@ namespace rainref::puddle {
 /// Sets the uniforms that go with it, and those that hold for all of the water. `decoded` holds stored values,
 /// row-major, of the corrected wave; heights beyond its edge are 0.
 TextureData surface_bounds(const Settings& settings, const float* decoded, const parallel::Executor& executor, SurfaceHitUniforms& uniforms);
+
+/// Whether the texture `bounds` and the uniforms of a run of surface_hit, corrected, hold for its wave: "", or the first
+/// place where the water is higher or steeper than they say, as it is when they are another frame's.
+std::string doubt_bounds(const capture::PassCase& c);
 
 }  // namespace rainref::puddle

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "puddle/bounds.h"
 #include "puddle/every_reading.h"
 #include "puddle/kernels.h"
 #include "puddle/rainfall.h"
@@ -216,7 +217,7 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all{
-      {"raindrops", nullptr, recompute_raindrops}, {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit}, {"shade", bind_shade}, {"display", bind_display}};
+      {"raindrops", nullptr, recompute_raindrops}, {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit, nullptr, doubt_bounds}, {"shade", bind_shade}, {"display", bind_display}};
   return all;
 }
 

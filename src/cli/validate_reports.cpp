@@ -1,0 +1,93 @@
+#include "cli/validate_reports.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "cli/commands.h"
+#include "conformance/report_figures.h"
+#include "conformance/report_html.h"
+#include "conformance/report_json.h"
+#include "conformance/report_junit.h"
+#include "rainref/error.h"
+
+namespace rainref::cli {
+namespace {
+
+/// Opens a report's file now; nothing when it is not asked for.
+std::unique_ptr<AtomicFile> opened(const char* option, const std::optional<std::string>& path) {
+  if (!path) return nullptr;
+  if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
+  return std::make_unique<AtomicFile>(*path);
+}
+
+void finish(std::unique_ptr<AtomicFile>& file, std::string_view text) {
+  if (!file) return;
+  file->write(text);
+  file->commit();
+  file = nullptr;
+}
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) return std::string(word);
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+void add_report_options(CLI::App& verb, ReportOptions& options) {
+  verb.add_option("--json", options.json, "Write the whole judgement as JSON");
+  verb.add_option("--junit", options.junit, "Write it as JUnit XML, for continuous integration");
+  verb.add_option("--html", options.html, "Write it as one page with pictures of what fails");
+  verb.add_option("--baseline", options.baseline, "Known failures (TOML): they pass, and what no longer fails is an error");
+}
+
+std::string command_text(int argc, const char* const* argv) {
+  std::string out = "rainref";
+  for (int i = 1; i < argc; ++i) out += " " + shell_word(argv[i]);
+  return out;
+}
+
+Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(allow_untested) {
+  if (o.baseline) {
+    if (o.baseline->empty()) throw Error(ExitCode::usage, "--baseline: expected a file, found ''");
+    baseline_ = conformance::Baseline::read(*o.baseline);
+  }
+  for (const auto& [a, b] : {std::pair{&o.json, &o.junit}, {&o.json, &o.html}, {&o.junit, &o.html}})
+    if (*a && *a == *b && !(*a)->empty()) throw Error(ExitCode::usage, fmt::format("two reports cannot have one name: '{}'", **a));
+  json_ = opened("--json", o.json);
+  junit_ = opened("--junit", o.junit);
+  html_ = opened("--html", o.html);
+}
+
+void Reports::check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const {
+  if (baseline_) baseline_->check(passes, ids);
+}
+void Reports::apply_baseline(conformance::PortJudgement& judgement) const {
+  if (baseline_) baseline_->apply(judgement);
+}
+
+void Reports::write(const conformance::PortJudgement& j, const conformance::PageSource& source) {
+  if (html_) finish(html_, conformance::report_html(j, source));
+  if (junit_) finish(junit_, conformance::report_junit(j, allow_untested_));
+  if (json_) finish(json_, conformance::report_json(j, conformance::exit_code(j, allow_untested_)));
+}
+
+void Reports::write_error(const Error& error, const ValidateRequest& request) {
+  conformance::PortJudgement j;
+  j.pack = request.pack.string();
+  j.port = request.shadow.empty() ? request.port.string() : request.shadow.string();
+  j.profile = request.profile;
+  j.command = request.command;
+  j.reason = error.what();
+  if (html_) finish(html_, conformance::report_html(j, {}));
+  if (junit_) finish(junit_, conformance::report_junit(j, false));
+  if (json_) finish(json_, conformance::report_json(j, static_cast<int>(error.code())));
+}
+
+}  // namespace rainref::cli

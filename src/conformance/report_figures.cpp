@@ -1,0 +1,104 @@
+#include "conformance/report_figures.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "image/code_range.h"
+
+namespace rainref::conformance {
+namespace {
+
+void add(Figures& to, const Figures& f) {
+  for (auto sum : {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up, &Figures::elements, &Figures::outside,
+                   &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical, &Figures::free})
+    to.*sum += f.*sum;
+  to.median_width = std::max(to.median_width, f.median_width);
+  to.p99_width = std::max(to.p99_width, f.p99_width);
+}
+
+}  // namespace
+
+Figures figures_of(const OutputJudgement& o) {
+  Figures f;
+  f.elements = o.elements;
+  f.outside = o.failing;
+  f.differing = o.differing;
+  f.vacuous = o.vacuous;
+  f.loose = o.loose;
+  f.atypical = o.atypical;
+  f.free = o.free;
+  f.median_width = o.median_width;
+  f.p99_width = o.p99_width;
+  return f;
+}
+Figures figures_of(const CaseJudgement& c) {
+  Figures f;
+  f.invocations = c.invocations;
+  f.failing = c.failing;
+  f.ambiguous = c.ambiguous;
+  f.other_branch = c.other_branch;
+  f.gave_up = c.gave_up;
+  for (const OutputJudgement& o : c.outputs) add(f, figures_of(o));
+  return f;
+}
+Figures figures_of(const PassJudgement& p) {
+  Figures f;
+  for (const CaseJudgement& c : p.cases) add(f, figures_of(c));
+  return f;
+}
+
+std::string share_text(std::int64_t part, std::int64_t of) {
+  if (of <= 0) return "-";
+  if (part <= 0) return "0 %";
+  if (part >= of) return "100 %";
+  return fmt::format("{:.2f} %", std::clamp(100.0 * static_cast<double>(part) / static_cast<double>(of), 0.01, 99.99));
+}
+std::string width_text(double codes) { return codes >= 4e9 ? "none" : fmt::format("{:.0f}", codes); }
+std::string shape_text(const OutputJudgement& o) {
+  return o.records ? fmt::format("{} record{}", o.elements, o.elements == 1 ? "" : "s") : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
+}
+std::string channel_name(int channel) { return std::string(1, "xyzw"[channel & 3]); }
+
+FailureText failure_text(const OutputJudgement& o, const Failure& f) {
+  if (o.records) return {fmt::format("record {}", f.x), "", "", "", "differs"};
+  const FormatInfo::Kind kind = info(o.format).kind;
+  FailureText t;
+  t.place = fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
+  t.got = enclosed::code_text(kind, f.got);
+  t.accepted = f.low == f.high ? enclosed::code_text(kind, f.low) : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
+  t.expected = enclosed::code_text(kind, f.expected);
+  t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
+  return t;
+}
+
+std::string cause_text(const Cause& c) {
+  return fmt::format("{}: {} (gives {} of {} failing texels bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of, c.inside);
+}
+
+std::string half_text(const PassJudgement& p) {
+  if (!p.half_mode_voted) return "";
+  const auto [rne, rtz, either] = p.half_votes;
+  const char* found = p.half_mode == HalfMode::rne ? "to nearest" : p.half_mode == HalfMode::rtz ? "toward zero" : "sometimes to nearest, sometimes toward zero";
+  if (rne == rtz && p.half_mode != HalfMode::either) return "stores to half: nothing tells how they round";
+  return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found, rne, rtz, either);
+}
+
+bool forgives_untested(const PortJudgement& j, bool allow_untested) {
+  return allow_untested && std::any_of(j.passes.begin(), j.passes.end(), [](const PassJudgement& p) { return p.status == Status::pass || p.status == Status::warn; });
+}
+int exit_code(const PortJudgement& j, bool allow_untested) {
+  if (j.status == Status::fail) return 1;
+  return j.status == Status::untested && !forgives_untested(j, allow_untested) ? 1 : 0;
+}
+
+std::string count_text(const PortJudgement& j) {
+  std::string out;
+  for (const Status s : {Status::fail, Status::untested, Status::known, Status::warn, Status::pass}) {
+    const auto count = std::count_if(j.passes.begin(), j.passes.end(), [&](const PassJudgement& p) { return p.status == s; });
+    if (count > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, name(s));
+  }
+  return out;
+}
+
+}  // namespace rainref::conformance

@@ -1,0 +1,134 @@
+// `rainref validate` with --json, --junit, --html and --baseline.
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/support.h"
+#include "cli/validate_reports.h"
+#include "conformance/example_judgement.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// The small corrected pack beside `good`, its own outputs as a port's, and `bad`, with shade upside down.
+class ValidateReports : public CommandLine {
+ protected:
+  ValidateReports() {
+    std::filesystem::copy(conformance::small_pack("puddle-corrected"), folder / "pack", std::filesystem::copy_options::recursive);
+    const capture::Pack pack(folder / "pack");
+    conformance::write_port(pack, folder / "good");
+    conformance::write_port(pack, folder / "bad", [](const capture::PackCase& c, const std::string&, capture::Array& a) {
+      if (c.pass == "shade") conformance::flip_rows(a);
+    });
+    before = folder.names();
+  }
+  Outcome validate(const std::string& port, std::vector<std::string> options) const {
+    options.insert(options.begin(), {"validate", "pack", "--port", port});
+    Circumstances c;
+    c.is_copy = true;
+    return rainref(options, c);
+  }
+};
+
+TEST_F(ValidateReports, AllReportsOfAFailingPort) {
+  const Outcome o = validate("bad", {"--json", "r.json", "--junit", "r.xml", "--html", "r.html"});
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL  shade"), HasSubstr("likely cause: upside down"), HasSubstr("FAIL: bad against pack, profile vulkan")));
+  const auto json = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ(json["status"], "FAIL");
+  EXPECT_EQ(json["first_bad_pass"], "shade");
+  EXPECT_EQ(json["command"], "rainref validate pack --port bad --json r.json --junit r.xml --html r.html");
+  EXPECT_THAT(contents(folder / "r.xml"), HasSubstr("<failure type=\"outside\""));
+  EXPECT_THAT(contents(folder / "r.html"), AllOf(StartsWith("<!DOCTYPE html>"), HasSubstr("</html>\n")));
+  EXPECT_EQ(folder.names().size(), before.size() + 3);  // no temporary stays
+}
+
+TEST_F(ValidateReports, AllReportsOfAGoodPort) {
+  const Outcome o = validate("good", {"--json", "r.json", "--junit", "r.xml", "--html", "r.html"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["exit_code"], 0);
+  EXPECT_THAT(contents(folder / "r.xml"), AllOf(Not(HasSubstr("<failure")), Not(HasSubstr("<error"))));
+}
+
+TEST_F(ValidateReports, ThreadsChangeNoByte) {
+  validate("bad", {"--json", "a.json", "--junit", "a.xml", "--html", "a.html", "--threads", "1"});
+  std::map<std::string, std::string> first;
+  for (const std::string name : {"a.json", "a.xml", "a.html"}) first[name] = contents(folder / name);
+  validate("bad", {"--json", "a.json", "--junit", "a.xml", "--html", "a.html", "--threads", "3"});
+  for (auto& [name, bytes] : first) {
+    while (bytes.find("--threads 1") != std::string::npos) bytes.replace(bytes.find("--threads 1"), 11, "--threads 3");
+    EXPECT_EQ(contents(folder / name), bytes) << name;
+  }
+}
+
+TEST_F(ValidateReports, ABaselineForgivesWhatItLists) {
+  put(folder / "known.toml", "[shade.colour]\nreason = 'the exporter flips; ticket 7'\n");
+  const Outcome o = validate("bad", {"--baseline", "known.toml", "--junit", "r.xml", "--json", "r.json"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("KNOWN  shade"), HasSubstr("known: the exporter flips; ticket 7"), HasSubstr("KNOWN: bad against pack")));
+  EXPECT_THAT(contents(folder / "r.xml"), AllOf(HasSubstr("<skipped message=\"known: the exporter flips; ticket 7"), Not(HasSubstr("<failure"))));
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["status"], "KNOWN");
+}
+
+TEST_F(ValidateReports, ABaselineThatIsOutOfDateFails) {
+  put(folder / "known.toml", "[shade.colour]\nreason = 'fixed long ago'\n");
+  const Outcome o = validate("good", {"--baseline", "known.toml", "--junit", "r.xml"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, HasSubstr("baseline: known.toml:2:1: [shade.colour] no longer fails (\"fixed long ago\"): remove the entry\n"));
+  EXPECT_THAT(contents(folder / "r.xml"), HasSubstr("<testsuite name=\"baseline\" tests=\"1\" failures=\"1\""));
+  EXPECT_EQ(validate("good", {"--baseline", "known.toml", "--only", "display"}).code, 0);  // shade was not judged
+}
+
+TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
+  put(folder / "typo.toml", "[shad.colour]\nreason = 'x'\n");
+  put(folder / "silent.toml", "[shade.colour]\n");
+  before = folder.names();
+  const auto refused = [&](std::vector<std::string> options, int code, const testing::Matcher<const std::string&>& message) {
+    options.insert(options.begin(), {"validate", "pack", "--port", "bad"});
+    expect_refusal(options, code, message);
+  };
+  refused({"--baseline", "typo.toml"}, 2, HasSubstr("typo.toml:2:1: expected a pass (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?"));
+  refused({"--baseline", "silent.toml"}, 2, HasSubstr("expected a reason, found none"));
+  refused({"--baseline", "none.toml"}, 4, HasSubstr("none.toml"));
+  refused({"--baseline", ""}, 2, HasSubstr("--baseline: expected a file, found ''"));
+  refused({"--html", ""}, 2, HasSubstr("--html: expected a file, found ''"));
+  refused({"--html", "r", "--json", "r"}, 2, HasSubstr("two reports cannot have one name: 'r'"));
+  refused({"--html", "no/such/folder/r.html"}, 4, HasSubstr("no/such/folder/r.html"));
+  refused({"--junit", "pack"}, 4, HasSubstr("pack"));
+  refused({"--jsom", "r"}, 2, HasSubstr("did you mean '--json'?"));
+}
+
+TEST_F(ValidateReports, AMissingFileIsReportedInEveryFormat) {
+  std::filesystem::remove(folder / "good/puddle.shade/0012.0/out.colour.npy");
+  put(folder / "r.xml", "of an earlier run");
+  const Outcome o = validate("good", {"--json", "r.json", "--junit", "r.xml", "--html", "r.html"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(contents(folder / "r.xml"), AllOf(HasSubstr("<error type=\"not judged\""), HasSubstr("out.colour")));
+  const auto json = nlohmann::json::parse(contents(folder / "r.json"));
+  EXPECT_EQ(json["status"], "UNTESTED");
+  EXPECT_EQ(json["exit_code"], 3);
+  EXPECT_THAT(contents(folder / "r.html"), HasSubstr("out.colour"));
+}
+
+TEST_F(ValidateReports, AFullDiskLeavesNothing) {
+  Circumstances c;
+  c.file_bytes = 20'000;
+  c.is_copy = true;
+  const Outcome o = rainref({"validate", "pack", "--port", "bad", "--html", "r.html"}, c);
+  EXPECT_EQ(o.code, 4);
+  EXPECT_THAT(o.err, HasSubstr("cannot write 'r.html'"));
+  EXPECT_EQ(folder.names(), before);
+}
+
+TEST(CommandText, IsWhatAShellReads) {
+  const char* const argv[] = {"/usr/bin/rainref", "validate", "my pack", "--port", "it's", ""};
+  EXPECT_EQ(command_text(6, argv), "rainref validate 'my pack' --port 'it'\\''s' ''");
+}
+
+}  // namespace
+}  // namespace rainref::cli

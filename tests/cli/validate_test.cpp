@@ -1,0 +1,199 @@
+// `rainref validate`: exit codes, a port's own command, races, shadows.
+#include "cli/port_command.h"
+#include "cli/support.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+const std::string pack = RAINREF_SOURCE_DIR "/tests/packs/puddle-corrected";
+const std::string published = RAINREF_SOURCE_DIR "/tests/packs/puddle-as-published";
+
+class Validate : public CommandLine {
+ protected:
+  /// A copy of the pack as a port's folder.
+  void copy_to(const std::string& name, const std::string& from = pack) const { std::filesystem::copy(from, folder / name, std::filesystem::copy_options::recursive); }
+  Outcome validate(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "validate");
+    return rainref(arguments);
+  }
+  Outcome exec(const std::string& command, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {pack, "--exec", command});
+    return validate(more);
+  }
+};
+
+TEST_F(Validate, ExitCodes) {
+  copy_to("port");
+  EXPECT_EQ(validate({pack, "--port", "port"}).code, 0);
+  put(folder / "port/puddle.display/0011.0/out.picture.npy", contents(folder / "port/puddle.display/0012.0/out.picture.npy"));
+  const Outcome o = validate({pack, "--port", "port"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("display"), HasSubstr("FAIL")));
+  EXPECT_EQ(validate({pack, "--port", "port", "--only", "shade"}).code, 0);
+  EXPECT_EQ(validate({pack, "--port", "port", "--allow-untested"}).code, 1);
+
+  before = folder.names();
+  expect_refusal({"validate", pack}, 2, HasSubstr("expected --port DIR, or --exec COMMAND"));
+  expect_refusal({"validate", "--port", "port"}, 2, HasSubstr("expected the folder of a PACK, or --shadow DIR"));
+  expect_refusal({"validate", pack, "--port", pack}, 2, HasSubstr("judged by themselves"));
+  expect_refusal({"validate", pack, "--port", "port", "--profile", "vulcan"}, 2, HasSubstr("did you mean 'vulkan'?"));
+  expect_refusal({"validate", pack, "--port", "port", "--only", "shad"}, 2, HasSubstr("did you mean 'shade'?"));
+  expect_refusal({"validate", pack, "--port", "port", "--repeat", "2"}, 2, "--repeat: goes with --exec only");
+  expect_refusal({"validate", pack, "--port", "port", "--set", "rain.rate=2"}, 2, HasSubstr("go with --shadow and a scene only"));
+  expect_refusal({"validate", pack, "--exec", "true"}, 2, HasSubstr("expected {out} in the command"));
+  expect_refusal({"validate", pack, "--exec", ""}, 2, "--exec: expected a command, found ''");
+  expect_refusal({"validate", pack, "--exec", "true {out}", "--timeout", "0"}, 2, HasSubstr("--timeout: expected a whole number from 1"));
+  expect_refusal({"validate", pack, "--exec", "true {out}", "--port", "port"}, 2, HasSubstr("expected a new or empty folder"));
+  expect_refusal({"validate", pack, "--port", "none"}, 3, HasSubstr("none: expected a folder of a port, found none"));
+  expect_refusal({"validate", "none", "--port", "none"}, 4, HasSubstr("no such folder"));
+  expect_refusal({"validate", "none", "--port", "none", "--profile", "none"}, 4, HasSubstr("no such folder"));
+}
+
+// Nothing is judged of the article's march where its rays have no bound: not 0 unless that is forgiven, beside a PASS.
+TEST_F(Validate, UntestedIsForgivenOnlyBesideAPass) {
+  copy_to("port");
+  std::filesystem::remove_all(folder / "port/puddle.display");
+  EXPECT_EQ(validate({"--shadow", "port"}).code, 1);
+  EXPECT_EQ(validate({"--shadow", "port", "--allow-untested"}).code, 0);
+  EXPECT_EQ(validate({"--shadow", "port", "--allow-untested", "--only", "display"}).code, 1);
+}
+
+TEST_F(Validate, ADamagedPackIsRefused) {
+  copy_to("port");
+  copy_to("bad");
+  before = folder.names();
+  std::string text = contents(folder / "bad/manifest.json");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    put(folder / "bad/manifest.json", changed);
+  };
+  with("\"version\": 1", "\"version\": 2");
+  expect_refusal({"validate", "bad", "--port", "port"}, 3, HasSubstr("version 2 is newer"));
+  with("\"file\":\"puddle.shade/0011.0/out", "\"file\":\"../port/puddle.shade/0011.0/out");
+  expect_refusal({"validate", "bad", "--port", "port"}, 3, HasSubstr("the path of a file below the pack's folder"));
+}
+
+TEST_F(Validate, APortsCommandIsRunAndJudged) {
+  const Outcome o = exec("cp -r {pack}/. {out}");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_EQ(folder.names(), before);
+  // Into a folder that stays, of a name that a shell would split.
+  EXPECT_EQ(exec("cp -r \"{pack}\"/. \"{out}\"", {"--port", "it's a $HOME"}).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "it's a $HOME/puddle.shade"));
+  EXPECT_EQ(validate({pack, "--port", "it's a $HOME"}).code, 0);
+}
+
+TEST(PortCommand, PathsAreOneWordInEveryQuote) {
+  TemporaryFolder folder;
+  const std::filesystem::path odd = folder / "a 'b' \"c\" $d `e` \\f";
+  for (const std::string command : {"printf %s {out}", "printf %s \"{out}\"", "printf %s '{out}'", "printf %s \"\\\"\"{out} | tail -c +2", "printf %s \\'{out} | tail -c +2"}) {
+    const CommandEnd end = run_command(with_folders(command, folder.path(), odd), std::chrono::seconds(20));
+    EXPECT_EQ(end.failure, "") << command;
+    EXPECT_EQ(end.last_lines, std::vector<std::string>{odd.string()}) << command;
+  }
+}
+
+TEST(PortCommand, TheLastLinesAreKept) {
+  const CommandEnd end = run_command("i=0; while [ $i -lt 5000 ]; do i=$((i+1)); echo line $i; done; echo end >&2; exit 3", std::chrono::seconds(60));
+  EXPECT_EQ(end.failure, "the port's command ended with exit code 3");
+  ASSERT_EQ(end.last_lines.size(), 20u);
+  EXPECT_EQ(end.last_lines.back(), "end");
+  EXPECT_EQ(end.last_lines.front(), "line 4982");
+}
+
+TEST_F(Validate, ACommandThatFailsIsReported) {
+  Outcome o = exec("echo first; echo last >&2; exit 3; : {out}");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL"), HasSubstr("the port's command ended with exit code 3"), HasSubstr("the port printed: last")));
+  o = exec("kill -9 $$; : {out}");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, HasSubstr("ended by signal 9"));
+  o = exec("sh -c 'kill -11 $$'; exit $? {out}");
+  EXPECT_THAT(o.out, HasSubstr("exit code 139: signal 11"));
+  o = exec("no-such-port {pack} {out}");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, HasSubstr("exit code 127: there is no such program"));
+  // It succeeds and writes nothing.
+  o = exec("true {out}");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_EQ(folder.names(), before);
+}
+
+TEST_F(Validate, ACommandThatTakesTooLongIsEndedWithItsWholeGroup) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome o = exec("(sleep 60; echo > late) & echo $! > child; sleep 60; : {out}", {"--timeout", "1"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, HasSubstr("the port's command was ended after 1 s (--timeout)"));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  // Reparented to whoever reaps here; a dead process may be left as a zombie, which runs nothing.
+  const std::string status = contents("/proc/" + std::to_string(std::stoi(contents(folder / "child"))) + "/stat");
+  EXPECT_TRUE(status.empty() || status.find(") Z ") != std::string::npos) << status;
+}
+
+// What a command leaves running is ended too: it could go on writing.
+TEST_F(Validate, NothingIsLeftRunning) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome o = exec("cp -r {pack}/. {out}; sleep 60 &");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(Validate, ARaceIsFoundAndNamed) {
+  // The second run differs in the last byte of a file, an alpha of a picture.
+  const std::string command = "cp -r {pack}/. {out}; case {out} in *run.2) cd {out}/puddle.display/0012.0; n=$(($(wc -c < out.picture.npy) - 2)); "
+                              "printf '\\001' | dd of=out.picture.npy bs=1 seek=$n conv=notrunc status=none;; esac";
+  EXPECT_EQ(exec(command).code, 0);
+  Outcome o = exec(command, {"--repeat", "3"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first at (34, 20).z, 1 of 2940 elements"),
+                           HasSubstr("the port ran 3 times"), Not(HasSubstr("outside the as-written envelope"))));
+  o = exec(command, {"--repeat", "2", "--port", "kept"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "kept/run.2/puddle.display"));
+  EXPECT_EQ(exec("cp -r {pack}/. {out}", {"--repeat", "2"}).code, 0);
+}
+
+TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
+  for (const std::string scene : {"corrected", "published"}) {
+    ASSERT_EQ(rainref({"run", scene + ".toml", "--frames", "3", "--every", "1", "--capture", "all", "--set", "puddle.drop_intensity=3", "-o", scene}).code, 0);
+    const std::string dump = scene + "/capture";
+    const std::vector<std::string> forgiving = scene == "published" ? std::vector<std::string>{"--allow-untested"} : std::vector<std::string>{};
+    for (const bool with_scene : {false, true}) {
+      std::vector<std::string> arguments{"--shadow", dump};
+      if (with_scene) arguments.insert(arguments.end(), {scene + ".toml", "--set", "puddle.drop_intensity=3"});
+      arguments.insert(arguments.end(), forgiving.begin(), forgiving.end());
+      const Outcome o = validate(arguments);
+      EXPECT_EQ(o.code, 0) << o.out << o.err;
+      EXPECT_THAT(o.out, Not(HasSubstr("note:"))) << scene;  // every input and uniform is the scene's
+      EXPECT_THAT(o.out, Not(HasSubstr("FAIL")));
+    }
+  }
+  // Another scene's uniforms are noted.
+  const Outcome o = validate({"--shadow", "corrected/capture", "corrected.toml", "--set", "puddle.drop_intensity=3", "--set", "display.exposure=1"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  EXPECT_THAT(o.out, HasSubstr("uniform exposure of display is not the scene's in 3 runs"));
+}
+
+TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
+  std::filesystem::create_directories(folder / "dump/puddle.shade/0000.0");
+  std::filesystem::create_directories(folder / "empty");
+  before = folder.names();
+  expect_refusal({"validate", "--shadow", "dump"}, 2, HasSubstr("expected a manifest.json there, or the scene that the port ran"));
+  expect_refusal({"validate", "--shadow", "none"}, 3, HasSubstr("found none"));
+  expect_refusal({"validate", "--shadow", "empty", "corrected.toml"}, 3, HasSubstr("expected folders such as puddle.raindrops/0000.0, found none"));
+  expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3, AllOf(HasSubstr("uniforms.bin' is missing"), HasSubstr("in.hit"), HasSubstr("out.colour")));
+  expect_refusal({"validate", "--shadow", "dump", "corrected.toml", "--only", "shde"}, 2, HasSubstr("did you mean 'shade'?"));
+  expect_refusal({"validate", "--shadow", "dump", "none.toml"}, 4, HasSubstr("none.toml"));
+  expect_refusal({"validate", "--shadow", "dump", "--port", "x"}, 2, "--port: does not go with --shadow");
+  std::filesystem::create_directories(folder / "dump/puddle.shade/0000.7");
+  expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3, HasSubstr("corrected.toml runs shade 1 time in frame 0"));
+}
+
+}  // namespace
+}  // namespace rainref::cli
