@@ -70,17 +70,24 @@ void add_constants(std::vector<Deviation>& out, const capture::PassModel& model)
   }
   for (const auto& [v, places] : values) {
     if (places < probes * probes / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
-    const auto add = [&, value = v](float factor, const char* by) {
+    const auto add = [&, value = v](float replacement, const char* what, bool for_diagnosis) {
       Deviation d;
-      d.name = fmt::format("constant {} off by {}", value, by);
-      d.sentence = fmt::format("a literal or uniform of value {} is {}", value, value * factor);
+      d.name = fmt::format("constant {} {}", value, what);
+      d.sentence = fmt::format("a literal or uniform of value {} is {}", value, replacement);
       d.behaviour.slip = deviant::Slip::constant;
       d.behaviour.constant = value;
-      d.behaviour.replacement = value * factor;
+      d.behaviour.replacement = replacement;
+      d.for_diagnosis = for_diagnosis;
       out.push_back(std::move(d));
     };
-    add(1.01f, "1 %");
-    add(1 + 0x1p-10f, "2^-10");
+    add(v * 1.01f, "off by 1 %", false);
+    add(v * (1 + 0x1p-10f), "off by 2^-10", false);
+    add(0, "missing", true);
+    add(-v, "negated", true);
+    add(v * 2, "doubled", true);
+    add(v / 2, "halved", true);
+    add(v * v, "taken twice", true);
+    add(1 / v, "inverted", true);
   }
 }
 
@@ -103,6 +110,13 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
         auto* words = reinterpret_cast<std::array<std::byte, 4>*>(c.uniforms.data() + m.offset);
         std::reverse(words, words + m.components);
       });
+    }
+    for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k) {
+      const std::string part = m.components == 1 ? "" : fmt::format("{} ", "xyzw"[k]);
+      add(part + "negated", fmt::format("{} {}has the other sign", m.name, part), [m, k](PassCase& c) {
+        c.uniforms[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80};
+      });
+      out.back().for_diagnosis = true;
     }
     if (m.scalar == scene::Scalar::int32 && m.components == 1) {
       for (const int by : {-1, 1}) {
@@ -129,6 +143,12 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
       d.name = fmt::format("uniform {} is {}", m.name, other.name);
       d.sentence = fmt::format("{} has the value of {}", m.name, other.name);
       d.alter_case = [m, other](PassCase& c) { std::memcpy(c.uniforms.data() + m.offset, c.uniforms.data() + other.offset, m.size()); };
+      d.for_diagnosis = true;
+      out.push_back(d);
+      if (m.offset > other.offset) continue;
+      d.name = fmt::format("uniforms {} and {} exchanged", m.name, other.name);
+      d.sentence = fmt::format("{} and {} have each other's value", m.name, other.name);
+      d.alter_case = [m, other](PassCase& c) { std::swap_ranges(&c.uniforms[m.offset], &c.uniforms[m.offset] + m.size(), &c.uniforms[other.offset]); };
       out.push_back(std::move(d));
     }
   }
@@ -172,6 +192,13 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
       if (info(i.array.format).channels > 1) {
         add("with its first two channels swapped", fmt::format("the first two channels of {} are swapped (ping-pong order)", name),
             [](Array& a) { swap_channels(a, 0, 1); });
+      }
+      if (info(i.array.format).channels == 2) {
+        for (const int from : {0, 1}) {
+          add(from == 0 ? "with its first channel for both" : "with its second channel for both", fmt::format("of {} the same channel is read for both", name),
+              [from](Array& a) { copy_channel(a, from, 1 - from); });
+          out.back().for_diagnosis = true;
+        }
       }
       if (info(i.array.format).channels >= 3) {
         add("as BGRA", fmt::format("{} is read in the order BGRA", name), [](Array& a) { swap_channels(a, 0, 2); });

@@ -24,6 +24,7 @@ struct Deviation {
   std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)> alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
   std::optional<HalfMode> stores;                        ///< how halves are stored, whatever was declared
   bool legal = false;  ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool for_diagnosis = false;  ///< asked by the diagnosis only: `mutate` has enough of its kind
 
   bool is_evaluated() const { return !alter_outputs; }
 };

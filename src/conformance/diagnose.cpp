@@ -1,8 +1,11 @@
 // Hypothesis replay: which single deviation stores the bits that a port stored where it fails.
 #include <algorithm>
+#include <cmath>
 
 #include "conformance/judge.h"
 #include "conformance/validate.h"
+#include "image/code_range.h"
+#include "math/replay.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -32,18 +35,52 @@ struct Match {
 
 std::int64_t gap(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
 
-/// `usual`: for each slot the codes that the envelope usually accepts beside one.
+/// How far a conforming device may be from the reference, roughly: in codes as the case's envelopes are, in values as the
+/// texel's own is.
+struct Leeway {
+  std::vector<std::int64_t> codes;          // of each slot
+  std::vector<std::vector<double>> values;  // of each texel and slot
+};
+Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, const capture::PassModel& model, const std::vector<Array>& reference,
+                 const CaseJudgement& j, const enclosed::Profile& profile, const std::vector<Texel>& texels) {
+  Leeway out;
+  for (const Slot& s : slots) {
+    const std::string& name = c.outputs[static_cast<std::size_t>(s.output)].name;
+    const auto found = std::find_if(j.outputs.begin(), j.outputs.end(), [&](const OutputJudgement& o) { return o.name == name; });
+    out.codes.push_back(1 + (found == j.outputs.end() ? 0 : static_cast<std::int64_t>(found->p99_width)));
+  }
+  const enclosed::ProfileScope scope(profile);
+  std::vector<enclosed::Enclosure> values(slots.size());
+  std::vector<float> stored(slots.size());
+  for (const Texel t : texels) {
+    for (std::size_t v = 0; v < slots.size(); ++v) stored[v] = stored_value(slots[v], slots[v].at(reference[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
+    std::vector<double>& widths = out.values.emplace_back(slots.size(), 0.0);
+    enclosed::Replay replay;
+    replay.for_each_alternative([&] {
+      model.enclose(t.x, t.y, stored.data(), values.data());
+      // A bound that is hardly one would let everything count as near.
+      for (std::size_t v = 0; v < slots.size(); ++v)
+        if (!values[v].is_vacuous()) widths[v] = std::max(widths[v], std::min(static_cast<double>(values[v].hi) - values[v].lo, slots[v].range / 64));
+    });
+  }
+  return out;
+}
+
+/// Of texel number k.
 Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& deviated, const std::vector<Array>& port,
-              const std::vector<Array>& reference, const std::vector<std::int64_t>& usual, Texel t) {
+              const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels, std::size_t k) {
   Match m{true, true};
   bool nearer = false;
   for (std::size_t v = 0; v < slots.size(); ++v) {
     if (model.is_free(static_cast<int>(v))) continue;
     const Slot& s = slots[v];
     const std::size_t o = static_cast<std::size_t>(s.output);
-    const std::int64_t got = s.code(port[o], t.x, t.y), far = gap(got, s.code(deviated[o], t.x, t.y)), before = gap(got, s.code(reference[o], t.x, t.y));
+    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(deviated[o], texels[k].x, texels[k].y), *base = s.at(reference[o], texels[k].x, texels[k].y);
+    const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
+    const std::int64_t far = gap(code(got), code(guess)), before = gap(code(got), code(base));
+    const double off = std::abs(static_cast<double>(stored_value(s, got)) - stored_value(s, guess));
     m.exact &= far == 0;
-    m.near &= far <= usual[v];
+    m.near &= far <= leeway.codes[v] || off <= leeway.values[k][v];
     nearer |= far < before && 4 * far <= before;
   }
   m.exact &= nearer;  // else the reference gives the same bits, and the deviation explains nothing
@@ -51,27 +88,17 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
   return m;
 }
 
-std::vector<std::int64_t> usual_widths(const std::vector<Slot>& slots, const capture::PassCase& c, const CaseJudgement& j) {
-  std::vector<std::int64_t> out;
-  for (const Slot& s : slots) {
-    const std::string& name = c.outputs[static_cast<std::size_t>(s.output)].name;
-    const auto found = std::find_if(j.outputs.begin(), j.outputs.end(), [&](const OutputJudgement& o) { return o.name == name; });
-    out.push_back(1 + (found == j.outputs.end() ? 0 : static_cast<std::int64_t>(found->median_width)));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, Bind bind,
                             const capture::PassModel& model, const std::vector<Array>& port, const CaseJudgement& judgement,
-                            HalfMode mode, const parallel::Executor& executor) {
+                            const enclosed::Profile& profile, HalfMode mode, const parallel::Executor& executor) {
   const std::vector<Texel> failing = failing_texels(judgement, 400);
   if (failing.empty()) return {};
   const std::vector<Slot> slots = slots_of(c);
   const std::vector<Deviation> all = deviations_of(pass, c, model, before);
   const std::vector<Array> reference = reference_outputs(c, model, executor, mode);
-  const std::vector<std::int64_t> usual = usual_widths(slots, c, judgement);
+  const Leeway leeway = leeway_of(slots, c, model, reference, judgement, profile, failing);
   std::vector<Cause> causes(all.size());
 
   executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -85,9 +112,9 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
         const DeviatedPass deviated(d, c, bind, model, mode, reference);
         if (!deviated.applies()) continue;
         std::vector<Array> stored = reference;
-        for (const Texel t : failing) {
-          deviated.store(t, stored);
-          const Match m = compare(slots, model, stored, port, reference, usual, t);
+        for (std::size_t t = 0; t < failing.size(); ++t) {
+          deviated.store(failing[t], stored);
+          const Match m = compare(slots, model, stored, port, reference, leeway, failing, t);
           cause.explained += m.exact;
           cause.inside += m.near;
         }
@@ -96,10 +123,10 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
       }
     }
   });
-  // A deviation that explains few texels of many explains nothing: a tenth is asked.
+  // A deviation that explains some texels of many explains nothing; a wrong cause would be worse than none.
   std::vector<Cause> found;
   for (Cause& cause : causes)
-    if (cause.inside * 10 >= cause.of && cause.inside > 0) found.push_back(std::move(cause));
+    if (cause.inside * 2 >= cause.of || cause.explained * 4 >= cause.of) found.push_back(std::move(cause));
   std::stable_sort(found.begin(), found.end(), [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
   if (found.size() > 3) found.resize(3);
   return found;

@@ -95,7 +95,7 @@ std::vector<Cause> causes_of(const capture::PackPass& pass, Bind bind, const Pas
     if (before->untested.empty()) prepare(pass, bind, runs, *before);
     else before.reset();
   }
-  return diagnose(pass, run.c, before ? &before->c : nullptr, bind, *model, run.stored, *worst, judged.half_mode, *options.executor);
+  return diagnose(pass, run.c, before ? &before->c : nullptr, bind, *model, run.stored, *worst, *options.profile, judged.half_mode, *options.executor);
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
       judged = true;
       const std::unique_ptr<capture::PassModel> model = bind(c);
       const std::vector<Texel> texels = spread(*model, invocations);
-      const std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
+      std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
+      std::erase_if(all, [](const Deviation& d) { return d.for_diagnosis; });
       const std::vector<Stores> stores = stores_under(chosen, c, *model, *options.executor);
       for (const Deviation& d : all) {
         if (places.contains(d.name)) continue;

@@ -18,16 +18,26 @@ using capture::PassCase;
 std::size_t texel_offset(const Array& a, int x, int y) {
   return (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes();
 }
-/// Gives texel (x, y) the bytes of the texel that from(x, y) names.
+/// Gives texel (x, y) of a level the bytes of the texel that from(x, y) names.
 template <class From>
-void rearrange(Array& a, From from) {
-  const std::vector<std::byte> old = a.levels[0];
-  for (int y = 0; y < a.height; ++y) {
-    for (int x = 0; x < a.width; ++x) {
+void rearrange(Array& a, From from, int level = 0) {
+  std::vector<std::byte>& texels = a.levels[static_cast<std::size_t>(level)];
+  const std::vector<std::byte> old = texels;
+  const int width = a.level_width(level), height = a.level_height(level);
+  const auto offset = [&](int x, int y) { return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * a.element_bytes(); };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
       const auto [u, v] = from(x, y);
-      std::memcpy(a.levels[0].data() + texel_offset(a, x, y), old.data() + texel_offset(a, u, v), a.element_bytes());
+      std::memcpy(texels.data() + offset(x, y), old.data() + offset(u, v), a.element_bytes());
     }
   }
+}
+/// Calls change(texel) with the bytes of every texel of every level.
+template <class Change>
+void each_texel(Array& a, Change change) {
+  const std::size_t n = a.element_bytes();
+  for (std::vector<std::byte>& level : a.levels)
+    for (std::size_t t = 0; t + n <= level.size(); t += n) change(level.data() + t);
 }
 /// Passes every value of an image through a function.
 template <class Change>
@@ -47,22 +57,21 @@ void change_values(Array& a, const Slot& any, Change change) {
 }  // namespace
 
 void flip_rows(Array& a) {
-  rearrange(a, [&](int x, int y) { return std::pair(x, a.height - 1 - y); });
+  for (int l = 0; l < static_cast<int>(a.levels.size()); ++l) rearrange(a, [&](int x, int y) { return std::pair(x, a.level_height(l) - 1 - y); }, l);
 }
 void flip_columns(Array& a) {
-  rearrange(a, [&](int x, int y) { return std::pair(a.width - 1 - x, y); });
+  for (int l = 0; l < static_cast<int>(a.levels.size()); ++l) rearrange(a, [&](int x, int y) { return std::pair(a.level_width(l) - 1 - x, y); }, l);
 }
 void shift(Array& a, int dx, int dy) {
   rearrange(a, [&](int x, int y) { return std::pair(std::clamp(x + dx, 0, a.width - 1), std::clamp(y + dy, 0, a.height - 1)); });
 }
 void swap_channels(Array& a, int first, int second) {
-  const FormatInfo& f = info(a.format);
-  const std::size_t n = static_cast<std::size_t>(f.channel_bytes);
-  for (std::vector<std::byte>& level : a.levels)
-    for (std::size_t t = 0; t + static_cast<std::size_t>(f.texel_bytes()) <= level.size(); t += static_cast<std::size_t>(f.texel_bytes()))
-      std::swap_ranges(level.begin() + static_cast<std::ptrdiff_t>(t + static_cast<std::size_t>(first) * n),
-                       level.begin() + static_cast<std::ptrdiff_t>(t + static_cast<std::size_t>(first + 1) * n),
-                       level.begin() + static_cast<std::ptrdiff_t>(t + static_cast<std::size_t>(second) * n));
+  const int n = info(a.format).channel_bytes;
+  each_texel(a, [=](std::byte* t) { std::swap_ranges(t + first * n, t + (first + 1) * n, t + second * n); });
+}
+void copy_channel(Array& a, int from, int to) {
+  const int n = info(a.format).channel_bytes;
+  each_texel(a, [=](std::byte* t) { std::copy(t + from * n, t + (from + 1) * n, t + to * n); });
 }
 
 void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
@@ -111,15 +120,26 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
     const FormatInfo& f = info(o.array.format);
     const std::size_t at = static_cast<std::size_t>(i);
     const Slot slot = *std::find_if(slots.begin(), slots.end(), [&](const Slot& s) { return s.output == i; });
-    const auto one = [&](std::string name, std::string sentence, std::function<void(Array&)> alter) {
+    const auto one = [&](std::string name, std::string sentence, std::function<void(Array&)> alter, bool for_diagnosis = false) {
       add(fmt::format("{} {}", o.name, name), std::move(sentence), [at, alter](const PassCase&, std::vector<Array>& arrays) {
         alter(arrays[at]);
         return true;
       });
+      out.back().for_diagnosis = for_diagnosis;
     };
     if (f.channels >= 2)
       one("with its first two channels swapped", "the first two channels are exchanged: swapped ping-pong", [](Array& a) { swap_channels(a, 0, 1); });
     if (f.channels >= 3) one("as BGRA", "red and blue are exchanged", [](Array& a) { swap_channels(a, 0, 2); });
+    if (f.channels >= 3) one("with its second and third channel swapped", "y and z are exchanged: another axis is up", [](Array& a) { swap_channels(a, 1, 2); }, true);
+    for (int k = 0; k < f.channels; ++k) {
+      const int first = k * f.channel_bytes, last = first + f.channel_bytes;
+      if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32) {
+        one(fmt::format("with its {} negated", "xyzw"[k]), fmt::format("channel {} has the other sign", "xyzw"[k]),
+            [last](Array& a) { each_texel(a, [last](std::byte* t) { t[last - 1] ^= std::byte{0x80}; }); }, true);
+      }
+      one(fmt::format("without its {}", "xyzw"[k]), fmt::format("channel {} is zero", "xyzw"[k]),
+          [first, last](Array& a) { each_texel(a, [first, last](std::byte* t) { std::fill(t + first, t + last, std::byte{0}); }); }, true);
+    }
     if (f.kind == FormatInfo::unorm8 && f.channels >= 3) {
       one("sRGB encoded twice", "the display encoding is applied a second time", [slot](Array& a) {
         change_values(a, slot, [](float v) {
@@ -142,6 +162,13 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
       });
     }
     if (const capture::CaseInput* in = c.input(o.name); in && in->array.levels.size() == 1 && in->array.levels[0].size() == o.array.levels[0].size()) {
+      for (int k = 0; f.channels > 1 && k < f.channels; ++k) {
+        const Array before_pass = in->array;
+        one(fmt::format("keeps its {}", "xyzw"[k]), fmt::format("channel {} is that of the state before the pass", "xyzw"[k]), [before_pass, k](Array& a) {
+          const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes), at_k = n * static_cast<std::size_t>(k);
+          for (std::size_t t = at_k; t + n <= a.levels[0].size(); t += a.element_bytes()) std::memcpy(a.levels[0].data() + t, before_pass.levels[0].data() + t, n);
+        }, true);
+      }
       const Array stale = in->array;
       one("is its own input", "the buffer is the state before the pass: a stale frame or a missing swap", [stale](Array& a) { a.levels = stale.levels; });
     }

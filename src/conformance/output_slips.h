@@ -5,11 +5,12 @@
 
 namespace rainref::conformance {
 
-// Of level 0 of an image.
+// Of an image with all its levels.
 void flip_rows(capture::Array& image);
 void flip_columns(capture::Array& image);
 void swap_channels(capture::Array& image, int a, int b);
-/// Moves the image by whole texels; the edge is repeated.
+void copy_channel(capture::Array& image, int from, int to);
+/// Moves level 0 by whole texels; the edge is repeated.
 void shift(capture::Array& image, int dx, int dy);
 
 void add_output_slips(std::vector<Deviation>& out, const capture::PassCase& c, const capture::PassCase* before);

@@ -58,7 +58,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
 /// What explains the failing texels of a case, best first; empty when nothing explains any.
 std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, Bind bind,
                             const capture::PassModel& model, const std::vector<capture::Array>& port, const CaseJudgement& judgement,
-                            HalfMode mode, const parallel::Executor& executor);
+                            const enclosed::Profile& profile, HalfMode mode, const parallel::Executor& executor);
 
 /// The status of the whole from its passes.
 void conclude(PortJudgement& judgement);
