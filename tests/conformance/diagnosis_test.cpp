@@ -22,6 +22,8 @@ struct Mistake {
   const char* pass;
   const char* cause;  ///< the likely cause begins like this
   std::function<void(MiniPort&)> make;
+
+  friend void PrintTo(const Mistake& m, std::ostream* out) { *out << m.pack << '/' << m.pass << ": " << m.cause; }
 };
 
 /// Texel (x, y) becomes that of from(x, y).

@@ -89,6 +89,7 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
     const BoundCase& b = pass.cases.front();
     const Bind bind = binder(pack.effect, pass.pass);
     for (const Deviation& d : deviations_of(pack.pass(pass.pass), *b.c, *b.model, nullptr)) {
+      if (d.for_diagnosis) continue;
       int far = 0;
       try {
         far = far_off(d, b, bind);

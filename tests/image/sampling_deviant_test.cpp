@@ -12,8 +12,8 @@ namespace deviant_readings {
 using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
-#include "image/sampling-inl.h"
 #include "image/sampling_deviant-inl.h"
+#include "image/sampling-inl.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 }  // namespace deviant_readings
