@@ -1,0 +1,34 @@
+// What the passes that move drops exchange as arrays of records: sizes are multiples of 16 bytes and every gap is a named
+// padding member, so that the bytes serve every GPU language.
+#pragma once
+
+#include <cstdint>
+
+namespace rainref::drops {
+
+/// One drop on a glass. Positions are glass coordinates (u, v); a live drop has life > 0.
+struct Drop {
+  float position[2];
+  float velocity[2];  ///< [1/s]
+  float mass;         ///< as-published: 1 is an ordinary drop; corrected: a whole number of quanta, at most 2^24
+  float life;         ///< what remains [s]
+  std::uint32_t id;   ///< its own for ever, ascending in the order of birth
+  float padding0;
+};
+/// Water of one quantum [kg].
+constexpr double quantum = 2e-11;
+
+/// What moves drops on a glass, in glass coordinates: the one output of windshield_frame.
+struct GlassFrame {
+  float gravity[2];       ///< as-published: gravity; corrected: specific force at (0, 0), the car's motion included [1/s^2]
+  float wind[2];          ///< apparent wind [1/s]
+  float acceleration[2];  ///< as-published: of the vehicle; corrected: 0, it is in `gravity` [1/s^2]
+  float spin[4];          ///< corrected: specific force per glass coordinate, rows u and v [1/s^2]
+  float coriolis[4];      ///< corrected: specific force per velocity, rows u and v [1/s]
+  std::uint32_t id;       ///< 0
+  float padding0;
+};
+
+static_assert(sizeof(Drop) == 32 && sizeof(GlassFrame) == 64);
+
+}  // namespace rainref::drops
