@@ -19,6 +19,45 @@ struct Wiper {
   float padding0;
 };
 
-static_assert(sizeof(Wiper) == 80);
+/// A light that the water mirrors.
+struct Glint {
+  float direction[3];  ///< unit, toward it, in camera axes
+  float padding0;
+  float radiance[3];
+  float padding1;
+};
+
+struct CompositeUniforms {
+  float u_row[3];  ///< u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)
+  float glass_distance;  ///< along the view axis: glass_distance / w_row . (x, y, 1) [m]
+  float v_row[3];
+  float blur_lod;  ///< mip level of the picture behind the film
+  float w_row[3];
+  float wetness;  ///< weight of the blurred picture where the glass was not wiped
+  float plane_x[3];  ///< axes of the glass in camera axes: right, up, forward
+  float visible_from;  ///< height at which water begins to show as a drop [mm]
+  float plane_y[3];
+  float visible_to;  ///< height from which it shows fully [mm]
+  float outward[3];
+  float refraction;  ///< as-published: screen widths and heights per unit of n.xy
+  float pixel[2];      ///< extent of a pixel on the image plane at distance 1
+  float half_size[2];  ///< of the image plane at distance 1
+  float scene_scale[2];  ///< texture coordinates of the scene per unit of the image plane
+  float shininess;
+  float glint_strength;
+  float cabin[3];  ///< radiance beside the glass
+  std::int32_t glint_count;
+  float water_ior;  ///< corrected
+  float inner;      ///< corrected: share of the mean scene that the water's surface mirrors
+  std::int32_t top_level;  ///< corrected: last level of the pyramid
+  float padding0;
+};
+
+struct DisplayUniforms {
+  float exposure;  ///< factor of the radiance
+  float padding0, padding1, padding2;
+};
+
+static_assert(sizeof(Wiper) == 80 && sizeof(Glint) == 32 && sizeof(CompositeUniforms) == 160 && sizeof(DisplayUniforms) == 16);
 
 }  // namespace rainref::windshield

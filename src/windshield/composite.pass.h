@@ -1,0 +1,140 @@
+// Pass composite: what the eye sees through the wet glass; and display: its code values.
+
+/// The pixel's view ray and where it meets the glass. The ray is (x, y, 1) in camera axes: right, up, forward.
+template <class N>
+struct GlassPoint {
+  N x, y;      ///< on the image plane at distance 1
+  N distance;  ///< along the view axis to the glass [m]
+  N u, v;      ///< glass coordinates
+  N on_glass;  ///< 1 on the glass, 0 beside it
+};
+template <class N>
+RAINREF_FN N row_times(const float* row, N px, N py) { return sum_any_order(N(row[0]) * px, N(row[1]) * py, N(row[2])); }
+template <class N>
+RAINREF_FN GlassPoint<N> glass_point(const CompositeUniforms& c, int column, int row) {
+  const N px = N::index(column) + N(0.5f), py = N(static_cast<float>(row) + 0.5f), zero(0.0f), one(1.0f);
+  const N toward = row_times(c.w_row, px, py);
+  // Beside and behind the eye there is no glass; the quotient stays finite all the same.
+  const N inverse = one / max(toward, N(1e-6f));
+  const N u = row_times(c.u_row, px, py) * inverse, v = row_times(c.v_row, px, py) * inverse;
+  const auto on = (toward > N(1e-6f)) & (u >= zero) & (u <= one) & (v >= zero) & (v <= one);
+  return {px * N(c.pixel[0]) - N(c.half_size[0]), py * N(c.pixel[1]) - N(c.half_size[1]), N(c.glass_distance) * inverse, clamp(u, zero, one), clamp(v, zero, one),
+          select(on, one, zero)};
+}
+
+/// What the textures say there.
+template <class N>
+struct Water {
+  Vec3<N> normal;  ///< in glass axes: plane x, plane y, outward; unit
+  N height;        ///< [mm]
+  N mask;          ///< 1: just wiped
+};
+template <class N>
+RAINREF_FN Water<N> water_at(const Texture& normal, const Texture& mask, const GlassPoint<N>& g) {
+  const auto n = sample_bilinear<0, 4, N>(normal, g.u, g.v);
+  const N m = saturate(sample_bilinear<0, 1, N>(mask, g.u, g.v)[0]);
+  return {Vec3<N>(n[0], n[1], max(n[2], N(0.05f))), n[3], m};
+}
+/// In camera axes.
+template <class N>
+RAINREF_FN Vec3<N> to_camera(const CompositeUniforms& c, const Vec3<N>& glass) {
+  return glass.x * Vec3<N>(c.plane_x) + glass.y * Vec3<N>(c.plane_y) + glass.z * Vec3<N>(c.outward);
+}
+/// Texture coordinates in the picture of the scene.
+template <class N>
+RAINREF_FN N scene_u(const CompositeUniforms& c, N x) { return N(0.5f) + x * N(c.scene_scale[0]); }
+template <class N>
+RAINREF_FN N scene_v(const CompositeUniforms& c, N y) { return N(0.5f) + y * N(c.scene_scale[1]); }
+
+template <class N>
+RAINREF_FN Vec3<N> sharp_at(const Texture& pyramid, N u, N v) {
+  const auto s = sample_bilinear<0, 3, N>(pyramid, u, v);
+  return Vec3<N>(s[0], s[1], s[2]);
+}
+template <class N>
+RAINREF_FN Vec3<N> blurred_at(const Texture& pyramid, N u, N v, N lod) {
+  const auto s = sample_trilinear<0, 3, N>(pyramid, u, v, lod);
+  return Vec3<N>(s[0], s[1], s[2]);
+}
+/// Blinn's highlight: (n . h)^shininess with h halfway between the light and the eye.
+template <class N>
+RAINREF_FN N highlight(const Vec3<N>& normal, const Vec3<N>& to_light, const Vec3<N>& to_eye, float shininess) {
+  const Vec3<N> sum = to_light + to_eye;
+  const N size = max(length(sum), N(1e-4f));
+  const N cosine = saturate(dot(normal, sum) / size);
+  return pow(max(cosine, N(1e-4f)), N(shininess));
+}
+
+// ---- as published --------------------------------------------------------------------------------------------------
+//   bgBlur = pyramid(screen, blurLOD),  bgSharp = scene(screen + offset),  offset = refraction n.xy visibility
+// then film over the scene by wetness, drops over the film by their visibility, both cut by the wiper mask; glints from the
+// perturbed normal. The article leaves the sign of the offset open; here the picture moves along n.xy (E0 10).
+template <class N>
+RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Texture& pyramid, const Texture& normal, const Texture& mask, const Glint* glints, int column, int row) {
+  const GlassPoint<N> g = glass_point<N>(c, column, row);
+  const Water<N> w = water_at<N>(normal, mask, g);
+  const N wet = N(1.0f) - w.mask;
+  const N visibility = smoothstep(c.visible_from, c.visible_to, w.height) * wet;
+  const N su = scene_u(c, g.x), sv = scene_v(c, g.y), strength = N(c.refraction) * visibility;
+  const Vec3<N> behind = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
+  const Vec3<N> sharp = sharp_at<N>(pyramid, su + strength * w.normal.x, sv + strength * w.normal.y);
+  Vec3<N> colour = mix(mix(behind, blur, N(c.wetness) * wet), sharp, visibility);
+  const N eye_inverse = N(1.0f) / length(Vec3<N>(g.x, g.y, N(1.0f)));
+  const Vec3<N> to_eye = (-eye_inverse) * Vec3<N>(g.x, g.y, N(1.0f));
+  // Seen from inside, the glass and its water turn their normal to the eye.
+  const Vec3<N> facing = N(-1.0f) * to_camera(c, w.normal);
+  for (int k = 0; k < c.glint_count; ++k) {
+    const N shine = highlight(facing, Vec3<N>(glints[k].direction), to_eye, c.shininess) * (N(c.glint_strength) * visibility);
+    colour = colour + shine * Vec3<N>(glints[k].radiance);
+  }
+  return mix(Vec3<N>(c.cabin), colour, g.on_glass);
+}
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+// The view ray is bent into the water at the plane of the glass and out of it at the water's surface, by Snell's law at both
+// (a pane with parallel faces turns no ray), and what it meets is looked up at the depth that lies there:
+//   P = G + D2 max(depth - G.z, 0) / D2.z,  scene at P.xy / P.z
+// Fresnel's reflectance of the water's surface, 1 beyond the critical angle, mirrors the dim surroundings: the dark rim.
+template <class N>
+RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, const Vec3<N>& surface, float ior) {
+  const Vec3<N> inside = refract(ray, N(-1.0f) * outward, 1.0f / ior);
+  return refract(inside, N(-1.0f) * surface, ior);
+}
+template <class N>
+RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Texture& pyramid, const Texture& depth, const Texture& normal, const Texture& mask, const Glint* glints, int column,
+                                       int row) {
+  const N one(1.0f), zero(0.0f);
+  const GlassPoint<N> g = glass_point<N>(c, column, row);
+  const Water<N> w = water_at<N>(normal, mask, g);
+  const N wet = one - w.mask;
+  const N visibility = smoothstep(c.visible_from, c.visible_to, w.height);
+
+  const Vec3<N> ray = normalize(Vec3<N>(g.x, g.y, one)), outward(c.outward);
+  const Vec3<N> surface = to_camera(c, w.normal);
+  const Vec3<N> bent = through_water(ray, outward, surface, c.water_ior);
+  const N reflected = fresnel_dielectric(saturate(dot(bent, surface)), c.water_ior);
+
+  const N far = max(sample_bilinear<0, 1, N>(depth, scene_u(c, g.x), scene_v(c, g.y))[0] - g.distance, zero);
+  const N along = far / max(bent.z, N(0.05f)), deep = g.distance + along * max(bent.z, N(0.05f));
+  const N x = (g.x * g.distance + along * bent.x) / max(deep, N(1e-3f)), y = (g.y * g.distance + along * bent.y) / max(deep, N(1e-3f));
+  const N su = scene_u(c, x), sv = scene_v(c, y);
+
+  const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
+  const Vec3<N> around = blurred_at<N>(pyramid, N(0.5f), N(0.5f), N(static_cast<float>(c.top_level)));
+  Vec3<N> colour = mix(sharp, blur, N(c.wetness) * wet * (one - visibility));
+  colour = mix(colour, N(c.inner) * around, reflected);
+  const Vec3<N> to_eye = N(-1.0f) * ray, facing = N(-1.0f) * surface;
+  const N film = visibility * (one - square(w.mask));
+  for (int k = 0; k < c.glint_count; ++k) {
+    const N shine = highlight(facing, Vec3<N>(glints[k].direction), to_eye, c.shininess) * (N(c.glint_strength) * film);
+    colour = colour + shine * Vec3<N>(glints[k].radiance);
+  }
+  return mix(Vec3<N>(c.cabin), colour, g.on_glass);
+}
+
+// ---- display -------------------------------------------------------------------------------------------------------
+template <class N>
+RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) {
+  const Vec3<N> c = N(d.exposure) * colour;
+  return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z)));
+}

@@ -1,0 +1,54 @@
+// The picture's passes: shells of composite and display, and the host's part of them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "image/texture.h"
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "rainref/storage.h"
+#include "scene/camera.h"
+#include "windshield/uniforms.h"
+
+namespace rainref::windshield {
+
+/// A light of the scene that drops mirror.
+struct Light {
+  std::array<double, 3> direction;  ///< toward it, car axes, any length
+  std::array<double, 3> radiance;
+};
+
+struct PictureSettings {
+  int width = 1280, height = 720;
+  /// In car axes: x forward, y left, z up.
+  std::array<double, 3> camera_position{-0.25, 0, 1.16}, camera_target{10, 0, 1.13};
+  double vertical_fov_deg = 30;
+  double scene_margin = 1.15;  ///< picture of the scene over the picture, in view
+  double blur_lod = 3, wetness = 0.5, visible_from = 0.02, visible_to = 0.2, refraction = 0.08, shininess = 80, glint_strength = 0.6;
+  double water_ior = 1.333, inner = 0.3, exposure = 0;
+  std::array<double, 3> cabin{0.004, 0.004, 0.005};
+  std::vector<Light> lights;
+};
+
+/// Corners of the glass at (u, v) = (0, 0), (1, 0) and (0, 1), car axes [m].
+using Corners = std::array<std::array<double, 3>, 3>;
+
+/// Everything that composite takes besides images. Throws Error(usage) when the eye lies in the plane of the glass.
+CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners, int pyramid_levels);
+std::vector<Glint> glints(const PictureSettings& settings);
+DisplayUniforms display_uniforms(const PictureSettings& settings);
+/// The camera in car axes.
+scene::Camera camera(const PictureSettings& settings);
+
+struct CompositeInputs {
+  const Texture *pyramid, *depth, *normal, *mask;  ///< depth: as-published does not look at it
+  std::span<const Glint> glints;
+};
+/// colour: rgba16f, alpha 1.
+void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile);
+/// picture: rgba8, alpha 1.
+void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
+
+}  // namespace rainref::windshield
