@@ -1,0 +1,41 @@
+// Shell of the views between keyframes; compiled once for each SIMD target.
+#include <algorithm>
+
+#include "windshield/street.h"
+
+#define RAINREF_KERNELS "windshield/kernels_street.cpp"
+#include "math/foreach_target.h"
+#include "math/lanes-inl.h"
+
+RAINREF_TARGET_BEGIN(windshield)
+#define RAINREF_FN HWY_INLINE HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "image/sampling-inl.h"
+#include "windshield/reproject.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile) {
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
+      const SeenFrom<Lanes> s =
+          reprojected<Lanes>(uniforms, newer.colour.view(), newer.depth.view(), older.colour.view(), older.depth.view(), x, y);
+      const Lanes rgba[4] = {s.colour.x, s.colour.y, s.colour.z, Lanes(1.0f)};
+      store4(view.colour.row<Half>(y) + 4 * x, rgba, Rounding::rne);
+      store(view.depth.row<float>(y) + x, s.depth, Rounding::rne, std::min(Lanes::size(), tile.x1 - x));
+    }
+  }
+}
+RAINREF_TARGET_END(windshield)
+
+#if RAINREF_ONCE
+namespace rainref::windshield {
+
+RAINREF_EXPORT(ReprojectRows);
+
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile) {
+  RAINREF_DISPATCH(ReprojectRows)(uniforms, newer, older, view, tile);
+}
+
+}  // namespace rainref::windshield
+#endif

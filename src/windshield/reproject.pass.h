@@ -1,0 +1,28 @@
+// A view from a place ahead of where a picture was taken. The point seen along (x, y, 1) at depth d lies in the picture's
+// camera at P = d (x, y, 1) + way, where the picture holds its depth; d follows by fixed-point iteration.
+
+template <class N>
+struct SeenFrom {
+  Vec3<N> colour;
+  N depth;
+};
+template <class N>
+RAINREF_FN SeenFrom<N> seen_from(const ReprojectUniforms& r, const Texture& colour, const Texture& depth, N x, N y, float way) {
+  const N half(0.5f), su = uniform_quotient(0.5f, r.half_size[0], N()), sv = uniform_quotient(0.5f, r.half_size[1], N()), nearest(0.5f);
+  const N wx = N(way * r.forward[0]), wy = N(way * r.forward[1]), wz = N(way * r.forward[2]);
+  N u = half + x * su, v = half + y * sv, d = nearest;
+  for (int round = 0; round < 3; ++round) {
+    d = max(sample_nearest<0, 1, N>(depth, u, v)[0] - wz, nearest);
+    const N deep = N(1.0f) / max(d + wz, nearest);
+    u = half + ((d * x + wx) * deep) * su;
+    v = half + ((d * y + wy) * deep) * sv;
+  }
+  const auto c = sample_bilinear<0, 3, N>(colour, u, v);
+  return {Vec3<N>(c[0], c[1], c[2]), d};
+}
+template <class N>
+RAINREF_FN SeenFrom<N> reprojected(const ReprojectUniforms& r, const Texture& newer, const Texture& newer_depth, const Texture& older, const Texture& older_depth, int column, int row) {
+  const N x = (N::index(column) + N(0.5f)) * N(r.pixel[0]) - N(r.half_size[0]), y = (N(static_cast<float>(row) + 0.5f)) * N(r.pixel[1]) - N(r.half_size[1]);
+  const SeenFrom<N> a = seen_from<N>(r, newer, newer_depth, x, y, r.newer_by), b = seen_from<N>(r, older, older_depth, x, y, r.older_by);
+  return {mix(b.colour, a.colour, N(r.weight)), a.depth};
+}

@@ -1,0 +1,97 @@
+#include "windshield/street.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/half.h"
+
+namespace rainref::windshield {
+namespace {
+
+using scene::Vector3;
+
+constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
+
+// x forward, y left, z up becomes the street's x right, y up, z backward.
+Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
+Image as_half(const Image& from) {
+  Image to(Format::rgba16f, from.width(), from.height());
+  for (int y = 0; y < from.height(); ++y) {
+    const float* in = from.row<float>(y);
+    Half* out = to.row<Half>(y);
+    for (int x = 0; x < 4 * from.width(); ++x) out[x] = rainref::to_half(in[x]);
+  }
+  return to;
+}
+
+}  // namespace
+
+struct StreetDrive::State {
+  scene::Camera camera;
+  int width, height;
+  night_street::Street street;
+  const parallel::Executor& executor;
+  std::map<int, Keyframe> keyframes;
+  int standing = -1;  // the keyframe that `view` of look() holds
+
+  State(const scene::Camera& c, int w, int h, std::uint64_t seed, const parallel::Executor& e) : camera(c), width(w), height(h), street({seed}), executor(e) {}
+
+  night_street::Street::View render(double odometer) const {
+    const Vector3 start(lane, 0, start_z - odometer);
+    scene::Camera c = camera;
+    c.position = start + in_street(camera.position);
+    c.target = start + in_street(camera.target);
+    c.up = in_street(camera.up);
+    return street.view(c, width, height, street_far, executor);
+  }
+  const Keyframe& keyframe(int k) {
+    const auto found = keyframes.find(k);
+    if (found != keyframes.end()) return found->second;
+    const night_street::Street::View v = render(k * spacing);
+    return keyframes.emplace(k, Keyframe{TextureData(as_half(v.colour), Address::clamp, Address::clamp), TextureData(v.depth, Address::clamp, Address::clamp)}).first->second;
+  }
+};
+
+StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, std::uint64_t seed, const parallel::Executor& executor)
+    : state_(std::make_unique<State>(camera, width, height, seed, executor)) {}
+StreetDrive::~StreetDrive() = default;
+StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
+
+void StreetDrive::look(double odometer, bool moves, SceneView& view) {
+  State& s = *state_;
+  const double place = odometer - street_length * std::floor(odometer / street_length);
+  if (!moves) {
+    if (view.colour.width() == s.width && s.standing == 0) return;
+    const night_street::Street::View v = s.render(place);
+    view.colour = as_half(v.colour);
+    view.depth = Image(Format::r32f, s.width, s.height);
+    for (int y = 0; y < s.height; ++y) std::copy_n(v.depth.row<float>(y), s.width, view.depth.row<float>(y));
+    s.standing = 0;
+    return;
+  }
+  if (view.colour.width() != s.width || view.colour.height() != s.height) {
+    view.colour = Image(Format::rgba16f, s.width, s.height);
+    view.depth = Image(Format::r32f, s.width, s.height);
+  }
+  const int k = static_cast<int>(place / spacing);
+  const Keyframe &older = s.keyframe(k - 1), &newer = s.keyframe(k);
+  s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k - 1));
+  const double gone = place - k * spacing;
+  const scene::Camera::Basis basis = s.camera.basis();
+  const Vector3 way(1, 0, 0);
+  ReprojectUniforms u{};
+  const double half_height = s.camera.half_height(), half_width = half_height * s.width / s.height;
+  u.half_size[0] = static_cast<float>(half_width);
+  u.half_size[1] = static_cast<float>(half_height);
+  u.pixel[0] = static_cast<float>(2 * half_width / s.width);
+  u.pixel[1] = static_cast<float>(2 * half_height / s.height);
+  u.forward[0] = static_cast<float>(glm::dot(way, basis.right));
+  u.forward[1] = static_cast<float>(glm::dot(way, basis.up));
+  u.forward[2] = static_cast<float>(glm::dot(way, basis.forward));
+  u.newer_by = static_cast<float>(gone);
+  u.older_by = static_cast<float>(gone + spacing);
+  u.weight = static_cast<float>(gone / spacing);
+  s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, newer, older, view, tile); });
+}
+
+}  // namespace rainref::windshield

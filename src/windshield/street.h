@@ -1,0 +1,58 @@
+// What lies before the car: the street at night, as a camera that drives along it sees it. An input of the effect, not one
+// of its passes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+
+#include "image/texture.h"
+#include "night_street/night_street.h"
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "scene/camera.h"
+
+namespace rainref::windshield {
+
+/// Colour and depth of the scene in the camera's view; row 0 = bottom.
+struct SceneView {
+  Image colour;  ///< rgba16f, linear radiance
+  Image depth;   ///< r32f, along the view axis [m]; `street_far` where nothing stands
+};
+constexpr double street_far = 1000;
+
+/// Views of the street for a car that has gone `odometer` metres along it, straight on; after street_length metres it
+/// starts again. The street is rendered every `spacing` metres; between, each view is made from the two behind it by
+/// their depth, faded from one into the other. The same bits on every machine.
+class StreetDrive {
+ public:
+  static constexpr double street_length = 400, spacing = 8;
+
+  /// camera: car axes (x forward, y left, z up, origin on the road under the driver's seat), with the field of view of the
+  /// views, which have width x height texels. The executor must outlive this.
+  StreetDrive(const scene::Camera& camera, int width, int height, std::uint64_t seed, const parallel::Executor& executor);
+  ~StreetDrive();
+  StreetDrive(StreetDrive&&) noexcept;
+
+  /// A car that stands sees a rendered view as it is.
+  void look(double odometer, bool moves, SceneView& view);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+struct ReprojectUniforms {
+  float half_size[2];  ///< of the image plane at distance 1
+  float pixel[2];      ///< extent of a pixel there
+  float forward[3];    ///< the car's way, camera axes: right, up, forward
+  float newer_by, older_by;  ///< way gone since each picture was taken [m]
+  float weight;        ///< of the newer picture
+};
+struct Keyframe {
+  TextureData colour, depth;
+};
+/// Rows of the view between two keyframes.
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile);
+
+}  // namespace rainref::windshield
