@@ -1,0 +1,10 @@
+// One entry for each effect; effect_*.cpp define them.
+#pragma once
+
+#include "cli/registry.h"
+
+namespace rainref::cli {
+
+EffectEntry puddle_entry();
+
+}  // namespace rainref::cli

@@ -1,0 +1,24 @@
+#include "cli/inputs.h"
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
+namespace rainref::cli {
+
+image_io::Picture read_input(const scene::Config& config, const std::string& key, std::vector<InputFile>& inputs) {
+  std::filesystem::path path = config.text(key);
+  const auto& origin = config.entry(key).origin;
+  if (path.is_relative() && origin.kind == scene::Origin::file) path = config.directory() / path;
+  image_io::Picture picture;
+  try {
+    picture = image_io::read(path);
+  } catch (const Error& e) {
+    if (origin.kind == scene::Origin::file) throw Error(e.code(), origin.at, fmt::format("{}: {}", key, e.what()));
+    throw Error(e.code(), fmt::format("--set {}: {}", key, e.what()));
+  }
+  inputs.push_back({key, config.text(key), picture.decoded_hash.text(), picture.lossy});
+  return picture;
+}
+
+}  // namespace rainref::cli

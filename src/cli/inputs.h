@@ -1,0 +1,16 @@
+// The files that a scene names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/registry.h"
+#include "image_io/read.h"
+
+namespace rainref::cli {
+
+/// Reads the picture that `key` names and adds it to `inputs`. A file that the scene names lies beside the scene; one from
+/// the command line where the user stands. Throws Error naming the key where it cannot be read.
+image_io::Picture read_input(const scene::Config& config, const std::string& key, std::vector<InputFile>& inputs);
+
+}  // namespace rainref::cli
