@@ -1,0 +1,17 @@
+// The windshield's passes as conformance takes them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "capture/pass_model.h"
+
+namespace rainref::windshield {
+
+/// Every pass of both variants that is not taken as data.
+const std::vector<capture::PassReadings>& readings();
+
+std::unique_ptr<capture::PassModel> bind_composite(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
+
+}  // namespace rainref::windshield

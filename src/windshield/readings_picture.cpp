@@ -1,0 +1,78 @@
+// composite and display bound to captured cases.
+#include "capture/bound_texture.h"
+#include "windshield/every_reading.h"
+#include "windshield/readings.h"
+
+namespace rainref::windshield {
+namespace {
+
+using capture::BoundTexture;
+using capture::PassCase;
+using capture::PassModel;
+
+struct Composite {
+  int width, height, values = 4;
+  CompositeUniforms uniforms;
+  bool corrected;
+  BoundTexture pyramid, depth, normal, mask;
+  std::vector<Glint> glints;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const plain::Vec3<N> c = corrected ? every::composite_corrected<N>(uniforms, pyramid.view(), depth.view(), normal.view(), mask.view(), glints.data(), x, y)
+                                       : every::composite_as_published<N>(uniforms, pyramid.view(), normal.view(), mask.view(), glints.data(), x, y);
+    out[0] = c.x;
+    out[1] = c.y;
+    out[2] = c.z;
+    out[3] = N(1.0f);
+  }
+};
+
+struct Display {
+  int width, height, values = 4;
+  DisplayUniforms uniforms;
+  BoundTexture colour;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const float* texel = colour.view().texels + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
+    const plain::Vec3<N> c = every::display<N>(uniforms, plain::Vec3<N>(N::load(texel), N::load(texel + 1), N::load(texel + 2)));
+    out[0] = c.x;
+    out[1] = c.y;
+    out[2] = c.z;
+    out[3] = N(1.0f);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<PassModel> bind_composite(const PassCase& c) {
+  const auto texture = [&](const char* name) { return BoundTexture(capture::image_input(c, name)); };
+  Composite m;
+  const capture::Array& colour = c.outputs.front().array;
+  m.width = colour.width;
+  m.height = colour.height;
+  m.uniforms = capture::uniforms_of<CompositeUniforms>(c);
+  m.corrected = c.corrected();
+  m.pyramid = texture("pyramid");
+  m.normal = texture("normal");
+  m.mask = texture("mask");
+  if (m.corrected) m.depth = texture("scene_depth");
+  m.glints = capture::records_of<Glint>(capture::record_input(c, "glints"));
+  // No more lights than there are.
+  if (m.uniforms.glint_count < 0 || m.uniforms.glint_count > static_cast<std::int32_t>(m.glints.size()))
+    m.uniforms.glint_count = static_cast<std::int32_t>(m.glints.size());
+  return capture::model_of(std::move(m));
+}
+
+std::unique_ptr<PassModel> bind_display(const PassCase& c) {
+  const capture::CaseInput& colour = capture::image_input(c, "colour");
+  Display m;
+  m.width = colour.array.width;
+  m.height = colour.array.height;
+  m.uniforms = capture::uniforms_of<DisplayUniforms>(c);
+  m.colour = BoundTexture(colour);
+  return capture::model_of(std::move(m));
+}
+
+}  // namespace rainref::windshield
