@@ -1,0 +1,73 @@
+// Rain on a windshield that moves with the car: "Building a windshield rain system that moves with the car", as published
+// and corrected. Mathematics, choices and the list of what is corrected: docs/effects/windshield.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "rainref/recorder.h"
+
+namespace rainref {
+namespace scene {
+class Config;
+}
+
+namespace windshield {
+
+/// What lies before the car, where it is not the street at night made here.
+struct Surroundings {
+  Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom. Empty: the street
+  Image depth;   ///< r32f along the view axis [m], of the same size
+};
+
+/// A drop as passes exchange it; see src/drops/records.h.
+struct DropView {
+  float u, v, velocity_u, velocity_v, mass, life;
+  std::uint32_t id;
+};
+
+/// Water since the start, in whole quanta of 2e-11 kg (as-published: in drops).
+struct WaterLedger {
+  std::int64_t spawned, evaporated, removed, film, drops;
+  /// corrected: exactly 0.
+  std::int64_t balance() const { return spawned - evaporated - removed - film - drops; }
+};
+
+/// A windshield, its wipers, its drops, its car. Advance it frame by frame; every buffer has the same bits whatever the
+/// executor's threads and the SIMD target.
+class Windshield {
+ public:
+  /// The configuration of a scene of this effect. Throws Error(usage) for one that cannot run: corners on a line, a blade
+  /// longer than the glass, a drive cycle that is none. The executor must outlive the windshield.
+  Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor);
+  ~Windshield();
+  Windshield(Windshield&&) noexcept;
+
+  /// windshield_frame to merge, from time frame / fps to (frame + 1) / fps. Frames are 0, 1, 2 ... in this order.
+  void simulate(Recorder* recorder = nullptr);
+  /// splat to display of the frame that was simulated last. Once for each frame: the wiped textures have a past.
+  void render(Recorder* recorder = nullptr);
+
+  /// Frames simulated so far.
+  int frame() const;
+  /// The live drops, in slot order.
+  std::vector<DropView> drops() const;
+  WaterLedger ledger() const;
+
+  const Image& height() const;   ///< r16f [mm]
+  const Image& mask() const;     ///< r16f: 1 just wiped
+  const Image& film() const;     ///< corrected: r32f, whole quanta in a texel
+  const Image& normal() const;   ///< rgba16f: normal in the axes of the glass, height [mm]
+  const Image& colour() const;   ///< rgba16f: linear radiance
+  const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace windshield
+}  // namespace rainref

@@ -1,0 +1,67 @@
+// What both composites share. Seeded bugs of both: 1401 to 1449.
+layout(std140, binding = 0) uniform CompositeUniforms {
+  vec3 u_row;            //   0
+  float glass_distance;  //  12
+  vec3 v_row;            //  16
+  float blur_lod;        //  28
+  vec3 w_row;            //  32
+  float wetness;         //  44
+  vec3 plane_x;          //  48
+  float visible_from;    //  60
+  vec3 plane_y;          //  64
+  float visible_to;      //  76
+  vec3 outward;          //  80
+  float refraction;      //  92
+  vec2 pixel;            //  96
+  vec2 half_size;        // 104
+  vec2 scene_scale;      // 112
+  float shininess;       // 120
+  float glint_strength;  // 124
+  vec3 cabin;            // 128
+  int glint_count;       // 140
+  float water_ior;       // 144
+  float inner;           // 148
+  int top_level;         // 152
+} u;
+
+struct Glint {
+  vec3 direction;
+  float padding0;
+  vec3 radiance;
+  float padding1;
+};
+
+struct GlassPoint {
+  vec2 place;      // on the image plane at distance 1
+  float distance;  // along the view axis to the glass [m]
+  vec2 uv;
+  float on_glass;
+};
+
+GlassPoint glass_point(ivec2 pixel) {
+  vec3 at = vec3(vec2(pixel) + (BUG == 1401 ? 0.0 : 0.5), 1.0);
+  float toward = dot(u.w_row, at), inverse = 1.0 / max(toward, 1e-6);
+  vec2 uv = vec2(dot(u.u_row, at), dot(u.v_row, at)) * (BUG == 1402 ? 1.0 / u.glass_distance : inverse);
+  if (BUG == 1403) uv = uv.yx;
+  if (BUG == 1404) uv.y = 1.0 - uv.y;
+  bool on = toward > 1e-6 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThanEqual(uv, vec2(1.0)));
+  return GlassPoint(at.xy * u.pixel - u.half_size, u.glass_distance * inverse, clamp(uv, 0.0, 1.0), on ? 1.0 : 0.0);
+}
+
+vec2 scene_at(vec2 place) { return 0.5 + place * (BUG == 1405 ? u.scene_scale.xx : u.scene_scale); }
+
+vec3 to_camera(vec3 glass) { return glass.x * u.plane_x + glass.y * u.plane_y + glass.z * u.outward; }
+
+float shown(float height) {
+  float t = clamp((height - u.visible_from) / (u.visible_to - u.visible_from), 0.0, 1.0);
+  if (BUG == 1406) return step(u.visible_to, height);
+  if (BUG == 1407) return t;
+  return t * t * (3.0 - 2.0 * t);
+}
+
+float highlight(vec3 normal, vec3 to_light, vec3 to_eye) {
+  vec3 sum = to_light + to_eye;
+  float cosine = clamp(dot(normal, sum) / max(length(sum), 1e-4), 0.0, 1.0);
+  if (BUG == 1408) cosine = clamp(dot(normal, reflect(-to_light, normal)), 0.0, 1.0);
+  return pow(max(cosine, 1e-4), BUG == 1409 ? u.shininess * 0.5 : u.shininess);
+}
