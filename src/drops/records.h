@@ -17,16 +17,27 @@ struct Drop {
 };
 /// Water of one quantum [kg].
 constexpr double quantum = 2e-11;
+/// Quanta that one drop, or one texel of film, holds at most: up to here floats count without gaps.
+constexpr float most_quanta = 0x1p24f;
+
+/// The mass of one size class of arriving drops, as Drop::mass.
+struct SpawnMass {
+  float mass;
+};
+/// A random word not below k thresholds draws first_count + k drops.
+struct CountThreshold {
+  std::uint32_t threshold;
+};
 
 /// What moves drops on a glass, in glass coordinates: the one output of windshield_frame.
 struct GlassFrame {
   float gravity[2];       ///< as-published: gravity; corrected: specific force at (0, 0), the car's motion included [1/s^2]
   float wind[2];          ///< apparent wind [1/s]
   float acceleration[2];  ///< as-published: of the vehicle; corrected: 0, it is in `gravity` [1/s^2]
-  float spin[4];          ///< corrected: specific force per glass coordinate, rows u and v [1/s^2]
-  float coriolis[4];      ///< corrected: specific force per velocity, rows u and v [1/s]
   std::uint32_t id;       ///< 0
   float padding0;
+  float spin[4];      ///< corrected: specific force per glass coordinate, rows u and v [1/s^2]
+  float coriolis[4];  ///< corrected: specific force per velocity, rows u and v [1/s]
 };
 
 static_assert(sizeof(Drop) == 32 && sizeof(GlassFrame) == 64);

@@ -1,0 +1,124 @@
+#include "drops/drops.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "base/memory.h"
+#include "rainref/error.h"
+
+namespace rainref::drops {
+namespace {
+
+constexpr std::size_t alignment = 64;
+constexpr int fields = 7;
+constexpr std::int64_t padding_slots = 64;  // a vector, and more, beyond the last slot
+
+// An odd number of cache lines, so that the seven streams do not fall into the same sets of the caches.
+std::size_t stride_bytes(std::int64_t capacity) {
+  const std::size_t lines = (static_cast<std::size_t>(capacity + padding_slots) * sizeof(float) + alignment - 1) / alignment;
+  return (lines | 1) * alignment;
+}
+
+}  // namespace
+
+Ledger& Ledger::operator+=(const Ledger& other) {
+  spawned += other.spawned;
+  evaporated += other.evaporated;
+  removed += other.removed;
+  to_film += other.to_film;
+  return *this;
+}
+
+void DropArrays::Free::operator()(std::byte* p) const { std::free(p); }
+
+std::size_t DropArrays::memory_bytes(std::int64_t capacity) { return fields * stride_bytes(capacity); }
+
+DropArrays::DropArrays(std::int64_t capacity) : capacity_(capacity) {
+  if (capacity < 1 || capacity > most_slots) {
+    throw Error(ExitCode::usage, fmt::format("capacity for drops: expected a number from 1 to {}, found {}", most_slots, capacity));
+  }
+  stride_ = stride_bytes(capacity);
+  memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, memory_bytes(capacity))));
+  if (!memory_) throw Error(ExitCode::usage, fmt::format("{} drops: {} of memory could not be had", capacity, memory_text(memory_bytes(capacity))));
+  std::memset(memory_.get(), 0, memory_bytes(capacity));
+}
+
+Drop DropArrays::get(std::int64_t i) const {
+  const auto k = static_cast<std::size_t>(i);
+  return {{u()[k], v()[k]}, {velocity_u()[k], velocity_v()[k]}, mass()[k], life()[k], id()[k], 0};
+}
+
+void DropArrays::set(std::int64_t i, const Drop& drop) {
+  const auto k = static_cast<std::size_t>(i);
+  u()[k] = drop.position[0];
+  v()[k] = drop.position[1];
+  velocity_u()[k] = drop.velocity[0];
+  velocity_v()[k] = drop.velocity[1];
+  mass()[k] = drop.mass;
+  life()[k] = drop.life;
+  id()[k] = drop.id;
+}
+
+std::size_t DropArrays::place(std::span<const Drop> records) {
+  std::size_t placed = 0;
+  const float* lives = array(5);
+  for (std::int64_t i = 0; i < capacity_ && placed < records.size(); ++i) {
+    if (i < extent_ && lives[i] > 0) continue;
+    extent_ = std::max(extent_, i + 1);
+    set(i, records[placed++]);
+  }
+  if (!records.empty()) next_id_ = records.back().id + 1;
+  return placed;
+}
+
+std::int64_t DropArrays::live() const { return std::count_if(life().begin(), life().end(), [](float x) { return x > 0; }); }
+
+std::int64_t DropArrays::water() const {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(extent_); ++i) {
+    if (life()[i] > 0) sum += static_cast<std::int64_t>(mass()[i]);
+  }
+  return sum;
+}
+
+void DropArrays::gather(std::vector<Drop>& out, const parallel::Executor& executor) const {
+  // Each chunk counts its drops, then writes them behind those of the chunks before it.
+  std::vector<std::size_t> first(static_cast<std::size_t>((extent_ + chunk_slots - 1) / chunk_slots) + 1, 0);
+  const std::span<const float> lives = life();
+  executor.for_range(extent_, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    first[static_cast<std::size_t>(begin / chunk_slots) + 1] =
+        static_cast<std::size_t>(std::count_if(lives.begin() + begin, lives.begin() + end, [](float x) { return x > 0; }));
+  });
+  for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
+  out.resize(first.back());
+  executor.for_range(extent_, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    Drop* to = out.data() + first[static_cast<std::size_t>(begin / chunk_slots)];
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (lives[static_cast<std::size_t>(i)] > 0) *to++ = get(i);
+    }
+  });
+}
+
+void DropArrays::assign(std::span<const Drop> records) {
+  if (records.size() > static_cast<std::size_t>(capacity_)) {
+    throw Error(ExitCode::port_files, fmt::format("drops: expected at most {} records, found {}", capacity_, records.size()));
+  }
+  clear();
+  extent_ = static_cast<std::int64_t>(records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Drop& d = records[i];
+    for (const float x : {d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life}) {
+      if (!(x - x == 0)) {
+        clear();
+        throw Error(ExitCode::port_files, fmt::format("drops: expected finite numbers, found {} in record {} (id {})", x, i, d.id));
+      }
+    }
+    set(static_cast<std::int64_t>(i), d);
+    next_id_ = std::max(next_id_, d.id + 1);
+  }
+}
+
+}  // namespace rainref::drops

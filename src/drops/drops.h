@@ -1,0 +1,94 @@
+// The drops on a glass as a structure of arrays. A slot holds a drop or is free; a drop keeps its slot while it lives.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "drops/records.h"
+#include "rainref/executor.h"
+
+namespace rainref::drops {
+
+/// Slots of one chunk of work: fixed, so that results and sums do not depend on the number of threads.
+constexpr std::int64_t chunk_slots = 16384;
+
+/// What became of the water, in whole quanta. as-published counts drops instead.
+/// spawned - evaporated - removed - film = what the live drops hold, exactly.
+struct Ledger {
+  std::int64_t spawned = 0;     ///< arrived, whether or not a slot was free
+  std::int64_t evaporated = 0;  ///< from drops and film
+  std::int64_t removed = 0;     ///< ran off the glass, ended with its drop, or found no room
+  std::int64_t to_film = 0;     ///< from drops to film, less what came back or dried
+  Ledger& operator+=(const Ledger& other);
+  bool operator==(const Ledger&) const = default;
+};
+
+/// Slot i lives where life()[i] > 0. The spans cover the slots up to extent(); a kernel may read, and write back
+/// unchanged, a whole vector beyond their ends.
+class DropArrays {
+ public:
+  DropArrays() = default;
+  /// capacity in [1, most_slots]. Throws Error(usage) otherwise, or when the memory cannot be had.
+  explicit DropArrays(std::int64_t capacity);
+  static constexpr std::int64_t most_slots = 100'000'000;
+  static std::size_t memory_bytes(std::int64_t capacity);
+
+  std::int64_t capacity() const { return capacity_; }
+  /// Every live slot is below.
+  std::int64_t extent() const { return extent_; }
+
+  std::span<float> u() { return floats(0); }  ///< glass coordinates
+  std::span<float> v() { return floats(1); }
+  std::span<float> velocity_u() { return floats(2); }  ///< [1/s]
+  std::span<float> velocity_v() { return floats(3); }
+  std::span<float> mass() { return floats(4); }  ///< as Drop::mass
+  std::span<float> life() { return floats(5); }  ///< [s]
+  std::span<std::uint32_t> id() { return {reinterpret_cast<std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)}; }
+  std::span<const float> u() const { return floats(0); }
+  std::span<const float> v() const { return floats(1); }
+  std::span<const float> velocity_u() const { return floats(2); }
+  std::span<const float> velocity_v() const { return floats(3); }
+  std::span<const float> mass() const { return floats(4); }
+  std::span<const float> life() const { return floats(5); }
+  std::span<const std::uint32_t> id() const { return {reinterpret_cast<const std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)}; }
+
+  /// The record of a slot, and back; set() needs i < extent().
+  Drop get(std::int64_t i) const;
+  void set(std::int64_t i, const Drop& drop);
+
+  /// The id that the next drop gets. Ids count up by one for each arrival; after 2^32 of them they start over.
+  std::uint32_t next_id() const { return next_id_; }
+  /// Puts the records, in order, into the free slots, lowest first, and returns how many found one. Moves next_id() behind
+  /// the last record's id, placed or not.
+  std::size_t place(std::span<const Drop> records);
+
+  std::int64_t live() const;
+  std::int64_t free_slots() const { return capacity_ - live(); }
+  /// Quanta that the live drops hold.
+  std::int64_t water() const;
+  /// The records of the live drops, in slot order.
+  void gather(std::vector<Drop>& out, const parallel::Executor& executor) const;
+  /// Makes these the only drops: record i in slot i, in the order given, dead ones too. Moves next_id() behind the
+  /// largest id. Throws Error(port_files) when there are more than slots, or a number in them is not finite.
+  void assign(std::span<const Drop> records);
+  /// Every slot free, ids from 0.
+  void clear() { extent_ = 0, next_id_ = 0; }
+
+ private:
+  struct Free {
+    void operator()(std::byte* p) const;
+  };
+  float* array(int field) const { return reinterpret_cast<float*>(memory_.get() + static_cast<std::size_t>(field) * stride_); }
+  std::span<float> floats(int field) { return {array(field), static_cast<std::size_t>(extent_)}; }
+  std::span<const float> floats(int field) const { return {array(field), static_cast<std::size_t>(extent_)}; }
+
+  std::int64_t capacity_ = 0, extent_ = 0;
+  std::uint32_t next_id_ = 0;
+  std::size_t stride_ = 0;  ///< bytes from one array to the next
+  std::unique_ptr<std::byte, Free> memory_;
+};
+
+}  // namespace rainref::drops

@@ -1,0 +1,144 @@
+#include "drops/host.h"
+
+#include <algorithm>
+
+#include "drops/physics.h"
+#include "math/real64.h"
+#include "rain/rain.h"
+#include "random/poisson.h"
+
+namespace rainref::drops {
+namespace {
+
+constexpr double pi = 0x1.921fb54442d18p+1;
+constexpr double rest_speed = 1e-6;  // m/s: a millimetre in a quarter of an hour
+constexpr int classes = 1024;        // the upper ten bits of a word
+constexpr int cells = 2000;          // of the integral over diameters: the table's corners bound its error to 1e-5
+
+double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
+double volume_of_quantum() { return quantum / water_density; }
+Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.receding_deg * pi / 180}; }
+
+/// Calls f(diameter [mm], arrivals [1/m^2/s]) for each cell of the size distribution, smallest first.
+template <class F>
+void for_sizes(const Settings& s, double normal_z, double normal_wind, F f) {
+  if (s.rain_rate == 0) return;
+  const double lambda = rain::DropSizes(s.rain_rate, s.smallest_drop).lambda();
+  const double h = (rain::DropSizes::largest_mm - s.smallest_drop) / cells;
+  for (int i = 0; i < cells; ++i) {
+    const double d = s.smallest_drop + (i + 0.5) * h;
+    const double onto = rain::terminal_velocity(d) * normal_z - normal_wind;
+    if (onto > 0) f(d, 8000 * exp_real(Real64(-lambda * d)).v * onto * h);
+  }
+}
+double water_mass(double diameter_mm) { return water_density * pi / 6 * diameter_mm * diameter_mm * diameter_mm * 1e-9; }
+float quanta_of(double diameter_mm) {
+  // Whole, at least 1, and a float has them all.
+  const double quanta = static_cast<double>(static_cast<std::int64_t>(water_mass(diameter_mm) / quantum + 0.5));
+  return static_cast<float>(std::clamp(quanta, 1.0, static_cast<double>(most_quanta)));
+}
+/// Events of a rate in step n. Exact whenever rate * n is, because division is correctly rounded.
+std::int64_t events_in(double rate, std::int64_t n, double steps_per_second) {
+  const auto until = [&](std::int64_t k) { return static_cast<std::int64_t>(rate * static_cast<double>(k) / steps_per_second); };
+  return until(n + 1) - until(n);
+}
+
+void put(const PlaneFrame& from, float (&to)[3]) {
+  for (std::size_t k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+}
+
+}  // namespace
+
+double radius_of_quantum(const Settings& s) { return cap_radius_over_root(wetting(s).mean()) * power(volume_of_quantum(), 1.0 / 3); }
+
+IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame, double dt) {
+  IntegrateUniforms u{};
+  u.dt = static_cast<float>(dt);
+  if (!s.corrected) {
+    u.inertia_coupling = static_cast<float>(s.inertia_coupling);
+    u.wind_coupling = static_cast<float>(s.wind_coupling);
+    u.drag = static_cast<float>(s.drag);
+    return u;
+  }
+  put(frame, u.frame);
+  // Each constant is that of a drop of one quantum: the cube root of its mass is 1.
+  const double volume = volume_of_quantum(), angle = wetting(s).mean();
+  u.drag = static_cast<float>(sliding_drag(volume, s.mobility));
+  u.wind_push = static_cast<float>(wind_acceleration(volume, angle, s.wind_drag, s.wind_exposure));
+  u.hold = static_cast<float>(held_acceleration(volume, wetting(s)));
+  u.evaporation = static_cast<float>(evaporation_rate(radius_of_quantum(s), angle, s.humidity) / quantum);
+  u.margin = static_cast<float>(s.margin);
+  u.rest_speed = static_cast<float>(rest_speed);
+  return u;
+}
+
+MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double dt, int columns, int rows) {
+  MergeUniforms u{};
+  put(frame, u.frame);
+  u.radius = static_cast<float>(radius_of_quantum(s));
+  u.trail = static_cast<float>(2 * s.trail_thickness * water_density / quantum);
+  u.dt = static_cast<float>(dt);
+  u.film[0] = columns;
+  u.film[1] = rows;
+  return u;
+}
+
+std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, double steps_per_second) {
+  return events_in(s.film_drying * texel_area * water_density / quantum, n, steps_per_second);
+}
+
+Flux flux(const Settings& s, double normal_z, double normal_wind) {
+  Flux sum{0, 0};
+  for_sizes(s, normal_z, normal_wind, [&](double d, double arrivals) {
+    sum.drops += arrivals;
+    sum.water += arrivals * water_mass(d);
+  });
+  return sum;
+}
+
+void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
+  if (e == made_for_ && steps_per_second == made_rate_) return;
+  plan_ = {};
+  if (!settings_.corrected) {
+    plan_.uniforms.parts = 1;
+    for (int k = 0; k < classes; ++k) {
+      plan_.masses.push_back({static_cast<float>(settings_.mass_min + (settings_.mass_max - settings_.mass_min) * ((k + 0.5) / classes))});
+    }
+  } else {
+    const double total = flux(settings_, e.normal_z, e.normal_wind).drops;
+    plan_.mean = total * e.area / steps_per_second;
+    plan_.uniforms.parts = 1 + static_cast<std::uint32_t>(plan_.mean / random::PoissonTable::max_mean);
+    const random::PoissonTable table(plan_.mean / plan_.uniforms.parts);
+    plan_.uniforms.first_count = table.first();
+    for (const std::uint32_t t : table.thresholds()) plan_.thresholds.push_back({t});
+    double sum = 0;
+    for_sizes(settings_, e.normal_z, e.normal_wind, [&](double d, double arrivals) {
+      sum += arrivals;
+      // Class k stands for the drops around the quantile (k + 1/2) / classes.
+      while (static_cast<int>(plan_.masses.size()) < classes && sum >= total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes)) plan_.masses.push_back({quanta_of(d)});
+    });
+    // Where no drop arrives, the table is still one.
+    while (static_cast<int>(plan_.masses.size()) < classes) plan_.masses.push_back(plan_.masses.empty() ? SpawnMass{1} : plan_.masses.back());
+  }
+  plan_.uniforms.threshold_count = static_cast<std::int32_t>(plan_.thresholds.size());
+  plan_.uniforms.seed[0] = static_cast<std::uint32_t>(settings_.seed);
+  plan_.uniforms.seed[1] = static_cast<std::uint32_t>(settings_.seed >> 32);
+  plan_.uniforms.life = static_cast<float>(settings_.lifetime);
+  made_for_ = e;
+  made_rate_ = steps_per_second;
+}
+
+const SpawnPlan& Arrivals::plan(const Exposure& exposure, std::int64_t n, double steps_per_second, std::uint32_t first_id, std::int64_t room) {
+  make_tables(exposure, steps_per_second);
+  plan_.uniforms.step = static_cast<std::uint32_t>(n);
+  plan_.uniforms.first_id = first_id;
+  plan_.uniforms.room = static_cast<std::uint32_t>(room);
+  if (!settings_.corrected) {
+    const std::int64_t count = events_in(settings_.spawn_rate, n, steps_per_second);
+    plan_.uniforms.first_count = static_cast<std::int32_t>(count);
+    plan_.mean = static_cast<double>(count);
+  }
+  return plan_;
+}
+
+}  // namespace rainref::drops

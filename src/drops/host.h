@@ -1,0 +1,66 @@
+// What the settings determine: uniforms of the passes, in double, each rounded once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "drops/records.h"
+#include "drops/settings.h"
+#include "drops/uniforms.h"
+
+namespace rainref::drops {
+
+/// Plane coordinates of the glass [m]: x = f[0] u + f[1] v, y = f[2] v.
+using PlaneFrame = std::array<double, 3>;
+
+/// dt [s] of one run of the pass. as-published does not look at the frame.
+IntegrateUniforms integrate_uniforms(const Settings& settings, const PlaneFrame& frame, double dt);
+/// columns, rows: of the film.
+MergeUniforms merge_uniforms(const Settings& settings, const PlaneFrame& frame, double dt, int columns, int rows);
+/// Base radius over the cube root of the mass in quanta [m], from the mean contact angle.
+double radius_of_quantum(const Settings& settings);
+/// Quanta that a texel of the film, of this area [m^2], loses in step n of so many a second: whole, and right in the long run.
+std::int64_t film_loss(const Settings& settings, double texel_area, std::int64_t n, double steps_per_second);
+
+/// How the glass meets the rain, in the axes of the car.
+struct Exposure {
+  double area;         ///< of the glass [m^2]
+  double normal_z;     ///< upward component of its outward normal
+  double normal_wind;  ///< apparent wind along that normal [m/s]; negative: onto the glass
+  bool operator==(const Exposure&) const = default;
+};
+
+/// What spawn takes besides the drops.
+struct SpawnPlan {
+  SpawnUniforms uniforms;
+  std::vector<CountThreshold> thresholds;  ///< of one draw, ascending
+  std::vector<SpawnMass> masses;           ///< 1024 size classes, lightest first
+  double mean = 0;                         ///< expected arrivals
+};
+
+/// The arrivals of an effect. Keeps the tables of the last exposure, which cost a millisecond to make.
+class Arrivals {
+ public:
+  explicit Arrivals(const Settings& settings) : settings_(settings) {}
+  /// What arrives in step n of so many a second. first_id: DropArrays::next_id(); room: its free slots.
+  /// corrected: drops of diameter D [mm] arrive at N(D) max(0, v(D) normal_z - normal_wind) on each m^2, Marshall and
+  /// Palmer's N(D), Gunn and Kinzer's v(D); a Poisson number of them. as-published (the source is silent): the count
+  /// floor(rate (n + 1) / steps_per_second) - floor(rate n / steps_per_second), masses evenly from mass_min to mass_max.
+  const SpawnPlan& plan(const Exposure& exposure, std::int64_t n, double steps_per_second, std::uint32_t first_id, std::int64_t room);
+
+ private:
+  void make_tables(const Exposure& exposure, double steps_per_second);
+  Settings settings_;
+  Exposure made_for_{-1, 0, 0};
+  double made_rate_ = 0;
+  SpawnPlan plan_;
+};
+
+/// corrected: arrivals [1/m^2/s] of drops not below rain.smallest_drop, and the water that they bring [kg/m^2/s].
+struct Flux {
+  double drops, water;
+};
+Flux flux(const Settings& settings, double normal_z, double normal_wind);
+
+}  // namespace rainref::drops

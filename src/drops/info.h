@@ -1,0 +1,21 @@
+// The passes and records of this room described to others, for the effects that list them.
+#pragma once
+
+#include <vector>
+
+#include "capture/pass_info.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::drops {
+
+/// Drop, GlassFrame, SpawnMass, CountThreshold.
+std::vector<scene::UniformBlock> records();
+/// Buffers drops (both variants), glass_frame, count_thresholds, spawn_masses and film.
+std::vector<capture::BufferInfo> buffers();
+/// The passes. before: the pass that wrote the drops which this one takes; spawn takes those of the frame before.
+capture::PassInfo spawn_info(const std::string& last_writer_of_drops);
+capture::PassInfo integrate_info(const std::string& before, const std::string& glass_frame_pass);
+/// film_from: the pass that wrote the film before this one.
+capture::PassInfo merge_info(const std::string& before, const std::string& film_from);
+
+}  // namespace rainref::drops

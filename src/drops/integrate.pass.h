@@ -1,0 +1,105 @@
+// Pass integrate: how one drop moves in a step.
+
+template <class N>
+struct DropState {
+  N u, v, velocity_u, velocity_v, mass, life;
+  RAINREF_FN DropState() {}
+};
+
+// ---- as published --------------------------------------------------------------------------------------------------
+//   a = gravity mass - acceleration inertia_coupling + wind wind_coupling - velocity drag           (seed 000)
+// The source stops there. Semi-implicit Euler is chosen: velocity += a dt, then position += velocity dt.
+template <class N>
+RAINREF_FN N force_as_published(const IntegrateUniforms& c, float gravity, float acceleration, float wind, N velocity, N mass) {
+  return sum_any_order(N(gravity) * mass, -N(acceleration) * N(c.inertia_coupling), N(wind) * N(c.wind_coupling), -velocity * N(c.drag));
+}
+template <class N>
+RAINREF_FN DropState<N> integrate_as_published(const IntegrateUniforms& c, const GlassFrame& g, const DropState<N>& d) {
+  const auto alive = d.life > N(0.0f);
+  const N dt(c.dt);
+  const N velocity_u = d.velocity_u + force_as_published(c, g.gravity[0], g.acceleration[0], g.wind[0], d.velocity_u, d.mass) * dt;
+  const N velocity_v = d.velocity_v + force_as_published(c, g.gravity[1], g.acceleration[1], g.wind[1], d.velocity_v, d.mass) * dt;
+  DropState<N> out = d;
+  out.velocity_u = select(alive, velocity_u, d.velocity_u);
+  out.velocity_v = select(alive, velocity_v, d.velocity_v);
+  out.u = select(alive, d.u + velocity_u * dt, d.u);
+  out.v = select(alive, d.v + velocity_v * dt, d.v);
+  out.life = select(alive, d.life - dt, d.life);
+  return out;
+}
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+// Everything that acts on the mass alone comes as one specific force, so that braking and a slope are the same. What the
+// size of the drop decides goes by the cube root of its mass: a hold of contact-angle hysteresis (force ~ width), a push
+// of the wind (~ area), a viscous drag k (~ width). Under them the motion is exact, with v_inf = a / k:
+//   v' = v_inf + (v - v_inf) e^-kt        = v e^-kt + a t f,       f = (1 - e^-kt) / kt
+//   x' = x + v_inf t + (v - v_inf) t f    = x + (v f + a t g) t,   g = (1 - f) / kt
+// On the right nothing cancels, and k may be 0.
+template <class N>
+struct Integrated {
+  DropState<N> drop;
+  N evaporated, removed;  ///< [quanta]
+  RAINREF_FN Integrated() {}
+};
+/// The length [m] of a vector in glass coordinates.
+template <class N>
+RAINREF_FN N length_on_glass(const float* frame, N u, N v) { return length(N(frame[0]) * u + N(frame[1]) * v, N(frame[2]) * v); }
+/// The cube root of the mass of a live drop; 1 for a free slot.
+template <class N>
+RAINREF_FN N cube_root_of_mass(N mass) { return pow(max(mass, N(1.0f)), N(0x1.555556p-2f)); }
+
+/// e^-x, f(x) and g(x) for x >= 0. Below 1/8 by their series, to 1e-8.
+template <class N>
+struct Decay {
+  N speed, mean, way;
+  RAINREF_FN Decay() {}
+};
+template <class N>
+RAINREF_FN Decay<N> decay_of(N x) {
+  const N one(1.0f), eighth(0.125f), safe = max(x, eighth);
+  const auto small = x < eighth;
+  Decay<N> out;
+  out.speed = exp(-x);
+  const N g = N(1.0f / 2) - x * (N(1.0f / 6) - x * (N(1.0f / 24) - x * (N(1.0f / 120) - x * N(1.0f / 720))));
+  out.mean = select(small, one - x * g, (one - out.speed) / safe);
+  out.way = select(small, g, (one - out.mean) / safe);
+  return out;
+}
+
+template <class N>
+RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const GlassFrame& g, const DropState<N>& d) {
+  const N zero(0.0f), one(1.0f), dt(c.dt);
+  const auto alive = d.life > zero;
+  const N mass_3 = cube_root_of_mass(d.mass), inverse = one / mass_3, inverse_sq = square(inverse);
+
+  const N wind_u(g.wind[0]), wind_v(g.wind[1]);
+  const N push = (N(c.wind_push) * length_on_glass(c.frame, wind_u, wind_v)) * inverse;
+  const N a_u = sum_any_order(N(g.gravity[0]), N(g.spin[0]) * d.u + N(g.spin[1]) * d.v, N(g.coriolis[0]) * d.velocity_u + N(g.coriolis[1]) * d.velocity_v, push * wind_u);
+  const N a_v = sum_any_order(N(g.gravity[1]), N(g.spin[2]) * d.u + N(g.spin[3]) * d.v, N(g.coriolis[2]) * d.velocity_u + N(g.coriolis[3]) * d.velocity_v, push * wind_v);
+
+  const N pull = max(length_on_glass(c.frame, a_u, a_v), N(1e-6f));
+  const N share = max(one - (N(c.hold) * inverse_sq) / pull, zero);  // of the force that is left to move the drop
+  const N push_u = (a_u * share) * dt, push_v = (a_v * share) * dt;
+  const Decay<N> decay = decay_of(N(c.drag) * inverse_sq * dt);
+  const N velocity_u = d.velocity_u * decay.speed + push_u * decay.mean, velocity_v = d.velocity_v * decay.speed + push_v * decay.mean;
+  const N u = d.u + (d.velocity_u * decay.mean + push_u * decay.way) * dt, v = d.v + (d.velocity_v * decay.mean + push_v * decay.way) * dt;
+  // A held drop would slow down for ever.
+  const auto rests = (share <= zero) & (length_on_glass(c.frame, velocity_u, velocity_v) < N(c.rest_speed));
+
+  // Whole quanta leave whenever rate * life passes a whole number.
+  const N rate = N(c.evaporation) * mass_3, life = d.life - dt;
+  const N mass = max(d.mass - (floor(rate * d.life) - floor(rate * life)), zero);
+  const N low(-c.margin), high = one + N(c.margin);
+  const auto stays = (life > zero) & (mass > zero) & (u >= low) & (u <= high) & (v >= low) & (v <= high);
+
+  Integrated<N> out;
+  out.drop.u = select(alive, u, d.u);
+  out.drop.v = select(alive, v, d.v);
+  out.drop.velocity_u = select(alive, select(rests, zero, velocity_u), d.velocity_u);
+  out.drop.velocity_v = select(alive, select(rests, zero, velocity_v), d.velocity_v);
+  out.drop.mass = select(alive & stays, mass, select(alive, zero, d.mass));
+  out.drop.life = select(alive & stays, life, select(alive, zero, d.life));
+  out.evaporated = select(alive, d.mass - mass, zero);
+  out.removed = select(alive & !stays, mass, zero);
+  return out;
+}

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "drops/kernels.h"
+#include "drops/merge_grid.h"
+#include "drops/passes.h"
+#include "drops/plain.h"
+
+namespace rainref::drops {
+namespace {
+
+using F = plain::Plain<float>;
+
+scalar::DropState<F> state_of(const Drop& d) {
+  scalar::DropState<F> s;
+  s.u = d.position[0];
+  s.v = d.position[1];
+  s.velocity_u = d.velocity[0];
+  s.velocity_v = d.velocity[1];
+  s.mass = d.mass;
+  s.life = d.life;
+  return s;
+}
+Drop drop_of(const scalar::DropState<F>& s, std::uint32_t id) {
+  // + 0: stored zeros are positive.
+  return {{s.u.v + 0.0f, s.v.v + 0.0f}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, s.mass.v, s.life.v, id, 0};
+}
+
+struct Member {
+  std::uint32_t root_id, id, root_slot, slot;
+};
+
+}  // namespace
+
+struct Merger::Scratch {
+  MergeGrid grid;
+  std::vector<std::int32_t> larger;
+};
+
+Merger::Merger() : scratch_(std::make_unique<Scratch>()) {}
+Merger::~Merger() = default;
+
+std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {
+  MergeGrid& grid = scratch_->grid;
+  grid.build(executor, drops, uniforms);
+  std::vector<std::int32_t>& larger = scratch_->larger;
+  larger.resize(std::max(larger.size(), static_cast<std::size_t>(grid.count)));
+  constexpr std::int64_t chunk = 1024;
+  executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
+
+  // Ends of chains. What is known of a chain shortens it for the others.
+  std::vector<Member> members;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(grid.count); ++i) {
+    if (larger[i] < 0) continue;
+    auto root = static_cast<std::size_t>(larger[i]);
+    while (larger[root] >= 0) root = static_cast<std::size_t>(larger[root]);
+    for (std::size_t k = i; k != root;) k = static_cast<std::size_t>(std::exchange(larger[k], static_cast<std::int32_t>(root)));
+    members.push_back({grid.id[root], grid.id[i], grid.slot[root], grid.slot[i]});
+  }
+  std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return std::tie(a.root_id, a.id) < std::tie(b.root_id, b.id); });
+
+  std::int64_t ended = 0;
+  for (std::size_t i = 0; i < members.size();) {
+    const Member first = members[i];
+    scalar::DropState<F> sum = state_of(drops.get(first.root_slot));
+    for (; i < members.size() && members[i].root_id == first.root_id; ++i) {
+      const std::int64_t slot = members[i].slot;
+      const Drop d = drops.get(slot);
+      if (sum.mass.v + d.mass > most_quanta) continue;
+      sum = scalar::absorb(sum, state_of(d));
+      drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
+      ++ended;
+    }
+    drops.set(first.root_slot, drop_of(sum, first.root_id));
+  }
+  return ended;
+}
+
+Ledger leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
+  const Slots slots(drops);
+  std::vector<std::vector<Deposit>> of_chunk(static_cast<std::size_t>((drops.extent() + chunk_slots - 1) / chunk_slots));
+  executor.for_range(drops.extent(), chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    trail_range(uniforms, slots, begin, end, of_chunk[static_cast<std::size_t>(begin / chunk_slots)]);
+  });
+  Ledger ledger;
+  for (const auto& deposits : of_chunk) {
+    for (const Deposit& d : deposits) {
+      float& texel = film.row<float>(d.row)[d.column];
+      // Both are at most 2^24, so room is exact, and so is what is put there: any order gives the same film.
+      const float put = std::min(d.quanta, most_quanta - texel);
+      texel += put;
+      ledger.to_film += static_cast<std::int64_t>(put);
+      ledger.removed += static_cast<std::int64_t>(d.quanta - put);
+    }
+  }
+  return ledger;
+}
+
+Ledger dry_film(const parallel::Executor& executor, Image& film, std::int64_t quanta) {
+  Ledger ledger;
+  if (quanta <= 0) return ledger;
+  const auto most = static_cast<float>(std::min(quanta, static_cast<std::int64_t>(most_quanta)));
+  std::vector<std::int64_t> of_row(static_cast<std::size_t>(film.height()));
+  executor.for_range(film.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t y = begin; y < end; ++y) {
+      float* row = film.row<float>(static_cast<int>(y));
+      std::int64_t sum = 0;
+      for (int x = 0; x < film.width(); ++x) {
+        const float loss = std::min(row[x], most);
+        row[x] -= loss;
+        sum += static_cast<std::int64_t>(loss);
+      }
+      of_row[static_cast<std::size_t>(y)] = sum;
+    }
+  });
+  for (const std::int64_t sum : of_row) ledger.evaporated += sum;
+  ledger.to_film = -ledger.evaporated;
+  return ledger;
+}
+
+std::int64_t film_water(const Image& film) {
+  std::int64_t sum = 0;
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) sum += static_cast<std::int64_t>(film.row<float>(y)[x]);
+  }
+  return sum;
+}
+
+}  // namespace rainref::drops

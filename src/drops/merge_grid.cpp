@@ -1,0 +1,135 @@
+#include "drops/merge_grid.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "drops/kernels.h"
+
+namespace rainref::drops {
+namespace {
+
+constexpr std::uint32_t no_cell = 0xffffffffu;
+constexpr std::size_t room_behind = 64;     // slots of a vector, and more
+constexpr double slack = 1.0001;            // more than the rounding of radii and coordinates
+constexpr std::uint32_t most_buckets = 512;  // of the first step of the sort
+
+std::size_t chunks_of(std::int64_t count) { return static_cast<std::size_t>((count + chunk_slots - 1) / chunk_slots); }
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+void MergeGrid::lay_out(const std::array<std::int64_t, size_classes>& counts, const MergeUniforms& u) {
+  // The glass is the parallelogram of (0, 0), (f0, 0) and (f1, f2).
+  const double f0 = u.frame[0], f1 = u.frame[1], f2 = u.frame[2];
+  const double x0 = std::min(f1, 0.0), width = std::max(f0, f0 + f1) - x0, height = f2;
+  std::uint32_t cells = 0;
+  double most_radius = u.radius * slack;
+  for (int k = 0; k < size_classes; ++k) {
+    most_radius *= 2;
+    ClassGrid& g = classes[static_cast<std::size_t>(k)];
+    g = {};
+    const std::int64_t n = counts[static_cast<std::size_t>(k)];
+    if (n == 0) continue;
+    // No more cells than drops, or the empty ones would cost more than they save.
+    const double side = std::max(2 * most_radius, __builtin_sqrt(width * height / static_cast<double>(n)));
+    g = {x0, 0, 1 / side, std::max(1, static_cast<int>(width / side)), std::max(1, static_cast<int>(height / side)), cells};
+    cells += static_cast<std::uint32_t>(g.columns) * static_cast<std::uint32_t>(g.rows);
+  }
+  cell_start.assign(cells + 1u, 0);
+}
+
+void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {
+  const std::int64_t extent = drops.extent();
+  for (auto* a : {&slot_x_, &slot_y_, &slot_radius_}) a->resize(std::max(a->size(), index(extent) + room_behind));
+  slot_cell_.resize(std::max(slot_cell_.size(), index(extent)));
+  const Slots slots(drops);
+  std::vector<std::array<std::int64_t, size_classes>> of_chunk(chunks_of(extent), std::array<std::int64_t, size_classes>{});
+  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    measure_range(uniforms, slots, begin, end, slot_x_.data(), slot_y_.data(), slot_radius_.data());
+    std::array<std::int64_t, size_classes> counts{};
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (slots.life[i] > 0) ++counts[static_cast<std::size_t>(size_class_of(slots.mass[i]))];
+    }
+    of_chunk[index(begin / chunk_slots)] = counts;
+  });
+  std::array<std::int64_t, size_classes> counts{};
+  for (const auto& c : of_chunk) {
+    for (std::size_t k = 0; k < size_classes; ++k) counts[k] += c[k];
+  }
+  count = 0;
+  for (const std::int64_t n : counts) count += n;
+  lay_out(counts, uniforms);
+  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::size_t k = index(i);
+      if (!(slots.life[i] > 0)) {
+        slot_cell_[k] = no_cell;
+        continue;
+      }
+      const ClassGrid& g = classes[static_cast<std::size_t>(size_class_of(slots.mass[i]))];
+      slot_cell_[k] = g.first_cell + static_cast<std::uint32_t>(g.row(slot_y_[k])) * static_cast<std::uint32_t>(g.columns) + static_cast<std::uint32_t>(g.column(slot_x_[k]));
+    }
+  });
+  sort(executor, drops);
+}
+
+// Counting sort in two steps that threads share: into buckets of neighbouring cells, chunk behind chunk, and then each
+// bucket by cells.
+void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops) {
+  const std::int64_t extent = drops.extent();
+  const auto cells = static_cast<std::uint32_t>(cell_start.size() - 1);
+  int shift = 0;
+  while ((cells >> shift) >= most_buckets) ++shift;
+  const std::size_t buckets = (cells >> shift) + 1u, chunks = chunks_of(extent);
+
+  std::vector<std::uint32_t> offset(chunks * buckets, 0);
+  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t* counts = offset.data() + index(begin / chunk_slots) * buckets;
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (slot_cell_[index(i)] != no_cell) ++counts[slot_cell_[index(i)] >> shift];
+    }
+  });
+  std::vector<std::uint32_t> bucket_start(buckets + 1);
+  std::uint32_t sum = 0;
+  for (std::size_t b = 0; b < buckets; ++b) {
+    bucket_start[b] = sum;
+    for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(offset[c * buckets + b], sum);
+  }
+  bucket_start[buckets] = sum;
+  entries_.resize(std::max(entries_.size(), index(count)));
+  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    std::uint32_t* to = offset.data() + index(begin / chunk_slots) * buckets;
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::uint32_t cell = slot_cell_[index(i)];
+      if (cell != no_cell) entries_[to[cell >> shift]++] = {cell, static_cast<std::uint32_t>(i)};
+    }
+  });
+
+  for (auto* a : {&x, &y, &radius, &mass}) a->resize(std::max(a->size(), index(count) + room_behind));
+  for (auto* a : {&id, &slot}) a->resize(std::max(a->size(), index(count)));
+  const std::span<const float> masses = drops.mass();
+  const std::span<const std::uint32_t> ids = drops.id();
+  executor.for_range(static_cast<std::int64_t>(buckets), 1, [&](std::int64_t b, std::int64_t) {
+    const std::uint32_t first = bucket_start[index(b)], last = bucket_start[index(b) + 1];
+    const std::uint32_t first_cell = static_cast<std::uint32_t>(b) << shift, last_cell = std::min(cells, static_cast<std::uint32_t>(b + 1) << shift);
+    std::vector<std::uint32_t> next(last_cell - first_cell + 1u, 0);
+    for (std::uint32_t k = first; k < last; ++k) ++next[entries_[k].cell - first_cell + 1];
+    next[0] = first;
+    for (std::uint32_t c = first_cell; c < last_cell; ++c) {
+      cell_start[c] = next[c - first_cell];
+      next[c - first_cell + 1] += next[c - first_cell];
+    }
+    for (std::uint32_t k = first; k < last; ++k) {
+      const std::size_t from = entries_[k].slot, to = next[entries_[k].cell - first_cell]++;
+      x[to] = slot_x_[from];
+      y[to] = slot_y_[from];
+      radius[to] = slot_radius_[from];
+      mass[to] = masses[from];
+      id[to] = ids[from];
+      slot[to] = static_cast<std::uint32_t>(from);
+    }
+  });
+  cell_start[cells] = sum;
+}
+
+}  // namespace rainref::drops

@@ -1,0 +1,51 @@
+// The passes that move drops, as an effect calls them. Results depend on neither threads nor SIMD target. Each function
+// that moves water between drops, film and outside says so in whole quanta (as-published: in drops).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "drops/drops.h"
+#include "drops/uniforms.h"
+#include "rainref/executor.h"
+#include "rainref/image.h"
+
+namespace rainref::drops {
+
+/// spawn, both variants: the step's arrivals, from integers and tables alone, without those beyond uniforms.room unless
+/// `all`. Throws Error(port_files) when the uniforms and tables cannot belong together.
+std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool all = false);
+/// spawn: puts the arrivals into free slots, lowest first. corrected: Ledger in quanta; as-published: in drops.
+Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected);
+
+/// integrate, as-published: live drops only. The Ledger counts the drops whose life ends, as removed.
+Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass);
+/// integrate, corrected.
+Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass);
+
+/// merge, corrected, first part: drops that touch become one. Each drop points to the touching drop that is the largest
+/// of those larger than itself (by mass; of equal ones the lower id is the larger), and the drop at the end of the chain
+/// takes all that lead to it, in ascending id, as long as it holds no more than most_quanta. The result depends on the ids
+/// alone, not on slots. Keeps its working memory between calls.
+class Merger {
+ public:
+  Merger();
+  ~Merger();
+  /// Returns how many drops ended in another one; water and momentum are kept.
+  std::int64_t merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+/// merge, corrected, second part: sliding drops leave quanta on the film (r32f, whole quanta in a texel). What a texel
+/// cannot hold beyond most_quanta is removed.
+Ledger leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
+/// Takes up to `quanta` from every texel of the film.
+Ledger dry_film(const parallel::Executor& executor, Image& film, std::int64_t quanta);
+/// Quanta that the film holds.
+std::int64_t film_water(const Image& film);
+
+}  // namespace rainref::drops

@@ -1,0 +1,51 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "drops/passes.h"
+#include "rainref/error.h"
+#include "random/counter.h"
+#include "random/poisson.h"
+
+namespace rainref::drops {
+
+std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool all) {
+  constexpr std::uint32_t most_parts = 1u << 12;
+  constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
+  constexpr std::int32_t most_without_thresholds = 1 << 26;
+  if (masses.size() != 1024 || c.threshold_count < 0 || static_cast<std::size_t>(c.threshold_count) > thresholds.size() || c.threshold_count > most || c.parts > most_parts ||
+      c.first_count < 0 || c.first_count > (c.threshold_count > 0 ? most : most_without_thresholds)) {
+    throw Error(ExitCode::port_files, fmt::format("spawn: expected 1024 masses, at most {} thresholds and at most {} parts, found {} masses, {} thresholds, threshold_count {}, first_count {}, parts {}",
+                                                  most, most_parts, masses.size(), thresholds.size(), c.threshold_count, c.first_count, c.parts));
+  }
+  const std::uint64_t seed = c.seed[0] | static_cast<std::uint64_t>(c.seed[1]) << 32;
+  const auto used = thresholds.first(static_cast<std::size_t>(c.threshold_count));
+  std::uint32_t count = 0;
+  for (std::uint32_t part = 0; part < c.parts; ++part) {
+    const std::uint32_t word = random::block(seed, random::Purpose::drop_count, c.step, part)[0];
+    const auto above = std::upper_bound(used.begin(), used.end(), word, [](std::uint32_t w, CountThreshold t) { return w < t.threshold; });
+    count += static_cast<std::uint32_t>(c.first_count) + static_cast<std::uint32_t>(above - used.begin());
+  }
+  if (!all) count = std::min(count, c.room);
+  std::vector<Drop> out;
+  out.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const random::Block r = random::block(seed, random::Purpose::drop_arrival, c.step, i);
+    out.push_back({{random::uniform(r[0]), random::uniform(r[1])}, {0, 0}, masses[r[2] >> 22].mass, c.life, c.first_id + i, 0});
+  }
+  return out;
+}
+
+Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected) {
+  const std::vector<Drop> arrivals = arrivals_of(uniforms, thresholds, masses, true);
+  const std::size_t placed = drops.place(arrivals);
+  Ledger ledger;
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    const std::int64_t water = corrected ? static_cast<std::int64_t>(arrivals[i].mass) : 1;
+    ledger.spawned += water;
+    if (i >= placed) ledger.removed += water;
+  }
+  return ledger;
+}
+
+}  // namespace rainref::drops

@@ -1,0 +1,47 @@
+// Uniform blocks of the passes that move drops, byte for byte as a GPU takes them; see records.h for what they exchange.
+#pragma once
+
+#include <cstdint>
+
+namespace rainref::drops {
+
+/// spawn. Arrival i of a step takes its place from the first two words of the hash of (seed, step, i), and its mass from
+/// the upper ten bits of the third.
+struct SpawnUniforms {
+  std::uint32_t seed[2];         ///< low word, high word
+  std::uint32_t step;            ///< steps made before, modulo 2^32
+  std::uint32_t parts;           ///< the count is a sum of this many draws
+  std::int32_t first_count;      ///< of one draw, where its word is below every threshold
+  std::int32_t threshold_count;  ///< 0: every draw gives first_count
+  std::uint32_t first_id;        ///< of the step's first arrival; the others follow
+  std::uint32_t room;            ///< free slots: later arrivals are lost
+  float life;                    ///< of a new drop [s]
+  float padding0, padding1, padding2;
+};
+
+/// integrate. mass_3 in the comments is the cube root of the mass in quanta.
+struct IntegrateUniforms {
+  float frame[3];           ///< corrected: x = frame0 u + frame1 v, y = frame2 v, in the plane of the glass [m]
+  float dt;                 ///< [s]
+  float inertia_coupling;   ///< as-published [1]
+  float wind_coupling;      ///< as-published [1/s]
+  float drag;               ///< as-published: rate [1/s]; corrected: rate times mass_3^2 [1/s]
+  float wind_push;          ///< corrected: acceleration over wind speed squared, times mass_3 [1/m]
+  float hold;               ///< corrected: acceleration that hysteresis holds, times mass_3^2 [m/s^2]
+  float evaporation;        ///< corrected: loss over mass_3 [quanta/s]
+  float margin;             ///< corrected: a drop lives up to this far outside the glass, in u and v
+  float rest_speed;         ///< corrected: a held drop that is slower rests [m/s]
+};
+
+/// merge and its trails.
+struct MergeUniforms {
+  float frame[3];       ///< as IntegrateUniforms::frame [m]
+  float radius;         ///< base radius over the cube root of the mass in quanta [m]
+  float trail;          ///< loss over base radius and way in a step [quanta/m^2]
+  float dt;             ///< [s]
+  std::int32_t film[2]; ///< columns and rows of the film [texel]
+};
+
+static_assert(sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 48 && sizeof(MergeUniforms) == 32);
+
+}  // namespace rainref::drops

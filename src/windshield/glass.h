@@ -1,0 +1,42 @@
+// The windshield's plane: three corners in the axes of the car, and what its passes need of them.
+#pragma once
+
+#include <array>
+
+#include "scene/parameter.h"
+
+namespace rainref::windshield {
+
+using scene::Real2;
+using scene::Real3;
+
+double dot(const Real3& a, const Real3& b);
+Real3 cross(const Real3& a, const Real3& b);
+
+/// Plane coordinates [m] of glass coordinates, and back:
+///   x = f0 u + f1 v,  y = f2 v;   u = i0 x + i1 y,  v = i2 y.
+struct PlaneFrame {
+  Real3 frame, inverse;
+  Real2 to_plane(const Real2& uv) const { return {frame[0] * uv[0] + frame[1] * uv[1], frame[2] * uv[1]}; }
+  Real2 to_glass(const Real2& xy) const { return {inverse[0] * xy[0] + inverse[1] * xy[1], inverse[2] * xy[1]}; }
+};
+
+/// The point at (u, v) is origin + u e_u + v e_v. Car axes: x forward, y left, z up [m].
+struct Glass {
+  Real3 origin, e_u, e_v;
+  Real3 normal;                          ///< unit, out of the car: its x component is positive (z where x is 0)
+  std::array<double, 3> metric;          ///< e_u.e_u, e_u.e_v, e_v.e_v [m^2]
+  std::array<double, 3> inverse_metric;  ///< of the symmetric matrix, in the same order [1/m^2]
+  double area;                           ///< [m^2]
+
+  /// Exact on a sheared glass: an orthonormal frame whose x runs along e_u.
+  PlaneFrame plane() const;
+  /// As published: each axis by its own length, as if they were perpendicular.
+  PlaneFrame axes() const;
+};
+
+/// The glass with corners at (0, 0), (1, 0) and (0, 1). Throws Error(usage) when they span no plane: two of them coincide
+/// or all three lie on a line, to 1e-6 of their distances.
+Glass make_glass(const std::array<Real3, 3>& corners);
+
+}  // namespace rainref::windshield

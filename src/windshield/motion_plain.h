@@ -1,0 +1,19 @@
+// The scalar readings of windshield_frame and wipe_drops: for the tests. A namespace of their own, so that argument types of this room do not pull
+// them into the lanes.
+#pragma once
+
+#include "math/plain.h"
+#include "windshield/motion.h"
+#include "windshield/uniforms.h"
+
+namespace rainref::windshield::motion_scalar {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "windshield/windshield_frame.pass.h"
+#include "windshield/wipe_drops.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::windshield::motion_scalar
