@@ -84,9 +84,9 @@ void conclude(PortJudgement& j) {
     j.status = worse(j.status, p.status);
     if (j.first_bad_pass.empty() && p.status == Status::fail) j.first_bad_pass = p.pass;
   }
-  if (j.passes.empty()) {
+  if (std::all_of(j.passes.begin(), j.passes.end(), [](const PassJudgement& p) { return p.status == Status::data; })) {
     j.status = Status::untested;
-    j.reason = "nothing was judged";
+    j.reason = j.passes.empty() ? "nothing was judged" : "nothing was judged: all is taken as data";
   }
 }
 

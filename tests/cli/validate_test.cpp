@@ -63,6 +63,21 @@ TEST_F(Validate, UntestedIsForgivenOnlyBesideAPass) {
   EXPECT_EQ(validate({"--shadow", "port", "--allow-untested", "--only", "display"}).code, 1);
 }
 
+// The article's drops come from a hash that no GPU reproduces. They are no PASS, and alone they are nothing.
+TEST_F(Validate, WhatIsTakenAsDataIsNotJudged) {
+  copy_to("port", published);
+  Outcome o = validate({published, "--port", "port", "--allow-untested"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("DATA  raindrops     nothing judged"), HasSubstr("(4 PASS, 2 DATA)")));
+  for (const bool forgiving : {false, true}) {
+    std::vector<std::string> arguments{published, "--port", "port", "--only", "raindrops"};
+    if (forgiving) arguments.push_back("--allow-untested");
+    o = validate(arguments);
+    EXPECT_EQ(o.code, 1);
+    EXPECT_THAT(o.out, HasSubstr("(1 DATA)\n  nothing was judged: all is taken as data\n"));
+  }
+}
+
 TEST_F(Validate, ADamagedPackIsRefused) {
   copy_to("port");
   copy_to("bad");
