@@ -90,8 +90,8 @@ std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
 }
 
 std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
-  std::string out = fmt::format("\n{} {}{}\n", name(p.status), p.pass,
-                                figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "");
+  const std::string verdict = figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "";
+  std::string out = "\n" + wrapped(fmt::format("{} {}{}", name(p.status), p.pass, verdict), 2);
   if (p.pass == j.first_bad_pass) out += p.inputs_are_good ? "  first bad pass, its inputs are good\n" : "  first bad pass, its inputs are not good either\n";
   std::size_t shown = 0, skipped = 0;
   for (const CaseJudgement& c : p.cases) {

@@ -137,6 +137,10 @@ TEST_F(Validate, ACommandThatFailsIsReported) {
   // It succeeds and writes nothing.
   o = exec("true {out}");
   EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, AllOf(HasSubstr(": expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none\n"), Not(HasSubstr("printed"))));
+  o = exec("echo no device; : {out}");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, HasSubstr("found none; the port's command ended with exit code 0 and printed last: no device\n"));
   EXPECT_EQ(folder.names(), before);
 }
 
@@ -166,7 +170,7 @@ TEST_F(Validate, ARaceIsFoundAndNamed) {
   EXPECT_EQ(exec(command).code, 0);
   Outcome o = exec(command, {"--repeat", "3"});
   EXPECT_EQ(o.code, 1);
-  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first at (34, 20).z, 1 of 2940 elements"),
+  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first\n    at (34, 20).z, 1 of 2940 elements\n"),
                            HasSubstr("the port ran 3 times"), Not(HasSubstr("outside the as-written envelope"))));
   o = exec(command, {"--repeat", "2", "--port", "kept"});
   EXPECT_EQ(o.code, 1);

@@ -75,8 +75,8 @@ TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
                               "    (2, 0).y  got nan (0x7e01)  accepted 0.125 (0x3000) to 0.125122 (0x3001)  is not a number\n"
                               "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes\n"
                               "    (4 more not shown)\n"
-                              "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes near\n"
-                              "    1)\n"));
+                              "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes\n"
+                              "    near 1)\n"));
   EXPECT_THAT(text, HasSubstr("note: port/x.exr: one note\n"));
   EXPECT_THAT(text, ContainsRegex("\nFAIL: port against pack, profile vulkan, Vulkan 1.3 Test & <Device> \\(1 FAIL, 1 UNTESTED, 1 WARN, 1 PASS\\)\n$"));
 }
