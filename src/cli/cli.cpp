@@ -173,7 +173,7 @@ int parse_and_run(int argc, const char* const* argv) {
   validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time");
   validate_verb.add_option("--size", shadow_flags.size, "With --shadow and a scene: its picture size, WxH");
   validate_verb.add_option("--set", shadow_flags.set, "With --shadow and a scene: override one of its values, key=value")->allow_extra_args(false);
-  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: ieee, vulkan, webgpu, d3d, cuda or metal");
+  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: ieee, vulkan, webgpu, d3d, cuda or metal (default: vulkan)");
   validate_verb.add_option("--only", validate_request.only, "Judge this pass alone");
   validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
   validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them");

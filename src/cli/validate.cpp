@@ -41,8 +41,9 @@ void make_empty(const fs::path& wanted) {
   }
 }
 
-/// Runs the port's command and gives the folders of its runs; a failure goes into the judgement.
-std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement) {
+/// Runs the port's command and gives the folders of its runs; a failure goes into the judgement. `last_line` is what the
+/// last run printed last.
+std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement, std::string& last_line) {
   std::vector<fs::path> runs;
   Progress progress("running the port", request.repeat);
   for (int k = 1; k <= request.repeat; ++k) {
@@ -55,6 +56,7 @@ std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& f
       for (const std::string& line : end.last_lines) judgement.notes.push_back("the port printed: " + line);
       return {};
     }
+    last_line = end.last_lines.empty() ? "" : end.last_lines.back();
     runs.push_back(out);
     progress.advance();
   }
@@ -87,25 +89,30 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
   judgement.variant = pack.variant;
   judgement.scene = pack.scene;
   std::shared_ptr<TemporaryRun> temporary;
+  std::string last_line;
   std::vector<fs::path> runs{request.port};
   if (!request.exec.empty()) {
     if (request.port.empty()) temporary = std::make_shared<TemporaryRun>();
     const fs::path folder = temporary ? temporary->path() : request.port;
     judgement.port = request.port.empty() ? "the outputs of --exec" : request.port.string();
-    runs = run_port(request, folder, judgement);
+    runs = run_port(request, folder, judgement, last_line);
     if (runs.empty()) return {judgement, {}};
   }
   options.executor = &executor;
-  {
+  try {
     Progress progress("judging", static_cast<int>(pack.cases.size()));
     options.progress = [&](int, int) { progress.advance(); };
     const std::string shown = judgement.port;
     judgement = conformance::validate(pack, runs.front(), options);
     if (!shown.empty()) judgement.port = shown;
-  }
-  if (runs.size() > 1) {
-    conformance::add_races(conformance::find_races(pack, runs, request.only), judgement);
-    judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+    if (runs.size() > 1) {
+      conformance::add_races(conformance::find_races(pack, runs, request.only), judgement);
+      judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
+    }
+  } catch (const Error& e) {
+    // A port that exits with 0 and has written nothing may have said why.
+    if (e.code() != ExitCode::port_files || last_line.empty()) throw;
+    throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), last_line));
   }
   conformance::PageSource source = conformance::page_source(opened, runs.front());
   source.read = [temporary, read = source.read](const std::string& id, const std::string& output) { return read(id, output); };

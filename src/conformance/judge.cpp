@@ -331,6 +331,22 @@ void set_first_difference(const FormatInfo& format, const std::byte* want, const
   f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, distance(f.got, {f.low, f.high}));
 }
 
+/// The first word of a record whose bits differ. Padding has no name, but counts.
+void set_first_difference(const scene::UniformBlock& record, const std::byte* want, const std::byte* have, Failure& f) {
+  std::size_t at = 0;
+  while (std::memcmp(want + at, have + at, 4) == 0) at += 4;
+  f.field = fmt::format("byte {}", at);
+  for (const scene::Member& m : record.members) {
+    if (at < m.offset || at >= m.offset + m.size()) continue;
+    f.field = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[(at - m.offset) / 4]);
+    if (m.scalar == scene::Scalar::float32) f.field_kind = FormatInfo::float32;
+  }
+  f.got = enclosed::ordered_code(f.field_kind, have + at);
+  f.expected = f.low = f.high = enclosed::ordered_code(f.field_kind, want + at);
+  f.not_a_number = is_nan(f.field_kind, have + at);
+  f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, distance(f.got, {f.low, f.high}));
+}
+
 /// Bits against bits, texel by texel or record by record.
 void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudgement& j) {
   OutputJudgement out;
@@ -355,6 +371,7 @@ void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudg
       f.y = out.records ? 0 : static_cast<int>(i / static_cast<std::size_t>(out.width));
       f.distance = 1;
       if (!out.records) set_first_difference(info(out.format), want.data() + i * size, have.data() + i * size, f);
+      else if (i < count && i < found) set_first_difference(expected.array.record, want.data() + i * size, have.data() + i * size, f);
       out.worst.push_back(f);
     }
   }
@@ -366,7 +383,7 @@ void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudg
 }  // namespace
 
 const char* name(Status status) {
-  constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED", "KNOWN"};
+  constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA"};
   return names[static_cast<int>(status)];
 }
 const char* name(HalfMode mode) {
@@ -374,7 +391,7 @@ const char* name(HalfMode mode) {
   return names[static_cast<int>(mode)];
 }
 Status worse(Status a, Status b) {
-  const auto rank = [](Status s) { return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : 0; };
+  const auto rank = [](Status s) { return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : s == Status::pass ? 0 : -1; };
   return rank(a) >= rank(b) ? a : b;
 }
 
@@ -393,7 +410,7 @@ void conclude(CaseJudgement& j) {
     j.reason = "nothing to judge";
   } else if (vacuous * 100 > elements - free && elements > free) {
     j.status = Status::untested;
-    j.reason = fmt::format("{:.1f} % of the elements have no useful bound", 100.0 * static_cast<double>(vacuous) / static_cast<double>(elements - free));
+    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, more than 1 %", 100.0 * static_cast<double>(vacuous) / static_cast<double>(elements - free));
   } else if (atypical > 0) {
     j.status = Status::warn;
     j.reason = fmt::format("{} elements lie inside the profile but outside what real devices do", atypical);
@@ -437,7 +454,7 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
     conclude(j);
     if (!events.empty()) j.reason = events;
     if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) {
-      j.status = Status::pass;
+      j.status = Status::data;
       j.reason = "taken as data: no GPU can reproduce it";
     }
   }

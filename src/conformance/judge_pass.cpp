@@ -71,6 +71,10 @@ void conclude_pass(PassJudgement& pass) {
     if (both != pass.status || (c.status == both && pass.reason.empty())) pass.reason = c.reason.empty() ? doubt : c.reason;
     pass.status = both;
   }
+  if (!pass.cases.empty() && std::all_of(pass.cases.begin(), pass.cases.end(), [](const CaseJudgement& c) { return c.status == Status::data; })) {
+    pass.status = Status::data;
+    pass.reason = pass.cases[0].reason;
+  }
   if (pass.cases.empty()) {
     pass.status = Status::untested;
     pass.reason = "there is no run of this pass";

@@ -22,6 +22,7 @@ struct Layout {
   std::size_t id = 0;
   std::vector<std::size_t> floats, words;
   std::vector<int> float_fields, word_fields;  ///< their numbers among all fields
+  std::vector<std::string> float_names, word_names;
 };
 bool is_key(const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; }
 
@@ -38,6 +39,7 @@ Layout layout_of(const scene::UniformBlock& record) {
       const bool is_float = m.scalar == scene::Scalar::float32;
       (is_float ? out.floats : out.words).push_back(m.offset + 4 * static_cast<std::size_t>(k));
       (is_float ? out.float_fields : out.word_fields).push_back(field);
+      (is_float ? out.float_names : out.word_names).push_back(m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k & 3]));
     }
   }
   return out;
@@ -113,6 +115,8 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const Table& tab
       f.got = enclosed::ordered_code(FormatInfo::float32, at);
       if (range.contains(f.got) && !f.not_a_number) continue;
       f.channel = layout.float_fields[k];
+      f.field = layout.float_names[k];
+      f.field_kind = FormatInfo::float32;
       f.low = range.lo;
       f.high = range.hi;
       f.distance = f.not_a_number ? ~std::uint64_t{0}
@@ -120,10 +124,12 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const Table& tab
       d.failures.push_back(f);
     }
     f.not_a_number = false;
+    f.field_kind = FormatInfo::uint32;
     for (std::size_t k = 0; k < layout.words.size(); ++k) {
       f.got = word_at(found->second, layout.words[k]);
       f.low = f.high = r.words[k];
       f.channel = layout.word_fields[k];
+      f.field = layout.word_names[k];
       f.distance = static_cast<std::uint64_t>(f.got < f.low ? f.low - f.got : f.got - f.low);
       if (f.distance > 0) d.failures.push_back(f);
     }

@@ -58,13 +58,14 @@ std::string width_text(double codes) { return codes >= 4e9 ? "none" : fmt::forma
 std::string shape_text(const OutputJudgement& o) {
   return o.records ? fmt::format("{} record{}", o.elements, o.elements == 1 ? "" : "s") : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
 }
+const char* element_word(const OutputJudgement& o) { return o.records ? "records" : "elements"; }
 std::string channel_name(int channel) { return std::string(1, "xyzw"[channel & 3]); }
 
 FailureText failure_text(const OutputJudgement& o, const Failure& f) {
-  if (o.records) return {fmt::format("record {}", f.x), "", "", "", "differs"};
-  const FormatInfo::Kind kind = info(o.format).kind;
+  if (o.records && f.field.empty()) return {fmt::format("record {}", f.x), "", "", "", "is in one of the lists alone"};
+  const FormatInfo::Kind kind = o.records ? f.field_kind : info(o.format).kind;
   FailureText t;
-  t.place = fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
+  t.place = o.records ? fmt::format("record {}, {}", f.x, f.field) : fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
   t.got = enclosed::code_text(kind, f.got);
   t.accepted = f.low == f.high ? enclosed::code_text(kind, f.low) : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.expected = enclosed::code_text(kind, f.expected);
@@ -94,7 +95,7 @@ int exit_code(const PortJudgement& j, bool allow_untested) {
 
 std::string count_text(const PortJudgement& j) {
   std::string out;
-  for (const Status s : {Status::fail, Status::untested, Status::known, Status::warn, Status::pass}) {
+  for (const Status s : {Status::fail, Status::untested, Status::known, Status::warn, Status::pass, Status::data}) {
     const auto count = std::count_if(j.passes.begin(), j.passes.end(), [&](const PassJudgement& p) { return p.status == s; });
     if (count > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, name(s));
   }

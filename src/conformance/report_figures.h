@@ -29,14 +29,16 @@ std::string share_text(std::int64_t part, std::int64_t of);
 std::string width_text(double codes);
 /// "rgba16f 35x21", "6 records".
 std::string shape_text(const OutputJudgement& output);
+/// "elements" or "records": what its counts count.
+const char* element_word(const OutputJudgement& output);
 /// "x" to "w".
 std::string channel_name(int channel);
 
-/// A failure in words. `got`, `accepted` and `expected` hold value and bits; of a record they are empty.
+/// A failure in words. `got`, `accepted` and `expected` hold value and bits; they are empty for a whole record.
 struct FailureText {
-  std::string place;     ///< "(12, 3).x", "record 4"
+  std::string place;     ///< "(12, 3).x", "record 4, amplitude", "record 4"
   std::string got, accepted, expected;
-  std::string distance;  ///< "off by 3 codes", "is not a number", "differs"
+  std::string distance;  ///< "off by 3 codes", "is not a number", "is in one of the lists alone"
 };
 FailureText failure_text(const OutputJudgement& output, const Failure& failure);
 

@@ -46,8 +46,12 @@ std::string summary_html(const PortJudgement& j) {
     case Status::pass: return fmt::format("Every judged element lies inside what <b>{}</b> allows. {}", marked_up(j.profile), equal);
     case Status::warn: return fmt::format("Every judged element lies inside what <b>{}</b> allows, with remarks. {}", marked_up(j.profile), equal);
     case Status::known: return "Everything that fails is listed in the baseline, with its reason.";
-    default: return "Too little could be judged.";
+    default: break;
   }
+  std::string out;
+  for (const PassJudgement& p : j.passes)
+    if (p.status == Status::untested) out += fmt::format("{0}<a href=\"#pass-{1}\">{1}</a>: {2}.", out.empty() ? "" : " ", marked_up(p.pass), marked_up(p.reason));
+  return "Too little could be judged. " + out;
 }
 
 std::string facts_html(const PortJudgement& j) {
@@ -122,7 +126,7 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
 }  // namespace
 
 std::string status_class(Status status) {
-  constexpr const char* names[] = {"is-pass", "is-warn", "is-fail", "is-untested", "is-known"};
+  constexpr const char* names[] = {"is-pass", "is-warn", "is-fail", "is-untested", "is-known", "is-data"};
   return names[static_cast<int>(status)];
 }
 std::string status_pill(Status status) { return fmt::format("<span class=\"pill {}\">{}</span>", status_class(status), name(status)); }

@@ -56,7 +56,7 @@ std::string cases_html(const PassJudgement& p) {
     }
   }
   if (rows.empty()) return "";
-  std::string out = table_html("figures", {"verdict", "output", "shape", "elements outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose", "atypical", "free"}, rows, 3);
+  std::string out = table_html("figures", {"verdict", "output", "shape", "outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose", "atypical", "free"}, rows, 3);
   if (skipped > 0) out += fmt::format("<p class=\"remark\">{} more outputs are not shown; --json lists all.</p>\n", skipped);
   return out;
 }

@@ -51,7 +51,7 @@ std::string scale_bar(const View& v) {
 
 std::string verdict_legend(const OutputJudgement& o) {
   constexpr std::array<const char*, 4> words{"equal", "inside", "atypical", "outside"};
-  std::string out = "<b>verdict</b> ";
+  std::string out = "<b>verdict</b> of texels ";
   for (int k = 0; k < 4; ++k) {
     const auto count = std::count(o.map.begin(), o.map.end(), k);
     out += fmt::format("<span class=\"key\"><i style=\"background:{}\"></i>{} {}</span> ", verdict_colour(k), count, words[static_cast<std::size_t>(k)]);

@@ -19,19 +19,18 @@ Json code_json(FormatInfo::Kind kind, std::int64_t code) {
 }
 
 Json failure_json(const OutputJudgement& o, const Failure& f) {
-  if (o.records) return {{"record", f.x}};
-  const FormatInfo::Kind kind = info(o.format).kind;
+  if (o.records && f.field.empty()) return {{"record", f.x}};
+  const FormatInfo::Kind kind = o.records ? f.field_kind : info(o.format).kind;
   // A vacuous range has no ends; the codes of its end would be none of the format.
   const bool bounded = f.low != INT64_MIN;
-  return {{"x", f.x},
-          {"y", f.y},
-          {"channel", f.channel},
-          {"got", code_json(kind, f.got)},
-          {"low", bounded ? code_json(kind, f.low) : Json()},
-          {"high", bounded ? code_json(kind, f.high) : Json()},
-          {"expected", code_json(kind, f.expected)},
-          {"distance", f.not_a_number ? Json() : Json(f.distance)},
-          {"not_a_number", f.not_a_number}};
+  Json out = o.records ? Json{{"record", f.x}, {"field", f.field}} : Json{{"x", f.x}, {"y", f.y}, {"channel", f.channel}};
+  out["got"] = code_json(kind, f.got);
+  out["low"] = bounded ? code_json(kind, f.low) : Json();
+  out["high"] = bounded ? code_json(kind, f.high) : Json();
+  if (!o.records) out["expected"] = code_json(kind, f.expected);
+  out["distance"] = f.not_a_number ? Json() : Json(f.distance);
+  out["not_a_number"] = f.not_a_number;
+  return out;
 }
 
 /// Pairs of a verdict (0 equal, 1 inside, 2 atypical, 3 outside) and how many texels in a row have it, row 0 first.

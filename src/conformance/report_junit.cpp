@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "conformance/report_figures.h"
 #include "conformance/report_markup.h"
@@ -17,6 +18,7 @@ constexpr std::size_t shown_failures = 10;
 struct Test {
   enum Outcome : std::uint8_t { passed, failed, skipped, error } outcome = passed;
   std::string name, message, text;
+  const char* type = "outside";  ///< of a failure
 };
 struct Suite {
   std::string name;
@@ -46,12 +48,13 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
   t.name = fmt::format("{}/out.{}", c.id, o.name);
   if (o.failing > 0) {
     t.outcome = o.known.empty() ? Test::failed : Test::skipped;
-    t.message = o.known.empty() ? fmt::format("{} of {} elements outside", o.failing, o.elements)
-                                : fmt::format("known: {} ({} of {} elements outside)", o.known, o.failing, o.elements);
+    t.message = o.known.empty() ? fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o))
+                                : fmt::format("known: {} ({} of {} {} outside)", o.known, o.failing, o.elements, element_word(o));
     t.text = failing_text(p, o);
   } else if (c.status == Status::untested) {
     t.outcome = untested;
     t.message = fmt::format("UNTESTED: {}", c.reason);
+    t.type = "not judged";
   } else if (!c.reason.empty() && c.status != Status::fail) {
     t.text = fmt::format("{}: {}\n", name(c.status), c.reason);
   }
@@ -61,13 +64,13 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
 Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome untested) {
   Suite suite;
   suite.name = fmt::format("{}.{}", j.effect, p.pass);
-  if (p.status == Status::untested && p.cases.empty()) suite.tests.push_back({untested, p.pass, fmt::format("UNTESTED: {}", p.reason), ""});
+  if (p.status == Status::untested && p.cases.empty()) suite.tests.push_back({untested, p.pass, fmt::format("UNTESTED: {}", p.reason), "", "not judged"});
   for (const CaseJudgement& c : p.cases) {
-    if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason});
+    if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason, "broken"});
     for (const OutputJudgement& o : c.outputs) suite.tests.push_back(test_of(p, c, o, untested));
     if (!c.outputs.empty() || c.broken) continue;
-    const bool open = c.status == Status::untested;
-    suite.tests.push_back({open ? untested : Test::passed, c.id, open ? fmt::format("UNTESTED: {}", c.reason) : "", open ? "" : c.reason});
+    const Test::Outcome outcome = c.status == Status::untested ? untested : c.status == Status::data ? Test::skipped : Test::passed;
+    suite.tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason), outcome == Test::passed ? c.reason : "", "not judged"});
   }
   const Figures f = figures_of(p);
   suite.remark = fmt::format("{} {}\n", name(p.status), p.reason);
@@ -85,8 +88,8 @@ std::string test_xml(const Suite& suite, const Test& t) {
   switch (t.outcome) {
     case Test::passed: return out + (text.empty() ? "/>\n" : fmt::format(">\n      <system-out>{}</system-out>\n    </testcase>\n", text));
     case Test::skipped: out += fmt::format(">\n      <skipped message=\"{}\"/>\n", message); break;
-    case Test::failed: out += fmt::format(">\n      <failure type=\"outside\" message=\"{}\">{}</failure>\n", message, text); break;
-    case Test::error: out += fmt::format(">\n      <error type=\"not judged\" message=\"{}\"/>\n", message); break;
+    case Test::failed: out += fmt::format(">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n", t.type, message, text); break;
+    case Test::error: out += fmt::format(">\n      <error type=\"not judged\" message=\"{}\">{}</error>\n", message, text); break;
   }
   return out + "    </testcase>\n";
 }
@@ -118,12 +121,12 @@ std::string report_junit(const PortJudgement& j, bool allow_untested) {
   for (const PassJudgement& p : j.passes) suites.push_back(suite_of(j, p, untested));
   if (!j.stale.empty()) {
     Suite baseline{"baseline", {}, ""};
-    for (const std::string& s : j.stale) baseline.tests.push_back({Test::failed, s, "no longer fails: remove it from the baseline", s});
+    for (const std::string& s : j.stale) baseline.tests.push_back({Test::failed, s, "no longer fails: remove it from the baseline", s, "baseline"});
     suites.push_back(std::move(baseline));
   }
   // What fails the run but lies in no pass: nothing was judged, or the port itself failed.
   const bool shown = std::any_of(suites.begin(), suites.end(), [](const Suite& s) { return s.count(Test::failed) > 0; });
-  if (exit_code(j, allow_untested) != 0 && !shown) suites.push_back({"validate", {{Test::error, "validate", j.reason, ""}}, ""});
+  if (exit_code(j, allow_untested) != 0 && !shown) suites.push_back({"validate", {{Test::error, "validate", j.reason, fmt::format("{}", fmt::join(j.notes, "\n"))}}, ""});
 
   std::string out = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"rainref validate\" {}>\n", counts_xml(suites, false));
   for (const Suite& s : suites) out += suite_xml(j, s);

@@ -12,6 +12,25 @@ namespace {
 
 constexpr std::size_t shown_outputs = 4;   // of a pass that fails
 constexpr std::size_t shown_failures = 3;  // of an output
+constexpr std::size_t columns = 120;
+
+/// The text in lines of at most `columns`, broken at blanks, all but the first with this indent; a longer word stays whole.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string out;
+  std::size_t column = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t word = std::min(text.find_first_not_of(' ', at), text.size()), end = std::min(text.find(' ', word), text.size());
+    if (column > indent && column + end - at > columns) {
+      out += "\n" + std::string(indent, ' ');
+      column = indent;
+      at = word;
+    }
+    out += text.substr(at, end - at);
+    column += end - at;
+    at = end;
+  }
+  return out + "\n";
+}
 
 std::vector<std::string> row_of(const PassJudgement& p) {
   const Figures f = figures_of(p);
@@ -24,7 +43,14 @@ std::vector<std::string> row_of(const PassJudgement& p) {
 std::vector<std::string> remarks_on(const PassJudgement& p) {
   const Figures f = figures_of(p);
   std::vector<std::string> out;
-  if (!p.reason.empty()) out.push_back(p.reason);
+  // A reason that a case has of its own stands below, with the case.
+  const bool broken = std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.broken; });
+  if (!p.reason.empty() && !broken) out.push_back(p.reason);
+  std::string open;
+  std::size_t count = 0;
+  for (const CaseJudgement& c : p.cases)
+    if (c.status == Status::untested && c.outputs.empty() && ++count <= shown_outputs) open += (open.empty() ? "" : ", ") + c.id;
+  if (count > 0) out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
   if (f.atypical > 0 && p.status != Status::warn) out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
   if (f.other_branch > 0) out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
   if (f.gave_up > 0) out.push_back(fmt::format("{} invocations with too many open decisions to bound", f.gave_up));
@@ -47,13 +73,13 @@ std::string table_text(const PortJudgement& j) {
       line += k < 2 ? fmt::format("{:<{}}  ", rows[r][k], widths[k]) : fmt::format("{:>{}}{}", rows[r][k], widths[k], k + 1 < rows[r].size() ? "  " : "");
     out += line + "\n";
     if (r == 0) continue;
-    for (const std::string& remark : remarks_on(j.passes[r - 1])) out += fmt::format("{:{}}{}\n", "", widths[0] + 2, remark);
+    for (const std::string& remark : remarks_on(j.passes[r - 1])) out += wrapped(std::string(widths[0] + 2, ' ') + remark, widths[0] + 4);
   }
   return out;
 }
 
 std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
-  std::string out = fmt::format("  {}/out.{} ({}): {} of {} elements outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements, share_text(o.failing, o.elements));
+  std::string out = fmt::format("  {}/out.{} ({}): {} of {} {} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements, element_word(o), share_text(o.failing, o.elements));
   const std::size_t shown = std::min(shown_failures, o.worst.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const FailureText t = failure_text(o, o.worst[k]);
@@ -64,14 +90,14 @@ std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
 }
 
 std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
-  std::string out = fmt::format("\n{} {}{}{}\n", name(p.status), p.pass,
-                                figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "",
-                                p.pass != j.first_bad_pass ? "" : p.inputs_are_good ? "; first bad pass, its inputs are good" : "; first bad pass");
+  const std::string verdict = figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "";
+  std::string out = "\n" + wrapped(fmt::format("{} {}{}", name(p.status), p.pass, verdict), 2);
+  if (p.pass == j.first_bad_pass) out += p.inputs_are_good ? "  first bad pass, its inputs are good\n" : "  first bad pass, its inputs are not good either\n";
   std::size_t shown = 0, skipped = 0;
   for (const CaseJudgement& c : p.cases) {
     if (c.broken) {
       if (shown == shown_outputs) ++skipped;
-      else out += fmt::format("  {}: {}\n", c.id, c.reason);
+      else out += wrapped(fmt::format("  {}: {}", c.id, c.reason), 4);
       shown = std::min(shown + 1, shown_outputs);
     }
     for (const OutputJudgement& o : c.outputs) {
@@ -82,12 +108,12 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
       }
       ++shown;
       out += output_text(c, o);
-      if (!o.known.empty()) out += fmt::format("    known: {}\n", o.known);
+      if (!o.known.empty()) out += wrapped(fmt::format("    known: {}", o.known), 6);
     }
   }
   if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
   if (p.causes.empty() && figures_of(p).outside > 0) out += "  cause unknown\n";
-  for (const Cause& c : p.causes) out += fmt::format("  likely cause: {}\n", cause_text(c));
+  for (const Cause& c : p.causes) out += wrapped(fmt::format("  likely cause: {}", cause_text(c)), 4);
   return out;
 }
 

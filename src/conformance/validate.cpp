@@ -51,6 +51,14 @@ std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
 /// Reads every file of the port once: whatever is wrong with them is one error, before anything is judged.
 void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
   FileErrors errors;
+  const auto is_wanted = [&](const PackCase& c) {
+    return (only.empty() || c.pass == only) && std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.rules.judge != capture::Judge::input_only; });
+  };
+  // Of a folder where nothing is one sentence says more than one for each file.
+  const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), is_wanted);
+  std::error_code ignored;
+  if (first != pack.cases.end() && std::none_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) { return is_wanted(c) && std::filesystem::is_directory(port.folder() / c.id, ignored); }))
+    throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
   for (const PackCase& entry : pack.cases) {
     if (!only.empty() && entry.pass != only) continue;
     for (const capture::PackOutput& output : entry.outputs) {
@@ -84,9 +92,9 @@ void conclude(PortJudgement& j) {
     j.status = worse(j.status, p.status);
     if (j.first_bad_pass.empty() && p.status == Status::fail) j.first_bad_pass = p.pass;
   }
-  if (j.passes.empty()) {
+  if (std::all_of(j.passes.begin(), j.passes.end(), [](const PassJudgement& p) { return p.status == Status::data; })) {
     j.status = Status::untested;
-    j.reason = "nothing was judged";
+    j.reason = j.passes.empty() ? "nothing was judged" : "nothing was judged: all is taken as data";
   }
 }
 

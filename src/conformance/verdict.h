@@ -15,11 +15,12 @@ enum class Status : std::uint8_t {
   warn,     ///< inside what the profile allows, but outside what real devices do, or with an open question
   fail,     ///< an element outside, a NaN, a crash
   untested, ///< nothing was judged, or too much of it was vacuous
-  known     ///< fails, and the baseline says why it may
+  known,    ///< fails, and the baseline says why it may
+  data      ///< taken as it is, because no GPU can reproduce it: neither judged nor a failure
 };
-/// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN".
+/// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA".
 const char* name(Status status);
-/// The worse: fail over untested over known over warn over pass.
+/// The worse: fail over untested over known over warn over pass over data.
 Status worse(Status a, Status b);
 
 /// How a device rounds its stores to binary16, voted over all elements.
@@ -33,6 +34,10 @@ struct Failure {
   std::int64_t got = 0, low = 0, high = 0, expected = 0;
   std::uint64_t distance = 0;  ///< codes between got and the range; the largest number for NaN
   bool not_a_number = false;
+  /// Of a record, whose number or id is x: the first member that is wrong, "y" or "velocity.z", and what it holds. "": the
+  /// record is in one of the lists alone.
+  std::string field = "";
+  FormatInfo::Kind field_kind = FormatInfo::uint32;
 };
 
 /// One output of a pass over one case.

@@ -54,7 +54,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 [[noreturn]] void refuse_missing(const fs::path& folder, const std::string& stem) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
-    refuse(fmt::format("no folder '{}'; the port has not dumped this pass", folder.string()));
+    refuse(fmt::format("no folder '{}': the port wrote nothing of this run", folder.string()));
   for (const RefusedType& type : refused_types) {
     const fs::path path = folder / (stem + type.extension);
     if (is_there(path))

@@ -63,6 +63,21 @@ TEST_F(Validate, UntestedIsForgivenOnlyBesideAPass) {
   EXPECT_EQ(validate({"--shadow", "port", "--allow-untested", "--only", "display"}).code, 1);
 }
 
+// The article's drops come from a hash that no GPU reproduces. They are no PASS, and alone they are nothing.
+TEST_F(Validate, WhatIsTakenAsDataIsNotJudged) {
+  copy_to("port", published);
+  Outcome o = validate({published, "--port", "port", "--allow-untested"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("DATA  raindrops     nothing judged"), HasSubstr("(4 PASS, 2 DATA)")));
+  for (const bool forgiving : {false, true}) {
+    std::vector<std::string> arguments{published, "--port", "port", "--only", "raindrops"};
+    if (forgiving) arguments.push_back("--allow-untested");
+    o = validate(arguments);
+    EXPECT_EQ(o.code, 1);
+    EXPECT_THAT(o.out, HasSubstr("(1 DATA)\n  nothing was judged: all is taken as data\n"));
+  }
+}
+
 TEST_F(Validate, ADamagedPackIsRefused) {
   copy_to("port");
   copy_to("bad");
@@ -122,6 +137,10 @@ TEST_F(Validate, ACommandThatFailsIsReported) {
   // It succeeds and writes nothing.
   o = exec("true {out}");
   EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, AllOf(HasSubstr(": expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none\n"), Not(HasSubstr("printed"))));
+  o = exec("echo no device; : {out}");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, HasSubstr("found none; the port's command ended with exit code 0 and printed last: no device\n"));
   EXPECT_EQ(folder.names(), before);
 }
 
@@ -151,7 +170,7 @@ TEST_F(Validate, ARaceIsFoundAndNamed) {
   EXPECT_EQ(exec(command).code, 0);
   Outcome o = exec(command, {"--repeat", "3"});
   EXPECT_EQ(o.code, 1);
-  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first at (34, 20).z, 1 of 2940 elements"),
+  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first\n    at (34, 20).z, 1 of 2940 elements\n"),
                            HasSubstr("the port ran 3 times"), Not(HasSubstr("outside the as-written envelope"))));
   o = exec(command, {"--repeat", "2", "--port", "kept"});
   EXPECT_EQ(o.code, 1);

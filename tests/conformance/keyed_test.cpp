@@ -240,7 +240,9 @@ TEST_F(Keyed, ACaptureIsJudgedWhole) {
 
 TEST_F(Keyed, WithoutAModelFieldsAreBits) {
   port[2].mass = std::bit_cast<float>(std::bit_cast<std::uint32_t>(port[2].mass) + 1);
-  expect(judged("vulkan", false), "outside: " + std::to_string(port[2].id));
+  const KeyedJudgement j = judged("vulkan", false);
+  expect(j, "outside: " + std::to_string(port[2].id));
+  EXPECT_EQ(j.output.worst[0].field, "mass");
 }
 
 TEST_F(Keyed, JudgeCaseTakesIt) {

@@ -1,13 +1,17 @@
 // The judgement as JSON: every number is there, and nothing is there that JSON cannot hold.
 #include "conformance/report_json.h"
 
-#include <limits>
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "conformance/example_judgement.h"
+#include "conformance/validate.h"
 
 namespace rainref::conformance {
 namespace {
@@ -91,6 +95,78 @@ TEST(ReportJson, RecordsAndKnownFailures) {
   EXPECT_EQ(out["worst"][0], (Json{{"record", 2}}));
   EXPECT_EQ(out["known"], "a reason");
   EXPECT_FALSE(out.contains("width"));
+}
+
+/// Keys as the document writes them: those of a section's objects, "passes[].cases[].id", and of the objects that these
+/// hold, "device.api".
+void add_keys(const Json& j, const std::string& prefix, std::set<std::string>& keys) {
+  if (j.is_array()) {
+    for (const Json& element : j) add_keys(element, prefix + "[]", keys);
+    return;
+  }
+  if (!j.is_object()) return;
+  for (const auto& [key, value] : j.items()) {
+    const std::string path = prefix.empty() ? key : prefix + "." + key;
+    const bool has_own_row = !value.is_object() && !(value.is_array() && !value.empty() && value[0].is_object());
+    if (has_own_row) keys.insert(path);
+    add_keys(value, path, keys);
+    if (value.is_array()) keys.insert(path);
+  }
+}
+std::set<std::string> documented_keys() {
+  std::istringstream document(contents(std::filesystem::path(RAINREF_SOURCE_DIR) / "docs/reports.md"));
+  std::set<std::string> keys;
+  std::string prefix;
+  bool is_json = false;
+  for (std::string line; std::getline(document, line);) {
+    if (line.starts_with("## ")) is_json = line == "## JSON";
+    if (!is_json) continue;
+    if (line.starts_with("### `")) {
+      prefix = line.substr(5, line.find('`', 5) - 5);
+      prefix = prefix == "." ? "" : prefix + ".";
+    }
+    if (!line.starts_with("| `")) continue;
+    const std::string cell = line.substr(2, line.find(" |", 2) - 2);
+    for (std::size_t at = 0; (at = cell.find('`', at)) != std::string::npos;) {
+      const std::size_t end = cell.find('`', at + 1);
+      keys.insert(prefix + cell.substr(at + 1, end - at - 1));
+      at = end + 1;
+    }
+  }
+  return keys;
+}
+
+// The keys are those of a real judgement: shade upside down, a drop that is moved, a texel of the water that is no number.
+TEST(ReportJson, TheDocumentNamesEveryKeyAndNoOther) {
+  const TemporaryFolder folder;
+  const capture::Pack pack(small_pack("puddle-corrected"));
+  write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string&, capture::Array& a) {
+    if (c.pass == "shade") flip_rows(a);
+    if (c.pass == "raindrops") a.levels[0][1] ^= std::byte{1};
+    if (c.pass == "wave_step") a.levels[0][1] = std::byte{0x7e};
+  });
+  put(folder / "port.json", R"({"api": "Vulkan", "device": "none", "driver": "1"})");
+  const parallel::Executor executor;
+  ValidateOptions options;
+  options.executor = &executor;
+  const PortJudgement j = validate(pack, folder.path(), options);
+  const Json json = Json::parse(report_json(j, 1));
+  std::set<std::string> keys;
+  add_keys(json, "", keys);
+  const std::set<std::string> named = documented_keys();
+  std::vector<std::string> undocumented, unwritten;
+  std::set_difference(keys.begin(), keys.end(), named.begin(), named.end(), std::back_inserter(undocumented));
+  std::set_difference(named.begin(), named.end(), keys.begin(), keys.end(), std::back_inserter(unwritten));
+  EXPECT_THAT(undocumented, testing::IsEmpty());
+  EXPECT_THAT(unwritten, testing::IsEmpty());
+
+  // The first word of the first drop is its x, one step in 256 aside.
+  const Json& drop = json["passes"][0]["cases"][0]["outputs"][0]["worst"][0];
+  EXPECT_EQ(drop["record"], 0);
+  EXPECT_EQ(drop["field"], "x");
+  EXPECT_EQ(drop["distance"], 256);
+  EXPECT_EQ(drop["low"], drop["high"]);
+  EXPECT_NE(drop["low"], drop["got"]);
 }
 
 }  // namespace

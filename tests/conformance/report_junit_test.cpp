@@ -109,6 +109,7 @@ TEST_F(ReportJunit, WhatIsBrokenFailsByItself) {
   c.reason = "uniform x is not a number";
   EXPECT_EQ(bad(j, false), 1);
   EXPECT_EQ(asked(j, false, "string(//failure/@message)"), c.reason);
+  EXPECT_EQ(asked(j, false, "string(//failure/@type)"), "broken");
   c.outputs.clear();
   EXPECT_EQ(bad(j, false), 1);
 }
@@ -118,12 +119,26 @@ TEST_F(ReportJunit, NothingJudgedIsAnError) {
   j.reason = "port: expected a folder with the port's outputs, found none";
   EXPECT_EQ(bad(j, true), 1);
   EXPECT_EQ(asked(j, true, "string(//error/@message)"), j.reason);
+  j.notes = {"the port printed: loading shade.spv", "the port printed: <device lost>"};
+  EXPECT_EQ(asked(j, true, "string(//error)"), "the port printed: loading shade.spv\nthe port printed: <device lost>");
   j = example_judgement();
   j.passes = {example_pass("wave", Status::untested, {})};
   j.passes[0].reason = "the pack has no case of this pass";
   j.status = Status::untested;
   EXPECT_EQ(bad(j, false), 1);
   EXPECT_EQ(asked(j, false, "string(//failure/@message)"), "UNTESTED: the pack has no case of this pass");
+}
+
+TEST_F(ReportJunit, WhatIsTakenAsDataIsSkipped) {
+  PortJudgement j = example_judgement();
+  CaseJudgement taken;
+  taken.id = "rain.hash/0000.0";
+  taken.status = Status::data;
+  taken.reason = "taken as data: no GPU can reproduce it";
+  j.passes = {j.passes[0], example_pass("hash", Status::data, {taken})};
+  j.status = Status::pass;
+  EXPECT_EQ(bad(j, false), 0);
+  EXPECT_EQ(asked(j, false, "count(//testcase[@name=\"rain.hash/0000.0\"]/skipped)"), "1");
 }
 
 TEST_F(ReportJunit, HostileNames) {

@@ -97,6 +97,14 @@ TEST_F(ReportPage, NothingJudged) {
   EXPECT_THAT(text, HasSubstr("port: there is no such folder."));
 }
 
+TEST_F(ReportPage, UntestedSaysWhichPassAndWhy) {
+  PortJudgement j = example_judgement();
+  j.passes.pop_back();
+  j.first_bad_pass.clear();
+  j.status = Status::untested;
+  EXPECT_THAT(report_html(j, {}), HasSubstr("Too little could be judged. <a href=\"#pass-noise\">noise</a>: 100 % of the elements have no useful bound.</p>"));
+}
+
 class ReportPageInBrowser : public ReportPage {
  protected:
   void SetUp() override {
@@ -123,7 +131,11 @@ TEST_F(ReportPageInBrowser, LoadsQuietlyAndEveryPictureIsDecoded) {
     EXPECT_GT(browser.value("document.images.length"), 40);
     EXPECT_EQ(browser.value("Promise.all([...document.images].map(i => i.decode().then(() => 0, () => 1))).then(bad => bad.filter(b => b).length)"), 0);
     EXPECT_EQ(browser.value("[...document.querySelectorAll('svg.graph a')].filter(a => !document.querySelector(a.getAttribute('href'))).length"), 0);
+    // Nothing is cut off on a laptop: neither the passes nor a table, and no legend runs into its neighbour.
+    browser.call("Emulation.setDeviceMetricsOverride", {{"width", 1280}, {"height", 900}, {"deviceScaleFactor", 1}, {"mobile", false}});
     EXPECT_EQ(browser.value("document.documentElement.scrollWidth > innerWidth"), false);
+    EXPECT_EQ(browser.value("[...document.querySelectorAll('.scroll, figcaption')].filter(e => e.scrollWidth > e.clientWidth).map(e => e.textContent).join(' | ')"), "");
+    browser.call("Emulation.clearDeviceMetricsOverride");
     expect_quiet(browser, *folder_ / name);
   }
 }
