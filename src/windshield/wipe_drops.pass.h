@@ -23,7 +23,7 @@ template <class N>
 RAINREF_FN typename N::Mask under_blade(const Wiper& w, const float* axis, N rx, N ry) {
   const N ax(axis[0]), ay(axis[1]);
   const N along = clamp(rx * ax + ry * ay, N(w.inner_radius), N(w.outer_radius));
-  return square(rx - along * ax) + square(ry - along * ay) <= N(w.half_width * w.half_width);
+  return square(rx - along * ax) + square(ry - along * ay) <= square(N(w.half_width));
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
@@ -73,23 +73,24 @@ RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms
 // that it just touches it: its centre half_width + its own base radius from the blade's line; it moves with the blade.
 template <class N>
 RAINREF_FN typename N::Mask in_sweep(const Wiper& w, N x, N y) {
-  const N rx = x - N(w.pivot[0]), ry = y - N(w.pivot[1]), zero(0.0f), turning(w.direction);
-  const float near = w.inner_radius - w.half_width, far = w.outer_radius + w.half_width;
+  const N rx = x - N(w.pivot[0]), ry = y - N(w.pivot[1]), zero(0.0f), turning(w.direction), half_width(w.half_width);
   // Counter-clockwise of the first axis, clockwise of the last, and on their side of the pivot: the sector is below a half turn.
   const N past_first = turning * (N(w.previous_axis[0]) * ry - N(w.previous_axis[1]) * rx);
   const N past_last = turning * (N(w.axis[0]) * ry - N(w.axis[1]) * rx);
-  const N side = N(w.previous_axis[0] + w.axis[0]) * rx + N(w.previous_axis[1] + w.axis[1]) * ry;
+  const N side = (N(w.previous_axis[0]) + N(w.axis[0])) * rx + (N(w.previous_axis[1]) + N(w.axis[1])) * ry;
   const N radius_sq = square(rx) + square(ry);
-  const auto sector = (past_first >= zero) & (past_last <= zero) & (side > zero) & (radius_sq >= N(near * near)) & (radius_sq <= N(far * far));
+  const auto between = (radius_sq >= square(N(w.inner_radius) - half_width)) & (radius_sq <= square(N(w.outer_radius) + half_width));
+  const auto sector = (past_first >= zero) & (past_last <= zero) & (side > zero) & between;
   return sector | under_blade(w, w.previous_axis, rx, ry) | under_blade(w, w.axis, rx, ry);
 }
 /// The radial bin of a point in the sweep.
 template <class N>
 RAINREF_FN N radial_bin(const WipeDropsUniforms& uniforms, const Wiper& w, N x, N y) {
   const N radius = length(x - N(w.pivot[0]), y - N(w.pivot[1]));
-  const float near = w.inner_radius - w.half_width, width = (w.outer_radius - w.inner_radius) + 2.0f * w.half_width;
-  const N bin = floor((radius - N(near)) * (N(static_cast<float>(uniforms.bin_count)) * uniform_quotient(1.0f, width, N())));
-  return clamp(bin, N(0.0f), N(static_cast<float>(uniforms.bin_count - 1)));
+  const N half_width(w.half_width), bins(static_cast<float>(uniforms.bin_count));
+  const N width = (N(w.outer_radius) - N(w.inner_radius)) + N(2.0f) * half_width;
+  const N bin = floor((radius - (N(w.inner_radius) - half_width)) * (bins / width));
+  return clamp(bin, N(0.0f), bins - N(1.0f));
 }
 /// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is still in a sweep then
 /// lies between two blades that meet; it is thrown off: its life ends.

@@ -1,0 +1,70 @@
+// The plane of the glass against geometry: corners to axes, frame, metric, normal.
+#include <gtest/gtest.h>
+
+#include "rainref/error.h"
+#include "windshield/support.h"
+
+namespace rainref::windshield {
+namespace {
+
+TEST(Glass, TheDefaultHasItsSidesSlopeAndNormal) {
+  const Glass g = default_glass();
+  EXPECT_NEAR(g.area, 1.4 * 0.8, 1e-14);
+  EXPECT_NEAR(g.normal[0], std::sin(27 * degree), 1e-15);
+  EXPECT_NEAR(g.normal[1], 0, 1e-15);
+  EXPECT_NEAR(g.normal[2], std::cos(27 * degree), 1e-15);
+  const PlaneFrame plane = g.plane(), axes = g.axes();
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(plane.frame[k], axes.frame[k], 1e-15);  // it is not sheared
+}
+
+TEST(Glass, TheNormalLooksOutForEveryHandedness) {
+  const auto corners = default_corners();
+  const Glass swapped = make_glass({corners[0], corners[2], corners[1]});
+  for (int k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(swapped.normal[k], default_glass().normal[k]);
+  // A level pane: up, whichever way its corners go.
+  EXPECT_EQ(make_glass({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).normal[2], 1);
+  EXPECT_EQ(make_glass({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}}).normal[2], 1);
+}
+
+// Distances in the plane frame are distances in space, on any sheared glass; and inverse and metric are what they are called.
+TEST(Glass, ThePlaneKeepsDistancesOnAShearedGlass) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int round = 0; round < 200; ++round) {
+    const auto vector = [&] { return Real3{number(random), number(random), number(random)}; };
+    const std::array<Real3, 3> corners{vector(), vector(), vector()};
+    const Glass g = make_glass(corners);
+    const PlaneFrame plane = g.plane();
+    const double condition = g.metric[0] * g.metric[2] / (g.area * g.area);
+    const double du = number(random), dv = number(random);
+    Real3 in_space{};
+    for (int k = 0; k < 3; ++k) in_space[k] = du * g.e_u[k] + dv * g.e_v[k];
+    const Real2 in_plane = plane.to_plane({du, dv});
+    EXPECT_NEAR(in_plane[0] * in_plane[0] + in_plane[1] * in_plane[1], dot(in_space, in_space), 1e-14 * condition);
+    const Real2 back = plane.to_glass(in_plane);
+    EXPECT_NEAR(back[0], du, 1e-14 * condition);
+    EXPECT_NEAR(back[1], dv, 1e-14 * condition);
+    EXPECT_NEAR(g.metric[0] * g.inverse_metric[0] + g.metric[1] * g.inverse_metric[1], 1, 1e-14 * condition);
+    EXPECT_NEAR(g.metric[0] * g.inverse_metric[1] + g.metric[1] * g.inverse_metric[2], 0, 1e-14 * condition);
+    EXPECT_NEAR(plane.frame[0] * plane.frame[2], g.area, 1e-14);
+    EXPECT_NEAR(dot(g.normal, g.e_u), 0, 1e-14 * condition);
+    EXPECT_NEAR(dot(g.normal, g.e_v), 0, 1e-14 * condition);
+  }
+}
+
+TEST(Glass, CornersOnALineAreRefused) {
+  for (const std::array<Real3, 3>& corners : {std::array<Real3, 3>{{{1, 2, 3}, {1, 2, 3}, {0, 1, 0}}}, std::array<Real3, 3>{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}},
+                                              std::array<Real3, 3>{{{0, 0, 0}, {1, 0, 0}, {1, 1e-8, 0}}}}) {
+    try {
+      make_glass(corners);
+      FAIL() << "accepted";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ExitCode::usage);
+      EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("windshield.corner_0"), testing::HasSubstr("windshield.corner_2"), testing::HasSubstr("which lie on one line")));
+    }
+  }
+  EXPECT_NO_THROW(make_glass({{{0, 0, 0}, {1, 0, 0}, {1, 1e-5, 0}}}));
+}
+
+}  // namespace
+}  // namespace rainref::windshield
