@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "math/half.h"
 #include "rainref/error.h"
 
 namespace rainref::capture {
@@ -63,6 +64,23 @@ Array array_of(const Texture& texture) {
   return array;
 }
 
+/// The same rgba32f image, whose values are halves, as rgba16f.
+Array as_halves(const Array& floats) {
+  Array halves = floats;
+  halves.format = Format::rgba16f;
+  for (std::vector<std::byte>& level : halves.levels) {
+    const std::size_t n = level.size() / sizeof(float);
+    for (std::size_t i = 0; i < n; ++i) {
+      float value;
+      std::memcpy(&value, level.data() + i * sizeof value, sizeof value);
+      const Half half = to_half(value);
+      std::memcpy(level.data() + i * sizeof half, &half, sizeof half);
+    }
+    level.resize(n * sizeof(Half));
+  }
+  return halves;
+}
+
 CaptureRecorder::CaptureRecorder(const EffectInfo& effect, std::string variant, bool with_inputs, Wanted wanted, Sink sink)
     : effect_(effect), variant_(std::move(variant)), with_inputs_(with_inputs), wanted_(std::move(wanted)), sink_(std::move(sink)) {}
 
@@ -94,8 +112,9 @@ void CaptureRecorder::before(const PassStart& start) {
     to.mip_filter = from.mip_filter;
     to.linear = from.filter == Filter::linear;
     if (const auto* texture = std::get_if<const Texture*>(&from.content)) {
-      effect_.buffer(from.name, variant_);
       to.array = array_of(**texture);
+      // A texture of halves is handed on as halves, which a device filters as such.
+      if (effect_.buffer(from.name, variant_).format == "rgba16f") to.array = as_halves(to.array);
       to.address_u = (*texture)->address_u;
       to.address_v = (*texture)->address_v;
       std::copy_n((*texture)->border, 4, to.border.begin());

@@ -6,5 +6,6 @@
 namespace rainref::cli {
 
 EffectEntry puddle_entry();
+EffectEntry windshield_entry();
 
 }  // namespace rainref::cli

@@ -1,4 +1,6 @@
 // Shells of composite and display; compiled once for each SIMD target.
+#include <algorithm>
+
 #include "windshield/picture.h"
 
 #define RAINREF_KERNELS "windshield/kernels_picture.cpp"
@@ -36,6 +38,19 @@ void DisplayRows(const DisplayUniforms& uniforms, Rounding rounding, const Image
     }
   }
 }
+template <class Storage>
+void decode_rows(const Image& image, float* out, const parallel::Tile& tile) {
+  const int n = image.width() * image.channels();
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const Storage* row = image.row<Storage>(y);
+    float* to = out + static_cast<std::size_t>(y) * n;
+    for (int x = 0; x < n; x += Lanes::size()) store(to + x, Lanes::load(row + x), Rounding::rne, std::min(Lanes::size(), n - x));
+  }
+}
+void DecodeRows(const Image& image, float* out, const parallel::Tile& tile) {
+  if (info(image.format()).kind == FormatInfo::float16) return decode_rows<Half>(image, out, tile);
+  decode_rows<float>(image, out, tile);
+}
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
@@ -43,12 +58,18 @@ namespace rainref::windshield {
 
 RAINREF_EXPORT(CompositeRows);
 RAINREF_EXPORT(DisplayRows);
+RAINREF_EXPORT(DecodeRows);
 
 void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile) {
   RAINREF_DISPATCH(CompositeRows)(uniforms, corrected, rounding, in, colour, tile);
 }
 void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
   RAINREF_DISPATCH(DisplayRows)(uniforms, rounding, colour, picture, tile);
+}
+
+void decode(const parallel::Executor& executor, const Image& image, TextureData& texture) {
+  float* out = texture.texels();
+  executor.for_tiles(image.width(), image.height(), image.width(), 32, [&](const parallel::Tile& tile) { RAINREF_DISPATCH(DecodeRows)(image, out, tile); });
 }
 
 }  // namespace rainref::windshield

@@ -25,6 +25,11 @@ scene::Camera camera(const PictureSettings& s) {
   return {vector(s.camera_position), vector(s.camera_target), {0, 0, 1}, s.vertical_fov_deg};
 }
 
+double widened_fov(const PictureSettings& s) {
+  const Real64 tangent(camera(s).half_height() * s.scene_margin);
+  return 2 * atan2_real(tangent, Real64(1)).v * 180 / 0x1.921fb54442d18p+1;
+}
+
 // A ray d = right x + up y + forward from the eye E meets the plane of P0, e_u, e_v with normal n at E + t d,
 // t = ((P0 - E) . n) / (d . n), where u = (E + t d - P0) . U, U the dual vector of e_u; all are quotients of what is linear
 // in the pixel.

@@ -23,8 +23,8 @@ struct Light {
 struct PictureSettings {
   int width = 1280, height = 720;
   /// In car axes: x forward, y left, z up.
-  std::array<double, 3> camera_position{-0.25, 0, 1.16}, camera_target{10, 0, 1.13};
-  double vertical_fov_deg = 30;
+  std::array<double, 3> camera_position{0.6, 0, 1.21}, camera_target{10, 0, 1.6};
+  double vertical_fov_deg = 22;
   double scene_margin = 1.15;  ///< picture of the scene over the picture, in view
   double blur_lod = 3, wetness = 0.5, visible_from = 0.02, visible_to = 0.2, refraction = 0.08, shininess = 80, glint_strength = 0.6;
   double water_ior = 1.333, inner = 0.3, exposure = 0;
@@ -41,6 +41,8 @@ std::vector<Glint> glints(const PictureSettings& settings);
 DisplayUniforms display_uniforms(const PictureSettings& settings);
 /// The camera in car axes.
 scene::Camera camera(const PictureSettings& settings);
+/// Vertical field of view of the picture of the scene [deg].
+double widened_fov(const PictureSettings& settings);
 
 struct CompositeInputs {
   const Texture *pyramid, *depth, *normal, *mask;  ///< depth: as-published does not look at it
@@ -48,6 +50,8 @@ struct CompositeInputs {
 };
 /// colour: rgba16f, alpha 1.
 void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile);
+/// The image's values into a texture of its size and channels; r16f, rgba16f or r32f.
+void decode(const parallel::Executor& executor, const Image& image, TextureData& texture);
 /// picture: rgba8, alpha 1.
 void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
 

@@ -62,9 +62,9 @@ std::vector<UniformBlock> picture_records() {
 
 std::vector<Parameter> picture_parameters() {
   return {
-      real3("camera.position", "m", -100, 100, {-0.25, 0, 1.16}, "Eye, in the car's axes: x forward, y left, z up."),
-      real3("camera.target", "m", -1000, 1000, {10, 0, 1.13}, "Point that the eye looks at."),
-      real("camera.vertical_fov_deg", "deg", 1, 120, 26, "Vertical field of view."),
+      real3("camera.position", "m", -100, 100, {0.6, 0, 1.21}, "Eye, in the car's axes: x forward, y left, z up."),
+      real3("camera.target", "m", -1000, 1000, {10, 0, 1.6}, "Point that the eye looks at."),
+      real("camera.vertical_fov_deg", "deg", 1, 120, 22, "Vertical field of view."),
       real("composite.blur_lod", "1", 0, 12, 3, "Mip level of the picture behind the wet film."),
       real("composite.wetness", "1", 0, 1, 0.6, "Weight of the blurred picture where the glass was not wiped.").default_for(correct, 0.35),
       real("composite.visible_from", "mm", 0, 10, 0.02, "Height at which water begins to show as a drop."),

@@ -1,0 +1,54 @@
+#include "windshield/info.h"
+
+#include "blur_pyramid/blur_pyramid.h"
+#include "drops/info.h"
+#include "drops/splat.h"
+#include "windshield/motion_info.h"
+#include "windshield/picture_info.h"
+#include "windshield/surface.h"
+
+namespace rainref::windshield {
+namespace {
+
+using namespace rainref::capture;
+
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  for (T& one : more) all.push_back(std::move(one));
+}
+
+EffectInfo make() {
+  EffectInfo info;
+  info.name = "windshield";
+  info.up_axis = "z";
+  info.depth = "along the view axis [m], not reversed";
+  info.passes = {windshield_frame_info(),
+                 drops::spawn_info("wipe_drops"),
+                 drops::integrate_info("spawn", "windshield_frame"),
+                 wipe_drops_info("integrate"),
+                 drops::merge_info("wipe_drops", "wipe_drops"),
+                 drops::splat_info({"wipe_drops", "merge"}, "merge"),
+                 wipe_texture_info(),
+                 normals_info(),
+                 blur_pyramid::blur_info("", "")};
+  append(info.passes, picture_passes());
+  append(info.buffers, drops::buffers());
+  append(info.buffers, motion_buffers());
+  append(info.buffers, drops::splat_buffers());
+  append(info.buffers, surface_buffers());
+  append(info.buffers, blur_pyramid::blur_buffers());
+  append(info.buffers, picture_buffers());
+  append(info.records, drops::records());
+  append(info.records, motion_records());
+  append(info.records, picture_records());
+  return info;
+}
+
+}  // namespace
+
+const EffectInfo& effect_info() {
+  static const EffectInfo info = make();
+  return info;
+}
+
+}  // namespace rainref::windshield

@@ -1,0 +1,44 @@
+// What a scene says of a windshield: every part's settings, and the parameters that say it.
+#pragma once
+
+#include <span>
+
+#include "blur_pyramid/blur_pyramid.h"
+#include "drops/settings.h"
+#include "drops/splat.h"
+#include "scene/config.h"
+#include "scene/parameter.h"
+#include "windshield/motion_host.h"
+#include "windshield/picture.h"
+#include "windshield/surface.h"
+#include "windshield/vehicle.h"
+#include "windshield/wipers.h"
+
+namespace rainref::windshield {
+
+struct Settings {
+  bool corrected = true;
+  std::uint64_t seed = 1;
+  double fps = 60;
+  int substeps = 1;
+  Corners corners;
+  Real3 wind{0, 0, 0};  ///< world axes [m/s]
+  double gravity = 9.80665;
+  VehicleSettings vehicle;
+  WiperSettings wipers;
+  Capture capture;
+  drops::Settings drops;
+  drops::SplatSettings splat;
+  SurfaceSettings surface;
+  blur_pyramid::BlurSettings blur;
+  PictureSettings picture;
+  std::array<int, 2> scene_size{1280, 720};
+  double street_start = 0;
+  bool scene_moves = true;
+};
+
+std::span<const scene::Parameter> parameters();
+/// Throws Error(usage) where a value cannot be, alone or with others.
+Settings settings_from(const scene::Config& config);
+
+}  // namespace rainref::windshield

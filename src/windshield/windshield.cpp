@@ -1,0 +1,332 @@
+// The order of the passes. No arithmetic.
+#include "rainref/windshield.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "drops/host.h"
+#include "drops/passes.h"
+#include "rainref/error.h"
+#include "windshield/scene_keys.h"
+#include "windshield/street.h"
+#include "windshield/wipe_drops.h"
+
+namespace rainref::windshield {
+namespace {
+
+constexpr int picture_tile_rows = 8;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+template <class T>
+RecordView records(const std::vector<T>& all) {
+  return {all.data(), all.size(), sizeof(T)};
+}
+template <class T>
+RecordView record(const T& one) {
+  return {&one, 1, sizeof(T)};
+}
+
+}  // namespace
+
+struct Windshield::State {
+  Settings settings;
+  const parallel::Executor& executor;
+  bool corrected;
+  Glass glass;
+  PlaneFrame plane;
+  Vehicle vehicle;
+  int frame = 0;
+  std::int64_t steps = 0;
+
+  drops::DropArrays drops;
+  drops::Arrivals arrivals;
+  drops::Merger merger;
+  drops::Ledger ledger;
+  drops::SplatScratch splat_scratch;
+  std::vector<drops::Drop> listed;  // the live drops, for recorders and splat
+  std::vector<Wiper> wipers;        // of the frame
+
+  Image film, height, mask, wiped, normal, colour, picture;
+  SceneView scene;
+  bool own_scene;
+  std::optional<StreetDrive> street;
+  std::vector<Image> levels;
+  std::optional<blur_pyramid::DecodedLevels> pyramid;
+  TextureData depth_texture, normal_texture, mask_texture;
+  std::vector<Glint> lights;
+  int scene_version = 0, shown_version = -1;
+
+  State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
+      : settings(settings_from(config)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
+        plane(corrected ? glass.plane() : glass.axes()), vehicle(settings.vehicle), drops(settings.drops.capacity), arrivals(settings.drops) {
+    check(settings.wipers, glass);
+    const int w = settings.surface.width, h = settings.surface.height;
+    height = Image(Format::r16f, w, h);
+    mask = make_mask(settings.surface);
+    if (corrected) {
+      film = Image(Format::r32f, w, h);
+      wiped = make_wiped(settings.surface);
+    }
+    normal = Image(Format::rgba16f, w, h);
+    colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
+    picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
+    lights = glints(settings.picture);
+    own_scene = surroundings.colour.empty();
+    if (own_scene) {
+      scene::Camera wide = camera(settings.picture);
+      wide.vertical_fov_deg = widened_fov(settings.picture);
+      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.seed, executor);
+    } else {
+      scene.colour = std::move(surroundings.colour);
+      scene.depth = std::move(surroundings.depth);
+    }
+  }
+
+  double step_time() const { return 1 / (settings.fps * settings.substeps); }
+  double frame_time() const { return 1 / settings.fps; }
+
+  /// The live drops as records, where someone looks at them.
+  RecordView list_drops() {
+    drops.gather(listed, executor);
+    return records(listed);
+  }
+  template <class Uniforms>
+  void announce(Recorder* recorder, int step, std::string_view pass, double dt, const Uniforms& uniforms, std::initializer_list<PassInput> inputs, int level = -1) const {
+    if (!recorder) return;
+    recorder->before({frame, step, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps),
+                      static_cast<float>(dt), settings.surface.rounding, level});
+  }
+  void report(Recorder* recorder, int step, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds, int level = -1) const {
+    if (recorder) recorder->pass({frame, step, pass, {outputs.begin(), outputs.size()}, seconds, level});
+  }
+
+  void step(Recorder* recorder, int substep);
+  void look();
+};
+
+void Windshield::State::step(Recorder* recorder, int substep) {
+  const double dt = step_time(), t = static_cast<double>(steps) * dt;
+  const VehicleState car = vehicle.at(t);
+
+  const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass, car, settings.wind, settings.gravity, corrected);
+  announce(recorder, substep, "windshield_frame", dt, frame_uniforms, {});
+  Stopwatch frame_clock;
+  const drops::GlassFrame moving = windshield_frame(frame_uniforms, corrected);
+  report(recorder, substep, "windshield_frame", {{"glass_frame", record(moving)}}, frame_clock.seconds());
+
+  // The wind of the car's axes along the glass's normal.
+  const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
+  const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
+  const drops::Exposure exposure{glass.area, glass.normal[2], dot(in_car, glass.normal)};
+  const drops::SpawnPlan& plan = arrivals.plan(exposure, steps, dt, drops.next_id(), drops.capacity() - drops.live());
+  if (recorder) {
+    const RecordView before = list_drops();
+    if (corrected) {
+      announce(recorder, substep, "spawn", dt, plan.uniforms, {{"drops", before}, {"count_thresholds", records(plan.thresholds)}, {"spawn_masses", records(plan.masses)}});
+    } else {
+      announce(recorder, substep, "spawn", dt, plan.uniforms, {{"drops", before}, {"spawn_masses", records(plan.masses)}});
+    }
+  }
+  Stopwatch spawn_clock;
+  ledger += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, corrected);
+  const double spawned = spawn_clock.seconds();
+  if (recorder) report(recorder, substep, "spawn", {{"drops", list_drops()}}, spawned);
+
+  const drops::IntegrateUniforms integrate = drops::integrate_uniforms(settings.drops, plane.frame, dt);
+  if (recorder) announce(recorder, substep, "integrate", dt, integrate, {{"drops", list_drops()}, {"glass_frame", record(moving)}});
+  Stopwatch integrate_clock;
+  ledger += corrected ? drops::integrate_corrected(executor, drops, integrate, moving) : drops::integrate_as_published(executor, drops, integrate, moving);
+  const double integrated = integrate_clock.seconds();
+  if (recorder) report(recorder, substep, "integrate", {{"drops", list_drops()}}, integrated);
+
+  // As published the first frame has no frame before it: the blades stand.
+  const std::vector<Wiper> swept = steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
+  wipers.insert(wipers.end(), swept.begin(), swept.end());
+  const WipeDropsUniforms wipe = wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_quantum(settings.drops),
+                                                     corrected ? film.width() : 0, corrected ? film.height() : 0);
+  if (recorder) {
+    if (corrected) {
+      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", list_drops()}, {"wipers", records(swept)}, {"film", film}});
+    } else {
+      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", list_drops()}, {"wipers", records(swept)}});
+    }
+  }
+  Stopwatch wipe_clock;
+  const std::int64_t drops_before = corrected ? drops.water() : 0;
+  const std::int64_t gone =
+      static_cast<std::int64_t>(wipe_drops(wipe, corrected, swept, {drops.u(), drops.v(), drops.velocity_u(), drops.velocity_v(), drops.mass(), drops.life(), drops.id()},
+                                           corrected ? &film : nullptr, executor));
+  // What the drops gained, or lost less than what is gone, came from the film.
+  ledger.removed += gone;
+  if (corrected) ledger.to_film -= drops.water() - drops_before + gone;
+  const double wiped_time = wipe_clock.seconds();
+  if (recorder) {
+    if (corrected) {
+      report(recorder, substep, "wipe_drops", {{"drops", list_drops()}, {"film", film}}, wiped_time);
+    } else {
+      report(recorder, substep, "wipe_drops", {{"drops", list_drops()}}, wiped_time);
+    }
+  }
+
+  if (corrected) {
+    const drops::MergeUniforms merge = drops::merge_uniforms(settings.drops, plane.frame, dt, film.width(), film.height());
+    if (recorder) announce(recorder, substep, "merge", dt, merge, {{"drops", list_drops()}, {"film", film}});
+    Stopwatch merge_clock;
+    merger.merge(executor, drops, merge);
+    ledger += drops::leave_trails(executor, drops, merge, film);
+    const double texel_area = glass.area / (static_cast<double>(film.width()) * film.height());
+    ledger += drops::dry_film(executor, film, drops::film_loss(settings.drops, texel_area, steps, dt));
+    const double merged = merge_clock.seconds();
+    if (recorder) report(recorder, substep, "merge", {{"drops", list_drops()}, {"film", film}}, merged);
+  }
+  ++steps;
+}
+
+/// The scene as the camera sees it in this frame.
+void Windshield::State::look() {
+  if (!own_scene) return;
+  const double distance = vehicle.at(frame * frame_time()).distance;
+  const bool moves = settings.scene_moves;
+  const bool first = scene.colour.empty();
+  street->look(settings.street_start + (moves ? distance : 0), moves, scene);
+  if (first || moves) ++scene_version;
+}
+
+Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor)
+    : state_(std::make_unique<State>(config, std::move(surroundings), executor)) {}
+Windshield::~Windshield() = default;
+Windshield::Windshield(Windshield&&) noexcept = default;
+
+void Windshield::simulate(Recorder* recorder) {
+  State& s = *state_;
+  s.wipers.clear();
+  for (int substep = 0; substep < s.settings.substeps; ++substep) s.step(recorder, substep);
+  ++s.frame;
+}
+
+void Windshield::render(Recorder* recorder) {
+  State& s = *state_;
+  const int recorded_frame = s.frame;
+  s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
+  const parallel::Executor& executor = s.executor;
+  const Settings& settings = s.settings;
+  const double dt = s.frame_time();
+  constexpr int last_step = 0;
+  const Rounding rounding = settings.surface.rounding;
+
+  s.list_drops();
+  drops::SplatUniforms splat = drops::splat_uniforms(settings.splat);
+  splat.drop_count = static_cast<std::int32_t>(s.listed.size());
+  if (s.corrected) {
+    s.announce(recorder, last_step, "splat", dt, splat, {{"drops", records(s.listed)}, {"film", s.film}});
+  } else {
+    s.announce(recorder, last_step, "splat", dt, splat, {{"drops", records(s.listed)}});
+  }
+  Stopwatch splat_clock;
+  drops::splat(executor, splat, settings.splat.keys.half_accumulation, rounding, s.listed, s.corrected ? &s.film : nullptr, s.height, s.splat_scratch);
+  s.report(recorder, last_step, "splat", {{"height", s.height}}, splat_clock.seconds());
+
+  WipeTextureUniforms wipe = wipe_texture_uniforms(settings.surface, s.frame);
+  wipe.wiper_count = static_cast<std::int32_t>(s.wipers.size());
+  if (s.corrected) {
+    s.announce(recorder, last_step, "wipe_texture", dt, wipe, {{"height", s.height}, {"wiped", s.wiped}, {"wipers", records(s.wipers)}});
+  } else {
+    s.announce(recorder, last_step, "wipe_texture", dt, wipe, {{"height", s.height}, {"mask", s.mask}, {"wipers", records(s.wipers)}});
+  }
+  Stopwatch wipe_clock;
+  wipe_texture(executor, wipe, s.corrected, rounding, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr});
+  if (s.corrected) {
+    s.report(recorder, last_step, "wipe_texture", {{"height", s.height}, {"mask", s.mask}, {"wiped", s.wiped}}, wipe_clock.seconds());
+  } else {
+    s.report(recorder, last_step, "wipe_texture", {{"height", s.height}, {"mask", s.mask}}, wipe_clock.seconds());
+  }
+
+  const NormalsUniforms slopes = normals_uniforms(settings.surface);
+  s.announce(recorder, last_step, "normals", dt, slopes, {{"height", s.height}, {"mask", s.mask}});
+  Stopwatch normals_clock;
+  normals(executor, slopes, s.corrected, rounding, s.height, s.mask, s.normal);
+  s.report(recorder, last_step, "normals", {{"normal", s.normal}}, normals_clock.seconds());
+
+  s.look();
+  const int width = s.scene.colour.width(), height = s.scene.colour.height();
+  if (s.levels.empty()) {
+    s.levels = blur_pyramid::make_levels(settings.blur, width, height);
+    s.pyramid.emplace(s.levels);
+    s.depth_texture = TextureData(s.scene.depth, Address::clamp, Address::clamp);
+    s.normal_texture = TextureData(s.normal, Address::clamp, Address::clamp);
+    s.mask_texture = TextureData(s.mask, Address::clamp, Address::clamp);
+  }
+  // A scene that stands still has its pyramid already.
+  const bool anew = s.shown_version != s.scene_version || s.shown_version < 0;
+  for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
+    const std::size_t l = static_cast<std::size_t>(level);
+    const blur_pyramid::BlurUniforms blur = blur_pyramid::blur_uniforms(settings.blur, width, height, level);
+    if (level == 0) {
+      s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"scene_colour", s.scene.colour}, {"scene_depth", s.scene.depth}}, 0);
+    } else {
+      s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"above", s.levels[l - 1]}}, level);
+    }
+    Stopwatch blur_clock;
+    if (anew && level == 0) blur_pyramid::fog_level(executor, blur, rounding, s.scene.colour, s.scene.depth, s.levels[0]);
+    if (anew && level > 0) blur_pyramid::halve_level(executor, blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]);
+    s.report(recorder, last_step, "blur_pyramid", {{"pyramid", s.levels[l]}}, blur_clock.seconds(), level);
+  }
+  Stopwatch composite_clock;
+  if (anew) {
+    s.pyramid->refresh(executor, s.levels);
+    decode(executor, s.scene.depth, s.depth_texture);
+    s.shown_version = s.scene_version;
+  }
+  decode(executor, s.normal, s.normal_texture);
+  decode(executor, s.mask, s.mask_texture);
+  const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners, static_cast<int>(s.levels.size()));
+  const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
+  const PassInput pyramid{"pyramid", &s.pyramid->view(), Filter::linear, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
+      lights{"glints", records(s.lights)};
+  if (s.corrected) {
+    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, normal, mask, lights});
+  } else {
+    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, normal, mask, lights});
+  }
+  const auto tiles = [&](const std::function<void(const parallel::Tile&)>& body) {
+    executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), picture_tile_rows, body);
+  };
+  tiles([&](const parallel::Tile& tile) { composite_rows(composite, s.corrected, rounding, in, s.colour, tile); });
+  s.report(recorder, last_step, "composite", {{"colour", s.colour}}, composite_clock.seconds());
+
+  const DisplayUniforms display = display_uniforms(settings.picture);
+  s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
+  Stopwatch display_clock;
+  tiles([&](const parallel::Tile& tile) { display_rows(display, rounding, s.colour, s.picture, tile); });
+  s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_clock.seconds());
+  s.frame = recorded_frame;
+}
+
+int Windshield::frame() const { return state_->frame; }
+std::vector<DropView> Windshield::drops() const {
+  std::vector<drops::Drop> all;
+  state_->drops.gather(all, state_->executor);
+  std::vector<DropView> out;
+  for (const drops::Drop& d : all) out.push_back({d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life, d.id});
+  return out;
+}
+WaterLedger Windshield::ledger() const {
+  const State& s = *state_;
+  return {s.ledger.spawned, s.ledger.evaporated, s.ledger.removed, s.corrected ? drops::film_water(s.film) : 0, s.corrected ? s.drops.water() : s.drops.live()};
+}
+const Image& Windshield::height() const { return state_->height; }
+const Image& Windshield::mask() const { return state_->mask; }
+const Image& Windshield::film() const { return state_->film; }
+const Image& Windshield::normal() const { return state_->normal; }
+const Image& Windshield::colour() const { return state_->colour; }
+const Image& Windshield::picture() const { return state_->picture; }
+
+}  // namespace rainref::windshield
