@@ -1,0 +1,63 @@
+// The scene behind wet glass: fogged, then blurred level by level.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "blur_pyramid/uniforms.h"
+#include "capture/pass_info.h"
+#include "image/texture.h"
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "scene/config.h"
+#include "scene/parameter.h"
+
+namespace rainref::blur_pyramid {
+
+struct BlurSettings {
+  bool corrected = false;
+  Rounding rounding = Rounding::rne;
+  int levels = 6;            ///< wanted, the fogged scene included; there are no more than level_count gives
+  double fog_density = 0.01;  ///< extinction [1/m]
+  std::array<double, 3> fog_colour{0.02, 0.025, 0.03};  ///< linear radiance
+};
+/// The scene keys of BlurSettings but for the rounding, behind "prefix.".
+std::vector<scene::Parameter> blur_parameters(const std::string& prefix);
+BlurSettings blur_settings(const scene::Config& config, const std::string& prefix, Rounding rounding);
+
+/// Columns and rows of a level: halves, rounded down, at least 1.
+std::array<int, 2> level_size(int width, int height, int level);
+/// Levels down to 1 x 1, level 0 included.
+int level_count(int width, int height);
+
+/// For one level of a scene of this size. In double, each rounded once.
+BlurUniforms blur_uniforms(const BlurSettings& settings, int width, int height, int level);
+
+/// Levels of rgba16f, zero.
+std::vector<Image> make_levels(const BlurSettings& settings, int width, int height);
+/// The pass for level 0. colour: rgba16f, linear radiance; depth: r32f, distance along the ray [m]; out: rgba16f, alpha 1.
+void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out);
+/// The pass for a further level, from the one above.
+void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out);
+
+/// The levels decoded as one texture with mips, for passes that sample them (clamped).
+class DecodedLevels {
+ public:
+  /// Of these levels' sizes; refresh fills it.
+  explicit DecodedLevels(const std::vector<Image>& levels);
+  void refresh(const parallel::Executor& executor, const std::vector<Image>& levels);
+  const Texture& view() const { return view_; }
+  DecodedLevels(const DecodedLevels&) = delete;
+  DecodedLevels& operator=(const DecodedLevels&) = delete;
+
+ private:
+  std::vector<float> texels_;
+  Texture view_;
+};
+
+/// The pass, one run a level, and the buffers that it reads and writes.
+capture::PassInfo blur_info(const std::string& colour_from, const std::string& depth_from);
+std::vector<capture::BufferInfo> blur_buffers();
+
+}  // namespace rainref::blur_pyramid

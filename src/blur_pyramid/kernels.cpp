@@ -1,0 +1,122 @@
+// Shells of blur_pyramid; compiled once for each SIMD target.
+#include "blur_pyramid/kernels.h"
+
+#include <algorithm>
+#include <vector>
+
+#define RAINREF_KERNELS "blur_pyramid/kernels.cpp"
+#include "math/foreach_target.h"
+#include "math/lanes-inl.h"
+
+RAINREF_TARGET_BEGIN(blur_pyramid)
+#define RAINREF_FN HWY_INLINE HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "blur_pyramid/blur_pyramid.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+void FogRows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out, const parallel::Tile& tile) {
+  const BlurUniforms u = uniforms;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const Half* from = colour.row<Half>(y);
+    const float* distance = depth.row<float>(y);
+    Half* to = out.row<Half>(y);
+    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
+      Lanes c[4];
+      load4(from + 4 * x, c);
+      const Vec3<Lanes> f = fogged(u, Vec3<Lanes>(c[0], c[1], c[2]), Lanes::load(distance + x));
+      const Lanes rgba[4] = {f.x, f.y, f.z, Lanes(1.0f)};
+      store4(to + 4 * x, rgba, rounding);
+    }
+  }
+}
+
+// One row of the level above as four planes of floats, and what two or three such rows come to. A plane is readable two
+// vectors past its last texel.
+struct Planes {
+  std::vector<float> texels;
+  std::size_t pitch;
+  explicit Planes(int width) : pitch(static_cast<std::size_t>(width) + 3 * HWY_MAX_BYTES / sizeof(float)) { texels.resize(4 * pitch); }
+  float* channel(int c) { return texels.data() + pitch * static_cast<std::size_t>(c); }
+};
+
+// A row of pairs starts at 2 x. Even and odd texels part on loading; every lane is still one output texel.
+HWY_INLINE HWY_ATTR void load_pairs(const float* row, Lanes& even, Lanes& odd) {
+#if HWY_TARGET == HWY_SCALAR
+  even = Lanes::load(row);
+  odd = Lanes::load(row + 1);
+#else
+  hn::LoadInterleaved2(Lanes::D(), row, even.v, odd.v);
+#endif
+}
+
+template <bool corrected>
+HWY_INLINE HWY_ATTR void halve(const BlurUniforms& u, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
+  const int n = Lanes::size(), source_width = u.source_size[0], width = out.width();
+  Planes column(source_width);  // corrected: the three rows taken together; as-published: the first row
+  Planes second(corrected ? 0 : source_width);
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const auto row_at = [&](int j) { return above.row<Half>(std::min(2 * y + j, u.source_size[1] - 1)); };
+    const Half *r0 = row_at(0), *r1 = row_at(1), *r2 = row_at(2);
+    const Lanes w1(u.middle[1]), w2 = last_weight(u.last[1], Lanes(static_cast<float>(y)));
+    for (int x = 0; x < source_width; x += n) {
+      Lanes a[4], b[4], c[4];
+      load4(r0 + 4 * x, a);
+      load4(r1 + 4 * x, b);
+      if constexpr (corrected) load4(r2 + 4 * x, c);
+      for (int k = 0; k < 4; ++k) {
+        if constexpr (corrected) {
+          hn::StoreU(box_of_three(a[k], b[k], c[k], w1, w2).v, Lanes::D(), column.channel(k) + x);
+        } else {
+          hn::StoreU(a[k].v, Lanes::D(), column.channel(k) + x);
+          hn::StoreU(b[k].v, Lanes::D(), second.channel(k) + x);
+        }
+      }
+    }
+    // Where there is no texel, the nearest one.
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        column.channel(k)[source_width + i] = column.channel(k)[source_width - 1];
+        if constexpr (!corrected) second.channel(k)[source_width + i] = second.channel(k)[source_width - 1];
+      }
+    }
+    for (int x = 0; x < width; x += n) {
+      Lanes rgba[4];
+      for (int k = 0; k < 4; ++k) {
+        Lanes even, odd;
+        load_pairs(column.channel(k) + 2 * x, even, odd);
+        if constexpr (corrected) {
+          Lanes last, unused;
+          load_pairs(column.channel(k) + 2 * x + 2, last, unused);
+          rgba[k] = box_of_three(even, odd, last, Lanes(u.middle[0]), last_weight(u.last[0], Lanes::index(x)));
+        } else {
+          Lanes below_even, below_odd;
+          load_pairs(second.channel(k) + 2 * x, below_even, below_odd);
+          rgba[k] = box_of_four(even, odd, below_even, below_odd);
+        }
+      }
+      store4(out.row<Half>(y) + 4 * x, rgba, rounding);
+    }
+  }
+}
+void HalveRows(const BlurUniforms& u, bool corrected, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
+  if (corrected) return halve<true>(u, rounding, above, out, tile);
+  halve<false>(u, rounding, above, out, tile);
+}
+RAINREF_TARGET_END(blur_pyramid)
+
+#if RAINREF_ONCE
+namespace rainref::blur_pyramid {
+
+RAINREF_EXPORT(FogRows);
+RAINREF_EXPORT(HalveRows);
+
+void fog_rows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out, const parallel::Tile& tile) {
+  RAINREF_DISPATCH(FogRows)(uniforms, rounding, colour, depth, out, tile);
+}
+void halve_rows(const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
+  RAINREF_DISPATCH(HalveRows)(uniforms, corrected, rounding, above, out, tile);
+}
+
+}  // namespace rainref::blur_pyramid
+#endif

@@ -1,0 +1,17 @@
+// The scalar readings of blur_pyramid, in a namespace of their own, so that argument types of this room do not pull them
+// into the lanes.
+#pragma once
+
+#include "blur_pyramid/uniforms.h"
+#include "math/plain.h"
+
+namespace rainref::blur_pyramid::scalar {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "blur_pyramid/blur_pyramid.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::blur_pyramid::scalar

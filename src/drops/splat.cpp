@@ -1,0 +1,147 @@
+#include "drops/splat.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "math/real64.h"
+#include "rainref/error.h"
+
+namespace rainref::drops {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double water_density = 998.2;  // at 20 degrees C [kg/m^3]
+constexpr std::int64_t drops_of_chunk = 4096;
+constexpr const char *published = "as-published", *correct = "corrected";
+const std::vector<std::string> kernel_names{"paraboloid", "quartic", "smoothstep", "hemisphere", "disc"};
+
+}  // namespace
+
+std::vector<scene::Parameter> splat_parameters(const std::string& prefix) {
+  const auto key = [&](const char* name) { return prefix + "." + name; };
+  return {
+      scene::integer2(key("height_size"), "texel", 1, 16384, {1024, 592}, "Columns and rows of the height texture."),
+      scene::choice(key("kernel"), kernel_names, "paraboloid", "How the height of a drop falls from its centre to its rim."),
+      scene::choice(key("blend"), {"add", "max"}, "add", "How drops join in a texel."),
+      scene::choice(key("accumulate"), {"half", "float"}, "half",
+                    "half: the sum is rounded after each drop, as a blending unit does with an r16f target; float: once.").only(published),
+      scene::choice(key("rounding"), {"rne", "rtz"}, "rne", "How results are stored: to nearest even, or toward zero as many GPUs do."),
+      scene::real(key("drop_radius"), "m", 1e-5, 1, 4e-3, "Radius of a drop of mass 1.").only(published),
+      scene::real(key("drop_height"), "mm", 0, 100, 0.8, "Height of a drop of mass 1.").only(published),
+      scene::real(key("smallest_radius"), "texel", 0, 16, 1.5, "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.").only(correct),
+  };
+}
+
+SplatKeys splat_keys(const scene::Config& config, const std::string& prefix) {
+  const auto key = [&](const char* name) { return prefix + "." + name; };
+  SplatKeys k;
+  k.width = static_cast<int>(config.integer2(key("height_size"))[0]);
+  k.height = static_cast<int>(config.integer2(key("height_size"))[1]);
+  const auto kernel = std::find(kernel_names.begin(), kernel_names.end(), config.text(key("kernel")));
+  k.kernel = static_cast<SplatKernel>(kernel - kernel_names.begin());
+  k.blend = config.text(key("blend")) == "max" ? SplatBlend::max : SplatBlend::add;
+  k.rounding = config.text(key("rounding")) == "rtz" ? Rounding::rtz : Rounding::rne;
+  if (config.variant() == correct) {
+    k.half_accumulation = false;
+    k.smallest_radius = config.real(key("smallest_radius"));
+  } else {
+    k.half_accumulation = config.text(key("accumulate")) == "half";
+    k.drop_radius = config.real(key("drop_radius"));
+    k.drop_height = config.real(key("drop_height"));
+  }
+  return k;
+}
+
+double cap_radius(double contact_angle) {
+  // V = pi a^3 (2 + c) (1 - c)^2 / (3 sin^3), c the cosine of the contact angle.
+  const double c = cos_real(Real64(contact_angle)).v, s = sin_real(Real64(contact_angle)).v;
+  const double cube = quantum / water_density * 3 * s * s * s / (pi * (2 + c) * (1 - c) * (1 - c));
+  return pow_real(Real64(cube), Real64(1.0 / 3)).v;
+}
+
+double kernel_volume(SplatKernel kernel) {
+  switch (kernel) {
+    case SplatKernel::paraboloid: return pi / 2;
+    case SplatKernel::quartic: return pi / 3;
+    case SplatKernel::smoothstep: return pi * 3 / 10;
+    case SplatKernel::hemisphere: return pi * 2 / 3;
+    default: return pi;
+  }
+}
+
+SplatUniforms splat_uniforms(const SplatSettings& s) {
+  SplatUniforms u{};
+  const SplatKeys& k = s.keys;
+  const double column = s.frame[0] / k.width, shear = s.frame[1] / k.height, row = s.frame[2] / k.height;
+  u.size[0] = static_cast<float>(k.width);
+  u.size[1] = static_cast<float>(k.height);
+  u.frame[0] = static_cast<float>(column);
+  u.frame[1] = static_cast<float>(shear);
+  u.frame[2] = static_cast<float>(row);
+  u.kernel = static_cast<std::int32_t>(k.kernel);
+  u.blend = static_cast<std::int32_t>(k.blend);
+  double smallest = 0;
+  if (s.corrected) {
+    const double radius = cap_radius(s.contact_angle), volume = quantum / water_density;
+    u.radius_scale = static_cast<float>(radius);
+    u.height_scale = static_cast<float>(1e3 * volume / (kernel_volume(k.kernel) * radius * radius));
+    u.film_scale = static_cast<float>(1e3 * volume / (column * row));
+    // The longer side of a texel, which a shear stretches.
+    smallest = k.smallest_radius * std::max(column, __builtin_sqrt(row * row + shear * shear));
+  } else {
+    u.radius_scale = static_cast<float>(k.drop_radius);
+    u.height_scale = static_cast<float>(k.drop_height);
+  }
+  u.smallest_radius = static_cast<float>(std::max(smallest, 1e-6));  // never 0: the pass divides by it
+  return u;
+}
+
+void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding, std::span<const Drop> drops,
+           const Image* film, Image& height, SplatScratch& scratch) {
+  const bool fits = height.format() == Format::r16f && height.width() == static_cast<int>(uniforms.size[0]) && height.height() == static_cast<int>(uniforms.size[1]);
+  const bool film_fits = !film || (film->format() == Format::r32f && film->width() == height.width() && film->height() == height.height() && !half_accumulation);
+  if (!fits || !film_fits) throw Error(ExitCode::internal, "splat: the images do not fit the uniforms");
+  uniforms.drop_count = static_cast<std::int32_t>(drops.size());
+  const std::size_t count = drops.size();
+  if (scratch.stamps.size() < count) scratch.stamps.resize(count);
+  if (scratch.bands.size() < 2 * count) scratch.bands.resize(2 * count);
+  const StampedDrops stamped{{scratch.stamps.data(), count},
+                             {scratch.bands.data(), count},
+                             {scratch.bands.data() + count, count}};
+  const Bands bands = splat_bands(height.height());
+  executor.for_range(static_cast<std::int64_t>(count), drops_of_chunk,
+                     [&](std::int64_t begin, std::int64_t end) { make_stamps(uniforms, bands, drops, begin, end, stamped); });
+  const SplatJob job{uniforms, half_accumulation, rounding, film, &height};
+  executor.for_range(bands.count, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t band = begin; band < end; ++band) splat_band(job, bands, static_cast<int>(band), stamped);
+  });
+}
+
+capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from) {
+  using scene::member;
+  const scene::UniformBlock block = scene::uniform_block<SplatUniforms>(
+      "SplatUniforms", {member<&SplatUniforms::size>("size", "texel", "Columns and rows of the height texture."),
+                        member<&SplatUniforms::radius_scale>("radius_scale", "m", "Radius of a drop of mass 1."),
+                        member<&SplatUniforms::height_scale>("height_scale", "mm", "Height of a drop of mass 1."),
+                        member<&SplatUniforms::frame>("frame", "m/texel", "Plane coordinates of a step: x of a column, x and y of a row."),
+                        member<&SplatUniforms::smallest_radius>("smallest_radius", "m", "A smaller drop is drawn this wide, and as much lower."),
+                        member<&SplatUniforms::kernel>("kernel", "1", "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
+                        member<&SplatUniforms::blend>("blend", "1", "0: add, 1: max."),
+                        member<&SplatUniforms::drop_count>("drop_count", "1", "Drops in the list."),
+                        member<&SplatUniforms::film_scale>("film_scale", "mm", "corrected: height of a quantum in a texel.")});
+  return {"splat",
+          "The height of the water: every live drop, in slot order; corrected: on the film.",
+          {{published, 1, capture::Judge::envelope, "SplatUniforms"}, {correct, 1, capture::Judge::envelope, "SplatUniforms"}},
+          {{"drops", drops_from[0], false, published}, {"drops", drops_from[1], false, correct}, {"film", film_from, false, correct}},
+          {"height"},
+          {block},
+          "ordered_scatter"};
+}
+
+std::vector<capture::BufferInfo> splat_buffers() {
+  return {{"height", "r16f", "Height of the water over the glass.", "mm", {0, 8}},
+          {"film", "r32f", "Water of the film: a whole number of quanta of 2e-11 kg in each texel.", "quantum", {0, 16777216}, "none", "none", "none", "", "", correct}};
+}
+
+}  // namespace rainref::drops

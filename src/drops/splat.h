@@ -1,0 +1,63 @@
+// Drops drawn into a height texture: what an effect sets, its uniforms, the pass itself, its declarations.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/pass_info.h"
+#include "drops/records.h"
+#include "drops/splat_kernels.h"
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "scene/config.h"
+#include "scene/parameter.h"
+
+namespace rainref::drops {
+
+struct SplatKeys {
+  int width = 1024, height = 592;  ///< of the height texture [texel]
+  SplatKernel kernel = SplatKernel::paraboloid;
+  SplatBlend blend = SplatBlend::add;
+  bool half_accumulation = true;  ///< as-published: each drop is rounded to half as a blending unit does; else once, after the last
+  Rounding rounding = Rounding::rne;
+  double drop_radius = 4e-3;     ///< as-published: of a drop of mass 1 [m]
+  double drop_height = 0.8;      ///< as-published: of a drop of mass 1 [mm]
+  double smallest_radius = 1.5;  ///< corrected: what a drop is drawn with at least [texel]
+};
+/// The scene keys of SplatKeys, behind "prefix.".
+std::vector<scene::Parameter> splat_parameters(const std::string& prefix);
+SplatKeys splat_keys(const scene::Config& config, const std::string& prefix);
+
+struct SplatSettings {
+  bool corrected = false;
+  SplatKeys keys;
+  /// Of the glass [m]: as-published |e_u|, 0, |e_v|; corrected the plane frame.
+  std::array<double, 3> frame{1, 0, 1};
+  double contact_angle = 0.6;  ///< corrected: of the drops' caps, in (0, pi) [rad]
+};
+
+/// Base radius of a spherical cap of one quantum of water [m]; that of m quanta is m^(1/3) times as large.
+double cap_radius(double contact_angle);
+/// Volume under a kernel of radius 1 and height 1.
+double kernel_volume(SplatKernel kernel);
+/// Everything but the number of drops. In double, each rounded once.
+SplatUniforms splat_uniforms(const SplatSettings& settings);
+
+/// Room that splat works in, kept from frame to frame.
+struct SplatScratch {
+  std::vector<StampRecord> stamps;
+  std::vector<std::int8_t> bands;
+};
+/// The pass: height (r16f, of uniforms.size) is cleared and drawn anew. Drops in slot order; dead ones draw nothing.
+/// uniforms.drop_count is taken from them. film: r32f of the same size, or null for none; corrected only, with float
+/// accumulation.
+void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding, std::span<const Drop> drops,
+           const Image* film, Image& height, SplatScratch& scratch);
+
+/// The pass, and the buffer that it writes. `drops_from` and `film_from` are passes; drops_from of as-published first.
+capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from);
+std::vector<capture::BufferInfo> splat_buffers();
+
+}  // namespace rainref::drops

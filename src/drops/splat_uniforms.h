@@ -1,0 +1,34 @@
+// What splat takes besides images and drops. The size is a multiple of 16 bytes and nothing straddles a 16-byte row, so
+// the bytes serve every GPU language.
+#pragma once
+
+#include <cstdint>
+
+namespace rainref::drops {
+
+/// How the height of a drop falls from its centre, over q = distance / radius < 1.
+enum class SplatKernel : std::int32_t {
+  paraboloid,  ///< 1 - q^2
+  quartic,     ///< (1 - q^2)^2
+  smoothstep,  ///< 1 - q^2 (3 - 2 q)
+  hemisphere,  ///< sqrt(1 - q^2)
+  disc         ///< 1
+};
+/// How drops join in a texel.
+enum class SplatBlend : std::int32_t { add, max };
+
+struct SplatUniforms {
+  float size[2];          ///< of the height texture [texel]
+  float radius_scale;     ///< radius of a drop of mass 1 [m]
+  float height_scale;     ///< height of a drop of mass 1 [mm]
+  float frame[3];         ///< plane coordinates of a step in the texture: x of a column, x and y of a row [m/texel]
+  float smallest_radius;  ///< a smaller drop is drawn this wide, and as much lower [m]
+  std::int32_t kernel;    ///< a SplatKernel
+  std::int32_t blend;     ///< a SplatBlend
+  std::int32_t drop_count;
+  float film_scale;  ///< corrected: height of a quantum in a texel [mm]
+};
+
+static_assert(sizeof(SplatUniforms) == 48);
+
+}  // namespace rainref::drops

@@ -1,0 +1,16 @@
+// The scalar readings of wipe_texture and normals, in a namespace of their own, so that argument types of this room do not
+// pull them into the lanes.
+#pragma once
+
+#include "math/plain.h"
+#include "windshield/surface.h"
+
+namespace rainref::windshield::scalar {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#include "windshield/normals.pass.h"
+#include "windshield/wipe_texture.pass.h"
+#undef RAINREF_FN
+
+}  // namespace rainref::windshield::scalar
