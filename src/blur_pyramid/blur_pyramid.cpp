@@ -90,10 +90,10 @@ DecodedLevels::DecodedLevels(const std::vector<Image>& levels) {
     view_.width[l] = levels[l].width();
     view_.height[l] = levels[l].height();
     view_.offset[l] = static_cast<std::int32_t>(count);
-    count += static_cast<std::size_t>(4) * levels[l].width() * levels[l].height();
+    count += static_cast<std::size_t>(levels[l].width()) * levels[l].height();
   }
-  if (count > 0x7fffffffu) throw Error(ExitCode::usage, "the blurred scene has more texels than a texture may have");
-  texels_.resize(count);
+  if (count > 0x7fffffffu / 4) throw Error(ExitCode::usage, "the blurred scene has more texels than a texture may have");
+  texels_.resize(4 * count);
   view_.texels = texels_.data();
 }
 void DecodedLevels::refresh(const parallel::Executor& executor, const std::vector<Image>& levels) {
@@ -101,7 +101,7 @@ void DecodedLevels::refresh(const parallel::Executor& executor, const std::vecto
     const Image& level = levels[l];
     executor.for_range(level.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t y = begin; y < end; ++y) {
-        float* to = texels_.data() + view_.offset[l] + static_cast<std::size_t>(4) * level.width() * static_cast<std::size_t>(y);
+        float* to = texels_.data() + 4 * (static_cast<std::size_t>(view_.offset[l]) + static_cast<std::size_t>(level.width()) * static_cast<std::size_t>(y));
         to_float_array(level.row<Half>(static_cast<int>(y)), to, static_cast<std::size_t>(4) * level.width());
       }
     });

@@ -33,13 +33,13 @@ EffectInfo make() {
                  blur_pyramid::blur_info("", "")};
   append(info.passes, picture_passes());
   append(info.buffers, drops::buffers());
-  append(info.buffers, motion_buffers());
+  append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
   append(info.buffers, surface_buffers());
   append(info.buffers, blur_pyramid::blur_buffers());
   append(info.buffers, picture_buffers());
   append(info.records, drops::records());
-  append(info.records, motion_records());
+  append(info.records, wiper_records());
   append(info.records, picture_records());
   return info;
 }

@@ -9,7 +9,6 @@ namespace {
 
 using namespace rainref::scene;
 using namespace rainref::capture;
-using drops::GlassFrame;
 
 constexpr const char *published = "as-published", *correct = "corrected";
 
@@ -31,7 +30,7 @@ PassInfo windshield_frame_info() {
        member<&U::origin>("origin", "m", "corrected: corner (0, 0) of the glass, car axes."),
        member<&U::inverse_metric>("inverse_metric", "1/m^2", "as-published: 1 / |e_u|^2, 0, 1 / |e_v|^2; corrected: uu, uv and vv of the metric's inverse.")});
   return {"windshield_frame", "Gravity, apparent wind and inertia in glass coordinates.",
-          {{published, 1, Judge::envelope, "WindshieldFrameUniforms"}, {correct, 1, Judge::envelope, "WindshieldFrameUniforms"}},
+          {{published, 1, Judge::keyed, "WindshieldFrameUniforms"}, {correct, 1, Judge::keyed, "WindshieldFrameUniforms"}},
           {}, {"glass_frame"}, {block}, "gather", {"dot"}};
 }
 
@@ -50,18 +49,16 @@ PassInfo wipe_drops_info(const char* from) {
        member<&U::texel>("texel", "1", "corrected: 1 over the film's columns and rows."),
        member<&U::columns>("columns", "texel", "corrected: columns of the film."),
        member<&U::rows>("rows", "texel", "corrected: rows of the film.")});
-  // The published pass decides by signs and moves: an envelope. The corrected one hands whole quanta from texels to drops: keyed.
   return {"wipe_drops", "Drops in the swept area ride on the blade; corrected: with the film that it sweeps.",
-          {{published, 1, Judge::envelope, "WipeDropsUniforms"}, {correct, 1, Judge::keyed, "WipeDropsUniforms"}},
-          {{"drops", from}, {"wipers"}, {"film", "", true, correct}}, {"drops"}, {block}, "gather", {"length"}};
+          {{published, 1, Judge::keyed, "WipeDropsUniforms"}, {correct, 1, Judge::keyed, "WipeDropsUniforms"}},
+          {{"drops", from}, {"wipers"}, {"film", "merge", true, correct}}, {"drops", "film"}, {block}, "gather", {"length"}};
 }
 
-std::vector<BufferInfo> motion_buffers() {
-  return {{"wipers", "records", "A record for each blade; corrected: for each of its moves in one direction.", "1", {-1, 1}, "none", "none", "none", "", "Wiper"},
-          {"glass_frame", "records", "What moves drops on the glass: one record.", "1", {-100, 100}, "none", "none", "none", "", "GlassFrame"}};
+std::vector<BufferInfo> wiper_buffers() {
+  return {{"wipers", "records", "A record for each blade; corrected: for each of its moves in one direction.", "1", {-1, 1}, "none", "none", "none", "", "Wiper"}};
 }
 
-std::vector<UniformBlock> motion_records() {
+std::vector<UniformBlock> wiper_records() {
   return {record<Wiper>("Wiper", {member<&Wiper::previous_inner>("previous_inner", "1", "Inner end before the step, glass coordinates."),
                                   member<&Wiper::previous_outer>("previous_outer", "1", "Outer end before the step."),
                                   member<&Wiper::inner>("inner", "1", "Inner end after it."),
@@ -73,13 +70,7 @@ std::vector<UniformBlock> motion_records() {
                                   member<&Wiper::axis>("axis", "1", "The same after it."),
                                   member<&Wiper::half_width>("half_width", "m", "Half the width that the blade wipes."),
                                   member<&Wiper::rate>("rate", "rad/s", "Turned angle over the time that the record stands for."),
-                                  member<&Wiper::direction>("direction", "1", "Sign of rate; 0 at rest.")}),
-          record<GlassFrame>("GlassFrame", {member<&GlassFrame::gravity>("gravity", "1/s^2", "as-published: gravity; corrected: specific force at (0, 0)."),
-                                            member<&GlassFrame::wind>("wind", "1/s", "Apparent wind."),
-                                            member<&GlassFrame::acceleration>("acceleration", "1/s^2", "as-published: acceleration of the car; corrected: 0."),
-                                            member<&GlassFrame::spin>("spin", "1/s^2", "corrected: specific force by glass coordinate, rows u and v."),
-                                            member<&GlassFrame::coriolis>("coriolis", "1/s", "corrected: specific force by velocity, rows u and v."),
-                                            member<&GlassFrame::id>("id", "1", "0.")})};
+                                  member<&Wiper::direction>("direction", "1", "Sign of rate; 0 at rest.")})};
 }
 
 }  // namespace rainref::windshield

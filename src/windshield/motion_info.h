@@ -10,9 +10,9 @@ namespace rainref::windshield {
 capture::PassInfo windshield_frame_info();
 /// `from`: the pass that writes the drops before this one.
 capture::PassInfo wipe_drops_info(const char* from);
-/// The buffers wipers (from the host) and glass_frame. Drops and film belong to the room drops.
-std::vector<capture::BufferInfo> motion_buffers();
-/// The records Wiper and GlassFrame.
-std::vector<scene::UniformBlock> motion_records();
+/// The buffer wipers, from the host. Drops, film and glass_frame belong to the room drops.
+std::vector<capture::BufferInfo> wiper_buffers();
+/// The record Wiper.
+std::vector<scene::UniformBlock> wiper_records();
 
 }  // namespace rainref::windshield

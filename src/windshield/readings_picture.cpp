@@ -54,7 +54,7 @@ std::unique_ptr<PassModel> bind_composite(const PassCase& c) {
   m.height = colour.height;
   m.uniforms = capture::uniforms_of<CompositeUniforms>(c);
   m.corrected = c.corrected();
-  m.pyramid = texture("pyramid");
+  m.pyramid = texture("blurred");
   m.normal = texture("normal");
   m.mask = texture("mask");
   if (m.corrected) m.depth = texture("scene_depth");

@@ -1,6 +1,7 @@
 #include "windshield/scene_keys.h"
 
 #include "rainref/error.h"
+#include "windshield/motion_parameters.h"
 #include "windshield/picture_info.h"
 
 namespace rainref::windshield {

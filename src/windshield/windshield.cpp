@@ -272,12 +272,12 @@ void Windshield::render(Recorder* recorder) {
     if (level == 0) {
       s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"scene_colour", s.scene.colour}, {"scene_depth", s.scene.depth}}, 0);
     } else {
-      s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"above", s.levels[l - 1]}}, level);
+      s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"blurred", s.levels[l - 1]}}, level);
     }
     Stopwatch blur_clock;
     if (anew && level == 0) blur_pyramid::fog_level(executor, blur, rounding, s.scene.colour, s.scene.depth, s.levels[0]);
     if (anew && level > 0) blur_pyramid::halve_level(executor, blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]);
-    s.report(recorder, last_step, "blur_pyramid", {{"pyramid", s.levels[l]}}, blur_clock.seconds(), level);
+    s.report(recorder, last_step, "blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
   }
   Stopwatch composite_clock;
   if (anew) {
@@ -289,7 +289,7 @@ void Windshield::render(Recorder* recorder) {
   decode(executor, s.mask, s.mask_texture);
   const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners, static_cast<int>(s.levels.size()));
   const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
-  const PassInput pyramid{"pyramid", &s.pyramid->view(), Filter::linear, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
+  const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
       lights{"glints", records(s.lights)};
   if (s.corrected) {
     s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, normal, mask, lights});
