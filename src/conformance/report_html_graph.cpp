@@ -12,7 +12,7 @@
 namespace rainref::conformance {
 namespace {
 
-constexpr int node_width = 176, node_height = 56, row_gap = 40, margin = 12;
+constexpr int node_width = 190, node_height = 56, row_gap = 40, margin = 12;
 constexpr double letter = 6.6;  // of an edge's label [px]
 
 struct Node {

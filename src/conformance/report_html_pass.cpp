@@ -29,6 +29,7 @@ std::string takes_html(const PassJudgement& p, const PageSource& source) {
 
 std::string causes_html(const PassJudgement& p) {
   if (figures_of(p).outside == 0) return "";
+  if (p.causes.empty() && is_broken(p)) return "";
   if (p.causes.empty()) return "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   std::string out = "<h3>Likely causes</h3>\n<ol class=\"causes\">\n";
   for (const Cause& c : p.causes) {
@@ -106,7 +107,7 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
   std::string out = fmt::format("<section class=\"pass {}\" id=\"pass-{}\">\n<h2>{} {} <code class=\"dim\">{}</code></h2>\n", css, name, status_pill(p.status), name, marked_up(p.formula));
   if (const auto sentence = source.sentences.find(p.pass); sentence != source.sentences.end()) out += fmt::format("<p>{}</p>\n", marked_up(sentence->second));
   if (p.pass == j.first_bad_pass) out += fmt::format("<p class=\"first\">The first bad pass.{}</p>\n", p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either.");
-  if (!p.reason.empty()) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
+  if (!p.reason.empty() && !is_broken(p)) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
   out += broken_html(p);
   out += known_html(p) + takes_html(p, source) + causes_html(p);
   if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
