@@ -105,6 +105,18 @@ TEST_F(ReportPage, UntestedSaysWhichPassAndWhy) {
   EXPECT_THAT(report_html(j, {}), HasSubstr("Too little could be judged. <a href=\"#pass-noise\">noise</a>: 100 % of the elements have no useful bound.</p>"));
 }
 
+// --only: the one pass is drawn at its size, and what it takes from others is no link to nowhere.
+TEST_F(ReportPage, OnePassAlone) {
+  PortJudgement j = example_judgement();
+  j.passes = {j.passes[3]};
+  PageSource source;
+  source.edges = {{"shade", "hit", "hit", false}};
+  const std::string text = report_html(j, source);
+  EXPECT_THAT(text, HasSubstr("viewBox=\"0 0 214 80\" style=\"max-width:214px;min-width:214px\""));
+  EXPECT_THAT(text, HasSubstr("Takes hit of hit."));
+  EXPECT_THAT(text, Not(HasSubstr("#pass-hit")));
+}
+
 // A port that took a stale input is wrong in what it stored as well. The input is the news.
 TEST_F(ReportPage, AWrongInputIsTheCause) {
   PortJudgement j = example_judgement();
