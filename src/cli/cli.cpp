@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -241,6 +243,9 @@ int parse_and_run(int argc, const char* const* argv) {
       if (shadow->empty()) throw Error(ExitCode::usage, "--shadow: expected a folder, found ''");
       if (validate_exec || !validate_port.empty()) throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", validate_exec ? "--exec" : "--port"));
       if (validate_pack.empty() && (shadow_flags.size || !shadow_flags.set.empty())) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
+      if (std::error_code ignored; std::filesystem::is_directory(validate_pack, ignored)) {
+        throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json beside the dumps would serve as well", validate_pack));
+      }
       validate_request.shadow = *shadow;
       shadow_flags.scene = validate_pack;
       validate_request.scene = resolve(shadow_flags);

@@ -208,6 +208,8 @@ int mutate(const MutateRequest& request) {
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
+  Progress progress("trying porting bugs", static_cast<int>(pack.cases.size()));
+  options.progress = [&](int, int) { progress.advance(); };
   const conformance::MutationReport report = conformance::mutate(pack, options);
   fmt::print("{}", conformance::report_text(report, request.all));
   return 0;

@@ -79,6 +79,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
   MutationReport report;
   report.pack = pack.folder().string();
   report.profile = options.profile;
+  int done = 0;
   for (const capture::PackPass& pass : pack.passes) {
     if (!options.only.empty() && pass.name != options.only) continue;
     const Bind bind = binder(pack.effect, pass.name);
@@ -111,6 +112,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
         }
       });
       before = std::move(c);
+      if (options.progress) options.progress(++done, static_cast<int>(pack.cases.size()));
     }
     if (!judged) report.unjudged.push_back(fmt::format("{}: no output is judged by envelope", pass.name));
   }

@@ -77,6 +77,11 @@ std::string cause_text(const Cause& c) {
   return fmt::format("{}: {} (gives {} of {} failing texels bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of, c.inside);
 }
 
+bool is_broken(const PassJudgement& p) {
+  return std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.broken; });
+}
+bool has_unknown_cause(const PassJudgement& p) { return p.causes.empty() && figures_of(p).outside > 0 && !is_broken(p); }
+
 std::string half_text(const PassJudgement& p) {
   if (!p.half_mode_voted) return "";
   const auto [rne, rtz, either] = p.half_votes;

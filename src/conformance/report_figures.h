@@ -45,6 +45,12 @@ FailureText failure_text(const OutputJudgement& output, const Failure& failure);
 /// "upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
 std::string cause_text(const Cause& cause);
 
+/// Whether a run of it fails for a reason of its own, which is then the cause: a race, an input that is not the output it
+/// comes from, a uniform.
+bool is_broken(const PassJudgement& pass);
+/// Whether it fails and nothing says why.
+bool has_unknown_cause(const PassJudgement& pass);
+
 /// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
 std::string half_text(const PassJudgement& pass);
 

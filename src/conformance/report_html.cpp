@@ -30,13 +30,14 @@ std::string summary_html(const PortJudgement& j) {
   if (const PassJudgement* bad = pass_named(j, j.first_bad_pass)) {
     const Figures f = figures_of(*bad);
     std::string out = fmt::format("<a href=\"#pass-{0}\">{0}</a> is the first bad pass: ", marked_up(bad->pass));
-    if (f.outside > 0) out += fmt::format("{} of {} invocations ({}) stored what <b>{}</b> does not allow.", f.failing, f.invocations, share_text(f.failing, f.invocations), marked_up(j.profile));
+    if (is_broken(*bad)) out += marked_up(bad->reason) + ".";
+    else if (f.outside > 0) out += fmt::format("{} of {} invocations ({}) stored what <b>{}</b> does not allow.", f.failing, f.invocations, share_text(f.failing, f.invocations), marked_up(j.profile));
     else out += marked_up(bad->reason) + ".";
     std::string others;
     for (const PassJudgement& p : j.passes)
       if (p.status == Status::fail && &p != bad) others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
     if (!others.empty()) others += ".";
-    if (bad->causes.empty()) return out + (f.outside > 0 ? " The cause is unknown." : "") + others;
+    if (bad->causes.empty()) return out + (has_unknown_cause(*bad) ? " The cause is unknown." : "") + others;
     const Cause& c = bad->causes[0];
     return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing texels bit for bit, comes near {}).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, c.inside, others);
   }

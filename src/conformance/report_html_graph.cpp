@@ -12,7 +12,8 @@
 namespace rainref::conformance {
 namespace {
 
-constexpr int node_width = 176, node_height = 56, row_gap = 40, margin = 12;
+constexpr int node_width = 190, node_height = 56, row_gap = 40, margin = 12;
+constexpr int legible_width = 860;  // [px] A wider graph shrinks to the page, down to this
 constexpr double letter = 6.6;  // of an edge's label [px]
 
 struct Node {
@@ -109,9 +110,9 @@ std::string graph_html(const PortJudgement& j, const std::vector<capture::PackEd
     rows = std::max(rows, n.row + 1);
   }
   const int bottom = top + rows * node_height + (rows - 1) * row_gap, width = 2 * margin + columns * node_width + (columns - 1) * gap, height = bottom + reach + margin;
-  std::string svg = fmt::format("<div class=\"scroll\"><svg class=\"graph\" viewBox=\"0 0 {} {}\" style=\"max-width:{}px\" role=\"group\" aria-label=\"Passes and what flows between them\">"
+  std::string svg = fmt::format("<div class=\"scroll\"><svg class=\"graph\" viewBox=\"0 0 {} {}\" style=\"max-width:{}px;min-width:{}px\" role=\"group\" aria-label=\"Passes and what flows between them\">"
                                 "<defs><marker id=\"arrow\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" markerWidth=\"7\" markerHeight=\"7\" orient=\"auto\"><path d=\"M0 0L8 4L0 8z\"/></marker></defs>",
-                                width, height, width);
+                                width, height, width, std::min(width, legible_width));
   for (const Edge& e : merged(nodes, edges)) svg += edge_svg(e, top, bottom);
   for (const Node& n : nodes) svg += node_svg(n, n.pass->pass == j.first_bad_pass);
   return svg + "</svg></div>\n";

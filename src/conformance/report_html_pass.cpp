@@ -16,12 +16,17 @@ constexpr std::size_t shown_bad_rows = 200, shown_good_rows = 24;  // of the tab
 bool is_bad(Status s) { return s != Status::pass; }
 
 /// "wave of wave_step (the run before), drops of raindrops": where its inputs come from.
-std::string takes_html(const PassJudgement& p, const PageSource& source) {
+std::string takes_html(const PassJudgement& p, const PortJudgement& j, const PageSource& source) {
   std::vector<std::string> takes, from_host;
   for (const capture::PackEdge& e : source.edges) {
     if (e.pass != p.pass) continue;
-    if (e.from == "host") from_host.push_back(marked_up(e.input));
-    else takes.push_back(fmt::format("{} of <a href=\"#pass-{}\">{}</a>{}", marked_up(e.input), marked_up(e.from), marked_up(e.from), e.previous ? " (the run before)" : ""));
+    if (e.from == "host") {
+      from_host.push_back(marked_up(e.input));
+      continue;
+    }
+    const bool is_shown = std::any_of(j.passes.begin(), j.passes.end(), [&](const PassJudgement& other) { return other.pass == e.from; });
+    const std::string from = is_shown ? fmt::format("<a href=\"#pass-{0}\">{0}</a>", marked_up(e.from)) : marked_up(e.from);
+    takes.push_back(fmt::format("{} of {}{}", marked_up(e.input), from, e.previous ? " (the run before)" : ""));
   }
   if (!from_host.empty()) takes.push_back(fmt::format("{} of the host", fmt::join(from_host, ", ")));
   return takes.empty() ? "" : fmt::format("<p class=\"dim\">Takes {}.</p>\n", fmt::join(takes, ", "));
@@ -29,6 +34,7 @@ std::string takes_html(const PassJudgement& p, const PageSource& source) {
 
 std::string causes_html(const PassJudgement& p) {
   if (figures_of(p).outside == 0) return "";
+  if (p.causes.empty() && is_broken(p)) return "";
   if (p.causes.empty()) return "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   std::string out = "<h3>Likely causes</h3>\n<ol class=\"causes\">\n";
   for (const Cause& c : p.causes) {
@@ -106,9 +112,9 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
   std::string out = fmt::format("<section class=\"pass {}\" id=\"pass-{}\">\n<h2>{} {} <code class=\"dim\">{}</code></h2>\n", css, name, status_pill(p.status), name, marked_up(p.formula));
   if (const auto sentence = source.sentences.find(p.pass); sentence != source.sentences.end()) out += fmt::format("<p>{}</p>\n", marked_up(sentence->second));
   if (p.pass == j.first_bad_pass) out += fmt::format("<p class=\"first\">The first bad pass.{}</p>\n", p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either.");
-  if (!p.reason.empty()) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
+  if (!p.reason.empty() && !is_broken(p)) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
   out += broken_html(p);
-  out += known_html(p) + takes_html(p, source) + causes_html(p);
+  out += known_html(p) + takes_html(p, j, source) + causes_html(p);
   if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
   const Figures f = figures_of(p);
   if (f.other_branch > 0) out += fmt::format("<p class=\"dim\">{} of {} ambiguous invocations took another branch than the reference.</p>\n", f.other_branch, f.ambiguous);

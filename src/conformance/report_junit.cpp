@@ -38,7 +38,7 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
                          : fmt::format("{}  got {}  accepted {}  expected {}  {}\n", t.place, t.got, t.accepted, t.expected, t.distance);
   }
   if (o.failing > static_cast<std::int64_t>(shown_failures)) out += fmt::format("({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown_failures));
-  if (p.causes.empty()) out += "cause unknown\n";
+  if (has_unknown_cause(p)) out += "cause unknown\n";
   for (const Cause& c : p.causes) out += fmt::format("likely cause: {}\n", cause_text(c));
   return out;
 }

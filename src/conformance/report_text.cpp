@@ -44,8 +44,7 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
   const Figures f = figures_of(p);
   std::vector<std::string> out;
   // A reason that a case has of its own stands below, with the case.
-  const bool broken = std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.broken; });
-  if (!p.reason.empty() && !broken) out.push_back(p.reason);
+  if (!p.reason.empty() && !is_broken(p)) out.push_back(p.reason);
   std::string open;
   std::size_t count = 0;
   for (const CaseJudgement& c : p.cases)
@@ -112,7 +111,7 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
     }
   }
   if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
-  if (p.causes.empty() && figures_of(p).outside > 0) out += "  cause unknown\n";
+  if (has_unknown_cause(p)) out += "  cause unknown\n";
   for (const Cause& c : p.causes) out += wrapped(fmt::format("  likely cause: {}", cause_text(c)), 4);
   return out;
 }

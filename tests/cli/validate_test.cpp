@@ -208,6 +208,7 @@ TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   expect_refusal({"validate", "--shadow", "empty", "corrected.toml"}, 3, HasSubstr("expected folders such as puddle.raindrops/0000.0, found none"));
   expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3, AllOf(HasSubstr("uniforms.bin' is missing"), HasSubstr("in.hit"), HasSubstr("out.colour")));
   expect_refusal({"validate", "--shadow", "dump", "corrected.toml", "--only", "shde"}, 2, HasSubstr("did you mean 'shade'?"));
+  expect_refusal({"validate", pack, "--shadow", "dump"}, 2, HasSubstr("--shadow: expected the scene that the port ran, found the folder '" + pack));
   expect_refusal({"validate", "--shadow", "dump", "none.toml"}, 4, HasSubstr("none.toml"));
   expect_refusal({"validate", "--shadow", "dump", "--port", "x"}, 2, "--port: does not go with --shadow");
   std::filesystem::create_directories(folder / "dump/puddle.shade/0000.7");

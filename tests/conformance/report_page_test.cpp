@@ -105,6 +105,32 @@ TEST_F(ReportPage, UntestedSaysWhichPassAndWhy) {
   EXPECT_THAT(report_html(j, {}), HasSubstr("Too little could be judged. <a href=\"#pass-noise\">noise</a>: 100 % of the elements have no useful bound.</p>"));
 }
 
+// --only: the one pass is drawn at its size, and what it takes from others is no link to nowhere.
+TEST_F(ReportPage, OnePassAlone) {
+  PortJudgement j = example_judgement();
+  j.passes = {j.passes[3]};
+  PageSource source;
+  source.edges = {{"shade", "hit", "hit", false}};
+  const std::string text = report_html(j, source);
+  EXPECT_THAT(text, HasSubstr("viewBox=\"0 0 214 80\" style=\"max-width:214px;min-width:214px\""));
+  EXPECT_THAT(text, HasSubstr("Takes hit of hit."));
+  EXPECT_THAT(text, Not(HasSubstr("#pass-hit")));
+}
+
+// A port that took a stale input is wrong in what it stored as well. The input is the news.
+TEST_F(ReportPage, AWrongInputIsTheCause) {
+  PortJudgement j = example_judgement();
+  PassJudgement& shade = j.passes[3];
+  shade.causes.clear();
+  shade.cases[0].broken = true;
+  shade.reason = shade.cases[0].reason = "input hit is that of the run before";
+  const std::string text = report_html(j, {});
+  EXPECT_THAT(text, HasSubstr("is the first bad pass: input hit is that of the run before."));
+  EXPECT_THAT(text, Not(HasSubstr("ause unknown")));
+  EXPECT_THAT(text, Not(HasSubstr("cause is unknown")));
+  EXPECT_EQ(count(text, shade.reason), 2u);  // in the banner, and with its run
+}
+
 class ReportPageInBrowser : public ReportPage {
  protected:
   void SetUp() override {
@@ -135,6 +161,7 @@ TEST_F(ReportPageInBrowser, LoadsQuietlyAndEveryPictureIsDecoded) {
     browser.call("Emulation.setDeviceMetricsOverride", {{"width", 1280}, {"height", 900}, {"deviceScaleFactor", 1}, {"mobile", false}});
     EXPECT_EQ(browser.value("document.documentElement.scrollWidth > innerWidth"), false);
     EXPECT_EQ(browser.value("[...document.querySelectorAll('.scroll, figcaption')].filter(e => e.scrollWidth > e.clientWidth).map(e => e.textContent).join(' | ')"), "");
+    EXPECT_EQ(browser.value("[...document.querySelectorAll('.node')].filter(n => n.querySelector('.state').getBBox().width > n.querySelector('rect').getBBox().width - 8).length"), 0);
     browser.call("Emulation.clearDeviceMetricsOverride");
     expect_quiet(browser, *folder_ / name);
   }

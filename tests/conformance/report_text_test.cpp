@@ -101,6 +101,11 @@ TEST(ReportText, WhatIsBrokenSaysWhy) {
   const std::string text = report_text(j);
   EXPECT_THAT(text, HasSubstr("\nFAIL wave\n  first bad pass, its inputs are not good either\n  rain.wave/0000.0: race: differs between runs 1 and 2\n\nFAIL shade is outside"));
   EXPECT_EQ(text.find("race:"), text.rfind("race:"));  // once
+  // A wrong input is the cause of what is outside too.
+  j.passes[3].causes.clear();
+  EXPECT_THAT(report_text(j), HasSubstr("cause unknown"));
+  j.passes[3].cases[1].broken = true;
+  EXPECT_THAT(report_text(j), Not(HasSubstr("cause unknown")));
 }
 
 TEST(ReportText, SentencesAreBrokenAt120Columns) {
