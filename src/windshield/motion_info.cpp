@@ -1,5 +1,7 @@
 #include "windshield/motion_info.h"
 
+#include <cstddef>
+
 #include "drops/records.h"
 #include "windshield/motion.h"
 #include "windshield/uniforms.h"
@@ -12,6 +14,11 @@ using namespace rainref::capture;
 using drops::GlassFrame;
 
 constexpr const char *published = "as-published", *correct = "corrected";
+
+// A row of a 2 x 2 matrix: four floats in one would have to begin at a multiple of 16 bytes.
+Member row(std::size_t matrix, std::size_t index, const char* name, const char* unit, const char* sentence) {
+  return {name, Scalar::float32, 2, matrix + 8 * index, unit, sentence};
+}
 
 }  // namespace
 
@@ -77,8 +84,10 @@ std::vector<UniformBlock> motion_records() {
           record<GlassFrame>("GlassFrame", {member<&GlassFrame::gravity>("gravity", "1/s^2", "as-published: gravity; corrected: specific force at (0, 0)."),
                                             member<&GlassFrame::wind>("wind", "1/s", "Apparent wind."),
                                             member<&GlassFrame::acceleration>("acceleration", "1/s^2", "as-published: acceleration of the car; corrected: 0."),
-                                            member<&GlassFrame::spin>("spin", "1/s^2", "corrected: specific force by glass coordinate, rows u and v."),
-                                            member<&GlassFrame::coriolis>("coriolis", "1/s", "corrected: specific force by velocity, rows u and v."),
+                                            row(offsetof(GlassFrame, spin), 0, "spin_u", "1/s^2", "corrected: u of the specific force, by u and v of the place."),
+                                            row(offsetof(GlassFrame, spin), 1, "spin_v", "1/s^2", "corrected: v of it."),
+                                            row(offsetof(GlassFrame, coriolis), 0, "coriolis_u", "1/s", "corrected: u of the specific force, by u and v of the velocity."),
+                                            row(offsetof(GlassFrame, coriolis), 1, "coriolis_v", "1/s", "corrected: v of it."),
                                             member<&GlassFrame::id>("id", "1", "0.")})};
 }
 
