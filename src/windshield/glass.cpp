@@ -24,7 +24,8 @@ Glass make_glass(const std::array<Real3, 3>& corners) {
   g.e_u = minus(corners[1], corners[0]);
   g.e_v = minus(corners[2], corners[0]);
   const Real3 across = cross(g.e_u, g.e_v);
-  g.area = length(across);
+  const double determinant = dot(across, across);  // of the metric, without its cancellation
+  g.area = __builtin_sqrt(determinant);
   if (!(g.area > 1e-6 * length(g.e_u) * length(g.e_v))) {
     throw Error(ExitCode::usage, fmt::format("windshield.corner_0, windshield.corner_1, windshield.corner_2: expected three corners of a plane, found {}, {}, {}, "
                                              "which lie on one line",
@@ -35,8 +36,6 @@ Glass make_glass(const std::array<Real3, 3>& corners) {
   if (is_zero(n[0]) ? n[2] < 0 : n[0] < 0) n = {0 - n[0], 0 - n[1], 0 - n[2]};
   g.normal = n;
   g.metric = {dot(g.e_u, g.e_u), dot(g.e_u, g.e_v), dot(g.e_v, g.e_v)};
-  // The determinant of the metric, without its cancellation.
-  const double determinant = g.area * g.area;
   g.inverse_metric = {g.metric[2] / determinant, (0 - g.metric[1]) / determinant, g.metric[0] / determinant};
   return g;
 }

@@ -43,7 +43,10 @@ inline std::array<Real3, 3> default_corners() {
   }
   return corners;
 }
-inline Glass default_glass() { return make_glass(default_corners()); }
+inline const Glass& default_glass() {
+  static const Glass glass = make_glass(default_corners());
+  return glass;
+}
 
 inline WiperSettings default_wipers(const Glass& glass, const char* arrangement = "tandem") {
   WiperSettings s;
