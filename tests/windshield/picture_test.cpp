@@ -19,6 +19,9 @@ const Corners sheared{{{1.0, 0.6, 0.9}, {1.1, -0.7, 1.0}, {0.3, 0.8, 1.4}}};
 // The homography against the ray that it stands for.
 TEST(GlassPoint, IsWhereTheRayMeetsTheGlass) {
   PictureSettings s;
+  s.camera_position = {-0.25, 0, 1.16};
+  s.camera_target = {10, 0, 1.13};
+  s.vertical_fov_deg = 30;
   s.width = 320;
   s.height = 180;
   for (const Corners& corners : {raked, sheared}) {
