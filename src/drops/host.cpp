@@ -12,6 +12,7 @@ namespace {
 
 constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double rest_speed = 1e-6;  // m/s: a millimetre in a quarter of an hour
+constexpr double golden_section = 0x1.3c6ef372fe95p-1;
 constexpr int classes = 1024;        // the upper ten bits of a word
 constexpr int cells = 2000;          // of the integral over diameters: the table's corners bound its error to 1e-5
 
@@ -69,6 +70,7 @@ IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame,
   u.evaporation = static_cast<float>(evaporation_rate(radius_of_quantum(s), angle, s.humidity) / quantum);
   u.margin = static_cast<float>(s.margin);
   u.rest_speed = static_cast<float>(rest_speed);
+  u.phase_rate = static_cast<float>(64 * golden_section / dt);
   return u;
 }
 

@@ -32,7 +32,8 @@ UniformBlock integrate_block() {
                             member<&IntegrateUniforms::hold>("hold", "m/s^2", "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
                             member<&IntegrateUniforms::evaporation>("evaporation", "1/s", "corrected: quanta lost in a second over mass^(1/3)."),
                             member<&IntegrateUniforms::margin>("margin", "1", "corrected: how far outside the glass a drop lives."),
-                            member<&IntegrateUniforms::rest_speed>("rest_speed", "m/s", "corrected: a held drop below this speed rests.")});
+                            member<&IntegrateUniforms::rest_speed>("rest_speed", "m/s", "corrected: a held drop below this speed rests."),
+                            member<&IntegrateUniforms::phase_rate>("phase_rate", "1", "corrected: turns in 64 s of the phase that rounds losses.")});
 }
 UniformBlock merge_block() {
   return uniform_block<MergeUniforms>("MergeUniforms", {member<&MergeUniforms::frame>("frame", "m", "As in IntegrateUniforms."),

@@ -86,9 +86,11 @@ RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const G
   // A held drop would slow down for ever.
   const auto rests = (share <= zero) & (length_on_glass(c.frame, velocity_u, velocity_v) < N(c.rest_speed));
 
-  // Whole quanta leave whenever rate * life passes a whole number.
-  const N rate = N(c.evaporation) * mass_3, life = d.life - dt;
-  const N mass = max(d.mass - (floor(rate * d.life) - floor(rate * life)), zero);
+  // Whole quanta leave. A phase that runs evenly through [0, 1) rounds the loss down or up, so that it is right in the mean;
+  // a phase of the water lost so far would run ahead, because each quantum lost changes the rate.
+  const N life = d.life - dt;
+  const N loss = N(c.evaporation) * mass_3 * dt, phase = fract(fract(d.life * N(1.0f / 64)) * N(c.phase_rate));
+  const N mass = max(d.mass - floor(loss + phase), zero);
   const N low(-c.margin), high = one + N(c.margin);
   const auto stays = (life > zero) & (mass > zero) & (u >= low) & (u <= high) & (v >= low) & (v <= high);
 

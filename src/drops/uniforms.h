@@ -31,6 +31,8 @@ struct IntegrateUniforms {
   float evaporation;        ///< corrected: loss over mass_3 [quanta/s]
   float margin;             ///< corrected: a drop lives up to this far outside the glass, in u and v
   float rest_speed;         ///< corrected: a held drop that is slower rests [m/s]
+  float phase_rate;         ///< corrected: turns in 64 s of the phase that rounds losses: a golden section in each step [1]
+  float padding0, padding1, padding2;
 };
 
 /// merge and its trails.
@@ -42,6 +44,6 @@ struct MergeUniforms {
   std::int32_t film[2]; ///< columns and rows of the film [texel]
 };
 
-static_assert(sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 48 && sizeof(MergeUniforms) == 32);
+static_assert(sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 64 && sizeof(MergeUniforms) == 32);
 
 }  // namespace rainref::drops

@@ -9,7 +9,7 @@ TEST(DropsInfo, BlocksAndRecordsHaveOneLayoutInEveryLanguage) {
   // Making them validates them: Error(internal) otherwise.
   EXPECT_EQ(records().size(), 4u);
   EXPECT_EQ(spawn_info("merge").uniforms.front().size, 48u);
-  EXPECT_EQ(integrate_info("spawn", "windshield_frame").uniforms.front().size, 48u);
+  EXPECT_EQ(integrate_info("spawn", "windshield_frame").uniforms.front().size, 64u);
   EXPECT_EQ(merge_info("wipe_drops", "merge").uniforms.front().size, 32u);
 }
 

@@ -1,0 +1,141 @@
+// The determinism proof of the room: every SIMD target, 1, 2, 3 and 8 threads, shuffled chunks and 1 to 33 drops give the
+// bits of one plain float after another.
+#include <gtest/gtest.h>
+
+#include "math/simd_target.h"
+#include "support.h"
+
+namespace rainref::drops {
+namespace {
+
+using test::F;
+
+GlassFrame glass() {
+  GlassFrame g = test::glass_of(0.8, -4.4, 1.5, 9.0);
+  g.acceleration[0] = 0.2f;
+  for (int k = 0; k < 4; ++k) {
+    g.spin[k] = 0.05f * static_cast<float>(k - 1);
+    g.coriolis[k] = 0.1f * static_cast<float>(2 - k);
+  }
+  return g;
+}
+Settings settings(bool corrected) {
+  Settings s;
+  s.corrected = corrected;
+  s.seed = 11;
+  s.humidity = 0.3;
+  s.rain_rate = 60;
+  return s;
+}
+IntegrateUniforms integrate(bool corrected) { return integrate_uniforms(settings(corrected), test::frame, 1.0 / 60); }
+
+// Everything that a run of the passes leaves: the arrays, the film, the ledger.
+std::string run(const std::vector<Drop>& start, bool corrected, int threads, std::uint64_t shuffle, int frames) {
+  parallel::Executor executor(threads);
+  executor.shuffle_tiles(shuffle);
+  DropArrays a = test::arrays_of(start, static_cast<std::int64_t>(start.size()) + 20);
+  Arrivals arrivals(settings(corrected));
+  Merger merger;
+  Image film(Format::r32f, 33, 17);
+  Ledger sum;
+  const MergeUniforms merge = merge_uniforms(settings(corrected), test::frame, 1.0 / 60, 33, 17);
+  for (int n = 0; n < frames; ++n) {
+    const SpawnPlan& plan = arrivals.plan({0.1, 0.8, -10}, n, 60, a.next_id(), a.free_slots());
+    sum += spawn(a, plan.uniforms, plan.thresholds, plan.masses, corrected);
+    if (corrected) {
+      sum += integrate_corrected(executor, a, integrate(true), glass());
+      merger.merge(executor, a, merge);
+      sum += leave_trails(executor, a, merge, film);
+      sum += dry_film(executor, film, 1);
+    } else {
+      sum += integrate_as_published(executor, a, integrate(false), glass());
+    }
+  }
+  std::vector<Drop> drops;
+  a.gather(drops, executor);
+  std::string bytes(reinterpret_cast<const char*>(drops.data()), drops.size() * sizeof(Drop));
+  for (int y = 0; y < 17; ++y) bytes.append(reinterpret_cast<const char*>(film.row<float>(y)), 33 * sizeof(float));
+  return bytes + std::string(reinterpret_cast<const char*>(&sum), sizeof sum);
+}
+
+class DropsDeterminism : public testing::TestWithParam<bool> {
+ protected:
+  ~DropsDeterminism() override { select_simd_target(""); }
+};
+
+TEST_P(DropsDeterminism, EveryTargetThreadCountOrderAndNumberOfDrops) {
+  for (int count = 1; count <= 33; ++count) {
+    const auto start = test::random_drops(count, 8, 1e6f);
+    select_simd_target("scalar");
+    const std::string expected = run(start, GetParam(), 1, 0, 3);
+    for (const std::string& target : simd_targets()) {
+      select_simd_target(target);
+      for (const int threads : {1, 2, 3, 8}) {
+        ASSERT_EQ(run(start, GetParam(), threads, static_cast<std::uint64_t>(threads + count), 3), expected) << target << ", " << threads << " threads, " << count << " drops";
+      }
+    }
+  }
+}
+
+TEST_P(DropsDeterminism, ManyChunks) {
+  const auto start = test::random_drops(60000, 21, 3e4f);
+  select_simd_target("scalar");
+  const std::string expected = run(start, GetParam(), 1, 0, 4);
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    for (const int threads : {1, 3}) ASSERT_EQ(run(start, GetParam(), threads, 5, 4), expected) << target;
+  }
+  EXPECT_NE(run(test::random_drops(60000, 22, 3e4f), GetParam(), 1, 0, 4), expected);
+}
+
+// + 0: stored zeros are positive.
+Drop record_of(const scalar::DropState<F>& s, const Drop& from, bool mass) {
+  return {{s.u.v + 0.0f, s.v.v + 0.0f}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, mass ? s.mass.v : from.mass, s.life.v + 0.0f, from.id, 0};
+}
+
+TEST_P(DropsDeterminism, LanesEqualThePlainReading) {
+  const bool corrected = GetParam();
+  const auto start = test::random_drops(1000, 17, 1.6e7f, 1.5f);
+  const IntegrateUniforms c = integrate(corrected);
+  const MergeUniforms merge = merge_uniforms(settings(corrected), test::frame, 1.0 / 60, 64, 32);
+  const parallel::Executor executor(2);
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    DropArrays a = test::arrays_of(start);
+    Ledger ledger = corrected ? integrate_corrected(executor, a, c, glass()) : integrate_as_published(executor, a, c, glass());
+    Ledger expected;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const auto before = test::state_of<F>(start[i]);
+      Drop d;
+      if (corrected) {
+        const auto after = scalar::integrate_corrected(c, glass(), before);
+        d = record_of(after.drop, start[i], true);
+        expected.evaporated += static_cast<std::int64_t>(after.evaporated.v);
+        expected.removed += static_cast<std::int64_t>(after.removed.v);
+      } else {
+        d = record_of(scalar::integrate_as_published(c, glass(), before), start[i], false);
+        expected.removed += start[i].life > 0 && d.life <= 0;
+      }
+      const Drop found = a.get(static_cast<std::int64_t>(i));
+      ASSERT_EQ(std::memcmp(&found, &d, sizeof d), 0) << target << " drop " << i;
+    }
+    EXPECT_EQ(ledger, expected) << target;
+    if (!corrected) continue;
+    Image film(Format::r32f, 64, 32), expected_film(Format::r32f, 64, 32);
+    std::vector<Drop> before(start.size());
+    for (std::size_t i = 0; i < before.size(); ++i) before[i] = a.get(static_cast<std::int64_t>(i));
+    leave_trails(executor, a, merge, film);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const auto left = scalar::trail(merge, test::state_of<F>(before[i]));
+      ASSERT_EQ(a.mass()[i], before[i].mass - left.quanta.v) << target << " drop " << i;
+      if (left.quanta.v > 0) expected_film.row<float>(static_cast<int>(left.v.v * 32))[static_cast<int>(left.u.v * 64)] += left.quanta.v;
+    }
+    EXPECT_GT(film_water(film), 0);
+    for (int y = 0; y < 32; ++y) ASSERT_EQ(std::memcmp(film.row<float>(y), expected_film.row<float>(y), 64 * sizeof(float)), 0) << target << " row " << y;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drops, DropsDeterminism, testing::Bool(), [](const auto& param) { return param.param ? "corrected" : "as_published"; });
+
+}  // namespace
+}  // namespace rainref::drops

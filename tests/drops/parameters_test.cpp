@@ -1,0 +1,72 @@
+// What a scene may say of the drops.
+#include <gtest/gtest.h>
+
+#include "drops/settings.h"
+#include "rainref/error.h"
+#include "scene/effect_table.h"
+#include "scene/toml.h"
+
+namespace rainref::drops {
+namespace {
+
+const std::vector<std::string> variants{"as-published", "corrected"};
+
+Settings settings(const std::string& prefix, const std::string& variant, const std::vector<std::string>& values) {
+  const std::vector<scene::Parameter> all = parameters(prefix);
+  const scene::EffectTable table{{{prefix, variants, all}}};
+  return settings_from(scene::parse("effect = '" + prefix + "'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), prefix);
+}
+std::string refusal(const std::string& variant, const std::vector<std::string>& values) {
+  try {
+    settings("windshield", variant, values);
+  } catch (const Error& e) {
+    return e.code() == ExitCode::usage ? e.what() : "wrong code";
+  }
+  return "";
+}
+
+TEST(DropsParameters, AreSoundForTwoEffects) {
+  for (const std::string prefix : {"windshield", "screen_drops"}) {
+    scene::validate(parameters(prefix), variants);
+    EXPECT_EQ(settings(prefix, "corrected", {prefix + ".capacity=77", "rain.rate=12"}).capacity, 77);
+  }
+}
+
+TEST(DropsParameters, DefaultsAreThoseOfTheSettings) {
+  const Settings s = settings("windshield", "corrected", {}), d;
+  EXPECT_TRUE(s.corrected);
+  EXPECT_EQ(s.seed, 5u);
+  EXPECT_EQ(s.capacity, d.capacity);
+  EXPECT_EQ(s.lifetime, d.lifetime);
+  EXPECT_EQ(s.rain_rate, d.rain_rate);
+  EXPECT_EQ(s.smallest_drop, d.smallest_drop);
+  EXPECT_EQ(s.advancing_deg, d.advancing_deg);
+  EXPECT_EQ(s.receding_deg, d.receding_deg);
+  EXPECT_EQ(s.wind_exposure, d.wind_exposure);
+  EXPECT_EQ(s.wind_drag, d.wind_drag);
+  EXPECT_EQ(s.mobility, d.mobility);
+  EXPECT_EQ(s.humidity, d.humidity);
+  EXPECT_EQ(s.margin, d.margin);
+  EXPECT_EQ(s.trail_thickness, d.trail_thickness);
+  EXPECT_EQ(s.film_drying, d.film_drying);
+  const Settings p = settings("windshield", "as-published", {});
+  EXPECT_FALSE(p.corrected);
+  EXPECT_EQ(p.lifetime, 6);
+  EXPECT_EQ(p.spawn_rate, d.spawn_rate);
+  EXPECT_EQ(p.mass_min, d.mass_min);
+  EXPECT_EQ(p.mass_max, d.mass_max);
+  EXPECT_EQ(p.inertia_coupling, d.inertia_coupling);
+  EXPECT_EQ(p.wind_coupling, d.wind_coupling);
+  EXPECT_EQ(p.drag, d.drag);
+}
+
+TEST(DropsParameters, RefuseWhatContradictsItself) {
+  EXPECT_EQ(refusal("corrected", {"windshield.receding_angle=60"}), "windshield.receding_angle is 60 degrees: expected at most windshield.advancing_angle = 50");
+  EXPECT_EQ(refusal("as-published", {"windshield.mass_min=2"}), "windshield.mass_min is 2: expected at most windshield.mass_max = 1.6");
+  EXPECT_EQ(refusal("as-published", {"windshield.drag=120"}), "windshield.drag is 120: expected less than 120, twice run.fps; the published step is unstable beyond");
+  EXPECT_EQ(refusal("as-published", {"windshield.drag=119"}), "");
+  EXPECT_NE(refusal("as-published", {"windshield.humidity=0.5"}), "");  // corrected only
+}
+
+}  // namespace
+}  // namespace rainref::drops
