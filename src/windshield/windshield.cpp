@@ -126,7 +126,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
   const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
   const drops::Exposure exposure{glass.area, glass.normal[2], dot(in_car, glass.normal)};
-  const drops::SpawnPlan& plan = arrivals.plan(exposure, steps, dt, drops.next_id(), drops.capacity() - drops.live());
+  const drops::SpawnPlan& plan = arrivals.plan(exposure, steps, settings.fps * settings.substeps, drops.next_id(), drops.capacity() - drops.live());
   if (recorder) {
     const RecordView before = list_drops();
     if (corrected) {
@@ -183,7 +183,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
     merger.merge(executor, drops, merge);
     ledger += drops::leave_trails(executor, drops, merge, film);
     const double texel_area = glass.area / (static_cast<double>(film.width()) * film.height());
-    ledger += drops::dry_film(executor, film, drops::film_loss(settings.drops, texel_area, steps, dt));
+    ledger += drops::dry_film(executor, film, drops::film_loss(settings.drops, texel_area, steps, settings.fps * settings.substeps));
     const double merged = merge_clock.seconds();
     if (recorder) report(recorder, substep, "merge", {{"drops", list_drops()}, {"film", film}}, merged);
   }
