@@ -49,16 +49,14 @@ RAINREF_FN N splat_blend(SplatBlend blend, N before, N drop) {
   return blend == SplatBlend::max ? max(before, drop) : before + drop;
 }
 
-/// The drops in a texel. `blended` gives what the target holds after a drop: with `accumulate = half` its half, else the
+/// The drops in a texel, which has all stamps offered. `blended` gives what the target holds after a drop: with `accumulate = half` its half, else the
 /// number itself.
 template <class N, class Blended>
-RAINREF_FN N splat_drops(const SplatUniforms& u, const Drop* drops, int x, int y, Blended blended) {
+RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, int y, Blended blended) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
   N height(0.0f);
   for (int i = 0; i < u.drop_count; ++i) {
-    const Drop& d = drops[i];
-    const Stamp<N> s = splat_stamp(u, N(d.position[0]), N(d.position[1]), N(d.mass), N(d.life));
-    const N drop = splat_contribution(u, static_cast<SplatKernel>(u.kernel), s, fx, fy);
+    const N drop = splat_contribution(u, static_cast<SplatKernel>(u.kernel), stamps[i], fx, fy);
     height = blended(splat_blend(static_cast<SplatBlend>(u.blend), height, drop));
   }
   return height;

@@ -13,6 +13,7 @@
 
 RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "drops/splat.pass.h"
 #undef RAINREF_FN
 
@@ -67,7 +68,7 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
   s.y = Lanes(r.y);
   s.inverse_radius_sq = Lanes(r.inverse_radius_sq);
   s.height = Lanes(r.height);
-  const auto blend_at = [&](auto* row, int x, float fy) HWY_ATTR {
+  const auto blend_at = [&](auto* row, int x, float fy) RAINREF_LAMBDA {
     const Lanes drop = splat_contribution(u, kernel, s, Lanes::index(x) + Lanes(0.5f), Lanes(fy));
     // Rows of sums have room for a whole vector.
     const int count = std::is_same_v<decltype(row), float*> ? n : std::min(n, width - x);
@@ -127,18 +128,18 @@ void band_of(const SplatJob& job, Bands bands, int band, const StampedDrops& dro
   const SplatUniforms u = job.uniforms;
   Image& image = *job.height;
   const int n = Lanes::size(), width = image.width(), y0 = band * bands.rows, y1 = std::min(image.height(), y0 + bands.rows);
-  const auto rows_of = [&](const StampRecord& r, auto&& row_of) HWY_ATTR {
+  const auto rows_of = [&](const StampRecord& r, auto&& row_of) RAINREF_LAMBDA {
     draw<kernel>(u, job.rounding, r, std::max(y0, r.first_row), std::min(y1, r.end_row), width, row_of);
   };
   if (job.half_accumulation) {
     for (int y = y0; y < y1; ++y) std::memset(image.row<Half>(y), 0, static_cast<std::size_t>(width) * sizeof(Half));
-    for_stamps_of(drops, band, [&](const StampRecord& r) HWY_ATTR { rows_of(r, [&](int y) HWY_ATTR { return image.row<Half>(y); }); });
+    for_stamps_of(drops, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); }); });
     return;
   }
   const std::size_t pitch = static_cast<std::size_t>(width + n);
   std::vector<float> sums(pitch * static_cast<std::size_t>(y1 - y0));
-  const auto sum_row = [&](int y) HWY_ATTR { return sums.data() + pitch * static_cast<std::size_t>(y - y0); };
-  for_stamps_of(drops, band, [&](const StampRecord& r) HWY_ATTR { rows_of(r, sum_row); });
+  const auto sum_row = [&](int y) RAINREF_LAMBDA { return sums.data() + pitch * static_cast<std::size_t>(y - y0); };
+  for_stamps_of(drops, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, sum_row); });
   const std::size_t film_pitch = pitch + 2;
   std::vector<float> film(job.film ? 3 * film_pitch : 0);
   float* rows[3] = {film.data(), film.data() + film_pitch, film.data() + 2 * film_pitch};
@@ -167,6 +168,7 @@ void SplatBand(const SplatJob& job, Bands bands, int band, const StampedDrops& d
     case SplatKernel::disc: return band_of<SplatKernel::disc>(job, bands, band, drops);
   }
 }
+#undef RAINREF_LAMBDA
 RAINREF_TARGET_END(drops)
 
 #if RAINREF_ONCE

@@ -35,8 +35,8 @@ struct Glass {
   PlaneFrame axes() const;
 };
 
-/// The glass with corners at (0, 0), (1, 0) and (0, 1). Throws Error(usage) when they span no plane: two of them coincide
-/// or all three lie on a line, to 1e-6 of their distances.
+/// The glass with corners at (0, 0), (1, 0) and (0, 1). Throws Error(usage) when they span no plane: two of them
+/// coincide or all three lie on a line, to 1e-6 of their distances.
 Glass make_glass(const std::array<Real3, 3>& corners);
 
 }  // namespace rainref::windshield

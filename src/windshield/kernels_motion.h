@@ -1,4 +1,5 @@
-// The shells of windshield_frame and wipe_drops, for the SIMD target in use. They load, call the pass and store; they know no arithmetic.
+// The shells of windshield_frame and wipe_drops, for the SIMD target in use. They load, call the pass and store; they
+// know no arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +21,18 @@ struct DropSpans {
   std::span<const std::uint32_t> id;
 };
 
-/// wipe_drops for the slots [begin, end). corrected: wiper and bin, as large as the spans, take what WipedDrop says; else they may be null.
-void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper, float* bin,
-                      std::int64_t begin, std::int64_t end);
+/// wipe_drops for the slots [begin, end). corrected: wiper and bin, as large as the spans, take what WipedDrop says;
+/// else they may be null.
+void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops,
+                      float* wiper, float* bin, std::int64_t begin, std::int64_t end);
 
 /// Texels outside of which a record sweeps none.
 struct TexelBox {
   int x0, y0, x1, y1;
 };
-/// corrected: sets the swept texels of the tile's rows to 0 and adds what they held to quanta[wiper * bin_count + bin]. boxes: one for each record.
-void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                    std::uint64_t* quanta);
+/// corrected: sets the swept texels of the tile's rows to 0 and adds what they held to quanta[wiper * bin_count + bin].
+/// boxes: one for each record.
+void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film,
+                    const parallel::Tile& tile, std::uint64_t* quanta);
 
 }  // namespace rainref::windshield

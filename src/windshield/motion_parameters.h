@@ -12,7 +12,8 @@ namespace rainref::windshield {
 /// windshield.corner_*, vehicle.*, world.*, wipers.*
 std::vector<scene::Parameter> motion_parameters();
 
-/// What these parameters say, checked. With vehicle(), wipers_between() and the uniforms of motion_host.h it is all that the two passes take.
+/// What these parameters say, checked. With vehicle(), wipers_between() and the uniforms of motion_host.h it is all
+/// that the two passes take.
 struct MotionSettings {
   Glass glass;
   VehicleSettings vehicle;
@@ -21,7 +22,8 @@ struct MotionSettings {
   Real3 wind;       ///< world axes [m/s]
   double gravity;   ///< [m/s^2]
 };
-/// Throws Error(usage) as make_glass and check do. The path of a drive cycle that the scene file gives is taken from the file's folder.
+/// Throws Error(usage) as make_glass and check do. The path of a drive cycle that the scene file gives is taken from
+/// the file's folder.
 MotionSettings motion_settings_from(const scene::Config& config);
 
 }  // namespace rainref::windshield

@@ -1,5 +1,5 @@
-// The scalar readings of windshield_frame and wipe_drops: for the tests. A namespace of their own, so that argument types of this room do not pull
-// them into the lanes.
+// The scalar readings of windshield_frame and wipe_drops: for the tests. A namespace of their own, so that argument
+// types of this room do not pull them into the lanes.
 #pragma once
 
 #include "math/plain.h"

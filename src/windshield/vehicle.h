@@ -10,8 +10,8 @@
 
 namespace rainref::windshield {
 
-/// The car at one time. World axes are the car's, turned about z by the heading. All of it holds at the origin of the car's axes,
-/// which does not slip sideways (the middle of the rear axle).
+/// The car at one time. World axes are the car's, turned about z by the heading. All of it holds at the origin of the
+/// car's axes, which does not slip sideways (the middle of the rear axle).
 struct VehicleState {
   double speed;             ///< forward [m/s]
   double acceleration;      ///< derivative of speed [m/s^2]
@@ -25,20 +25,22 @@ struct VehicleState {
 };
 
 struct VehicleSettings {
-  double speed = 13.9;     ///< without a table [m/s]
-  double yaw_rate = 0;     ///< without a table [rad/s]
-  double heading = 0;      ///< at time 0 [rad]
-  double start = 0;        ///< time in the table at time 0 [s]
-  std::string key_frames;  ///< a table in the scene; "": none
+  double speed = 13.9;                ///< without a table [m/s]
+  double yaw_rate = 0;                ///< without a table [rad/s]
+  double heading = 0;                 ///< at time 0 [rad]
+  double start = 0;                   ///< time in the table at time 0 [s]
+  std::string key_frames;             ///< a table in the scene; "": none
   std::filesystem::path drive_cycle;  ///< a table in a CSV file; "": none
 };
 
 class Vehicle {
  public:
-  /// Reads and checks the table, if there is one. Throws as parse_key_frames and read_drive_cycle do, and Error(usage) when there are two.
+  /// Reads and checks the table, if there is one. Throws as parse_key_frames and read_drive_cycle do, and Error(usage)
+  /// when there are two.
   explicit Vehicle(const VehicleSettings& settings);
 
-  /// The state at time t [s]. Speed and yaw rate are C1 in the table's range, their derivatives and integrals exact; beyond it both are held.
+  /// The state at time t [s]. Speed and yaw rate are C1 in the table's range, their derivatives and integrals exact;
+  /// beyond it both are held.
   VehicleState at(double t) const;
 
  private:

@@ -15,8 +15,8 @@ RAINREF_FN Vec3<N> apparent_wind(const WindshieldFrameUniforms& u) {
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// Each axis by itself, f . e / |e|^2: exact only where the axes are perpendicular. Rotation acts through the acceleration of
-// the car's origin alone. (physics: W1, W2, E0 3 and 4)
+// Each axis by itself, f . e / |e|^2: exact only where the axes are perpendicular. Rotation acts through the
+// acceleration of the car's origin alone. (physics: W1, W2, E0 3 and 4)
 template <class N>
 RAINREF_FN void project_as_published(const WindshieldFrameUniforms& u, const Vec3<N>& f, N (&out)[2]) {
   out[0] = dot(f, Vec3<N>(u.e_u)) * N(u.inverse_metric[0]);
@@ -36,7 +36,8 @@ RAINREF_FN GlassForces<N> windshield_frame_as_published(const WindshieldFrameUni
 // ---- corrected -----------------------------------------------------------------------------------------------------
 // G^-1 J^T f, exact on any flat glass. With w = (0, 0, yaw rate) and alpha its derivative the specific force at p is
 //   g - a - alpha x p - w x (w x p),   and -2 w x v of a drop that moves with v.
-// p = p0 + u e_u + v e_v, so it is affine in u and v: its value at p0 goes to gravity, the rest to spin. (physics: W1-W3)
+// p = p0 + u e_u + v e_v, so it is affine in u and v: its value at p0 goes to gravity, the rest to spin.
+// (physics: W1-W3)
 template <class N>
 RAINREF_FN void project_corrected(const WindshieldFrameUniforms& u, const Vec3<N>& f, N& out_u, N& out_v) {
   const N along_u = dot(f, Vec3<N>(u.e_u)), along_v = dot(f, Vec3<N>(u.e_v));

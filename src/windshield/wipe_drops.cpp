@@ -10,34 +10,41 @@ constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 16;
 constexpr std::uint64_t largest_mass = std::uint64_t{1} << 24;  // whole numbers up to here are floats
 
-// The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; one texel more for rounding.
+// The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; one texel
+// more for rounding.
 TexelBox box_of(const Wiper& w, const WipeDropsUniforms& u) {
   if (w.direction == 0) return {0, 0, 0, 0};
-  const double cosine = static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
+  const double cosine =
+      static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
   const double bulge = w.outer_radius * (1 - __builtin_sqrt(std::max(0.0, 0.5 * (1 + cosine))));
   const double margin = w.half_width + bulge;
   const auto magnitude = [](double x) { return x < 0 ? -x : x; };
   const auto range = [&](int axis, double reach, float texel, int size, int& from, int& to) {
-    const auto [low, high] = std::minmax({w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]});
+    const auto [low, high] =
+        std::minmax({w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]});
     const auto texels = [&](double x) { return static_cast<int>(std::clamp(x / texel, -2.0, size + 2.0)); };
     from = std::clamp(texels(low - reach) - 2, 0, size);
     to = std::clamp(texels(high + reach) + 2, 0, size);
   };
   TexelBox box{};
-  range(0, margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])), u.texel[0], u.columns, box.x0, box.x1);
+  range(0, margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])), u.texel[0], u.columns, box.x0,
+        box.x1);
   range(1, margin * magnitude(u.inverse_frame[2]), u.texel[1], u.rows, box.y0, box.y1);
   return box;
 }
 
 // Quanta by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
-std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film, const parallel::Executor& executor) {
+std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
+                                      const parallel::Executor& executor) {
   std::vector<TexelBox> boxes;
   for (const Wiper& w : wipers) boxes.push_back(box_of(w, u));
   const std::size_t bins = wipers.size() * static_cast<std::size_t>(u.bin_count);
-  std::vector<std::vector<std::uint64_t>> by_tile(static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
-                                                  std::vector<std::uint64_t>(bins));
+  std::vector<std::vector<std::uint64_t>> by_tile(
+      static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
+      std::vector<std::uint64_t>(bins));
   executor.for_tiles(film.width(), film.height(), film.width(), rows_to_a_tile, [&](const parallel::Tile& tile) {
-    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile, by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
+    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile,
+                   by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
   });
   std::vector<std::uint64_t> quanta(bins);
   for (const auto& tile : by_tile) {
@@ -48,8 +55,8 @@ std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<cons
 
 }  // namespace
 
-std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers, const DropSpans& drops, Image* film,
-                         const parallel::Executor& executor) {
+std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers,
+                         const DropSpans& drops, Image* film, const parallel::Executor& executor) {
   const std::size_t slots = drops.u.size();
   std::vector<float> wiper(corrected ? slots : 0), bin(wiper.size());
   executor.for_range(static_cast<std::int64_t>(slots), drops_to_a_chunk, [&](std::int64_t begin, std::int64_t end) {
@@ -64,13 +71,15 @@ std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<c
   for (std::size_t i = 0; i < slots; ++i) {
     if (wiper[i] == -2) removed += static_cast<std::uint64_t>(drops.mass[i]);
     if (wiper[i] < 0) continue;
-    std::int64_t& best = taker[static_cast<std::size_t>(wiper[i]) * static_cast<std::size_t>(u.bin_count) + static_cast<std::size_t>(bin[i])];
+    std::int64_t& best = taker[static_cast<std::size_t>(wiper[i]) * static_cast<std::size_t>(u.bin_count) +
+                               static_cast<std::size_t>(bin[i])];
     if (best < 0 || drops.id[i] < drops.id[static_cast<std::size_t>(best)]) best = static_cast<std::int64_t>(i);
   }
   for (std::size_t k = 0; k < quanta.size(); ++k) {
     if (taker[k] >= 0) {
       float& mass = drops.mass[static_cast<std::size_t>(taker[k])];
-      const std::uint64_t have = static_cast<std::uint64_t>(mass), gained = std::min(quanta[k], largest_mass - std::min(have, largest_mass));
+      const std::uint64_t have = static_cast<std::uint64_t>(mass),
+                          gained = std::min(quanta[k], largest_mass - std::min(have, largest_mass));
       mass = static_cast<float>(have + gained);
       quanta[k] -= gained;
     }

@@ -5,16 +5,20 @@ struct Plane {
   N x, y;
 };
 template <class N>
-RAINREF_FN Plane<N> to_plane(const float* frame, N u, N v) { return {N(frame[0]) * u + N(frame[1]) * v, N(frame[2]) * v}; }
+RAINREF_FN Plane<N> to_plane(const float* frame, N u, N v) {
+  return {N(frame[0]) * u + N(frame[1]) * v, N(frame[2]) * v};
+}
 template <class N>
-RAINREF_FN Plane<N> to_glass(const float* inverse, N x, N y) { return {N(inverse[0]) * x + N(inverse[1]) * y, N(inverse[2]) * y}; }
+RAINREF_FN Plane<N> to_glass(const float* inverse, N x, N y) {
+  return {N(inverse[0]) * x + N(inverse[1]) * y, N(inverse[2]) * y};
+}
 
 /// A drop as the pass takes and gives it.
 template <class N>
 struct WipedDrop {
   N u, v, velocity_u, velocity_v, mass, life;
-  N wiper;  ///< corrected: index of the record that captured it last; -1: none, -2: it is thrown off
-  N bin;    ///< corrected: its radial bin there
+  N wiper;                   ///< corrected: index of the record that captured it last; -1: none, -2: it is thrown off
+  N bin;                     ///< corrected: its radial bin there
   RAINREF_FN WipedDrop() {}  // an implicit one would not be compiled for the SIMD target
 };
 
@@ -27,9 +31,10 @@ RAINREF_FN typename N::Mask under_blade(const Wiper& w, const float* axis, N rx,
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// The swept area is the quad between the previous and the current segment, a chord of the sector (physics: W10), or what lies within
-// half_width of the current one. A captured drop moves by `follow` toward the leading edge and takes over `inherit` of the blade's
-// velocity there, so that it lags behind: the bow wave. A blade at rest captures nothing; the source does not say.
+// The swept area is the quad between the previous and the current segment, a chord of the sector (physics: W10), or
+// what lies within half_width of the current one. A captured drop moves by `follow` toward the leading edge and takes
+// over `inherit` of the blade's velocity there, so that it lags behind: the bow wave. A blade at rest captures nothing;
+// the source does not say.
 /// Whether (x, y) is left of the line from a to b, for a blade that turns counter-clockwise; else right of it.
 template <class N>
 RAINREF_FN typename N::Mask inward(const Wiper& w, const Plane<N>& a, const Plane<N>& b, N x, N y) {
@@ -39,11 +44,13 @@ template <class N>
 RAINREF_FN typename N::Mask in_quad(const WipeDropsUniforms& uniforms, const Wiper& w, N x, N y) {
   const Plane<N> a = to_plane(uniforms.frame, N(w.previous_inner[0]), N(w.previous_inner[1]));
   const Plane<N> b = to_plane(uniforms.frame, N(w.previous_outer[0]), N(w.previous_outer[1]));
-  const Plane<N> c = to_plane(uniforms.frame, N(w.outer[0]), N(w.outer[1])), d = to_plane(uniforms.frame, N(w.inner[0]), N(w.inner[1]));
+  const Plane<N> c = to_plane(uniforms.frame, N(w.outer[0]), N(w.outer[1])),
+                 d = to_plane(uniforms.frame, N(w.inner[0]), N(w.inner[1]));
   return inward(w, a, b, x, y) & inward(w, b, c, x, y) & inward(w, c, d, x, y) & inward(w, d, a, x, y);
 }
 template <class N>
-RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms, const Wiper* wipers, const WipedDrop<N>& in) {
+RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms, const Wiper* wipers,
+                                               const WipedDrop<N>& in) {
   WipedDrop<N> d = in;
   const auto live = in.life > N(0.0f);
   for (int i = 0; i < uniforms.wiper_count; ++i) {
@@ -68,18 +75,21 @@ RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
-// What a blade sweeps is all that its capsule touches between its two angles: the annular sector widened by half_width at both
-// radii, and the capsule at both ends. A captured drop keeps its radius from the pivot and goes ahead of the leading edge, as far
-// that it just touches it: its centre half_width + its own base radius from the blade's line; it moves with the blade.
+// What a blade sweeps is all that its capsule touches between its two angles: the annular sector widened by half_width
+// at both radii, and the capsule at both ends. A captured drop keeps its radius from the pivot and goes ahead of the
+// leading edge, as far that it just touches it: its centre half_width + its own base radius from the blade's line; it
+// moves with the blade.
 template <class N>
 RAINREF_FN typename N::Mask in_sweep(const Wiper& w, N x, N y) {
   const N rx = x - N(w.pivot[0]), ry = y - N(w.pivot[1]), zero(0.0f), turning(w.direction), half_width(w.half_width);
-  // Counter-clockwise of the first axis, clockwise of the last, and on their side of the pivot: the sector is below a half turn.
+  // Counter-clockwise of the first axis, clockwise of the last, and on their side of the pivot: the sector is below a
+  // half turn.
   const N past_first = turning * (N(w.previous_axis[0]) * ry - N(w.previous_axis[1]) * rx);
   const N past_last = turning * (N(w.axis[0]) * ry - N(w.axis[1]) * rx);
   const N side = (N(w.previous_axis[0]) + N(w.axis[0])) * rx + (N(w.previous_axis[1]) + N(w.axis[1])) * ry;
   const N radius_sq = square(rx) + square(ry);
-  const auto between = (radius_sq >= square(N(w.inner_radius) - half_width)) & (radius_sq <= square(N(w.outer_radius) + half_width));
+  const auto between =
+      (radius_sq >= square(N(w.inner_radius) - half_width)) & (radius_sq <= square(N(w.outer_radius) + half_width));
   const auto sector = (past_first >= zero) & (past_last <= zero) & (side > zero) & between;
   return sector | under_blade(w, w.previous_axis, rx, ry) | under_blade(w, w.axis, rx, ry);
 }
@@ -92,10 +102,11 @@ RAINREF_FN N radial_bin(const WipeDropsUniforms& uniforms, const Wiper& w, N x, 
   const N bin = floor((radius - (N(w.inner_radius) - half_width)) * (bins / width));
   return clamp(bin, N(0.0f), bins - N(1.0f));
 }
-/// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is still in a sweep then
-/// lies between two blades that meet; it is thrown off: its life ends.
+/// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is
+/// still in a sweep then lies between two blades that meet; it is thrown off: its life ends.
 template <class N>
-RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers, const WipedDrop<N>& in) {
+RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers,
+                                            const WipedDrop<N>& in) {
   WipedDrop<N> d = in;
   d.wiper = N(-1.0f);
   d.bin = N(-1.0f);
@@ -111,7 +122,8 @@ RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, c
     if (!any(captured)) continue;
     const N radius = length(p.x - N(w.pivot[0]), p.y - N(w.pivot[1]));
     // The sine and cosine of the angle by which it is ahead.
-    const N s = min((N(w.half_width) + base_radius) / max(radius, N(w.half_width)), one), c = sqrt(max(one - square(s), zero));
+    const N s = min((N(w.half_width) + base_radius) / max(radius, N(w.half_width)), one),
+            c = sqrt(max(one - square(s), zero));
     const N ax(w.axis[0]), ay(w.axis[1]), turned = N(w.direction) * s;
     const N rx = radius * (c * ax - turned * ay), ry = radius * (c * ay + turned * ax);
     const Plane<N> place = to_glass(uniforms.inverse_frame, N(w.pivot[0]) + rx, N(w.pivot[1]) + ry);
@@ -140,7 +152,8 @@ struct SweptTexel {
 };
 template <class N>
 RAINREF_FN SweptTexel<N> swept_texel(const WipeDropsUniforms& uniforms, const Wiper* wipers, int column, int row) {
-  const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]), v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
+  const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]),
+          v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
   const Plane<N> p = to_plane(uniforms.frame, u, v);
   SweptTexel<N> swept{N(-1.0f), N(-1.0f)};
   for (int i = 0; i < uniforms.wiper_count; ++i) {

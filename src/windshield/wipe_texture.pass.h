@@ -53,9 +53,10 @@ RAINREF_FN N wiped_mask_as_published(const WipeTextureUniforms& u, N mask, N cov
 //   coverage: annular sector from the blade's previous place to the present one, half_width wider all around
 //   height = height (1 - coverage),   wiped = min(wiped + dt, limit) (1 - coverage),   mask = exp(-wiped / tau)
 //
-// The distance to the sector is the least of three: to the blade before, to the blade now, and within the sector's angle
-// |r - radii|. Outside that angle the third is made larger than the other two: a point s beside the nearer blade's ray is
-// never further from the sector than |r - radii| + 2 s.
+// The distance to the sector, of less than half a turn, is the least of three: to the blade before, to the blade now, and
+// within the sector's angle |r - radii|. Outside that angle the third is made larger than the others. A point s beside the
+// nearer blade's ray is never further from the sector than |r - radii| + 2 s; one behind the pivot never further than
+// |r - radii| + 2 r, and there s and how far it is behind, along the sum of the axes, are more than r together.
 template <class N>
 RAINREF_FN N sector_distance(const Wiper& w, N x, N y) {
   const N px = x - N(w.pivot[0]), py = y - N(w.pivot[1]);
@@ -64,8 +65,9 @@ RAINREF_FN N sector_distance(const Wiper& w, N x, N y) {
   const N now = segment_distance(px, py, inner * cx1, inner * cy1, outer * cx1, outer * cy1);
   const float turn = w.direction < 0 ? -1.0f : 1.0f;
   const N beside = max(max(N(turn) * (px * cy0 - py * cx0), N(turn) * (py * cx1 - px * cy1)), N(0.0f));
+  const N behind = max(-(px * (cx0 + cx1) + py * (cy0 + cy1)), N(0.0f));
   const N r = length(px, py);
-  const N between = max(max(inner - r, r - outer), N(0.0f)) + N(2.0f) * beside;
+  const N between = max(max(inner - r, r - outer), N(0.0f)) + N(2.0f) * (beside + behind);
   return min(min(before, now), between);
 }
 template <class N>

@@ -9,13 +9,15 @@ namespace {
 const std::string cycles = RAINREF_SOURCE_DIR "/scenes/windshield/cycles/";
 using testing::HasSubstr;
 
-// Distances of the regulations; the samples are 1 s apart and begin and end at rest, where the cubic's integral is the trapezoid's.
+// Distances of the regulations; the samples are 1 s apart and begin and end at rest, where the cubic's integral is the
+// trapezoid's.
 TEST(DriveCycle, TotalsAreTheRegulations) {
   struct Known {
     const char* file;
     double seconds, metres, published, tolerance;  // metres: sum of the samples; published: to the digits that were
   };
-  for (const Known& k : {Known{"wltc_3b.csv", 1800, 23266.3, 23266, 0.5}, Known{"us06.csv", 600, 12887.6, 8.01 * 1609.344, 0.005 * 1609.344}}) {
+  for (const Known& k : {Known{"wltc_3b.csv", 1800, 23266.3, 23266, 0.5},
+                         Known{"us06.csv", 600, 12887.6, 8.01 * 1609.344, 0.005 * 1609.344}}) {
     const DriveCycle c = read_drive_cycle(cycles + k.file);
     const double distance = c.speed.integral(0, k.seconds);
     EXPECT_NEAR(distance, k.metres, 0.05) << k.file;
@@ -25,7 +27,8 @@ TEST(DriveCycle, TotalsAreTheRegulations) {
   }
 }
 
-// WLTC 3b: top speed 131.3 km/h; US06: 129.2 km/h, 80.3 mph. The curve passes through its samples and never beyond them.
+// WLTC 3b: top speed 131.3 km/h; US06: 129.2 km/h, 80.3 mph. The curve passes through its samples and never beyond
+// them.
 TEST(DriveCycle, PeaksAreTheRegulations) {
   for (const auto& [file, top] : {std::pair{"wltc_3b.csv", 131.3 / 3.6}, std::pair{"us06.csv", 80.3 * 0.44704}}) {
     const DriveCycle c = read_drive_cycle(cycles + file);
@@ -39,13 +42,15 @@ TEST(DriveCycle, PeaksAreTheRegulations) {
   }
 }
 
-// The derivative is that of the value and the value that of the integral, by central differences; all three are continuous at the samples.
+// The derivative is that of the value and the value that of the integral, by central differences; all three are
+// continuous at the samples.
 TEST(DriveCycle, DerivativeAndIntegralAreExact) {
   const DriveCycle c = parse_key_frames("0 0 0; 3 12 0.2; 4 13 -0.3; 9 13 0; 11.5 2 0.1; 14 7 0", "k");
   const double h = 1e-4;
   for (const Pchip* curve : {&c.speed, &c.yaw_rate}) {
     for (double t = 0.05; t < 14; t += 0.1) {
-      // Cubics: a central difference is off by h^2 / 6 of the third derivative, below 1e3 here, and 1e-16 / h of rounding.
+      // Cubics: a central difference is off by h^2 / 6 of the third derivative, below 1e3 here, and 1e-16 / h of
+      // rounding.
       EXPECT_NEAR((curve->value(t + h) - curve->value(t - h)) / (2 * h), curve->derivative(t), 1e-5) << t;
       EXPECT_NEAR(curve->integral(t - h, t + h) / (2 * h), curve->value(t), 1e-6) << t;
     }
@@ -55,7 +60,7 @@ TEST(DriveCycle, DerivativeAndIntegralAreExact) {
     }
   }
   EXPECT_EQ(c.speed.value(3), 12);
-  EXPECT_EQ(c.speed.derivative(9.0), 0);  // a corner of the table is flat: level before, falling after
+  EXPECT_EQ(c.speed.derivative(9.0), 0);   // a corner of the table is flat: level before, falling after
   EXPECT_EQ(c.speed.derivative(11.5), 0);  // a minimum as well
 }
 
@@ -78,7 +83,8 @@ TEST(DriveCycle, SlopesAreFritschAndButlands) {
 }
 
 TEST(DriveCycle, CommentsSpacesAndWindowsLineEndsAreAccepted) {
-  const DriveCycle c = parse_drive_cycle("\xef\xbb\xbf# a comment\r\n\r\nspeed_mps , time_s,yaw_rad_s\r\n 5,0,0\r\n# another\r\n10,2,0.5\r\n", "f.csv");
+  const DriveCycle c = parse_drive_cycle(
+      "\xef\xbb\xbf# a comment\r\n\r\nspeed_mps , time_s,yaw_rad_s\r\n 5,0,0\r\n# another\r\n10,2,0.5\r\n", "f.csv");
   EXPECT_EQ(c.speed.value(0), 5);
   EXPECT_EQ(c.speed.value(1), 7.5);
   EXPECT_EQ(c.yaw_rate.value(2), 0.5);
@@ -97,7 +103,9 @@ TEST(DriveCycle, DamageIsNamedWithFileAndLine) {
   EXPECT_EQ(message(head + "1,2,3\n"), "f.csv:3: expected 2 fields, found 3");
   EXPECT_EQ(message("time_s,speed_mps,yaw_rad_s\n0,0,99\n"), "f.csv:2: yaw_rad_s: expected -10 to 10 rad/s, found 99");
   EXPECT_THAT(message(head), HasSubstr("f.csv:3: expected at least two rows, found 1"));
-  EXPECT_THAT(message("time_s,yaw_rad_s\n"), HasSubstr("f.csv:1: expected a header of time_s,speed_mps[,yaw_rad_s], found none of the column 'speed_mps'"));
+  EXPECT_THAT(
+      message("time_s,yaw_rad_s\n"),
+      HasSubstr("f.csv:1: expected a header of time_s,speed_mps[,yaw_rad_s], found none of the column 'speed_mps'"));
   EXPECT_THAT(message("time_s,speed_mp\n"), HasSubstr("found the column 'speed_mp'; did you mean 'speed_mps'?"));
   EXPECT_THAT(message("time_s,time_s\n"), HasSubstr("the column 'time_s' stands twice"));
   EXPECT_THAT(message("0,0\n1,1\n"), HasSubstr("f.csv:1: expected a header"));
@@ -109,10 +117,15 @@ TEST(DriveCycle, KeyFramesAreTheSameTableInline) {
   const DriveCycle c = parse_key_frames("0 0; 10 13.9;20 0;", "vehicle.key_frames");
   EXPECT_EQ(c.speed.value(10), 13.9);
   EXPECT_EQ(c.speed.derivative(10), 0);
-  const auto message = [](const std::string& text) { return usage_error([&] { parse_key_frames(text, "vehicle.key_frames"); }); };
-  EXPECT_EQ(message("0 0; 10 13.9; 10 0"), "vehicle.key_frames, key frame 3: time_s: expected more than 10 of the row before, found 10");
+  const auto message = [](const std::string& text) {
+    return usage_error([&] { parse_key_frames(text, "vehicle.key_frames"); });
+  };
+  EXPECT_EQ(message("0 0; 10 13.9; 10 0"),
+            "vehicle.key_frames, key frame 3: time_s: expected more than 10 of the row before, found 10");
   EXPECT_EQ(message("0 0; 10 -1"), "vehicle.key_frames, key frame 2: speed_mps: expected 0 to 100 m/s, found -1");
-  EXPECT_EQ(message("0 0 0; 10 1"), "vehicle.key_frames, key frame 2: expected \"time speed\" in every one or \"time speed yaw_rate\" in every one, found '10 1'");
+  EXPECT_EQ(message("0 0 0; 10 1"),
+            "vehicle.key_frames, key frame 2: expected \"time speed\" in every one or \"time speed yaw_rate\" in every "
+            "one, found '10 1'");
   EXPECT_THAT(message("0"), HasSubstr("key frame 1: expected \"time speed\""));
   EXPECT_THAT(message("0 0"), HasSubstr("expected at least two rows, found 1"));
 }

@@ -1,4 +1,5 @@
-// Pass windshield_frame against mechanics: projections (physics: W1, W2), Galilean invariance and equivalence (W3), a free body seen from a turning car.
+// Pass windshield_frame against mechanics: projections (physics: W1, W2), Galilean invariance and equivalence (W3), a
+// free body seen from a turning car.
 #include <gtest/gtest.h>
 
 #include "windshield/motion_plain.h"
@@ -10,7 +11,8 @@ namespace {
 using drops::GlassFrame;
 constexpr double g = 9.80665;
 
-GlassFrame frame_of(const Glass& glass, const VehicleState& car, bool corrected, const Real3& wind = {0, 0, 0}, double gravity = g) {
+GlassFrame frame_of(const Glass& glass, const VehicleState& car, bool corrected, const Real3& wind = {0, 0, 0},
+                    double gravity = g) {
   return windshield_frame(windshield_frame_uniforms(glass, car, wind, gravity, corrected), corrected);
 }
 VehicleState parked() {
@@ -27,7 +29,8 @@ VehicleState driving(double speed, double acceleration = 0, double yaw_rate = 0)
   return s;
 }
 
-// Corners whose metric and its inverse are short binary fractions, so that no uniform is rounded: G = (4 -2; -2 3), det 8.
+// Corners whose metric and its inverse are short binary fractions, so that no uniform is rounded: G = (4 -2; -2 3),
+// det 8.
 TEST(MotionFrame, ProjectsExactlyOnAShearedGlass) {
   const Glass glass = make_glass({{{1, 2, 0.5}, {1, 0, 0.5}, {0, 3, 1.5}}});
   ASSERT_EQ(glass.metric, (std::array<double, 3>{4, -2, 3}));
@@ -41,7 +44,8 @@ TEST(MotionFrame, ProjectsExactlyOnAShearedGlass) {
     // J a = f - (f . n) n
     const double normal_part = dot(f, glass.normal);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(out.wind[0].v * glass.e_u[k] + out.wind[1].v * glass.e_v[k], f[k] - normal_part * glass.normal[k], 1e-14);
+      EXPECT_NEAR(out.wind[0].v * glass.e_u[k] + out.wind[1].v * glass.e_v[k], f[k] - normal_part * glass.normal[k],
+                  1e-14);
     }
   }
 }
@@ -59,12 +63,14 @@ TEST(MotionFrame, FloatsKeepTheProjectionToOneInAMillion) {
     const GlassFrame out = frame_of(glass, parked(), true, f, 0);
     const double normal_part = dot(f, glass.normal);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(out.wind[0] * glass.e_u[k] + out.wind[1] * glass.e_v[k], f[k] - normal_part * glass.normal[k], 1e-6 * condition);
+      EXPECT_NEAR(out.wind[0] * glass.e_u[k] + out.wind[1] * glass.e_v[k], f[k] - normal_part * glass.normal[k],
+                  1e-6 * condition);
     }
   }
 }
 
-// As published a force down a glass whose axes enclose phi is turned by 90 - phi degrees and weakened to sin phi; corrected it is kept.
+// As published a force down a glass whose axes enclose phi is turned by 90 - phi degrees and weakened to sin phi;
+// corrected it is kept.
 TEST(MotionFrame, AsPublishedShearTurnsForces) {
   for (const double phi : {85.0, 80.0, 70.0}) {
     const double c = std::cos(phi * degree), s = std::sin(phi * degree);
@@ -107,7 +113,8 @@ TEST(MotionFrame, DrivingOnTheDefaultGlass) {
   }
 }
 
-// Wind and car faster by the same: the same bits where the sums are exact, and a car that moves with the wind is parked in calm air.
+// Wind and car faster by the same: the same bits where the sums are exact, and a car that moves with the wind is parked
+// in calm air.
 TEST(MotionFrame, OnlyApparentWindCounts) {
   const Glass glass = default_glass();
   for (const bool corrected : {false, true}) {
@@ -120,7 +127,8 @@ TEST(MotionFrame, OnlyApparentWindCounts) {
       EXPECT_EQ(after.gravity[k], before.gravity[k]);
       EXPECT_EQ(after.acceleration[k], before.acceleration[k]);
     }
-    const GlassFrame with_wind = frame_of(glass, driving(12.5), corrected, {12.5, 0, 0}), calm = frame_of(glass, parked(), corrected);
+    const GlassFrame with_wind = frame_of(glass, driving(12.5), corrected, {12.5, 0, 0}),
+                     calm = frame_of(glass, parked(), corrected);
     for (int k = 0; k < 2; ++k) {
       EXPECT_EQ(with_wind.wind[k], 0);
       EXPECT_EQ(with_wind.gravity[k], calm.gravity[k]);
@@ -135,7 +143,8 @@ TEST(MotionFrame, TheHeadingTurnsTheWind) {
   settings.heading = 30 * degree;
   const VehicleState car = Vehicle(settings).at(0);
   // Wind from dead ahead, and from the right.
-  const Real3 ahead{-8 * std::cos(30 * degree), -8 * std::sin(30 * degree), 0}, from_right{-8 * std::sin(30 * degree), 8 * std::cos(30 * degree), 0};
+  const Real3 ahead{-8 * std::cos(30 * degree), -8 * std::sin(30 * degree), 0},
+      from_right{-8 * std::sin(30 * degree), 8 * std::cos(30 * degree), 0};
   for (const bool corrected : {false, true}) {
     EXPECT_NEAR(frame_of(glass, car, corrected, ahead).wind[1], 8 * std::cos(27 * degree) / 0.8, 3e-6);
     EXPECT_NEAR(frame_of(glass, car, corrected, ahead).wind[0], 0, 3e-6);
@@ -144,7 +153,8 @@ TEST(MotionFrame, TheHeadingTurnsTheWind) {
   }
 }
 
-// Level braking at a is being parked on a slope of atan(a / g), nose down, under sqrt(a^2 + g^2): the same forces on the glass.
+// Level braking at a is being parked on a slope of atan(a / g), nose down, under sqrt(a^2 + g^2): the same forces on
+// the glass.
 TEST(MotionFrame, BrakingIsASlope) {
   for (const double a : {1.0, 4.0, 8.0}) {
     const double phi = std::atan(a / g), c = std::cos(phi), s = std::sin(phi);
@@ -159,8 +169,8 @@ TEST(MotionFrame, BrakingIsASlope) {
   }
 }
 
-// A body at rest in the world, seen from a car that speeds up and turns, with a level pane: its acceleration in glass coordinates is gravity + spin uv +
-// coriolis vel of the frame, by differences of its path.
+// A body at rest in the world, seen from a car that speeds up and turns, with a level pane: its acceleration in glass
+// coordinates is gravity + spin uv + coriolis vel of the frame, by differences of its path.
 TEST(MotionFrame, AFreeBodyStaysWhereItIs) {
   const Glass glass = make_glass({{{1.5, 0.7, 1}, {1.4, -0.6, 1}, {2.3, 0.9, 1}}});
   VehicleSettings settings;
@@ -169,23 +179,28 @@ TEST(MotionFrame, AFreeBodyStaysWhereItIs) {
   const double h = 2e-3;
   for (double t = 0.5; t < 11.5; t += 0.43) {
     // The car's way from t to t + d, by Simpson's rule.
-    const auto way = [&](double d, int axis) { return d / 6 * (car.at(t).velocity[axis] + 4 * car.at(t + d / 2).velocity[axis] + car.at(t + d).velocity[axis]); };
+    const auto way = [&](double d, int axis) {
+      return d / 6 * (car.at(t).velocity[axis] + 4 * car.at(t + d / 2).velocity[axis] + car.at(t + d).velocity[axis]);
+    };
     const Real2 body{5, -3};  // from the car, at time t, in the world
     const auto seen = [&](double d) {
       const VehicleState s = car.at(t + d);
       const double wx = body[0] - way(d, 0), wy = body[1] - way(d, 1);
-      const double x = s.direction[0] * wx + s.direction[1] * wy - glass.origin[0], y = s.direction[0] * wy - s.direction[1] * wx - glass.origin[1];
+      const double x = s.direction[0] * wx + s.direction[1] * wy - glass.origin[0],
+                   y = s.direction[0] * wy - s.direction[1] * wx - glass.origin[1];
       const double along_u = x * glass.e_u[0] + y * glass.e_u[1], along_v = x * glass.e_v[0] + y * glass.e_v[1];
-      return Real2{glass.inverse_metric[0] * along_u + glass.inverse_metric[1] * along_v, glass.inverse_metric[1] * along_u + glass.inverse_metric[2] * along_v};
+      return Real2{glass.inverse_metric[0] * along_u + glass.inverse_metric[1] * along_v,
+                   glass.inverse_metric[1] * along_u + glass.inverse_metric[2] * along_v};
     };
     const Real2 before = seen(-h), now = seen(0), after = seen(h);
     const GlassFrame out = frame_of(glass, car.at(t), true);
     for (int k = 0; k < 2; ++k) {
       const double velocity[2] = {(after[0] - before[0]) / (2 * h), (after[1] - before[1]) / (2 * h)};
       const double acceleration = (after[k] - 2 * now[k] + before[k]) / (h * h);
-      const double force = out.gravity[k] + out.spin[2 * k] * now[0] + out.spin[2 * k + 1] * now[1] + out.coriolis[2 * k] * velocity[0] +
-                           out.coriolis[2 * k + 1] * velocity[1];
-      // Second differences are off by h^2 / 12 of the fourth derivative, some 100 / s^4 here, and floats by 1e-7 of terms up to 50.
+      const double force = out.gravity[k] + out.spin[2 * k] * now[0] + out.spin[2 * k + 1] * now[1] +
+                           out.coriolis[2 * k] * velocity[0] + out.coriolis[2 * k + 1] * velocity[1];
+      // Second differences are off by h^2 / 12 of the fourth derivative, some 100 / s^4 here, and floats by 1e-7 of
+      // terms up to 50.
       EXPECT_NEAR(force, acceleration, 1e-3) << t;
     }
   }
@@ -199,7 +214,8 @@ TEST(MotionFrame, FloatsAreNearTheDoubleReading) {
     const WindshieldFrameUniforms u = windshield_frame_uniforms(default_glass(), car, {3, -4, 1}, g, corrected);
     const GlassFrame out = windshield_frame(u, corrected);
     using D = plain::Plain<double>;
-    const auto real = corrected ? motion_scalar::windshield_frame_corrected<D>(u) : motion_scalar::windshield_frame_as_published<D>(u);
+    const auto real = corrected ? motion_scalar::windshield_frame_corrected<D>(u)
+                                : motion_scalar::windshield_frame_as_published<D>(u);
     for (int k = 0; k < 2; ++k) {
       EXPECT_NEAR(out.gravity[k], real.gravity[k].v, 1e-5);
       EXPECT_NEAR(out.wind[k], real.wind[k].v, 4e-5);

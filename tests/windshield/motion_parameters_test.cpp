@@ -26,8 +26,10 @@ TEST(MotionParameters, DefaultsMakeBothVariants) {
   EXPECT_EQ(p.wipers.half_width, 0.025);
   EXPECT_EQ(p.capture.follow, 0.6);
   EXPECT_EQ(c.gravity, 9.80665);
-  // The published texture is wiped by the blades' outlines alone: at 60 frames these leave no gap, 2 w >= r dtheta, at the fastest step.
-  for (const Blade& b : p.wipers.blades) EXPECT_GE(2 * p.wipers.half_width, b.outer_radius * pi * p.wipers.cycles_per_minute / 60 * b.sweep / 60);
+  // The published texture is wiped by the blades' outlines alone: at 60 frames these leave no gap, 2 w >= r dtheta, at
+  // the fastest step.
+  for (const Blade& b : p.wipers.blades)
+    EXPECT_GE(2 * p.wipers.half_width, b.outer_radius * pi * p.wipers.cycles_per_minute / 60 * b.sweep / 60);
 }
 
 // The keys of the custom arrangement begin as the tandem one.
@@ -42,7 +44,9 @@ TEST(MotionParameters, CustomBeginsAsTandem) {
     EXPECT_NEAR(a.start_angle, b.start_angle, 1e-12);
     EXPECT_NEAR(a.sweep, b.sweep, 1e-12);
   }
-  const MotionSettings other = settings_of("wipers.count = 1\nwipers.arrangement = \"custom\"\nwipers.pivot_0 = [0.7, 0.1]\nwipers.phase_0 = 0.5\nwipers.sweep_0 = -30.0\n");
+  const MotionSettings other = settings_of(
+      "wipers.count = 1\nwipers.arrangement = \"custom\"\nwipers.pivot_0 = [0.7, 0.1]\nwipers.phase_0 = "
+      "0.5\nwipers.sweep_0 = -30.0\n");
   ASSERT_EQ(other.wipers.blades.size(), 1u);
   EXPECT_EQ(other.wipers.blades[0].pivot, (Real2{0.7, 0.1}));
   EXPECT_NEAR(wiper_angle(other.wipers.blades[0], 45, 0), -26 * degree, 1e-12);
@@ -55,10 +59,12 @@ TEST(MotionParameters, TablesOfSpeedAreFoundFromTheScenesFolder) {
 
 TEST(MotionParameters, WhatCannotBeIsNamed) {
   const auto message = [](const std::string& keys) { return usage_error([&] { settings_of(keys); }); };
-  EXPECT_EQ(message("vehicle.key_frames = \"0 0; 1 5\"\nvehicle.speed = 3.0\n"),
-            "scenes/x.toml:4:9: vehicle.speed: expected none beside vehicle.key_frames or vehicle.drive_cycle, found 3");
+  EXPECT_EQ(
+      message("vehicle.key_frames = \"0 0; 1 5\"\nvehicle.speed = 3.0\n"),
+      "scenes/x.toml:4:9: vehicle.speed: expected none beside vehicle.key_frames or vehicle.drive_cycle, found 3");
   EXPECT_THAT(message("windshield.corner_1 = [1.9, 0.7, 1.0]\n"), HasSubstr("windshield.corner_1"));
-  EXPECT_THAT(message("wipers.arrangement = \"custom\"\nwipers.sweep_1 = 0.0\n"), HasSubstr("wipers.sweep_1: expected a turn"));
+  EXPECT_THAT(message("wipers.arrangement = \"custom\"\nwipers.sweep_1 = 0.0\n"),
+              HasSubstr("wipers.sweep_1: expected a turn"));
   EXPECT_THAT(message("wipers.arrangement = \"parallel\"\n"), HasSubstr("tandem"));
   EXPECT_THAT(message("wipers.follow = 0.5\n"), HasSubstr("wipers.follow"));  // published only
   EXPECT_THAT(message("wipers.half_width = 0.1\n"), HasSubstr("wipers.inner_radius_0"));

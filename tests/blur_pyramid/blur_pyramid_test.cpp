@@ -1,0 +1,287 @@
+// The blurred pyramid: means, spreads, odd sizes, fog (physics: W17), and its bits on every target.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "blur_pyramid/blur_pyramid.h"
+#include "blur_pyramid/plain.h"
+#include "math/half.h"
+#include "math/simd_target.h"
+
+namespace rainref::blur_pyramid {
+namespace {
+
+using F = plain::Plain<float>;
+using D = plain::Plain<double>;
+
+const parallel::Executor& two_threads() {
+  static const parallel::Executor executor(2);
+  return executor;
+}
+double at(const Image& image, int x, int y, int c = 0) { return to_float(image.row<Half>(y)[4 * x + c]); }
+
+Image image_of(int width, int height, const std::function<double(int x, int y)>& value) {
+  Image image(Format::rgba16f, width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 4; ++c) image.row<Half>(y)[4 * x + c] = to_half(static_cast<float>((c + 1) * value(x, y)));
+    }
+  }
+  return image;
+}
+double mean(const Image& image, int channel = 0) {
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) sum += at(image, x, y, channel);
+  }
+  return sum / image.width() / image.height();
+}
+BlurSettings settings(bool corrected, Rounding rounding = Rounding::rne) {
+  BlurSettings s;
+  s.corrected = corrected;
+  s.rounding = rounding;
+  s.levels = Texture::max_levels;
+  return s;
+}
+/// The levels below this image, which is level 0 itself.
+std::vector<Image> pyramid(const BlurSettings& s, Image base, const parallel::Executor& executor = two_threads()) {
+  const int width = base.width(), height = base.height();
+  std::vector<Image> levels = make_levels(s, width, height);
+  levels[0] = std::move(base);
+  for (std::size_t l = 1; l < levels.size(); ++l) {
+    halve_level(executor, blur_uniforms(s, width, height, static_cast<int>(l)), s.corrected, s.rounding, levels[l - 1], levels[l]);
+  }
+  return levels;
+}
+
+TEST(BlurPyramid, LevelsAreHalvesDownToOneTexel) {
+  EXPECT_EQ(level_count(1920, 1080), 11);
+  EXPECT_EQ(level_count(1, 1), 1);
+  EXPECT_EQ((level_size(5, 1, 1)), (std::array<int, 2>{2, 1}));
+  EXPECT_EQ((level_size(1920, 1080, 10)), (std::array<int, 2>{1, 1}));
+  BlurSettings s = settings(true);
+  s.levels = 3;
+  EXPECT_EQ(make_levels(s, 64, 64).size(), 3u);
+  EXPECT_EQ(make_levels(s, 2, 2).size(), 2u);
+}
+
+TEST(BlurPyramid, MeanOfPowersOfTwoIsExact) {
+  // Small integers: every sum of four and its quarter is a half, down to the last level but its rounding.
+  std::mt19937 words(1);
+  const Image base = image_of(64, 32, [&](int, int) { return words() % 2; });
+  const double expected = mean(base);
+  for (const bool corrected : {false, true}) {
+    const std::vector<Image> levels = pyramid(settings(corrected), image_of(64, 32, [&, generator = std::mt19937(1)](int, int) mutable { return generator() % 2; }));
+    for (std::size_t l = 1; l < levels.size(); ++l) {
+      // Level 5 has 10 bits after the point and level 6 the sum of two of those: 11 bits of mantissa.
+      EXPECT_NEAR(mean(levels[l]), expected, l < 6 ? 0 : 0x1p-12) << l;
+    }
+  }
+}
+
+TEST(BlurPyramid, OddSizesKeepTheMeanWhenCorrected) {
+  for (const std::array<int, 2> size : {std::array<int, 2>{5, 5}, {7, 4}, {33, 19}, {1, 9}, {255, 127}}) {
+    const auto value = [&](int x, int y) { return (x * 7 + y * 13) % 5 + (x == size[0] - 1 ? 8 : 0); };
+    const double expected = mean(image_of(size[0], size[1], value));
+    // In real arithmetic, by the double reading.
+    const BlurUniforms u = blur_uniforms(settings(true), size[0], size[1], 1);
+    const auto [width, height] = level_size(size[0], size[1], 1);
+    double sum = 0;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        sum += scalar::halved_corrected<D>(u, [&](int i, int j) { return D(static_cast<double>(value(std::min(2 * x + i, size[0] - 1), std::min(2 * y + j, size[1] - 1)))); }, x, y).v;
+      }
+    }
+    EXPECT_NEAR(sum / width / height, expected, 1e-6) << size[0] << "x" << size[1] << ": the weights are floats";
+    // As stored: half an ulp of a half for each texel, at worst in one direction.
+    const std::vector<Image> corrected = pyramid(settings(true), image_of(size[0], size[1], value));
+    for (std::size_t l = 1; l < corrected.size(); ++l) EXPECT_NEAR(mean(corrected[l]) / expected, 1, 0x1p-11 * static_cast<double>(l));
+    // As published the last column or row is not seen, where it is odd.
+    const Image published = std::move(pyramid(settings(false), image_of(size[0], size[1], value))[1]);
+    double seen = 0;
+    const int columns = size[0] == 1 ? 1 : size[0] / 2 * 2, rows = size[1] == 1 ? 1 : size[1] / 2 * 2;
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) seen += value(x, y);
+    }
+    EXPECT_NEAR(mean(published), seen / columns / rows, 1e-9) << "sums of small integers are exact";
+    if (size[0] % 2 && size[0] > 1) {
+      EXPECT_GT(std::abs(mean(published) / expected - 1), 0.01);
+    }
+  }
+}
+
+TEST(BlurPyramid, AConstantStaysAtEverySizeAndRounding) {
+  for (const bool corrected : {false, true}) {
+    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+      for (const std::array<int, 2> size : {std::array<int, 2>{37, 23}, {3, 1}, {1, 7}, {64, 9}, {2, 2}}) {
+        for (const double c : {0.1, 1.0 / 3, 7.0, 1234.5}) {
+          const double stored = to_float(to_half(static_cast<float>(c)));
+          for (const Image& level : pyramid(settings(corrected, rounding), image_of(size[0], size[1], [&](int, int) { return c; }))) {
+            for (int y = 0; y < level.height(); ++y) {
+              for (int x = 0; x < level.width(); ++x) ASSERT_EQ(at(level, x, y), stored);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(BlurPyramid, NoiseAndSpread) {
+  for (const bool corrected : {false, true}) {
+    std::mt19937 words(3);
+    const int side = 512;
+    const std::vector<Image> levels = pyramid(settings(corrected), image_of(side, side, [&](int, int) { return 0.125 * (words() % 256); }));
+    const auto variance = [&](const Image& i) {
+      const double m = mean(i);
+      double sum = 0;
+      for (int y = 0; y < i.height(); ++y) {
+        for (int x = 0; x < i.width(); ++x) sum += (at(i, x, y) - m) * (at(i, x, y) - m);
+      }
+      return sum / i.width() / i.height();
+    };
+    const double first = variance(levels[0]);
+    for (int l = 1; l <= 4; ++l) {
+      const double texels = std::pow(side >> l, 2);
+      // The sample variance of n values has a relative standard deviation of sqrt(2 / n); four of them.
+      EXPECT_NEAR(variance(levels[static_cast<std::size_t>(l)]) / first * std::pow(4, l), 1, 4 * std::sqrt(2 / texels)) << l;
+    }
+    // Variance of the point spread: (4^L - 1) / 12 square texels. Mean of x^2 less square of the mean of x, exact in halves.
+    for (int l = 1; l <= 3; ++l) {
+      const double x = at(pyramid(settings(corrected), image_of(8, 8, [](int i, int) { return i; }))[static_cast<std::size_t>(l)], 0, 0);
+      const double xx = at(pyramid(settings(corrected), image_of(8, 8, [](int i, int) { return i * i; }))[static_cast<std::size_t>(l)], 0, 0);
+      EXPECT_EQ(xx - x * x, (std::pow(4, l) - 1) / 12);
+    }
+  }
+}
+
+TEST(BlurPyramid, CorrectedKeepsTheCentreOfGravityOfOddSizes) {
+  // A ramp: with dropped columns its middle moves.
+  const auto ramp = [](int x, int) { return x; };
+  EXPECT_EQ(at(pyramid(settings(true), image_of(5, 5, ramp)).back(), 0, 0), 2);
+  EXPECT_EQ(at(pyramid(settings(false), image_of(5, 5, ramp)).back(), 0, 0), 1.5);
+}
+
+TEST(BlurPyramid, Fog) {
+  BlurSettings s = settings(true);
+  s.fog_density = 0.02;
+  s.fog_colour = {0.5, 0.25, 2};
+  const BlurUniforms u = blur_uniforms(s, 8, 8, 0);
+  const auto t = [&](double depth) { return scalar::transmittance(u, D(depth)).v; };
+  // T(a + b) = T(a) T(b), for the density as a float.
+  for (const double a : {0.0, 3.0, 50.0}) EXPECT_NEAR(t(a + 7) / (t(a) * t(7)), 1, 1e-12);
+  EXPECT_NEAR(t(50), std::exp(-1), 1e-7);
+  EXPECT_EQ(t(-4), 1) << "nothing lies behind the eye";
+
+  Image colour = image_of(3, 1, [](int, int) { return 1; }), depth(Format::r32f, 3, 1), out(Format::rgba16f, 3, 1);
+  depth.row<float>(0)[1] = 50;
+  depth.row<float>(0)[2] = 1e30f;
+  fog_level(two_threads(), u, Rounding::rne, colour, depth, out);
+  for (int c = 0; c < 3; ++c) {
+    const double fog = s.fog_colour[static_cast<std::size_t>(c)], own = c + 1;
+    EXPECT_EQ(at(out, 0, 0, c), own);
+    EXPECT_NEAR(at(out, 1, 0, c), fog + (own - fog) * std::exp(-1), 0x1p-11 * 2);
+    EXPECT_EQ(at(out, 2, 0, c), fog);
+    EXPECT_EQ(at(out, c, 0, 3), 1);
+  }
+}
+
+TEST(BlurPyramid, DecodedLevelsAreTheLevels) {
+  const std::vector<Image> levels = pyramid(settings(true), image_of(37, 21, [](int x, int y) { return x + 0.25 * y; }));
+  DecodedLevels decoded(levels);
+  decoded.refresh(two_threads(), levels);
+  const Texture& t = decoded.view();
+  ASSERT_EQ(t.levels, static_cast<int>(levels.size()));
+  for (int l = 0; l < t.levels; ++l) {
+    for (int y = 0; y < t.height[l]; ++y) {
+      for (int i = 0; i < 4 * t.width[l]; ++i) {
+        ASSERT_EQ(t.texels[t.offset[l] + 4 * t.width[l] * y + i], to_float(levels[static_cast<std::size_t>(l)].row<Half>(y)[i]));
+      }
+    }
+  }
+}
+
+// ---- bits ------------------------------------------------------------------------------------------------------------
+Image noise(int width, int height) {
+  std::mt19937 words(static_cast<unsigned>(width));
+  return image_of(width, height, [&](int, int) { return words() * 0x1p-30; });
+}
+
+TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
+  parallel::Executor executors[] = {parallel::Executor(1), parallel::Executor(2), parallel::Executor(3), parallel::Executor(8)};
+  for (int width = 1; width <= 33; ++width) {
+    const int height = 1 + width * 7 % 29;
+    for (const bool corrected : {false, true}) {
+      const BlurSettings s = settings(corrected, width % 2 ? Rounding::rne : Rounding::rtz);
+      Image depth(Format::r32f, width, height);
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) depth.row<float>(y)[x] = static_cast<float>(3 * x + 5 * y);
+      }
+      const Image colour = noise(width, height);
+      for (const std::string& target : simd_targets()) {
+        select_simd_target(target);
+        for (parallel::Executor& executor : executors) {
+          const int threads = executor.threads();
+          executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
+          Image fogged(Format::rgba16f, width, height);
+          const BlurUniforms fog = blur_uniforms(s, width, height, 0);
+          fog_level(executor, fog, s.rounding, colour, depth, fogged);
+          for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+              const Half* c = colour.row<Half>(y) + 4 * x;
+              const scalar::Vec3<F> f = scalar::fogged(fog, scalar::Vec3<F>(F::load(c), F::load(c + 1), F::load(c + 2)), F::load(depth.row<float>(y) + x));
+              Half expected[3];
+              store(&expected[0], f.x, s.rounding);
+              store(&expected[1], f.y, s.rounding);
+              store(&expected[2], f.z, s.rounding);
+              for (int k = 0; k < 3; ++k) ASSERT_EQ(fogged.row<Half>(y)[4 * x + k].bits, expected[k].bits) << target << " " << x << " " << y;
+            }
+          }
+          const std::vector<Image> levels = pyramid(s, std::move(fogged), executor);
+          for (std::size_t l = 1; l < levels.size(); ++l) {
+            const Image &above = levels[l - 1], &here = levels[l];
+            const BlurUniforms u = blur_uniforms(s, width, height, static_cast<int>(l));
+            for (int y = 0; y < here.height(); ++y) {
+              for (int x = 0; x < here.width(); ++x) {
+                for (int k = 0; k < 4; ++k) {
+                  const auto tap = [&](int i, int j) {
+                    return F::load(above.row<Half>(std::min(2 * y + j, above.height() - 1)) + 4 * std::min(2 * x + i, above.width() - 1) + k);
+                  };
+                  Half expected;
+                  store(&expected, corrected ? scalar::halved_corrected<F>(u, tap, x, y) : scalar::halved_as_published<F>(tap), s.rounding);
+                  ASSERT_EQ(here.row<Half>(y)[4 * x + k].bits, expected.bits) << target << " level " << l << " at " << x << " " << y;
+                }
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  select_simd_target("");
+}
+
+TEST(BlurPyramidDeterminism, FloatsAreWithinRoundingOfDoubles) {
+  for (const bool corrected : {false, true}) {
+    const int width = 35, height = 27;
+    const Image above = noise(width, height);
+    const BlurUniforms u = blur_uniforms(settings(corrected), width, height, 1);
+    for (int y = 0; y < height / 2; ++y) {
+      for (int x = 0; x < width / 2; ++x) {
+        const auto tap = [&](auto one, int i, int j) { return decltype(one)::load(above.row<Half>(std::min(2 * y + j, height - 1)) + 4 * std::min(2 * x + i, width - 1)); };
+        const auto value = [&](auto one) {
+          using N = decltype(one);
+          const auto of = [&](int i, int j) { return tap(N(0.0f), i, j); };
+          return corrected ? scalar::halved_corrected<N>(u, of, x, y) : scalar::halved_as_published<N>(of);
+        };
+        // Up to ten roundings of numbers no larger than twice the largest tap, 4.
+        ASSERT_NEAR(value(F(0.0f)).v, value(D(0.0f)).v, 10 * 8 * 0x1p-24);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rainref::blur_pyramid

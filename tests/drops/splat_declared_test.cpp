@@ -1,0 +1,72 @@
+// What splat and blur_pyramid declare: scene keys behind a prefix, uniform blocks, buffers.
+#include <gtest/gtest.h>
+
+#include "blur_pyramid/blur_pyramid.h"
+#include "drops/splat.h"
+#include "rainref/error.h"
+#include "scene/toml.h"
+
+namespace rainref {
+namespace {
+
+const std::vector<scene::Parameter>& keys() {
+  static const std::vector<scene::Parameter> all = [] {
+    std::vector<scene::Parameter> list = drops::splat_parameters("pane");
+    for (const scene::Parameter& p : blur_pyramid::blur_parameters("pane")) list.push_back(p);
+    return list;
+  }();
+  return all;
+}
+scene::Config config(const std::string& variant, const std::vector<std::string>& values) {
+  static const scene::EffectTable table{{{"pane", {"as-published", "corrected"}, keys()}}};
+  return scene::parse("effect = 'pane'\nvariant = '" + variant + "'\n", "test", values, table);
+}
+
+TEST(SplatDeclared, ScenesSetWhatTheVariantUses) {
+  const std::vector<std::string> variants{"as-published", "corrected"};
+  scene::validate(keys(), variants);
+  const drops::SplatKeys published = drops::splat_keys(
+      config("as-published", {"pane.kernel=disc", "pane.blend=max", "pane.rounding=rtz", "pane.accumulate=float", "pane.drop_radius=0.01", "pane.drop_height=2",
+                              "pane.height_size=[320, 200]"}), "pane");
+  EXPECT_EQ(published.kernel, drops::SplatKernel::disc);
+  EXPECT_EQ(published.blend, drops::SplatBlend::max);
+  EXPECT_EQ(published.rounding, Rounding::rtz);
+  EXPECT_FALSE(published.half_accumulation);
+  EXPECT_EQ(published.drop_radius, 0.01);
+  EXPECT_EQ(published.drop_height, 2);
+  EXPECT_EQ(published.width, 320);
+  EXPECT_EQ(published.height, 200);
+  EXPECT_TRUE(drops::splat_keys(config("as-published", {}), "pane").half_accumulation);
+  const drops::SplatKeys corrected = drops::splat_keys(config("corrected", {"pane.smallest_radius=2"}), "pane");
+  EXPECT_FALSE(corrected.half_accumulation);
+  EXPECT_EQ(corrected.smallest_radius, 2);
+  EXPECT_THROW(config("corrected", {"pane.accumulate=half"}), Error);
+
+  const blur_pyramid::BlurSettings blur = blur_pyramid::blur_settings(
+      config("corrected", {"pane.blur_levels=3", "pane.fog_density=0.5", "pane.fog_colour=[1, 2, 3]"}), "pane", Rounding::rtz);
+  EXPECT_TRUE(blur.corrected);
+  EXPECT_EQ(blur.levels, 3);
+  EXPECT_EQ(blur.fog_density, 0.5);
+  EXPECT_EQ(blur.fog_colour[2], 3);
+  EXPECT_EQ(blur.rounding, Rounding::rtz);
+}
+
+TEST(SplatDeclared, PassesAndTheirBuffers) {
+  // Making a block validates it: an error would throw.
+  const capture::PassInfo splat = drops::splat_info({"wipe_drops", "merge"}, "merge"), blur = blur_pyramid::blur_info("scene", "scene");
+  EXPECT_EQ(splat.block("corrected").size, sizeof(drops::SplatUniforms));
+  EXPECT_EQ(blur.block("as-published").size, sizeof(blur_pyramid::BlurUniforms));
+  capture::EffectInfo effect;
+  effect.buffers = drops::splat_buffers();
+  for (const capture::BufferInfo& b : blur_pyramid::blur_buffers()) effect.buffers.push_back(b);
+  for (const capture::PassInfo& pass : {splat, blur}) {
+    for (const std::string& name : pass.writes) EXPECT_NO_THROW(effect.buffer(name, "corrected"));
+    for (const capture::ReadInfo& read : pass.reads) {
+      if (read.buffer == "drops") continue;  // the list is another's
+      EXPECT_NO_THROW(effect.buffer(read.buffer, read.variant.empty() ? "as-published" : read.variant)) << read.buffer;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rainref
