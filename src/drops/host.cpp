@@ -74,7 +74,7 @@ IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame,
   return u;
 }
 
-MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double dt, int columns, int rows) {
+MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double dt, int columns, int rows, std::int64_t drying) {
   MergeUniforms u{};
   put(frame, u.frame);
   u.radius = static_cast<float>(radius_of_quantum(s));
@@ -82,11 +82,12 @@ MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double 
   u.dt = static_cast<float>(dt);
   u.film[0] = columns;
   u.film[1] = rows;
+  u.drying = static_cast<float>(drying);
   return u;
 }
 
 std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, double steps_per_second) {
-  return events_in(s.film_drying * texel_area * water_density / quantum, n, steps_per_second);
+  return std::min(events_in(s.film_drying * texel_area * water_density / quantum, n, steps_per_second), static_cast<std::int64_t>(most_quanta));
 }
 
 Flux flux(const Settings& s, double normal_z, double normal_wind) {

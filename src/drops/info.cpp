@@ -40,7 +40,8 @@ UniformBlock merge_block() {
                                                         member<&MergeUniforms::radius>("radius", "m", "Base radius over mass^(1/3)."),
                                                         member<&MergeUniforms::trail>("trail", "1/m^2", "Quanta left over base radius and way."),
                                                         member<&MergeUniforms::dt>("dt", "s", "The step."),
-                                                        member<&MergeUniforms::film>("film", "texel", "Columns and rows of the film.")});
+                                                        member<&MergeUniforms::film>("film", "texel", "Columns and rows of the film."),
+                                                        member<&MergeUniforms::drying>("drying", "1", "Quanta that each texel of the film loses in this step.")});
 }
 
 }  // namespace
@@ -68,15 +69,16 @@ std::vector<BufferInfo> buffers() {
 }
 
 PassInfo spawn_info(const std::string& last_writer_of_drops) {
-  return {"spawn", "New drops in free slots.", {{published, 1, Judge::bits, "SpawnUniforms"}, {correct, 1, Judge::bits, "SpawnUniforms"}},
+  return {"spawn", "New drops in free slots.", {{published, 1, Judge::keyed, "SpawnUniforms"}, {correct, 1, Judge::keyed, "SpawnUniforms"}},
           {{"drops", last_writer_of_drops, true}, {"count_thresholds", "", false, correct}, {"spawn_masses"}}, {"drops"}, {spawn_block()}};
 }
 PassInfo integrate_info(const std::string& before, const std::string& glass_frame_pass) {
   return {"integrate", "Forces, motion, evaporation and age of every drop.", {{published, 1, Judge::keyed, "IntegrateUniforms"}, {correct, 1, Judge::keyed, "IntegrateUniforms"}},
           {{"drops", before}, {"glass_frame", glass_frame_pass}}, {"drops"}, {integrate_block()}, "gather", {"the forces", "length"}};
 }
+// Which drops touch decides chains of any length, more alternatives than a judgement can hold apart: input_only.
 PassInfo merge_info(const std::string& before, const std::string& film_from) {
-  return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::keyed, "MergeUniforms"}},
+  return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::input_only, "MergeUniforms"}},
           {{"drops", before, false, correct}, {"film", film_from, true, correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
 }
 

@@ -134,6 +134,19 @@ void Trails(const MergeUniforms& uniforms, const Slots& s, std::int64_t begin, s
     });
   }
 }
+
+std::int64_t DryRow(const MergeUniforms& uniforms, float* row, int width) {
+  std::int64_t lost = 0;
+  for (int x = 0; x < width; x += Lanes::size()) {
+    const int count = std::min(Lanes::size(), width - x);
+    const Lanes before = Lanes::load(row + x);
+    if (!any(before > Lanes(0.0f))) continue;
+    const Lanes after = dried(uniforms, before);
+    store(row + x, after, Rounding::rne, count);
+    lost += whole_sum(before - after, count);
+  }
+  return lost;
+}
 RAINREF_TARGET_END(drops)
 
 #if RAINREF_ONCE
@@ -144,6 +157,7 @@ RAINREF_EXPORT(IntegrateCorrected);
 RAINREF_EXPORT(Measure);
 RAINREF_EXPORT(FindLarger);
 RAINREF_EXPORT(Trails);
+RAINREF_EXPORT(DryRow);
 
 std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin, std::int64_t end) {
   return RAINREF_DISPATCH(IntegrateAsPublished)(uniforms, glass, slots, begin, end);
@@ -160,6 +174,7 @@ void find_larger_range(const MergeGrid& grid, std::int64_t begin, std::int64_t e
 void trail_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, std::vector<Deposit>& deposits) {
   RAINREF_DISPATCH(Trails)(uniforms, slots, begin, end, deposits);
 }
+std::int64_t dry_row(const MergeUniforms& uniforms, float* row, int width) { return RAINREF_DISPATCH(DryRow)(uniforms, row, width); }
 
 }  // namespace rainref::drops
 #endif

@@ -34,5 +34,7 @@ struct Deposit {
 };
 /// Takes the trails from the drops and appends them, in slot order.
 void trail_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, std::vector<Deposit>& deposits);
+/// Dries a row of the film and returns what it lost.
+std::int64_t dry_row(const MergeUniforms& uniforms, float* row, int width);
 
 }  // namespace rainref::drops

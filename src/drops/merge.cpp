@@ -97,25 +97,22 @@ Ledger leave_trails(const parallel::Executor& executor, DropArrays& drops, const
   return ledger;
 }
 
-Ledger dry_film(const parallel::Executor& executor, Image& film, std::int64_t quanta) {
+Ledger dry_film(const parallel::Executor& executor, const MergeUniforms& uniforms, Image& film) {
   Ledger ledger;
-  if (quanta <= 0) return ledger;
-  const auto most = static_cast<float>(std::min(quanta, static_cast<std::int64_t>(most_quanta)));
+  if (!(uniforms.drying > 0)) return ledger;
   std::vector<std::int64_t> of_row(static_cast<std::size_t>(film.height()));
   executor.for_range(film.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t y = begin; y < end; ++y) {
-      float* row = film.row<float>(static_cast<int>(y));
-      std::int64_t sum = 0;
-      for (int x = 0; x < film.width(); ++x) {
-        const float loss = std::min(row[x], most);
-        row[x] -= loss;
-        sum += static_cast<std::int64_t>(loss);
-      }
-      of_row[static_cast<std::size_t>(y)] = sum;
-    }
+    for (std::int64_t y = begin; y < end; ++y) of_row[static_cast<std::size_t>(y)] = dry_row(uniforms, film.row<float>(static_cast<int>(y)), film.width());
   });
   for (const std::int64_t sum : of_row) ledger.evaporated += sum;
   ledger.to_film = -ledger.evaporated;
+  return ledger;
+}
+
+Ledger Merger::run(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
+  merge(executor, drops, uniforms);
+  Ledger ledger = dry_film(executor, uniforms, film);
+  ledger += leave_trails(executor, drops, uniforms, film);
   return ledger;
 }
 

@@ -27,6 +27,10 @@ RAINREF_FN DropState<N> absorb(const DropState<N>& a, const DropState<N>& b) {
   return out;
 }
 
+/// The film after a step of drying. Trails come on top of it.
+template <class N>
+RAINREF_FN N dried(const MergeUniforms& c, N film) { return max(film - N(c.drying), N(0.0f)); }
+
 /// What a sliding drop leaves on the glass, and where: under its tail, one base radius behind the centre.
 template <class N>
 struct Trail {

@@ -25,26 +25,29 @@ Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& dr
 /// integrate, corrected.
 Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass);
 
-/// merge, corrected, first part: drops that touch become one. Each drop points to the touching drop that is the largest
-/// of those larger than itself (by mass; of equal ones the lower id is the larger), and the drop at the end of the chain
-/// takes all that lead to it, in ascending id, as long as it holds no more than most_quanta. The result depends on the ids
-/// alone, not on slots. Keeps its working memory between calls.
+/// merge, corrected: drops that touch become one, the film (r32f, whole quanta in a texel) dries, and sliding drops leave
+/// trails on it. Keeps its working memory between calls.
 class Merger {
  public:
   Merger();
   ~Merger();
-  /// Returns how many drops ended in another one; water and momentum are kept.
+  /// The whole pass.
+  Ledger run(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
+
+  /// Its first part; water and momentum are kept. Returns how many drops ended in another one.
+  /// Each drop points to the touching drop that is the largest of those larger than itself (by mass; of equal ones the
+  /// lower id is the larger), and the drop at the end of the chain takes all that lead to it, in ascending id, as long as
+  /// it holds no more than most_quanta. The result depends on the ids alone, not on slots.
   std::int64_t merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms);
 
  private:
   struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };
-/// merge, corrected, second part: sliding drops leave quanta on the film (r32f, whole quanta in a texel). What a texel
-/// cannot hold beyond most_quanta is removed.
+/// Its second part: every texel of the film loses uniforms.drying.
+Ledger dry_film(const parallel::Executor& executor, const MergeUniforms& uniforms, Image& film);
+/// Its third part. What a texel cannot hold beyond most_quanta is removed.
 Ledger leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
-/// Takes up to `quanta` from every texel of the film.
-Ledger dry_film(const parallel::Executor& executor, Image& film, std::int64_t quanta);
 /// Quanta that the film holds.
 std::int64_t film_water(const Image& film);
 

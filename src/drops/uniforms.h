@@ -42,8 +42,10 @@ struct MergeUniforms {
   float trail;          ///< loss over base radius and way in a step [quanta/m^2]
   float dt;             ///< [s]
   std::int32_t film[2]; ///< columns and rows of the film [texel]
+  float drying;         ///< what each texel of the film loses in this step, whole [quanta]
+  float padding0, padding1, padding2;
 };
 
-static_assert(sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 64 && sizeof(MergeUniforms) == 32);
+static_assert(sizeof(SpawnUniforms) == 48 && sizeof(IntegrateUniforms) == 64 && sizeof(MergeUniforms) == 48);
 
 }  // namespace rainref::drops

@@ -10,7 +10,7 @@ TEST(DropsInfo, BlocksAndRecordsHaveOneLayoutInEveryLanguage) {
   EXPECT_EQ(records().size(), 4u);
   EXPECT_EQ(spawn_info("merge").uniforms.front().size, 48u);
   EXPECT_EQ(integrate_info("spawn", "windshield_frame").uniforms.front().size, 64u);
-  EXPECT_EQ(merge_info("wipe_drops", "merge").uniforms.front().size, 32u);
+  EXPECT_EQ(merge_info("wipe_drops", "merge").uniforms.front().size, 48u);
 }
 
 TEST(DropsInfo, BuffersOfPassesAreDeclared) {

@@ -27,10 +27,10 @@ TEST(DropsLedger, IsExactlyZeroOverALongRun) {
     const SpawnPlan& plan = arrivals.plan({1.12, 0.89, -speed * 0.45}, n, fps, a.next_id(), a.free_slots());
     sum += spawn(a, plan.uniforms, plan.thresholds, plan.masses, true);
     sum += integrate_corrected(executor, a, integrate_uniforms(s, test::frame, 1 / fps), test::glass_of(0.5, -4.45, 0, wind));
-    const MergeUniforms merge = merge_uniforms(s, test::frame, 1 / fps, 64, 32);
-    merged += merger.merge(executor, a, merge);
-    sum += leave_trails(executor, a, merge, film);
-    sum += dry_film(executor, film, film_loss(s, 1.12 / (64 * 32), n, fps));
+    const MergeUniforms merge = merge_uniforms(s, test::frame, 1 / fps, 64, 32, film_loss(s, 1.12 / (64 * 32), n, fps));
+    const std::int64_t before = a.live();
+    sum += merger.run(executor, a, merge, film);
+    merged += before - a.live();
     ASSERT_EQ(sum.to_film, film_water(film)) << n;
     ASSERT_EQ(sum.spawned - sum.evaporated - sum.removed - sum.to_film, a.water()) << n;
     most_live = std::max(most_live, a.live());

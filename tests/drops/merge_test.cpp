@@ -12,7 +12,7 @@ namespace {
 using test::drop;
 using test::F;
 
-const MergeUniforms uniforms = merge_uniforms(Settings(), test::frame, 1.0 / 60, 64, 32);
+const MergeUniforms uniforms = merge_uniforms(Settings(), test::frame, 1.0 / 60, 64, 32, 4);
 float radius_of(float mass) { return scalar::base_radius(uniforms, F(mass)).v; }
 
 std::vector<Drop> merged(std::vector<Drop> drops, const MergeUniforms& u = uniforms, int threads = 1, std::int64_t* ended = nullptr) {
@@ -219,7 +219,7 @@ TEST(Film, OverflowAndDryingAreAccountedFor) {
   EXPECT_EQ(static_cast<float>(trail.to_film + trail.removed), mass - a.mass()[0]);
   film.row<float>(3)[5] = 2;
   film.row<float>(3)[6] = 9;
-  const Ledger dried = dry_film(executor, film, 4);
+  const Ledger dried = dry_film(executor, uniforms, film);
   EXPECT_EQ(dried.evaporated, 2 + 4 + 4);
   EXPECT_EQ(dried.to_film, -10);
   EXPECT_EQ(film.row<float>(3)[5], 0);

@@ -32,10 +32,6 @@ GlassFrame busy_glass() {
   return g;
 }
 
-struct Result {
-  const char* name;
-  double scale;  ///< what an error of 1 relative would be
-};
 // Everything that the texts give for one drop: motion, then whole numbers.
 template <class N>
 void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::vector<N>& whole) {
@@ -45,11 +41,11 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
   const GlassFrame glass = busy_glass();
   const auto p = every::integrate_as_published<N>(integrate_uniforms(published, {}, dt), glass, d);
   const auto c = every::integrate_corrected<N>(integrate_uniforms(Settings(), test::frame, dt), glass, d);
-  const MergeUniforms merge = merge_uniforms(Settings(), test::frame, dt, 8, 8);
+  const MergeUniforms merge = merge_uniforms(Settings(), test::frame, dt, 8, 8, 3);
   const auto both = every::absorb<N>(d, o);
   const auto left = every::trail<N>(merge, d);
   motion = {p.u, p.v, p.velocity_u, p.velocity_v, p.life, c.drop.u, c.drop.v, c.drop.velocity_u, c.drop.velocity_v, c.drop.life, both.u, both.v, both.velocity_u, both.velocity_v, left.u, left.v, every::base_radius<N>(merge, d.mass)};
-  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.quanta};
+  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.quanta, every::dried<N>(merge, N(drop.mass))};
 }
 
 class DropsReadings : public testing::Test {
