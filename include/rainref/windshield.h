@@ -60,7 +60,7 @@ class Windshield {
   const Image& height() const;   ///< r16f [mm]
   const Image& mask() const;     ///< r16f: 1 just wiped
   const Image& film() const;     ///< corrected: r32f, whole quanta in a texel
-  const Image& normal() const;   ///< rgba16f: normal in the axes of the glass, height [mm]
+  const Image& normal() const;   ///< rgba16f: normal in the axes of the glass
   const Image& colour() const;   ///< rgba16f: linear radiance
   const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
 

@@ -30,10 +30,10 @@ struct Water {
   N mask;          ///< 1: just wiped
 };
 template <class N>
-RAINREF_FN Water<N> water_at(const Texture& normal, const Texture& mask, const GlassPoint<N>& g) {
-  const auto n = sample_bilinear<0, 4, N>(normal, g.u, g.v);
+RAINREF_FN Water<N> water_at(const Texture& height, const Texture& normal, const Texture& mask, const GlassPoint<N>& g) {
+  const auto n = sample_bilinear<0, 3, N>(normal, g.u, g.v);
   const N m = saturate(sample_bilinear<0, 1, N>(mask, g.u, g.v)[0]);
-  return {Vec3<N>(n[0], n[1], max(n[2], N(0.05f))), n[3], m};
+  return {Vec3<N>(n[0], n[1], max(n[2], N(0.05f))), sample_bilinear<0, 1, N>(height, g.u, g.v)[0], m};
 }
 /// In camera axes.
 template <class N>
@@ -70,9 +70,9 @@ RAINREF_FN N highlight(const Vec3<N>& normal, const Vec3<N>& to_light, const Vec
 // then film over the scene by wetness, drops over the film by their visibility, both cut by the wiper mask; glints from the
 // perturbed normal. The article leaves the sign of the offset open; here the picture moves along n.xy (E0 10).
 template <class N>
-RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Texture& pyramid, const Texture& normal, const Texture& mask, const Glint* glints, int column, int row) {
+RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Texture& pyramid, const Texture& height, const Texture& normal, const Texture& mask, const Glint* glints, int column, int row) {
   const GlassPoint<N> g = glass_point<N>(c, column, row);
-  const Water<N> w = water_at<N>(normal, mask, g);
+  const Water<N> w = water_at<N>(height, normal, mask, g);
   const N wet = N(1.0f) - w.mask;
   const N visibility = smoothstep(c.visible_from, c.visible_to, w.height) * wet;
   const N su = scene_u(c, g.x), sv = scene_v(c, g.y), strength = N(c.refraction) * visibility;
@@ -101,11 +101,11 @@ RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, con
   return refract(inside, N(-1.0f) * surface, ior);
 }
 template <class N>
-RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Texture& pyramid, const Texture& depth, const Texture& normal, const Texture& mask, const Glint* glints, int column,
-                                       int row) {
+RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Texture& pyramid, const Texture& depth, const Texture& height, const Texture& normal, const Texture& mask, const Glint* glints,
+                                       int column, int row) {
   const N one(1.0f), zero(0.0f);
   const GlassPoint<N> g = glass_point<N>(c, column, row);
-  const Water<N> w = water_at<N>(normal, mask, g);
+  const Water<N> w = water_at<N>(height, normal, mask, g);
   const N wet = one - w.mask;
   const N visibility = smoothstep(c.visible_from, c.visible_to, w.height);
 

@@ -19,8 +19,8 @@ RAINREF_TARGET_BEGIN(windshield)
 void CompositeRows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      const Vec3<Lanes> c = corrected ? composite_corrected<Lanes>(uniforms, *in.pyramid, *in.depth, *in.normal, *in.mask, in.glints.data(), x, y)
-                                      : composite_as_published<Lanes>(uniforms, *in.pyramid, *in.normal, *in.mask, in.glints.data(), x, y);
+      const Vec3<Lanes> c = corrected ? composite_corrected<Lanes>(uniforms, *in.pyramid, *in.depth, *in.height, *in.normal, *in.mask, in.glints.data(), x, y)
+                                      : composite_as_published<Lanes>(uniforms, *in.pyramid, *in.height, *in.normal, *in.mask, in.glints.data(), x, y);
       const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
       store4(colour.row<Half>(y) + 4 * x, rgba, rounding);
     }

@@ -45,7 +45,7 @@ scene::Camera camera(const PictureSettings& settings);
 double widened_fov(const PictureSettings& settings);
 
 struct CompositeInputs {
-  const Texture *pyramid, *depth, *normal, *mask;  ///< depth: as-published does not look at it
+  const Texture *pyramid, *depth, *height, *normal, *mask;  ///< depth: as-published does not look at it
   std::span<const Glint> glints;
 };
 /// colour: rgba16f, alpha 1.

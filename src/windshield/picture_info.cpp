@@ -41,7 +41,7 @@ std::vector<PassInfo> picture_passes() {
   constexpr auto envelope = Judge::envelope;
   return {
       {"composite", "The scene through film and drops, with glints: linear radiance.", {{published, 1, envelope, "CompositeUniforms"}, {correct, 1, envelope, "CompositeUniforms"}},
-       {{"blurred", "blur_pyramid"}, {"scene_depth", "", false, correct}, {"normal", "normals"}, {"mask", "wipe_texture"}, {"glints"}}, {"colour"}, {composite}, "gather", lengths},
+       {{"blurred", "blur_pyramid"}, {"scene_depth", "", false, correct}, {"height", "wipe_texture"}, {"normal", "normals"}, {"mask", "wipe_texture"}, {"glints"}}, {"colour"}, {composite}, "gather", lengths},
       {"display", "Display code.", {{published, 1, envelope, "DisplayUniforms"}, {correct, 1, envelope, "DisplayUniforms"}}, {{"colour", "composite"}}, {"picture"}, {display}},
   };
 }

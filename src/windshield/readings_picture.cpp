@@ -14,13 +14,13 @@ struct Composite {
   int width, height, values = 4;
   CompositeUniforms uniforms;
   bool corrected;
-  BoundTexture pyramid, depth, normal, mask;
+  BoundTexture pyramid, depth, water, normal, mask;
   std::vector<Glint> glints;
 
   template <class N>
   void operator()(int x, int y, N* out) const {
-    const plain::Vec3<N> c = corrected ? every::composite_corrected<N>(uniforms, pyramid.view(), depth.view(), normal.view(), mask.view(), glints.data(), x, y)
-                                       : every::composite_as_published<N>(uniforms, pyramid.view(), normal.view(), mask.view(), glints.data(), x, y);
+    const plain::Vec3<N> c = corrected ? every::composite_corrected<N>(uniforms, pyramid.view(), depth.view(), water.view(), normal.view(), mask.view(), glints.data(), x, y)
+                                       : every::composite_as_published<N>(uniforms, pyramid.view(), water.view(), normal.view(), mask.view(), glints.data(), x, y);
     out[0] = c.x;
     out[1] = c.y;
     out[2] = c.z;
@@ -55,6 +55,7 @@ std::unique_ptr<PassModel> bind_composite(const PassCase& c) {
   m.uniforms = capture::uniforms_of<CompositeUniforms>(c);
   m.corrected = c.corrected();
   m.pyramid = texture("blurred");
+  m.water = texture("height");
   m.normal = texture("normal");
   m.mask = texture("mask");
   if (m.corrected) m.depth = texture("scene_depth");

@@ -1,5 +1,7 @@
 // A view from a place ahead of where a picture was taken. The point seen along (x, y, 1) at depth d lies in the picture's
-// camera at P = d (x, y, 1) + way, where the picture holds its depth; d follows by fixed-point iteration.
+// camera at P = d (x, y, 1) + way, where the picture holds its depth D, which should be d + way.z. One step of
+//   d + (D - way.z - d) d / (d + way.z)
+// finds d exactly on level ground, where a plain fixed-point step diverges; others follow in a few.
 
 template <class N>
 struct SeenFrom {
@@ -10,9 +12,9 @@ template <class N>
 RAINREF_FN SeenFrom<N> seen_from(const ReprojectUniforms& r, const Texture& colour, const Texture& depth, N x, N y, float way) {
   const N half(0.5f), su = uniform_quotient(0.5f, r.half_size[0], N()), sv = uniform_quotient(0.5f, r.half_size[1], N()), nearest(0.5f);
   const N wx = N(way * r.forward[0]), wy = N(way * r.forward[1]), wz = N(way * r.forward[2]);
-  N u = half + x * su, v = half + y * sv, d = nearest;
-  for (int round = 0; round < 3; ++round) {
-    d = max(sample_nearest<0, 1, N>(depth, u, v)[0] - wz, nearest);
+  N u = half + x * su, v = half + y * sv, d = max(sample_nearest<0, 1, N>(depth, u, v)[0], nearest);
+  for (int round = 0; round < 4; ++round) {
+    if (round > 0) d = max(d + (sample_nearest<0, 1, N>(depth, u, v)[0] - wz - d) * (d / (d + max(wz, N(0.0f)))), nearest);
     const N deep = N(1.0f) / max(d + wz, nearest);
     u = half + ((d * x + wx) * deep) * su;
     v = half + ((d * y + wy) * deep) * sv;

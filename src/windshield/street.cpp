@@ -74,7 +74,7 @@ void StreetDrive::look(double odometer, bool moves, SceneView& view) {
     view.depth = Image(Format::r32f, s.width, s.height);
   }
   const int k = static_cast<int>(place / spacing);
-  const Keyframe &older = s.keyframe(k - 1), &newer = s.keyframe(k);
+  const Keyframe &older = s.keyframe(std::max(k - 1, 0)), &newer = s.keyframe(k);
   s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k - 1));
   const double gone = place - k * spacing;
   const scene::Camera::Basis basis = s.camera.basis();
@@ -89,8 +89,9 @@ void StreetDrive::look(double odometer, bool moves, SceneView& view) {
   u.forward[1] = static_cast<float>(glm::dot(way, basis.up));
   u.forward[2] = static_cast<float>(glm::dot(way, basis.forward));
   u.newer_by = static_cast<float>(gone);
-  u.older_by = static_cast<float>(gone + spacing);
-  u.weight = static_cast<float>(gone / spacing);
+  u.older_by = static_cast<float>(k == 0 ? gone : gone + spacing);
+  // The older picture fades out after a new one was taken; before the first there is none.
+  u.weight = k == 0 ? 1.0f : static_cast<float>(std::min(1.0, gone / 3));
   s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, newer, older, view, tile); });
 }
 

@@ -22,8 +22,8 @@ struct SceneView {
 constexpr double street_far = 1000;
 
 /// Views of the street for a car that has gone `odometer` metres along it, straight on; after street_length metres it
-/// starts again. The street is rendered every `spacing` metres; between, each view is made from the two behind it by
-/// their depth, faded from one into the other. The same bits on every machine.
+/// starts again. The street is rendered every `spacing` metres; between, each view is made from the last one by its depth, which
+/// fades in over the one before. The same bits on every machine.
 class StreetDrive {
  public:
   static constexpr double street_length = 400, spacing = 8;

@@ -60,7 +60,7 @@ struct Windshield::State {
   std::optional<StreetDrive> street;
   std::vector<Image> levels;
   std::optional<blur_pyramid::DecodedLevels> pyramid;
-  TextureData depth_texture, normal_texture, mask_texture;
+  TextureData depth_texture, height_texture, normal_texture, mask_texture;
   std::vector<Glint> lights;
   int scene_version = 0, shown_version = -1;
 
@@ -177,13 +177,12 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   }
 
   if (corrected) {
-    const drops::MergeUniforms merge = drops::merge_uniforms(settings.drops, plane.frame, dt, film.width(), film.height());
+    const double texel_area = glass.area / (static_cast<double>(film.width()) * film.height());
+    const std::int64_t drying = drops::film_loss(settings.drops, texel_area, steps, settings.fps * settings.substeps);
+    const drops::MergeUniforms merge = drops::merge_uniforms(settings.drops, plane.frame, dt, film.width(), film.height(), drying);
     if (recorder) announce(recorder, substep, "merge", dt, merge, {{"drops", list_drops()}, {"film", film}});
     Stopwatch merge_clock;
-    merger.merge(executor, drops, merge);
-    ledger += drops::leave_trails(executor, drops, merge, film);
-    const double texel_area = glass.area / (static_cast<double>(film.width()) * film.height());
-    ledger += drops::dry_film(executor, film, drops::film_loss(settings.drops, texel_area, steps, settings.fps * settings.substeps));
+    ledger += merger.run(executor, drops, merge, film);
     const double merged = merge_clock.seconds();
     if (recorder) report(recorder, substep, "merge", {{"drops", list_drops()}, {"film", film}}, merged);
   }
@@ -261,6 +260,7 @@ void Windshield::render(Recorder* recorder) {
     s.levels = blur_pyramid::make_levels(settings.blur, width, height);
     s.pyramid.emplace(s.levels);
     s.depth_texture = TextureData(s.scene.depth, Address::clamp, Address::clamp);
+    s.height_texture = TextureData(s.height, Address::clamp, Address::clamp);
     s.normal_texture = TextureData(s.normal, Address::clamp, Address::clamp);
     s.mask_texture = TextureData(s.mask, Address::clamp, Address::clamp);
   }
@@ -285,16 +285,17 @@ void Windshield::render(Recorder* recorder) {
     decode(executor, s.scene.depth, s.depth_texture);
     s.shown_version = s.scene_version;
   }
+  decode(executor, s.height, s.height_texture);
   decode(executor, s.normal, s.normal_texture);
   decode(executor, s.mask, s.mask_texture);
   const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners, static_cast<int>(s.levels.size()));
-  const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
-  const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
+  const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.height_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
+  const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
       lights{"glints", records(s.lights)};
   if (s.corrected) {
-    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, normal, mask, lights});
+    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, water, normal, mask, lights});
   } else {
-    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, normal, mask, lights});
+    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, water, normal, mask, lights});
   }
   const auto tiles = [&](const std::function<void(const parallel::Tile&)>& body) {
     executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), picture_tile_rows, body);

@@ -3,10 +3,11 @@
 #include "port.glsl"
 #include "composite.glsl"
 layout(binding = 1) uniform sampler2D pyramid;
-layout(binding = 2) uniform sampler2D normals;
-layout(binding = 3) uniform sampler2D mask;
-layout(std430, binding = 4) readonly buffer Glints { Glint glints[]; };
-layout(binding = 5) uniform writeonly image2D colour;
+layout(binding = 2) uniform sampler2D heights;
+layout(binding = 3) uniform sampler2D normals;
+layout(binding = 4) uniform sampler2D mask;
+layout(std430, binding = 5) readonly buffer Glints { Glint glints[]; };
+layout(binding = 6) uniform writeonly image2D colour;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -16,7 +17,7 @@ void main() {
   vec3 n = vec3(water.xy, max(water.z, 0.05));
   float wet = 1.0 - clamp(textureLod(mask, g.uv, 0.0).x, 0.0, 1.0);
   if (BUG == 1410) wet = 1.0 - wet;
-  float visibility = shown(water.w) * (BUG == 1411 ? 1.0 : wet);
+  float visibility = shown(textureLod(heights, g.uv, 0.0).x) * (BUG == 1411 ? 1.0 : wet);
   vec2 screen = scene_at(g.place), offset = u.refraction * visibility * n.xy;
   if (BUG == 1412) offset = -offset;
   if (BUG == 1413) offset = u.refraction * n.xy;

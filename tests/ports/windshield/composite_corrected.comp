@@ -4,10 +4,11 @@
 #include "composite.glsl"
 layout(binding = 1) uniform sampler2D pyramid;
 layout(binding = 2) uniform sampler2D scene_depth;
-layout(binding = 3) uniform sampler2D normals;
-layout(binding = 4) uniform sampler2D mask;
-layout(std430, binding = 5) readonly buffer Glints { Glint glints[]; };
-layout(binding = 6) uniform writeonly image2D colour;
+layout(binding = 3) uniform sampler2D heights;
+layout(binding = 4) uniform sampler2D normals;
+layout(binding = 5) uniform sampler2D mask;
+layout(std430, binding = 6) readonly buffer Glints { Glint glints[]; };
+layout(binding = 7) uniform writeonly image2D colour;
 
 // Snell's refraction of unit v at unit n (against v); zero at total reflection.
 vec3 bend(vec3 v, vec3 n, float eta) {
@@ -29,7 +30,7 @@ void main() {
   vec4 water = textureLod(normals, g.uv, 0.0);
   vec3 n = vec3(water.xy, max(water.z, 0.05));
   float m = clamp(textureLod(mask, g.uv, 0.0).x, 0.0, 1.0), wet = BUG == 1431 ? m : 1.0 - m;
-  float visibility = shown(water.w);
+  float visibility = shown(textureLod(heights, g.uv, 0.0).x);
 
   vec3 ray = normalize(vec3(g.place, 1.0)), surface = to_camera(n);
   if (BUG == 1432) surface = to_camera(vec3(-n.xy, n.z));
