@@ -20,18 +20,19 @@ double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 double volume_of_quantum() { return quantum / water_density; }
 Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.receding_deg * pi / 180}; }
 
-/// Calls f(diameter [mm], arrivals [1/m^2/s]) for each cell of the size distribution, smallest first.
-template <class F>
-void for_sizes(const Settings& s, double normal_z, double normal_wind, F f) {
-  if (s.rain_rate == 0) return;
+std::vector<SizeCell> sizes_in_air(const Settings& s) {
+  std::vector<SizeCell> out;
+  if (!s.corrected || s.rain_rate == 0) return out;
   const double lambda = rain::DropSizes(s.rain_rate, s.smallest_drop).lambda();
   const double h = (rain::DropSizes::largest_mm - s.smallest_drop) / cells;
   for (int i = 0; i < cells; ++i) {
     const double d = s.smallest_drop + (i + 0.5) * h;
-    const double onto = rain::terminal_velocity(d) * normal_z - normal_wind;
-    if (onto > 0) f(d, 8000 * exp_real(Real64(-lambda * d)).v * onto * h);
+    out.push_back({d, 8000 * exp_real(Real64(-lambda * d)).v * h, rain::terminal_velocity(d)});
   }
+  return out;
 }
+/// [1/m^2/s]
+double arrivals_of(const SizeCell& c, double normal_z, double normal_wind) { return c.number * std::max(0.0, c.fall * normal_z - normal_wind); }
 double water_mass(double diameter_mm) { return water_density * pi / 6 * diameter_mm * diameter_mm * diameter_mm * 1e-9; }
 float quanta_of(double diameter_mm) {
   // Whole, at least 1, and a float has them all.
@@ -92,12 +93,15 @@ std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, dou
 
 Flux flux(const Settings& s, double normal_z, double normal_wind) {
   Flux sum{0, 0};
-  for_sizes(s, normal_z, normal_wind, [&](double d, double arrivals) {
+  for (const SizeCell& c : sizes_in_air(s)) {
+    const double arrivals = arrivals_of(c, normal_z, normal_wind);
     sum.drops += arrivals;
-    sum.water += arrivals * water_mass(d);
-  });
+    sum.water += arrivals * water_mass(c.diameter);
+  }
   return sum;
 }
+
+Arrivals::Arrivals(const Settings& settings) : settings_(settings), sizes_(sizes_in_air(settings)) {}
 
 void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
   if (e == made_for_ && steps_per_second == made_rate_) return;
@@ -108,18 +112,21 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
       plan_.masses.push_back({static_cast<float>(settings_.mass_min + (settings_.mass_max - settings_.mass_min) * ((k + 0.5) / classes))});
     }
   } else {
-    const double total = flux(settings_, e.normal_z, e.normal_wind).drops;
+    double total = 0;
+    for (const SizeCell& c : sizes_) total += arrivals_of(c, e.normal_z, e.normal_wind);
     plan_.mean = total * e.area / steps_per_second;
     plan_.uniforms.parts = 1 + static_cast<std::uint32_t>(plan_.mean / random::PoissonTable::max_mean);
     const random::PoissonTable table(plan_.mean / plan_.uniforms.parts);
     plan_.uniforms.first_count = table.first();
     for (const std::uint32_t t : table.thresholds()) plan_.thresholds.push_back({t});
+    // Class k stands for the drops around the quantile (k + 1/2) / classes.
     double sum = 0;
-    for_sizes(settings_, e.normal_z, e.normal_wind, [&](double d, double arrivals) {
+    for (const SizeCell& c : sizes_) {
+      const double arrivals = arrivals_of(c, e.normal_z, e.normal_wind);
       sum += arrivals;
-      // Class k stands for the drops around the quantile (k + 1/2) / classes.
-      while (static_cast<int>(plan_.masses.size()) < classes && sum >= total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes)) plan_.masses.push_back({quanta_of(d)});
-    });
+      const auto next = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
+      while (arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next()) plan_.masses.push_back({quanta_of(c.diameter)});
+    }
     // Where no drop arrives, the table is still one.
     while (static_cast<int>(plan_.masses.size()) < classes) plan_.masses.push_back(plan_.masses.empty() ? SpawnMass{1} : plan_.masses.back());
   }

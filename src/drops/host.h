@@ -40,10 +40,17 @@ struct SpawnPlan {
   double mean = 0;                         ///< expected arrivals
 };
 
-/// The arrivals of an effect. Keeps the tables of the last exposure, which cost a millisecond to make.
+/// A cell of the distribution of drop sizes in the air.
+struct SizeCell {
+  double diameter;  ///< [mm]
+  double number;    ///< drops of this cell in the air [1/m^3]
+  double fall;      ///< terminal velocity [m/s]
+};
+
+/// The arrivals of an effect. Keeps the tables of the last exposure.
 class Arrivals {
  public:
-  explicit Arrivals(const Settings& settings) : settings_(settings) {}
+  explicit Arrivals(const Settings& settings);
   /// What arrives in step n of so many a second. first_id: DropArrays::next_id(); room: its free slots.
   /// corrected: drops of diameter D [mm] arrive at N(D) max(0, v(D) normal_z - normal_wind) on each m^2, Marshall and
   /// Palmer's N(D), Gunn and Kinzer's v(D); a Poisson number of them. as-published (the source is silent): the count
@@ -53,6 +60,7 @@ class Arrivals {
  private:
   void make_tables(const Exposure& exposure, double steps_per_second);
   Settings settings_;
+  std::vector<SizeCell> sizes_;  // smallest first
   Exposure made_for_{-1, 0, 0};
   double made_rate_ = 0;
   SpawnPlan plan_;

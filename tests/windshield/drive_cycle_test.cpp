@@ -76,6 +76,8 @@ TEST(DriveCycle, SlopesAreFritschAndButlands) {
   EXPECT_NEAR(parabola.derivative(2), 2 * 3 * 5 / (3 + 5.0), 1e-15);
   EXPECT_NEAR(parabola.derivative(0), 0, 1e-15);  // the parabola through the first three points
   EXPECT_NEAR(parabola.derivative(3), 6, 1e-14);
+  // Steps of 1 and 2, chords of 1 and 2: the weight of a chord grows with the other step.
+  EXPECT_NEAR(Pchip({0, 1, 3}, {0, 1, 5}).derivative(1), (5 + 4) / (5 / 1.0 + 4 / 2.0), 1e-15);
   EXPECT_EQ(parabola.value(-5), 0);
   EXPECT_EQ(parabola.value(8), 9);
   EXPECT_EQ(parabola.derivative(8), 0);

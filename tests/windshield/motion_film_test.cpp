@@ -80,6 +80,28 @@ TEST(MotionFilm, FilmIsClearedWhereItIsSwept) {
   }
 }
 
+// Where two sweeps overlap, the first record has the texel.
+TEST(MotionFilm, TheFirstRecordTakesATexel) {
+  const std::vector<Wiper> records =
+      wipers_between(default_wipers(default_glass(), "opposed"), default_glass().plane(), 0, 0.5, corrected);
+  const WipeDropsUniforms u = uniforms_of(records, corrected, 140, 80);
+  int shared = 0;
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 140; ++x) {
+      const Real2 p = default_glass().plane().to_plane({(x + 0.5) / 140, (y + 0.5) / 80});
+      // Inside of both by more than rounding.
+      bool in_both = true;
+      for (const Wiper& w : records) {
+        if (w.direction != 0) in_both = in_both && sweep_distance(w, {p[0], p[1]}) < w.half_width - 1e-6;
+      }
+      if (!in_both) continue;
+      ++shared;
+      ASSERT_EQ(motion_scalar::swept_texel<N>(u, records.data(), x, y).wiper.v, 0) << x << "," << y;
+    }
+  }
+  EXPECT_GT(shared, 100);
+}
+
 // The lowest id in the bin takes it, wherever it lies in memory.
 TEST(MotionFilm, TheLowestIdTakesTheFilm) {
   const WiperSettings s = inner_blade();

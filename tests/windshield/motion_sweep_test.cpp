@@ -72,6 +72,18 @@ TEST(MotionSweep, TheQuadLosesWhatTheChordCuts) {
   EXPECT_FALSE(motion_scalar::in_quad(uniforms_of(records, false), records[0], x, y));
 }
 
+// A move too small for the axes' floats: its sector is no wider than the blade, and does not reach through the pivot.
+TEST(MotionSweep, ATinyMoveSweepsOneSideOfThePivot) {
+  Wiper w{};
+  w.previous_axis[0] = w.axis[0] = 1;
+  w.inner_radius = 0.2f;
+  w.outer_radius = 0.6f;
+  w.half_width = 0.01f;
+  w.direction = 1;
+  EXPECT_TRUE(motion_scalar::in_sweep(w, N(0.4f), N(0.0f)));
+  EXPECT_FALSE(motion_scalar::in_sweep(w, N(-0.4f), N(0.0f)));
+}
+
 // However fast the blade and slow the frames: each point of the whole stroke is swept by one of its steps.
 TEST(MotionSweep, FastWipersLeaveNoGap) {
   std::mt19937 random(7);

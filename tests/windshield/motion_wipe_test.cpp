@@ -132,6 +132,18 @@ TEST(MotionWipe, AStrokeLeavesTheUnsweptShare) {
   }
 }
 
+TEST(MotionWipe, NoDropsAndNoBladesAreFine) {
+  Image film(Format::r32f, 4, 4);
+  film.row<float>(2)[2] = 7;
+  DropArrays none(0), some = random_drops(5, 1);
+  const DropArrays before = some;
+  EXPECT_EQ(wipe(none, {}, film), 0u);
+  EXPECT_EQ(wipe(some, {}, film), 0u);
+  EXPECT_TRUE(some == before);
+  EXPECT_EQ(film.row<float>(2)[2], 7);
+  EXPECT_EQ(wipe(none, wipers_between(inner_blade(), default_glass().plane(), 0, 0.5, corrected), film), 7u);
+}
+
 TEST(MotionWipe, ABladeAtRestTouchesNothing) {
   const WiperSettings s = inner_blade();
   const std::vector<Wiper> records = wipers_at(s, default_glass().plane(), 0.3);
