@@ -69,11 +69,12 @@ void naive(const drops::SplatUniforms& u, std::span<const drops::Drop> all, Imag
 /// The shell in one band on one thread: what the lanes give without any splitting.
 void serial(const drops::SplatUniforms& u, bool half, std::span<const drops::Drop> all, Image& height, drops::SplatScratch& scratch) {
   const drops::Bands bands{side, 1};
-  scratch.stamps.resize(all.size());
-  scratch.bands.resize(2 * all.size());
-  const drops::StampedDrops stamped{scratch.stamps, {scratch.bands.data(), all.size()}, {scratch.bands.data() + all.size(), all.size()}};
-  drops::make_stamps(u, bands, all, 0, static_cast<std::int64_t>(all.size()), stamped);
-  drops::splat_band({u, half, Rounding::rne, nullptr, &height}, bands, 0, stamped);
+  scratch.chunks.resize((all.size() + drops::drops_of_chunk - 1) / drops::drops_of_chunk);
+  for (std::size_t i = 0; i < scratch.chunks.size(); ++i) {
+    const std::size_t begin = i * drops::drops_of_chunk;
+    drops::make_stamps(u, bands, all.subspan(begin, std::min<std::size_t>(drops::drops_of_chunk, all.size() - begin)), scratch.chunks[i]);
+  }
+  drops::splat_band({u, half, Rounding::rne, nullptr, &height}, bands, 0, scratch.chunks);
 }
 
 void splat(benchmark::State& state, bool corrected, std::int64_t count, int threads) {
