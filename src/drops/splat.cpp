@@ -12,7 +12,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double water_density = 998.2;  // at 20 degrees C [kg/m^3]
-constexpr std::int64_t drops_of_chunk = 4096;
 constexpr const char *published = "as-published", *correct = "corrected";
 const std::vector<std::string> kernel_names{"paraboloid", "quartic", "smoothstep", "hemisphere", "disc"};
 
@@ -103,18 +102,16 @@ void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half
   const bool film_fits = !film || (film->format() == Format::r32f && film->width() == height.width() && film->height() == height.height() && !half_accumulation);
   if (!fits || !film_fits) throw Error(ExitCode::internal, "splat: the images do not fit the uniforms");
   uniforms.drop_count = static_cast<std::int32_t>(drops.size());
-  const std::size_t count = drops.size();
-  if (scratch.stamps.size() < count) scratch.stamps.resize(count);
-  if (scratch.bands.size() < 2 * count) scratch.bands.resize(2 * count);
-  const StampedDrops stamped{{scratch.stamps.data(), count},
-                             {scratch.bands.data(), count},
-                             {scratch.bands.data() + count, count}};
   const Bands bands = splat_bands(height.height());
-  executor.for_range(static_cast<std::int64_t>(count), drops_of_chunk,
-                     [&](std::int64_t begin, std::int64_t end) { make_stamps(uniforms, bands, drops, begin, end, stamped); });
+  const std::size_t chunk_count = (drops.size() + drops_of_chunk - 1) / drops_of_chunk;
+  if (scratch.chunks.size() < chunk_count) scratch.chunks.resize(chunk_count);
+  const std::span<StampChunk> chunks(scratch.chunks.data(), chunk_count);
+  executor.for_range(static_cast<std::int64_t>(drops.size()), drops_of_chunk, [&](std::int64_t begin, std::int64_t end) {
+    make_stamps(uniforms, bands, drops.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), chunks[static_cast<std::size_t>(begin / drops_of_chunk)]);
+  });
   const SplatJob job{uniforms, half_accumulation, rounding, film, &height};
   executor.for_range(bands.count, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t band = begin; band < end; ++band) splat_band(job, bands, static_cast<int>(band), stamped);
+    for (std::int64_t band = begin; band < end; ++band) splat_band(job, bands, static_cast<int>(band), chunks);
   });
 }
 

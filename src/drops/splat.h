@@ -47,8 +47,7 @@ SplatUniforms splat_uniforms(const SplatSettings& settings);
 
 /// Room that splat works in, kept from frame to frame.
 struct SplatScratch {
-  std::vector<StampRecord> stamps;
-  std::vector<std::int8_t> bands;
+  std::vector<StampChunk> chunks;
 };
 /// The pass: height (r16f, of uniforms.size) is cleared and drawn anew. Drops in slot order; dead ones draw nothing.
 /// uniforms.drop_count is taken from them. film: r32f of the same size, or null for none; corrected only, with float

@@ -2,7 +2,6 @@
 #include "drops/splat_kernels.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <type_traits>
 #include <vector>
@@ -25,16 +24,18 @@ constexpr float wider = 1.001f, more = 0.625f;
 /// The first index above z, in [0, size].
 HWY_INLINE int past(float z, int size) { return z < 0 ? 0 : z >= static_cast<float>(size) ? size : static_cast<int>(z) + 1; }
 
-void MakeStamps(const SplatUniforms& u, Bands bands, const Drop* drops, std::int64_t begin, std::int64_t end, const StampedDrops& out) {
-  const int n = Lanes::size();
-  const int height = static_cast<int>(u.size[1]);
+void MakeStamps(const SplatUniforms& u, Bands bands, std::span<const Drop> drops, StampChunk& out) {
+  const int n = Lanes::size(), drop_count = static_cast<int>(drops.size()), height = static_cast<int>(u.size[1]);
   const float shear = u.frame[1] / u.frame[2];
   const float columns = wider * __builtin_sqrtf(1.0f + shear * shear) / u.frame[0], rows = wider / u.frame[2];
   HWY_ALIGN float in[4][HWY_MAX_BYTES / sizeof(float)] = {}, made[5][HWY_MAX_BYTES / sizeof(float)];
-  for (std::int64_t first = begin; first < end; first += n) {
-    const int count = static_cast<int>(std::min<std::int64_t>(n, end - first));
-    for (int k = 0; k < count; ++k) {
-      const Drop& d = drops[first + k];
+  StampRecord seen[drops_of_chunk];
+  int seen_count = 0;
+  std::array<std::uint32_t, Bands::most + 1> count{};
+  for (int first = 0; first < drop_count; first += n) {
+    const int lanes = std::min(n, drop_count - first);
+    for (int k = 0; k < lanes; ++k) {
+      const Drop& d = drops[static_cast<std::size_t>(first + k)];
       in[0][k] = d.position[0];
       in[1][k] = d.position[1];
       in[2][k] = d.mass;
@@ -43,16 +44,25 @@ void MakeStamps(const SplatUniforms& u, Bands bands, const Drop* drops, std::int
     const Stamp<Lanes> s = splat_stamp(u, Lanes::load(in[0]), Lanes::load(in[1]), Lanes::load(in[2]), Lanes::load(in[3]));
     const Lanes fields[5] = {s.x, s.y, s.radius, s.inverse_radius_sq, s.height};
     for (int f = 0; f < 5; ++f) hn::Store(fields[f].v, Lanes::D(), made[f]);
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < lanes; ++k) {
       const float x = made[0][k], y = made[1][k], radius = made[2][k];
       const float half_width = radius * columns + more, half_height = radius * rows + more;
-      const bool seen = made[4][k] > 0 && x + half_width > 0 && x - half_width < u.size[0];
-      const int first_row = past(y - half_height, height), end_row = seen ? past(y + half_height - 1, height) : first_row;
-      const std::size_t i = static_cast<std::size_t>(first + k);
-      out.stamps[i] = {x, y, radius, made[3][k], made[4][k], half_width, first_row, end_row};
-      const bool empty = end_row <= first_row;
-      out.first_band[i] = static_cast<std::int8_t>(empty ? 1 : first_row / bands.rows);
-      out.last_band[i] = static_cast<std::int8_t>(empty ? 0 : (end_row - 1) / bands.rows);
+      const int first_row = past(y - half_height, height), end_row = past(y + half_height - 1, height);
+      if (!(made[4][k] > 0 && x + half_width > 0 && x - half_width < u.size[0] && first_row < end_row)) continue;
+      seen[seen_count++] = {x, y, radius, made[3][k], made[4][k], half_width, first_row, end_row};
+      for (int band = first_row / bands.rows; band <= (end_row - 1) / bands.rows; ++band) ++count[static_cast<std::size_t>(band)];
+    }
+  }
+  std::uint32_t total = 0;
+  for (std::size_t band = 0; band <= Bands::most; ++band) {
+    out.first[band] = total;
+    total += count[band];
+  }
+  if (out.stamps.size() < total) out.stamps.resize(total);
+  auto next = out.first;
+  for (int i = 0; i < seen_count; ++i) {
+    for (int band = seen[i].first_row / bands.rows; band <= (seen[i].end_row - 1) / bands.rows; ++band) {
+      out.stamps[next[static_cast<std::size_t>(band)]++] = seen[i];
     }
   }
 }
@@ -91,26 +101,12 @@ HWY_INLINE HWY_ATTR void draw(const SplatUniforms& u, Rounding rounding, const S
   }
 }
 
-// Calls drawn(stamp) for every stamp that reaches the band, in slot order.
+// Calls drawn(stamp) for every stamp of the band, in slot order.
 template <class Drawn>
-HWY_INLINE HWY_ATTR void for_stamps_of(const StampedDrops& drops, int band, const Drawn& drawn) {
-  const hn::ScalableTag<std::int8_t> d;
-  const std::size_t count = drops.stamps.size(), n = hn::Lanes(d);
-  const auto wanted = hn::Set(d, static_cast<std::int8_t>(band));
-  std::size_t i = 0;
-  for (; i + n <= count; i += n) {
-    const auto first = hn::LoadU(d, drops.first_band.data() + i), last = hn::LoadU(d, drops.last_band.data() + i);
-    const auto reached = hn::Not(hn::Or(hn::Gt(first, wanted), hn::Lt(last, wanted)));
-    std::uint8_t bytes[HWY_MAX_BYTES / 8 < 8 ? 8 : HWY_MAX_BYTES / 8] = {};
-    hn::StoreMaskBits(d, reached, bytes);
-    for (std::size_t word = 0; word < n; word += 64) {
-      std::uint64_t bits;
-      std::memcpy(&bits, bytes + word / 8, sizeof bits);
-      for (; bits != 0; bits &= bits - 1) drawn(drops.stamps[i + word + static_cast<std::size_t>(std::countr_zero(bits))]);
-    }
-  }
-  for (; i < count; ++i) {
-    if (drops.first_band[i] <= band && band <= drops.last_band[i]) drawn(drops.stamps[i]);
+HWY_INLINE HWY_ATTR void for_stamps_of(std::span<const StampChunk> chunks, int band, const Drawn& drawn) {
+  const std::size_t b = static_cast<std::size_t>(band);
+  for (const StampChunk& chunk : chunks) {
+    for (std::uint32_t i = chunk.first[b]; i < chunk.first[b + 1]; ++i) drawn(chunk.stamps[i]);
   }
 }
 
@@ -124,7 +120,7 @@ HWY_INLINE void copy_film_row(const Image& film, int y, float* to) {
 }
 
 template <SplatKernel kernel>
-void band_of(const SplatJob& job, Bands bands, int band, const StampedDrops& drops) {
+void band_of(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
   const SplatUniforms u = job.uniforms;
   Image& image = *job.height;
   const int n = Lanes::size(), width = image.width(), y0 = band * bands.rows, y1 = std::min(image.height(), y0 + bands.rows);
@@ -133,13 +129,13 @@ void band_of(const SplatJob& job, Bands bands, int band, const StampedDrops& dro
   };
   if (job.half_accumulation) {
     for (int y = y0; y < y1; ++y) std::memset(image.row<Half>(y), 0, static_cast<std::size_t>(width) * sizeof(Half));
-    for_stamps_of(drops, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); }); });
+    for_stamps_of(chunks, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); }); });
     return;
   }
   const std::size_t pitch = static_cast<std::size_t>(width + n);
   std::vector<float> sums(pitch * static_cast<std::size_t>(y1 - y0));
   const auto sum_row = [&](int y) RAINREF_LAMBDA { return sums.data() + pitch * static_cast<std::size_t>(y - y0); };
-  for_stamps_of(drops, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, sum_row); });
+  for_stamps_of(chunks, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, sum_row); });
   const std::size_t film_pitch = pitch + 2;
   std::vector<float> film(job.film ? 3 * film_pitch : 0);
   float* rows[3] = {film.data(), film.data() + film_pitch, film.data() + 2 * film_pitch};
@@ -159,13 +155,13 @@ void band_of(const SplatJob& job, Bands bands, int band, const StampedDrops& dro
     }
   }
 }
-void SplatBand(const SplatJob& job, Bands bands, int band, const StampedDrops& drops) {
+void SplatBand(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
   switch (static_cast<SplatKernel>(job.uniforms.kernel)) {
-    case SplatKernel::paraboloid: return band_of<SplatKernel::paraboloid>(job, bands, band, drops);
-    case SplatKernel::quartic: return band_of<SplatKernel::quartic>(job, bands, band, drops);
-    case SplatKernel::smoothstep: return band_of<SplatKernel::smoothstep>(job, bands, band, drops);
-    case SplatKernel::hemisphere: return band_of<SplatKernel::hemisphere>(job, bands, band, drops);
-    case SplatKernel::disc: return band_of<SplatKernel::disc>(job, bands, band, drops);
+    case SplatKernel::paraboloid: return band_of<SplatKernel::paraboloid>(job, bands, band, chunks);
+    case SplatKernel::quartic: return band_of<SplatKernel::quartic>(job, bands, band, chunks);
+    case SplatKernel::smoothstep: return band_of<SplatKernel::smoothstep>(job, bands, band, chunks);
+    case SplatKernel::hemisphere: return band_of<SplatKernel::hemisphere>(job, bands, band, chunks);
+    case SplatKernel::disc: return band_of<SplatKernel::disc>(job, bands, band, chunks);
   }
 }
 #undef RAINREF_LAMBDA
@@ -178,17 +174,16 @@ RAINREF_EXPORT(MakeStamps);
 RAINREF_EXPORT(SplatBand);
 
 Bands splat_bands(int height) {
-  // Few, because each looks at every stamp; but more than a processor has cores.
-  constexpr int most = 32, fewest_rows = 16;
-  const int rows = std::max(fewest_rows, (height + most - 1) / most);
+  // More than a processor has cores, and not so low that a drop reaches several.
+  constexpr int fewest_rows = 16;
+  const int rows = std::max(fewest_rows, (height + Bands::most - 1) / Bands::most);
   return {rows, (height + rows - 1) / rows};
 }
-void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, std::int64_t begin, std::int64_t end,
-                 const StampedDrops& out) {
-  RAINREF_DISPATCH(MakeStamps)(uniforms, bands, drops.data(), begin, end, out);
+void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, StampChunk& out) {
+  RAINREF_DISPATCH(MakeStamps)(uniforms, bands, drops, out);
 }
-void splat_band(const SplatJob& job, Bands bands, int band, const StampedDrops& drops) {
-  RAINREF_DISPATCH(SplatBand)(job, bands, band, drops);
+void splat_band(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
+  RAINREF_DISPATCH(SplatBand)(job, bands, band, chunks);
 }
 
 }  // namespace rainref::drops

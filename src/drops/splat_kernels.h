@@ -1,7 +1,9 @@
-// The shells of splat: drops to stamps, then bands of rows, each of which offers itself every stamp in slot order.
+// The shells of splat: drops to stamps, sorted by bands of rows; then bands, each of which draws its own in slot order.
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "drops/records.h"
 #include "drops/splat_uniforms.h"
@@ -12,23 +14,25 @@ namespace rainref::drops {
 /// A drop as splat_stamp gives it, and the texels that it may touch.
 struct StampRecord {
   float x, y, radius, inverse_radius_sq, height;
-  float half_width;                     ///< of the columns that it reaches [texel]
-  std::int32_t first_row, end_row;      ///< half open; empty for what is dead or beside the texture
+  float half_width;                 ///< of the columns that it reaches [texel]
+  std::int32_t first_row, end_row;  ///< half open
 };
-/// Rows of one band, and the bands that a stamp reaches, for a quick choice of those that reach a given one.
+/// Bands of rows cut the texture by its height alone.
 struct Bands {
+  static constexpr int most = 32;
   int rows, count;
 };
-struct StampedDrops {
-  std::span<StampRecord> stamps;
-  std::span<std::int8_t> first_band, last_band;  ///< last < first: none
-};
-/// Bands depend on the height of the texture alone.
 Bands splat_bands(int height);
 
-/// Stamps of drops [begin, end).
-void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, std::int64_t begin, std::int64_t end,
-                 const StampedDrops& out);
+/// The stamps of some consecutive drops, sorted by the bands that they reach and in slot order within each; one that
+/// reaches several stands in each of them.
+struct StampChunk {
+  std::vector<StampRecord> stamps;
+  std::array<std::uint32_t, Bands::most + 1> first;  ///< stamps [first[b], first[b + 1]) reach band b
+};
+constexpr int drops_of_chunk = 2048;
+/// Stamps of at most drops_of_chunk drops.
+void make_stamps(const SplatUniforms& uniforms, Bands bands, std::span<const Drop> drops, StampChunk& out);
 
 struct SplatJob {
   SplatUniforms uniforms;
@@ -38,6 +42,6 @@ struct SplatJob {
   Image* height;      ///< r16f
 };
 /// One band of the height texture, cleared first.
-void splat_band(const SplatJob& job, Bands bands, int band, const StampedDrops& drops);
+void splat_band(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks);
 
 }  // namespace rainref::drops

@@ -1,5 +1,6 @@
 // Shells of wipe_texture and normals; compiled once for each SIMD target.
 #include <algorithm>
+#include <vector>
 
 #include "windshield/surface.h"
 
@@ -13,15 +14,46 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "windshield/wipe_texture.pass.h"
 #undef RAINREF_FN
 
-void WipeTextureRows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* wipers,
-                     const WipedTextures& textures, const parallel::Tile& tile) {
-  const WipeTextureUniforms u = uniforms;
+// What a wiper may cover, in the plane [m]; outside, its coverage is exactly 0.
+struct Reach {
+  float x0, y0, x1, y1;
+};
+Reach reach_of(const WipeTextureUniforms& u, bool corrected, const Wiper& w) {
+  Reach r{1e30f, 1e30f, -1e30f, -1e30f};
+  const auto hold = [&](float x, float y) { r = {std::min(r.x0, x), std::min(r.y0, y), std::max(r.x1, x), std::max(r.y1, y)}; };
+  float more = w.half_width + u.edge_width + 1e-3f;
+  if (corrected) {
+    for (const float* axis : {w.previous_axis, w.axis}) {
+      for (const float radius : {w.inner_radius, w.outer_radius}) hold(w.pivot[0] + radius * axis[0], w.pivot[1] + radius * axis[1]);
+    }
+    // The arc's sagitta, 1 - cos(turn / 2) of the radius, is at most (1 - cos(turn)) / 2 of it.
+    more += w.outer_radius * 0.5f * (1.001f - (w.previous_axis[0] * w.axis[0] + w.previous_axis[1] * w.axis[1]));
+  } else {
+    for (const float* end : {w.inner, w.outer}) hold(end[0] * u.axis_length[0], end[1] * u.axis_length[1]);
+  }
+  return {r.x0 - more, r.y0 - more, r.x1 + more, r.y1 + more};
+}
+
+void WipeTextureRows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* all, const WipedTextures& textures,
+                     const parallel::Tile& tile) {
+  WipeTextureUniforms u = uniforms;
   const int n = Lanes::size();
+  std::vector<Reach> reaches;
+  for (int i = 0; i < uniforms.wiper_count; ++i) reaches.push_back(reach_of(u, corrected, all[i]));
+  std::vector<Wiper> near(reaches.size());
+  const Wiper* wipers = near.data();
   for (int y = tile.y0; y < tile.y1; ++y) {
     Half *height = textures.height->row<Half>(y), *mask = textures.mask->row<Half>(y);
     float* wiped = corrected ? textures.wiped->row<float>(y) : nullptr;
     for (int x = tile.x0; x < tile.x1; x += n) {
       const int count = std::min(n, tile.x1 - x);
+      const float row = static_cast<float>(y) + 0.5f, py = u.frame[2] * row;
+      const float px0 = u.frame[0] * static_cast<float>(x) + u.frame[1] * row, px1 = px0 + u.frame[0] * static_cast<float>(n);
+      u.wiper_count = 0;
+      for (std::size_t i = 0; i < reaches.size(); ++i) {
+        const Reach& r = reaches[i];
+        if (r.x0 <= px1 && px0 <= r.x1 && r.y0 <= py && py <= r.y1) near[static_cast<std::size_t>(u.wiper_count++)] = all[i];
+      }
       if (corrected) {
         const Lanes coverage = wipe_coverage_corrected<Lanes>(u, wipers, x, y);
         const Lanes since = time_since_wipe(u, Lanes::load(wiped + x), coverage);
