@@ -191,14 +191,17 @@ TEST(IntegrateCorrected, LifeAndTheEdgeRemove) {
 // Euler and Coriolis forces enter as the frame gives them: a = gravity + spin x + coriolis v.
 TEST(IntegrateCorrected, TakesTheCarsRotationFromTheFrame) {
   GlassFrame g{};
-  g.spin[1] = 2;
-  g.coriolis[2] = 3;
+  for (int k = 0; k < 4; ++k) {  // no two alike
+    g.spin[k] = 0.5f * static_cast<float>(k + 1);
+    g.coriolis[k] = 3 - 1.25f * static_cast<float>(k);
+  }
   const IntegrateUniforms c = plain_drag(1.0 / 60, 60);
-  auto d = test::state_of<D>(test::drop(0.25f, 0.5f, 1, 0, 0.125f, 0));
+  auto d = test::state_of<D>(test::drop(0.25f, 0.75f, 1, 0, 0.125f, -0.5f));
   d = scalar::integrate_corrected(c, g, d).drop;
   const double dt = c.dt, e = std::exp(-60 * dt), f = (1 - e) / 60;
-  EXPECT_NEAR(d.velocity_u.v, 0.125 * e + 2 * 0.5 * f, 1e-12);
-  EXPECT_NEAR(d.velocity_v.v, 3 * 0.125 * f, 1e-12);
+  const double a_u = 0.5 * 0.25 + 1 * 0.75 + 3 * 0.125 + 1.75 * -0.5, a_v = 1.5 * 0.25 + 2 * 0.75 + 0.5 * 0.125 - 0.75 * -0.5;
+  EXPECT_NEAR(d.velocity_u.v, 0.125 * e + a_u * f, 1e-12);
+  EXPECT_NEAR(d.velocity_v.v, -0.5 * e + a_v * f, 1e-12);
 }
 
 }  // namespace
