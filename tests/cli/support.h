@@ -19,9 +19,17 @@
 
 #include "base/temporary_folder.h"
 #include "cli/cli.h"
+#include "cli/registry.h"
 #include "image_io/write.h"
 
 namespace rainref::cli {
+
+/// "'puddle', 'windshield'": every effect, as messages list them.
+inline std::string effect_list() {
+  std::vector<std::string> names;
+  for (const EffectEntry& e : effects()) names.push_back("'" + e.name + "'");
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 struct Outcome {
   int code = -1;  ///< exit code, or minus the signal that ended it
