@@ -29,8 +29,8 @@ struct Water {
   N height;        ///< [mm]
   N mask;          ///< 1: just wiped
 };
-template <class N>
-RAINREF_FN Water<N> water_at(const Texture& height, const Texture& normal, const Texture& mask, const GlassPoint<N>& g) {
+template <class N, class Colours, class Values>
+RAINREF_FN Water<N> water_at(const Values& height, const Colours& normal, const Values& mask, const GlassPoint<N>& g) {
   const auto n = sample_bilinear<0, 3, N>(normal, g.u, g.v);
   const N m = saturate(sample_bilinear<0, 1, N>(mask, g.u, g.v)[0]);
   return {Vec3<N>(n[0], n[1], max(n[2], N(0.05f))), sample_bilinear<0, 1, N>(height, g.u, g.v)[0], m};
@@ -46,13 +46,13 @@ RAINREF_FN N scene_u(const CompositeUniforms& c, N x) { return N(0.5f) + x * N(c
 template <class N>
 RAINREF_FN N scene_v(const CompositeUniforms& c, N y) { return N(0.5f) + y * N(c.scene_scale[1]); }
 
-template <class N>
-RAINREF_FN Vec3<N> sharp_at(const Texture& pyramid, N u, N v) {
+template <class N, class Colours>
+RAINREF_FN Vec3<N> sharp_at(const Colours& pyramid, N u, N v) {
   const auto s = sample_bilinear<0, 3, N>(pyramid, u, v);
   return Vec3<N>(s[0], s[1], s[2]);
 }
-template <class N>
-RAINREF_FN Vec3<N> blurred_at(const Texture& pyramid, N u, N v, N lod) {
+template <class N, class Colours>
+RAINREF_FN Vec3<N> blurred_at(const Colours& pyramid, N u, N v, N lod) {
   const auto s = sample_trilinear<0, 3, N>(pyramid, u, v, lod);
   return Vec3<N>(s[0], s[1], s[2]);
 }
@@ -69,8 +69,9 @@ RAINREF_FN N highlight(const Vec3<N>& normal, const Vec3<N>& to_light, const Vec
 //   bgBlur = pyramid(screen, blurLOD),  bgSharp = scene(screen + offset),  offset = refraction n.xy visibility
 // then film over the scene by wetness, drops over the film by their visibility, both cut by the wiper mask; glints from the
 // perturbed normal. The article leaves the sign of the offset open; here the picture moves along n.xy (E0 10).
-template <class N>
-RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Texture& pyramid, const Texture& height, const Texture& normal, const Texture& mask, const Glint* glints, int column, int row) {
+template <class N, class Colours, class Values>
+RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colours& pyramid, const Values& height, const Colours& normal, const Values& mask, const Glint* glints, int column,
+                                          int row) {
   const GlassPoint<N> g = glass_point<N>(c, column, row);
   const Water<N> w = water_at<N>(height, normal, mask, g);
   const N wet = N(1.0f) - w.mask;
@@ -83,9 +84,10 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Text
   const Vec3<N> to_eye = (-eye_inverse) * Vec3<N>(g.x, g.y, N(1.0f));
   // Seen from inside, the glass and its water turn their normal to the eye.
   const Vec3<N> facing = N(-1.0f) * to_camera(c, w.normal);
-  for (int k = 0; k < c.glint_count; ++k) {
+  const auto shows = visibility > N(0.0f);
+  for (int k = 0; k < c.glint_count && any(shows); ++k) {
     const N shine = highlight(facing, Vec3<N>(glints[k].direction), to_eye, c.shininess) * (N(c.glint_strength) * visibility);
-    colour = colour + shine * Vec3<N>(glints[k].radiance);
+    colour = select(shows, colour + shine * Vec3<N>(glints[k].radiance), colour);
   }
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }
@@ -94,15 +96,15 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Text
 // The view ray is bent into the water at the plane of the glass and out of it at the water's surface, by Snell's law at both
 // (a pane with parallel faces turns no ray), and what it meets is looked up at the depth that lies there:
 //   P = G + D2 max(depth - G.z, 0) / D2.z,  scene at P.xy / P.z
-// Fresnel's reflectance of the water's surface, 1 beyond the critical angle, mirrors the dim surroundings: the dark rim.
+// Fresnel's reflectance of the water's surface, 1 beyond the critical angle, mirrors the blurred scene, dimmed: the dark rim.
 template <class N>
 RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, const Vec3<N>& surface, float ior) {
   const Vec3<N> inside = refract(ray, N(-1.0f) * outward, 1.0f / ior);
   return refract(inside, N(-1.0f) * surface, ior);
 }
-template <class N>
-RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Texture& pyramid, const Texture& depth, const Texture& height, const Texture& normal, const Texture& mask, const Glint* glints,
-                                       int column, int row) {
+template <class N, class Colours, class Values>
+RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Values& depth, const Values& height, const Colours& normal, const Values& mask,
+                                       const Glint* glints, int column, int row) {
   const N one(1.0f), zero(0.0f);
   const GlassPoint<N> g = glass_point<N>(c, column, row);
   const Water<N> w = water_at<N>(height, normal, mask, g);
@@ -120,14 +122,14 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Texture
   const N su = scene_u(c, x), sv = scene_v(c, y);
 
   const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
-  const Vec3<N> around = blurred_at<N>(pyramid, N(0.5f), N(0.5f), N(static_cast<float>(c.top_level)));
   Vec3<N> colour = mix(sharp, blur, N(c.wetness) * wet * (one - visibility));
-  colour = mix(colour, N(c.inner) * around, reflected);
+  colour = mix(colour, N(c.inner) * blur, reflected);
   const Vec3<N> to_eye = N(-1.0f) * ray, facing = N(-1.0f) * surface;
   const N film = visibility * (one - square(w.mask));
-  for (int k = 0; k < c.glint_count; ++k) {
+  const auto shows = film > zero;
+  for (int k = 0; k < c.glint_count && any(shows); ++k) {
     const N shine = highlight(facing, Vec3<N>(glints[k].direction), to_eye, c.shininess) * (N(c.glint_strength) * film);
-    colour = colour + shine * Vec3<N>(glints[k].radiance);
+    colour = select(shows, colour + shine * Vec3<N>(glints[k].radiance), colour);
   }
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }

@@ -17,10 +17,13 @@ RAINREF_TARGET_BEGIN(windshield)
 #undef RAINREF_LAMBDA
 
 void CompositeRows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile) {
+  constexpr Address edge = Address::clamp;
+  const auto pyramid = fixed_texture<edge, edge, 4>(*in.pyramid), normal = fixed_texture<edge, edge, 4>(*in.normal);
+  const auto height = fixed_texture<edge, edge, 1>(*in.height), mask = fixed_texture<edge, edge, 1>(*in.mask);
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      const Vec3<Lanes> c = corrected ? composite_corrected<Lanes>(uniforms, *in.pyramid, *in.depth, *in.height, *in.normal, *in.mask, in.glints.data(), x, y)
-                                      : composite_as_published<Lanes>(uniforms, *in.pyramid, *in.height, *in.normal, *in.mask, in.glints.data(), x, y);
+      const Vec3<Lanes> c = corrected ? composite_corrected<Lanes>(uniforms, pyramid, fixed_texture<edge, edge, 1>(*in.depth), height, normal, mask, in.glints.data(), x, y)
+                                      : composite_as_published<Lanes>(uniforms, pyramid, height, normal, mask, in.glints.data(), x, y);
       const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
       store4(colour.row<Half>(y) + 4 * x, rgba, rounding);
     }

@@ -33,7 +33,7 @@ double widened_fov(const PictureSettings& s) {
 // A ray d = right x + up y + forward from the eye E meets the plane of P0, e_u, e_v with normal n at E + t d,
 // t = ((P0 - E) . n) / (d . n), where u = (E + t d - P0) . U, U the dual vector of e_u; all are quotients of what is linear
 // in the pixel.
-CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& corners, int pyramid_levels) {
+CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& corners) {
   const scene::Camera eye = camera(s);
   const scene::Camera::Basis basis = eye.basis();
   const Vector3 p0 = vector(corners[0]), e_u = vector(corners[1]) - p0, e_v = vector(corners[2]) - p0;
@@ -85,7 +85,6 @@ CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& co
   u.glint_count = static_cast<std::int32_t>(s.lights.size());
   u.water_ior = static_cast<float>(s.water_ior);
   u.inner = static_cast<float>(s.inner);
-  u.top_level = pyramid_levels - 1;
   return u;
 }
 

@@ -36,7 +36,7 @@ struct PictureSettings {
 using Corners = std::array<std::array<double, 3>, 3>;
 
 /// Everything that composite takes besides images. Throws Error(usage) when the eye lies in the plane of the glass.
-CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners, int pyramid_levels);
+CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners);
 std::vector<Glint> glints(const PictureSettings& settings);
 DisplayUniforms display_uniforms(const PictureSettings& settings);
 /// The camera in car axes.

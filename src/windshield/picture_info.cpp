@@ -34,8 +34,7 @@ std::vector<PassInfo> picture_passes() {
        member<&U::cabin>("cabin", "1", "Radiance beside the glass."),
        member<&U::glint_count>("glint_count", "1", "Lights in the list."),
        member<&U::water_ior>("water_ior", "1", "corrected: refractive index of the water."),
-       member<&U::inner>("inner", "1", "corrected: share of the mean scene that the water's surface mirrors."),
-       member<&U::top_level>("top_level", "1", "corrected: last level of the pyramid.")});
+       member<&U::inner>("inner", "1", "corrected: share of the blurred scene that the water's surface mirrors.")});
   const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
   const std::vector<std::string> lengths{"dot", "length", "normalize"};
   constexpr auto envelope = Judge::envelope;
@@ -71,7 +70,7 @@ std::vector<Parameter> picture_parameters() {
       real("composite.visible_to", "mm", 1e-3, 10, 0.2, "Height from which it shows fully."),
       real("composite.refraction", "1", -1, 1, 0.08, "Offset of the sharp picture, in pictures per unit of the normal's x and y.").only(published),
       real("composite.water_ior", "1", 1, 2, 1.333, "Refractive index of water.").only(correct),
-      real("composite.inner", "1", 0, 1, 0.3, "Share of the mean scene that the water's surface mirrors.").only(correct),
+      real("composite.inner", "1", 0, 1, 0.3, "Share of the blurred scene that the water's surface mirrors.").only(correct),
       real("composite.shininess", "1", 1, 4096, 80, "Power of the highlights."),
       real("composite.glint_strength", "1", 0, 10, 0.5, "Weight of the highlights."),
       real3("composite.light_direction", "1", -1, 1, {-0.9, 0.25, 0.35}, "Toward the light that the water mirrors, in the car's axes."),

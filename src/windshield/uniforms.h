@@ -48,9 +48,8 @@ struct CompositeUniforms {
   float cabin[3];  ///< radiance beside the glass
   std::int32_t glint_count;
   float water_ior;  ///< corrected
-  float inner;      ///< corrected: share of the mean scene that the water's surface mirrors
-  std::int32_t top_level;  ///< corrected: last level of the pyramid
-  float padding0;
+  float inner;      ///< corrected: share of the blurred scene that the water's surface mirrors
+  float padding0, padding1;
 };
 
 struct DisplayUniforms {

@@ -288,7 +288,7 @@ void Windshield::render(Recorder* recorder) {
   decode(executor, s.height, s.height_texture);
   decode(executor, s.normal, s.normal_texture);
   decode(executor, s.mask, s.mask_texture);
-  const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners, static_cast<int>(s.levels.size()));
+  const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners);
   const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.height_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
   const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
       lights{"glints", records(s.lights)};

@@ -25,7 +25,7 @@ TEST(GlassPoint, IsWhereTheRayMeetsTheGlass) {
   s.width = 320;
   s.height = 180;
   for (const Corners& corners : {raked, sheared}) {
-    const CompositeUniforms u = composite_uniforms(s, corners, 5);
+    const CompositeUniforms u = composite_uniforms(s, corners);
     const scene::Camera eye = camera(s);
     const auto basis = eye.basis();
     const dvec3 p0(corners[0][0], corners[0][1], corners[0][2]), eu = dvec3(corners[1][0], corners[1][1], corners[1][2]) - p0,

@@ -21,7 +21,6 @@ layout(std140, binding = 0) uniform CompositeUniforms {
   int glint_count;       // 140
   float water_ior;       // 144
   float inner;           // 148
-  int top_level;         // 152
 } u;
 
 struct Glint {

@@ -46,9 +46,8 @@ void main() {
   vec2 at = scene_at(place);
 
   vec3 sharp = textureLod(pyramid, at, 0.0).rgb, blur = textureLod(pyramid, BUG == 1438 ? scene_at(g.place) : at, u.blur_lod).rgb;
-  vec3 around = textureLod(pyramid, vec2(0.5), float(u.top_level)).rgb;
   vec3 light = mix(sharp, blur, u.wetness * wet * (BUG == 1439 ? 1.0 : 1.0 - visibility));
-  light = mix(light, u.inner * around, reflected);
+  light = mix(light, u.inner * blur, reflected);
   float film = visibility * (1.0 - (BUG == 1440 ? m : m * m));
   for (int k = 0; k < u.glint_count; ++k)
     light += highlight(-surface, glints[k].direction, -ray) * (u.glint_strength * film) * glints[k].radiance;
