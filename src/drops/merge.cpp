@@ -67,7 +67,7 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
     for (; i < members.size() && members[i].root_id == first.root_id; ++i) {
       const std::int64_t slot = members[i].slot;
       const Drop d = drops.get(slot);
-      if (sum.mass.v + d.mass > most_quanta) continue;
+      if (d.mass > most_quanta - sum.mass.v) continue;  // exact, where the sum is not
       sum = scalar::absorb(sum, state_of(d));
       drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
       ++ended;

@@ -68,6 +68,7 @@ struct Windshield::State {
       : settings(settings_from(config)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
         plane(corrected ? glass.plane() : glass.axes()), vehicle(settings.vehicle), drops(settings.drops.capacity), arrivals(settings.drops) {
     check(settings.wipers, glass);
+    static_cast<void>(composite_uniforms(settings.picture, settings.corners));  // refuses an eye in the glass
     const int w = settings.surface.width, h = settings.surface.height;
     height = Image(Format::r16f, w, h);
     mask = make_mask(settings.surface);

@@ -94,6 +94,14 @@ TEST(Merge, BeyondTheLargestMassItDoesNotHappen) {
   EXPECT_EQ(ended, 2);
 }
 
+// 2^24 + 1 is no float: a sum that is rounded before it is compared would lose a quantum.
+TEST(Merge, AFullDropTakesNotEvenOneQuantum) {
+  const auto out = merged({drop(0.5f, 0.5f, most_quanta, 0), drop(0.5001f, 0.5f, 1, 1)});
+  ASSERT_EQ(out.size(), 2u);
+  EXPECT_EQ(out[0].mass, most_quanta);
+  EXPECT_EQ(out[1].mass, 1);
+}
+
 TEST(Merge, FreeSlotsTakeNoPart) {
   auto out = merged({drop(0.5f, 0.5f, 1000, 0), drop(0.5f, 0.5f, 5000, 1, 0, 0, 0), drop(0.7f, 0.5f, 1000, 2)});
   EXPECT_EQ(out.size(), 2u);
@@ -122,7 +130,7 @@ std::vector<Drop> by_brute_force(std::vector<Drop> drops, const MergeUniforms& u
     while (to.contains(root)) root = to[root];
     Drop& r = all[root];
     const Drop& d = before.at(id);
-    if (r.mass + d.mass > most_quanta) continue;
+    if (d.mass > most_quanta - r.mass) continue;
     const auto s = scalar::absorb(test::state_of<F>(r), test::state_of<F>(d));
     r = {{s.u.v, s.v.v}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, s.mass.v, s.life.v, root, 0};
     all[id].life = 0;

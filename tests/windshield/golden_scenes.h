@@ -1,0 +1,79 @@
+// The scenes behind tests/golden/hashes.txt: every pass, variant and rounding, at frames 0, 1, 2 and 59.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "capture/hashing.h"
+#include "rainref/executor.h"
+#include "rainref/windshield.h"
+#include "scene/effect_table.h"
+#include "scene/toml.h"
+#include "windshield/scene_keys.h"
+
+namespace rainref::windshield {
+
+/// A scene of this effect from its text, the lines `effect` and `variant` aside.
+inline scene::Config config_of(const std::string& variant, const std::string& toml) {
+  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, parameters()}}};
+  return scene::parse("effect = 'windshield'\nvariant = '" + variant + "'\n" + toml, "test.toml", {}, table);
+}
+
+/// A scene before the car with structure and no street behind it.
+inline Surroundings small_surroundings() {
+  Surroundings s{Image(Format::rgba16f, 37, 23), Image(Format::r32f, 37, 23)};
+  for (int y = 0; y < 23; ++y) {
+    for (int x = 0; x < 37; ++x) {
+      for (int c = 0; c < 4; ++c) s.colour.row<Half>(y)[4 * x + c] = Half{static_cast<std::uint16_t>(c == 3 ? 0x3c00 : 0x3000 + 64 * ((7 * x + 13 * y + 5 * c) % 17))};
+      s.depth.row<float>(y)[x] = static_cast<float>(5 + (3 * x + y) % 11);
+    }
+  }
+  return s;
+}
+
+constexpr const char* wet_drive = R"(seed = 5
+[run]
+size = [97, 61]
+fps = 60
+[vehicle]
+key_frames = "0 2 0; 1 9 0.3; 2 4 -0.1"
+[wipers]
+cycles_per_minute = 60
+[windshield]
+height_size = [89, 53]
+)";
+
+struct GoldenScene {
+  std::string name, variant, toml;
+};
+inline std::vector<GoldenScene> golden_scenes() {
+  std::vector<GoldenScene> scenes;
+  for (const std::string variant : {"as-published", "corrected"}) {
+    for (const std::string rounding : {"rne", "rtz"}) {
+      const std::string more = "rounding = '" + rounding + "'\n" + (variant == "corrected" ? "[rain]\nrate = 120\nsmallest_drop = 0.8\n" : "spawn_rate = 3000\n");
+      scenes.push_back({fmt::format("windshield/{}{}", variant, rounding == "rtz" ? "/rtz" : ""), variant, wet_drive + more});
+    }
+  }
+  scenes.push_back({"windshield/corrected/substeps", "corrected", std::string(wet_drive) + "substeps = 3\nblend = 'max'\n[rain]\nrate = 120\n"});
+  scenes.push_back({"windshield/as-published/float", "as-published", std::string(wet_drive) + "accumulate = 'float'\nkernel = 'quartic'\nblend = 'max'\n"});
+  return scenes;
+}
+
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
+  Windshield windshield(config_of(scene.variant, scene.toml), small_surroundings(), executor);
+  std::vector<std::string> lines;
+  for (int frame = 0; frame < 60; ++frame) {
+    capture::HashRecorder recorder;
+    const bool golden = frame <= 2 || frame == 59;
+    windshield.simulate(golden ? &recorder : nullptr);
+    windshield.render(golden ? &recorder : nullptr);
+    if (!golden) continue;
+    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
+  }
+  return lines;
+}
+
+}  // namespace rainref::windshield

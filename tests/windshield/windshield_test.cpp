@@ -1,0 +1,163 @@
+// The windshield as a whole: recorded hashes, the same bits everywhere, and its water.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "math/simd_target.h"
+#include "rainref/error.h"
+#include "windshield/golden_scenes.h"
+
+namespace rainref::windshield {
+namespace {
+
+std::vector<std::string> recorded(const std::string& scene) {
+  std::ifstream file(RAINREF_SOURCE_DIR "/tests/golden/hashes.txt");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(scene + " ")) lines.push_back(line);
+  }
+  return lines;
+}
+
+class Golden : public testing::TestWithParam<GoldenScene> {};
+TEST_P(Golden, HashesAreAsRecorded) {
+  const std::vector<std::string> expected = recorded(GetParam().name);
+  ASSERT_FALSE(expected.empty()) << "no line of tests/golden/hashes.txt starts with " << GetParam().name;
+  // Line by line, so that the first pass that differs is the one named.
+  const std::vector<std::string> found = golden_lines(GetParam(), parallel::Executor(2));
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i], expected[i]);
+}
+INSTANTIATE_TEST_SUITE_P(Windshield, Golden, testing::ValuesIn(golden_scenes()), [](const auto& param) {
+  std::string name = param.param.name;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+TEST(Golden, EveryRecordedLineBelongsToAScene) {
+  std::set<std::string> names;
+  for (const GoldenScene& scene : golden_scenes()) names.insert(scene.name);
+  std::ifstream file(RAINREF_SOURCE_DIR "/tests/golden/hashes.txt");
+  int lines = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("windshield/")) continue;
+    ++lines;
+    EXPECT_TRUE(names.contains(line.substr(0, line.find(' ')))) << line;
+  }
+  EXPECT_GT(lines, 0);
+}
+
+/// Every hash of the first frames of a scene.
+std::vector<std::string> lines_of(const GoldenScene& scene, const parallel::Executor& executor) {
+  Windshield windshield(config_of(scene.variant, scene.toml), small_surroundings(), executor);
+  std::vector<std::string> lines;
+  for (int frame = 0; frame < 12; ++frame) {
+    capture::HashRecorder recorder;
+    windshield.simulate(&recorder);
+    windshield.render(&recorder);
+    for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(line.text());
+  }
+  return lines;
+}
+TEST_P(Golden, TheSameBitsForEveryTargetAndNumberOfThreads) {
+  const std::vector<std::string> expected = lines_of(GetParam(), parallel::Executor(1));
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    EXPECT_EQ(lines_of(GetParam(), parallel::Executor(1)), expected) << target;
+  }
+  select_simd_target("");
+  for (const int threads : {2, 3, 8}) {
+    parallel::Executor executor(threads);
+    executor.shuffle_tiles(static_cast<std::uint64_t>(threads));
+    EXPECT_EQ(lines_of(GetParam(), executor), expected) << threads;
+  }
+}
+
+// Every quantum that arrived is in a drop, in the film, in the air, or gone: exactly (W8), through wipers and merging.
+TEST(Ledger, IsZeroToTheQuantum) {
+  const parallel::Executor executor(2);
+  for (const int substeps : {1, 3}) {
+    const std::string more = fmt::format("substeps = {}\nmobility = 0.05\ntrail_thickness = 2e-5\n[rain]\nrate = 150\n", substeps);
+    Windshield windshield(config_of("corrected", wet_drive + more), small_surroundings(), executor);
+    for (int frame = 0; frame < 240; ++frame) {
+      windshield.simulate();
+      ASSERT_EQ(windshield.ledger().balance(), 0) << "frame " << frame << ", " << substeps << " substeps";
+    }
+    // Nothing of it is idle.
+    const WaterLedger ledger = windshield.ledger();
+    EXPECT_GT(ledger.spawned, 1'000'000);
+    EXPECT_GT(ledger.evaporated, 0);
+    EXPECT_GT(ledger.removed, 0);
+    EXPECT_GT(ledger.film, 0);
+    EXPECT_GT(ledger.drops, 0);
+  }
+}
+
+// As published counts drops.
+TEST(Ledger, AsPublishedCountsDrops) {
+  const parallel::Executor executor(1);
+  Windshield windshield(config_of("as-published", std::string(wet_drive) + "lifetime = 0.5\n"), small_surroundings(), executor);
+  for (int frame = 0; frame < 90; ++frame) {
+    windshield.simulate();
+    ASSERT_EQ(windshield.ledger().balance(), 0) << frame;
+  }
+  EXPECT_GT(windshield.ledger().removed, 100);
+  EXPECT_EQ(windshield.ledger().spawned, 600);  // 400 a second
+}
+
+// A dry glass shows the scene through a film at most: corrected, without rain and haze, the picture is the scene's own.
+TEST(Picture, ADryGlassShowsTheScene) {
+  const parallel::Executor executor(1);
+  const std::string toml = R"([run]
+size = [37, 23]
+[windshield]
+height_size = [16, 16]
+[rain]
+rate = 0
+[blur]
+fog_density = 0
+[composite]
+wetness = 0
+[scene]
+margin = 1
+[camera]
+vertical_fov_deg = 10
+)";
+  Windshield windshield(config_of("corrected", toml), small_surroundings(), executor);
+  windshield.simulate();
+  windshield.render();
+  const Surroundings expected = small_surroundings();
+  const TextureData a(windshield.colour(), Address::clamp, Address::clamp), b(expected.colour, Address::clamp, Address::clamp);
+  // Level water mirrors 2 % of the blurred scene at normal incidence, more at this slant; the rest comes straight through.
+  int different = 0;
+  for (int y = 0; y < 23; ++y) {
+    for (int x = 0; x < 37; ++x) {
+      const float seen = a.view().texels[4 * (y * 37 + x)], there = b.view().texels[4 * (y * 37 + x)];
+      different += !(seen > 0.6f * there && seen < 1.3f * there);
+    }
+  }
+  EXPECT_EQ(different, 0);
+}
+
+std::string refusal(const std::string& variant, const std::string& toml) {
+  const parallel::Executor executor(1);
+  try {
+    Windshield windshield(config_of(variant, toml), small_surroundings(), executor);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::usage);
+    return e.what();
+  }
+  return "accepted";
+}
+TEST(BadScene, IsRefusedByKey) {
+  EXPECT_NE(refusal("corrected", "[windshield]\ncorner_2 = [1.9, 0.0, 1.0]\n").find("windshield.corner_"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "[rain]\nrate = -1\n").find("rain.rate"), std::string::npos);
+  EXPECT_NE(refusal("as-published", "[windshield]\nspawn_rate = -1\n").find("windshield.spawn_rate"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "[wipers]\narrangement = 'custom'\nouter_radius_0 = 5.0\n").find("wipers.outer_radius_0"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "[wipers]\narrangement = 'custom'\nsweep_0 = 0.0\n").find("wipers.sweep_0"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "[camera]\nposition = [1.9, 0.0, 1.0]\n").find("camera.position"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rainref::windshield
