@@ -6,5 +6,6 @@
 namespace rainref::cli {
 
 EffectEntry puddle_entry();
+EffectEntry rainy_glass_entry();
 
 }  // namespace rainref::cli
