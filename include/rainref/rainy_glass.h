@@ -28,7 +28,7 @@ struct Settings {
   int width = 1280, height = 720;
 
   // The maps.
-  int map_size = 1024;                    ///< texels a side
+  int map_size = 512;                    ///< texels a side
   Format map_storage = Format::rgba16f;   ///< rgba8 or rgba16f
   Rounding rounding = Rounding::rne;
   int droplet_count = 700, trail_count = 26;

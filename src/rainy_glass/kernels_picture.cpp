@@ -1,4 +1,7 @@
 // Shells of rain_on_glass and display; compiled once for each SIMD target.
+#include <concepts>
+#include <cstdint>
+
 #include "rainy_glass/kernels.h"
 
 #define RAINREF_KERNELS "rainy_glass/kernels_picture.cpp"
@@ -10,6 +13,7 @@ RAINREF_TARGET_BEGIN(rainy_glass)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_lanes-inl.h"
 #include "image/environment-inl.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 #undef RAINREF_FN

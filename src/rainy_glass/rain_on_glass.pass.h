@@ -70,8 +70,8 @@ RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, cons
 template <class N>
 RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
   const N x = (stored_x - N(neutral)) * N(scale), y = (stored_y - N(neutral)) * N(scale);
-  const N z = sqrt(max(sum_any_order(N(1.0f), -square(x), -square(y)), N(0.04f)));
-  return Two<N>(-x / z, -y / z);
+  const N inverse = N(-1.0f) / sqrt(max(sum_any_order(N(1.0f), -square(x), -square(y)), N(0.04f)));
+  return Two<N>(x * inverse, y * inverse);
 }
 /// What of the water on the glass is a droplet now, from 0 to 1. The threshold falls from 1 to 0 at the impact and then rises
 /// to 1 again: the droplet spreads, then dries from its rim.
@@ -89,7 +89,8 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const G
   const N zero(0.0f), one(1.0f);
   const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
   const N amount = N(u.rain_amount) * saturate(dot(p.normal, Vec3<N>(u.rain_to)));
-  const auto drop = sample_bilinear<0, 4, N>(raindrops, p.u * N(u.drop_tiles), p.v * N(u.drop_tiles));
+  const N du = p.u * N(u.drop_tiles), dv = p.v * N(u.drop_tiles);
+  const auto drop = sample_bilinear<0, 4, N>(raindrops, du, dv);
   const Two<N> bulge = slope_of(drop[0], drop[1], u.drop_neutral, u.drop_scale);
   const N shown = droplet_shown(u, drop[3], drop[2], amount);
 
@@ -112,8 +113,10 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const G
   const Vec3<N> rise = sx * along_u + sy * along_v;
   const N x = N(u.bend) * dot(rise, Vec3<N>(u.right)), y = N(u.bend) * dot(rise, Vec3<N>(u.up));
 
+  // Dry glass shows the scene's texel itself.
+  const auto seen = (p.covered > half) & (p.own_depth > p.distance) & (square(sx) + square(sy) > N(1e-8f));
+  if (!any(seen)) return p.own;
   const N cx = (N::index(column) + half) * N(u.pixel[0]), cy = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]), two(2.0f);
-  const auto seen = (p.covered > half) & (p.own_depth > p.distance);
   if (u.use_probe != 0) {
     const Vec3<N> behind = probe_at(u, m, (two * cx - one) * N(u.half_width) + x, (two * cy - one) * N(u.half_height) + y);
     return select(seen, behind, p.own);
