@@ -56,11 +56,13 @@ RAINREF_FN Baked<N> bake_raindrops(const BakeRaindropsUniforms& u, bool correcte
 template <int First, class N>
 RAINREF_FN N gradient_noise(const Texture& lattice, int cells, N u, N v) {
   const N x = u * N(static_cast<float>(cells)), y = v * N(static_cast<float>(cells)), x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
-  const auto size = N::uniform_int(cells);
-  const auto left = wrap_index(to_int(x0), size) * 4, right = wrap_index(to_int(x0) + 1, size) * 4;
-  const auto low = wrap_index(to_int(y0), size) * (4 * lattice.width[0]), high = wrap_index(to_int(y0) + 1, size) * (4 * lattice.width[0]);
-  const auto corner = [&](const auto& row, const auto& column, N dx, N dy) RAINREF_LAMBDA {
-    const auto place = row + column;
+  // x0 lies in [0, cells); held there, so that no reading of this text leaves the lattice.
+  const auto columns = N::uniform_int(cells < lattice.width[0] ? cells : lattice.width[0]), rows = N::uniform_int(cells < lattice.height[0] ? cells : lattice.height[0]);
+  const auto column = clamp_index(to_int(x0), columns), row = clamp_index(to_int(y0), rows);
+  const auto left = column * 4, right = wrap_index(column + 1, columns) * 4;
+  const auto low = row * (4 * lattice.width[0]), high = wrap_index(row + 1, rows) * (4 * lattice.width[0]);
+  const auto corner = [&](const auto& line, const auto& texel, N dx, N dy) RAINREF_LAMBDA {
+    const auto place = line + texel;
     return fetch(lattice.texels + First, place, N()) * dx + fetch(lattice.texels + First + 1, place, N()) * dy;
   };
   const N one(1.0f);
