@@ -7,5 +7,6 @@ namespace rainref::cli {
 
 EffectEntry puddle_entry();
 EffectEntry windshield_entry();
+EffectEntry rainy_glass_entry();
 
 }  // namespace rainref::cli

@@ -25,7 +25,11 @@ constexpr Block pcg4d(Block v) {
 }
 
 /// What a stream of random numbers is for. A new use takes a new number; an old number never changes its meaning.
-enum class Purpose : std::uint32_t { puddle_drop_count = 1, puddle_drop = 2, puddle_bed = 3, puddle_ground = 4, drop_count = 5, drop_arrival = 6 };
+enum class Purpose : std::uint32_t {
+  puddle_drop_count = 1, puddle_drop = 2, puddle_bed = 3, puddle_ground = 4,
+  drop_count = 5, drop_arrival = 6,
+  glass_drop = 50, glass_trail = 51, glass_flow = 52
+};
 
 /// The block of (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.
 constexpr Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) {

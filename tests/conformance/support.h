@@ -14,7 +14,7 @@
 
 namespace rainref::conformance::test {
 
-inline const std::vector<std::string> packs{"puddle-as-published", "puddle-corrected"};
+inline const std::vector<std::string> packs{"puddle-as-published", "puddle-corrected", "rainy_glass-as-published", "rainy_glass-corrected"};
 /// Every profile under which results may differ.
 inline std::vector<std::string> inexact_profiles() {
   std::vector<std::string> names = profile_names();
@@ -39,7 +39,7 @@ struct BoundCase {
 struct BoundPass {
   std::string pack, pass;
   std::vector<BoundCase> cases;
-  std::string name() const { return pack.substr(7) + " " + pass; }
+  std::string name() const { return pack + " " + pass; }
 };
 inline std::vector<BoundPass> enveloped_passes() {
   std::vector<BoundPass> all;

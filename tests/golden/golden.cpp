@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "puddle/golden_scenes.h"
+#include "rainy_glass/golden_scenes.h"
 #include "windshield/golden_scenes.h"
 
 int main() {
@@ -11,5 +12,8 @@ int main() {
   }
   for (const auto& scene : rainref::windshield::golden_scenes()) {
     for (const std::string& line : rainref::windshield::golden_lines(scene, executor)) fmt::print("{}\n", line);
+  }
+  for (const auto& scene : rainref::rainy_glass::golden_scenes()) {
+    for (const std::string& line : rainref::rainy_glass::golden_lines(scene, executor)) fmt::print("{}\n", line);
   }
 }

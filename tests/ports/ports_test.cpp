@@ -143,6 +143,46 @@ TEST(Port, UniformBlocksAreTheDescribedOnes) {
   EXPECT_GE(blocks, 8);
 }
 
+// ---- rainy_glass ---------------------------------------------------------------------------------------------------
+TEST_P(Port, OfRainyGlassPasses) {
+  const TemporaryFolder folder;
+  const std::string pack = source + "/tests/packs/rainy_glass-" + GetParam();
+  const Outcome run = run_port(pack, folder.path(), "--repeat 2", "rainy_glass");
+  ASSERT_EQ(run.code, 0) << run.text;
+  const Outcome verdict = judge(pack, folder.path());
+  EXPECT_EQ(verdict.code, 0) << verdict.text;
+  EXPECT_THAT(verdict.text, HasSubstr("(4 PASS)"));
+}
+TEST(Port, SeededBugsOfRainyGlassGetTheirVerdicts) {
+  const TemporaryFolder folder;
+  const std::string mutants = source + "/tests/ports/rainy_glass/mutants.json";
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --effect rainy_glass --device cpu --mutants '" + mutants + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
+                           "/rainy_glass' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids 702,713,734,751,762,784,790,794,796");
+  EXPECT_EQ(all.code, 0) << all.text;
+  std::string shaders;
+  for (const auto& file : fs::directory_iterator(source + "/tests/ports/rainy_glass")) shaders += contents(file.path());
+  const auto listed = nlohmann::json::parse(contents(mutants))["mutants"];
+  EXPECT_GE(listed.size(), 40u);
+  for (const auto& m : listed) {
+    EXPECT_TRUE(std::regex_search(shaders, std::regex("BUG [!=]= " + m["id"].dump() + "\\b"))) << "no shader has bug " << m["id"];
+    EXPECT_EQ(m["expected"] != "FAIL", m.contains("reason")) << m;
+  }
+}
+TEST(Port, UniformBlocksOfRainyGlassAreTheDescribedOnes) {
+  const std::string described = call(RAINREF_PROGRAM " describe rainy_glass --layout glsl").text;
+  int blocks = 0;
+  for (const auto& file : fs::directory_iterator(source + "/tests/ports/rainy_glass")) {
+    const std::string text = contents(file.path());
+    for (const char* opening : {"layout(std140, binding = 0) uniform ", "struct Droplet {", "struct Trail {"}) {
+      const std::size_t begin = text.find(opening);
+      if (begin == std::string::npos) continue;
+      EXPECT_THAT(described, HasSubstr(text.substr(begin, text.find("\n}", begin) + 2 - begin))) << file.path();
+      ++blocks;
+    }
+  }
+  EXPECT_EQ(blocks, 6);
+}
+
 // ---- the runner refuses what it cannot run -------------------------------------------------------------------------
 TEST(PortRunner, NamesTheFileAndWhatItExpected) {
   const TemporaryFolder folder;

@@ -1,0 +1,92 @@
+// Speed of the passes of rainy_glass through the shells that users run. What a row says: README.md.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "capture/hashing.h"
+#include "rainref/rainy_glass.h"
+#include "rainy_glass/parameters.h"
+#include "scene/toml.h"
+#include "stream.h"
+
+namespace rainref::rainy_glass {
+namespace {
+
+constexpr int picture_tile_rows = 8;  // as rainy_glass.cpp cuts its work
+
+Settings settings(const std::string& variant, const std::string& shape, int width, int height) {
+  const scene::EffectTable table{{{"rainy_glass", {"as-published", "corrected"}, parameters()}}};
+  return settings_from(scene::parse(fmt::format("effect = 'rainy_glass'\nvariant = '{}'\nseed = 7\n", variant), "bench",
+                                    {"glass.shape=" + shape, fmt::format("run.size=[{}, {}]", width, height), "maps.droplets=600"}, table));
+}
+
+// A scene of integers, so that no change of the street at night changes a hash here.
+Surroundings surroundings(const Settings& s) {
+  Surroundings around;
+  around.colour = Image(Format::rgba32f, s.width, s.height);
+  around.depth = Image(Format::r32f, s.width, s.height);
+  for (int y = 0; y < s.height; ++y) {
+    for (int i = 0; i < 4 * s.width; ++i) {
+      around.colour.row<float>(y)[i] = static_cast<float>((static_cast<std::uint32_t>(i) * 37u + static_cast<std::uint32_t>(y * y) * 11u) >> 3 & 255u) / 128.0f;
+    }
+    for (int x = 0; x < s.width; ++x) around.depth.row<float>(y)[x] = static_cast<float>(2 + (x / 64 + y / 48) % 9);
+  }
+  return around;
+}
+
+class PassTimes : public Recorder {
+ public:
+  void pass(const PassCall& call) override { seconds[std::string(call.pass)] = call.seconds; }
+  std::map<std::string, double> seconds;
+};
+
+void picture(benchmark::State& state, const std::string& variant, const std::string& shape, const std::string& pass, bench::Traffic traffic, int height, int threads) {
+  const parallel::Executor executor(threads);
+  const Settings s = settings(variant, shape, height * 16 / 9, height);
+  RainyGlass glass(s, surroundings(s), executor);
+  capture::HashRecorder recorder;
+  glass.frame(&recorder);
+  std::string hash;
+  for (const capture::HashLine& line : recorder.take_lines()) {
+    if (line.pass == pass) hash = fmt::format("{:.16}", line.hash.text());
+  }
+  const double bound = bench::stream_seconds(executor, s.width, s.height, picture_tile_rows, traffic);
+  double best = 1e9;
+  for (auto _ : state) {
+    PassTimes times;
+    glass.frame(&times);
+    best = std::min(best, times.seconds.at(pass));
+    state.SetIterationTime(times.seconds.at(pass));
+  }
+  state.counters["Mpix/s"] = 1e-6 * s.width * s.height / best;
+  state.counters["stream_%"] = 100 * bound / best;
+  state.SetLabel(hash);
+}
+
+const bool registered = [] {
+  for (const std::string variant : {"as-published", "corrected"}) {
+    for (const std::string shape : {"pane", "sphere"}) {
+      // surface, orientation, the scene's texel and its depth are read, colour is written; the maps come from the caches.
+      const std::vector<std::pair<std::string, bench::Traffic>> passes{{"rain_on_glass", {variant == "corrected" ? 36 : 32, 8}}, {"display", {8, 4}}};
+      for (const auto& [pass, traffic] : passes) {
+        if (pass == "display" && shape == "sphere") continue;
+        for (const int height : {720, 1080}) {
+          for (const int threads : {1, 2}) {
+            benchmark::RegisterBenchmark(fmt::format("{}/{}/{}/{}p/threads:{}", pass, variant, shape, height, threads).c_str(),
+                                         [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, shape, name, bytes, height, threads); })
+                ->UseManualTime()
+                ->Unit(benchmark::kMillisecond);
+          }
+        }
+      }
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace rainref::rainy_glass

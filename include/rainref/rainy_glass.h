@@ -1,0 +1,112 @@
+// Rain streaking down glass: raindrop impacts and rivulets from two baked maps, after Toadstorm's conservatory shader, as
+// published and corrected. Mathematics, choices and the list of what is corrected: docs/effects/rainy_glass.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "rainref/recorder.h"
+
+namespace rainref::rainy_glass {
+
+enum class Variant : std::uint8_t { as_published, corrected };
+enum class Shape : std::uint8_t {
+  pane,    ///< an upright plane across the view
+  sphere,  ///< a ball of glass
+  image    ///< world normals and coverage by pixel: Surroundings::normals
+};
+
+/// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe rainy_glass`.
+struct Settings {
+  Variant variant = Variant::corrected;
+  std::uint64_t seed = 1;
+  double fps = 60;
+  int width = 1280, height = 720;
+
+  // The maps.
+  int map_size = 512;                    ///< texels a side
+  Format map_storage = Format::rgba16f;   ///< rgba8 or rgba16f
+  Rounding rounding = Rounding::rne;
+  int droplet_count = 700, trail_count = 26;
+  double largest_droplet = 0.016, smallest_droplet = 0.003;  ///< radius [tile]
+  double trail_half_width = 0.008;                          ///< of the widest head [tile]
+  double contact_angle_deg = 40;
+  int flow_cells = 8;
+  double flow_gain = 1.2;
+
+  // The glass.
+  Shape shape = Shape::pane;
+  double distance = 0.5;   ///< of the pane, or the centre of the sphere, along the horizontal view [m]
+  double yaw_deg = 0;      ///< turn of the pane about the vertical
+  double radius = 0.2;     ///< of the sphere [m]
+  double drop_tile = 0.4, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
+
+  // The rain.
+  double rain_amount = 0.8;
+  double drop_period = 6, flow_period = 3;  ///< [s]
+  double flow_strength = 0.02;              ///< way of a rivulet in a cycle at full flow [tile]
+  bool use_probe = false;
+  double probe_level = 1;
+
+  double distortion = 0.02;  ///< as-published: pictures per unit of the summed channels
+
+  // corrected
+  double rivulet_speed = 0.03;  ///< mean speed down the glass [m/s]
+  double run = 0.9;             ///< share of that speed by which rivulets slow down and run
+  double rivulet_amount = 1, impact = 0.04, rim = 0.06, water_ior = 1.333;
+  double wind = 6, fall_speed = 6;  ///< of the rain, toward the glass and down [m/s]
+
+  double exposure = 0;  ///< [EV]
+
+  std::array<double, 3> camera_position{0, 1.6, 0}, camera_target{0, 1.6, -1}, camera_up{0, 1, 0};  ///< world, y up [m]
+  double vertical_fov_deg = 40;
+};
+
+/// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
+struct Surroundings {
+  Image colour;  ///< width x height, 4 channels
+  Image depth;   ///< r32f of the same size, along the view axis [m]; used by corrected
+  Image normals;  ///< Shape::image: 4 channels of that size, world normal and coverage
+  Image raindrops, rivulets;  ///< maps instead of the bakes, 4 channels, any size; empty: baked
+  Image probe;   ///< latitude/longitude panorama for use_probe, 4 channels
+};
+
+/// Wet glass before a still scene. Every buffer has the same bits whatever the executor's threads and the SIMD target.
+class RainyGlass {
+ public:
+  /// Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
+  RainyGlass(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
+  ~RainyGlass();
+  RainyGlass(RainyGlass&&) noexcept;
+
+  /// Renders time frame / fps; frames are 0, 1, 2 ... in this order. The bakes run before frame 0 and are reported with it.
+  void frame(Recorder* recorder = nullptr);
+  /// Frames rendered so far.
+  int frames() const;
+
+  const Image& raindrops() const;    ///< map_storage: normal x, y, time offset, height
+  const Image& rivulets() const;     ///< map_storage: normal x, y, flow across, flow along
+  const Image& surface() const;      ///< rgba32f: place on the glass u, v [m], distance along the view axis [m], 0
+  const Image& orientation() const;  ///< rgba16f: world normal toward the rain, coverage
+  const Image& colour() const;       ///< rgba16f: linear radiance
+  const Image& picture() const;      ///< rgba8: display code; row 0 = bottom
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// How badly a map's opposite edges disagree: the mean step of its channels across the edges over that between neighbours
+/// inside; about 1 for a tile, 0 for a constant.
+double seam(const Image& map);
+/// Above this a map does not tile.
+inline constexpr double worst_seam = 4;
+
+/// Bytes of memory that settings need, images aside.
+std::size_t memory_bytes(const Settings& settings);
+
+}  // namespace rainref::rainy_glass

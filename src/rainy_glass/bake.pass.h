@@ -1,0 +1,102 @@
+// Passes bake_raindrops and bake_rivulets: the maps of water on a tile of glass. u and v run from 0 to 1 over the tile and
+// join at its edges; v points up the glass.
+
+/// Four channels of a map as stored values.
+template <class N>
+struct Baked {
+  N r, g, b, a;
+};
+
+template <class N>
+RAINREF_FN N texel_centre_x(const float* inverse_size, int x) { return (N::index(x) + N(0.5f)) * N(inverse_size[0]); }
+template <class N>
+RAINREF_FN N texel_centre_y(const float* inverse_size, int y) { return N(static_cast<float>(y) + 0.5f) * N(inverse_size[1]); }
+/// The difference of two places, the short way round the tile.
+template <class N>
+RAINREF_FN N around(N difference) { return difference - floor(difference + N(0.5f)); }
+
+/// Normal of a surface that rises with (gx, gy), stored.
+template <class N>
+RAINREF_FN Two<N> stored_normal(N gx, N gy, float scale, float neutral, float span) {
+  const N sx = N(scale) * gx, sy = N(scale) * gy;
+  const N inverse = N(1.0f) / sqrt(sum_any_order(N(1.0f), square(sx), square(sy)));
+  return Two<N>(N(neutral) - N(span) * (sx * inverse), N(neutral) - N(span) * (sy * inverse));
+}
+
+// ---- bake_raindrops ------------------------------------------------------------------------------------------------
+// Droplets are distorted paraboloids h = height (1 - |q|^2), the highest counts. R, G: normal. A: height. B: the time offset
+// of the droplet that is nearest: as published by the distance to its centre, which cuts droplets that lie beside a larger
+// one; corrected by distance^2 - radius^2, whose cells hold their droplets whole because droplets do not overlap.
+template <class N>
+RAINREF_FN Baked<N> bake_raindrops(const BakeRaindropsUniforms& u, bool corrected, const Droplet* droplets, int count, int x, int y) {
+  const N px = texel_centre_x<N>(u.inverse_size, x), py = texel_centre_y<N>(u.inverse_size, y);
+  N height(0.0f), gx(0.0f), gy(0.0f), nearest(4.0f), offset(0.0f);
+  for (int k = 0; k < count; ++k) {
+    const Droplet& d = droplets[k];
+    const N dx = around(px - N(d.x)), dy = around(py - N(d.y));
+    const N qx = N(d.m00) * dx + N(d.m01) * dy, qy = N(d.m01) * dx + N(d.m11) * dy;
+    const N h = N(d.height) * (N(1.0f) - (square(qx) + square(qy)));
+    const auto higher = h > height;
+    const N slope(-2.0f * d.height);
+    height = select(higher, h, height);
+    gx = select(higher, slope * (N(d.m00) * qx + N(d.m01) * qy), gx);
+    gy = select(higher, slope * (N(d.m01) * qx + N(d.m11) * qy), gy);
+    const N apart = square(dx) + square(dy);
+    const N measure = corrected ? apart - N(d.radius * d.radius) : apart;
+    const auto nearer = measure < nearest;
+    nearest = select(nearer, measure, nearest);
+    offset = select(nearer, N(d.offset), offset);
+  }
+  const Two<N> normal = stored_normal(gx, gy, u.normal_scale, u.neutral, u.span);
+  return {normal.a, normal.b, offset, height};
+}
+
+// ---- bake_rivulets -------------------------------------------------------------------------------------------------
+/// Gradient noise of `cells` cells along a side: gradients of the lattice's channels First and First + 1, Perlin's fade.
+template <int First, class N>
+RAINREF_FN N gradient_noise(const Texture& lattice, int cells, N u, N v) {
+  const N x = u * N(static_cast<float>(cells)), y = v * N(static_cast<float>(cells)), x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
+  // x0 lies in [0, cells); held there, so that no reading of this text leaves the lattice.
+  const auto columns = N::uniform_int(cells < lattice.width[0] ? cells : lattice.width[0]), rows = N::uniform_int(cells < lattice.height[0] ? cells : lattice.height[0]);
+  const auto column = clamp_index(to_int(x0), columns), row = clamp_index(to_int(y0), rows);
+  const auto left = column * 4, right = wrap_index(column + 1, columns) * 4;
+  const auto low = row * (4 * lattice.width[0]), high = wrap_index(row + 1, rows) * (4 * lattice.width[0]);
+  const auto corner = [&](const auto& line, const auto& texel, N dx, N dy) RAINREF_LAMBDA {
+    const auto place = line + texel;
+    return fetch(lattice.texels + First, place, N()) * dx + fetch(lattice.texels + First + 1, place, N()) * dy;
+  };
+  const N one(1.0f);
+  const N a = corner(low, left, fx, fy), b = corner(low, right, fx - one, fy), c = corner(high, left, fx, fy - one), d = corner(high, right, fx - one, fy - one);
+  const auto fade = [](N t) RAINREF_LAMBDA { return t * t * t * (t * (t * N(6.0f) - N(15.0f)) + N(10.0f)); };
+  return mix(mix(a, b, fade(fx)), mix(c, d, fade(fx)), fade(fy));
+}
+/// Two octaves, in [-1, 1], stored.
+template <int First, class N>
+RAINREF_FN N stored_flow(const BakeRivuletsUniforms& u, const Texture& lattice, N px, N py) {
+  const N noise = gradient_noise<First>(lattice, u.flow_cells, px, py) + N(0.5f) * gradient_noise<First>(lattice, 2 * u.flow_cells, px, py);
+  return N(u.neutral) + N(u.span) * clamp(N(u.flow_gain) * noise, N(-1.0f), N(1.0f));
+}
+/// R, G: normal of the highest rivulet. B, A: flow across and along the glass. Below the head's centre h = height (1 - (dx^2 +
+/// dy^2) / half_width^2), above it height (1 - dy / length - dx^2 / half_width^2): the tail tapers to a point.
+template <class N>
+RAINREF_FN Baked<N> bake_rivulets(const BakeRivuletsUniforms& u, const Trail* trails, int count, const Texture& lattice, int x, int y) {
+  const N px = texel_centre_x<N>(u.inverse_size, x), py = texel_centre_y<N>(u.inverse_size, y);
+  N height(0.0f), gx(0.0f), gy(0.0f);
+  for (int k = 0; k < count; ++k) {
+    const Trail& t = trails[k];
+    const N dy = fract(py - N(t.y) + N(0.125f)) - N(0.125f), angle = N(t.wiggle_rate) * dy + N(t.wiggle_phase);
+    const N dx = around(px - N(t.x)) - N(t.wiggle) * sin(angle);
+    const float inverse_sq = 1.0f / (t.half_width * t.half_width);
+    const auto tail = dy >= N(0.0f);
+    const N along = select(tail, dy * N(t.inverse_length), square(dy) * N(inverse_sq));
+    const N h = N(t.height) * (N(1.0f) - along - square(dx) * N(inverse_sq));
+    const auto higher = h > height;
+    height = select(higher, h, height);
+    const N across = N(-2.0f * t.height * inverse_sq) * dx;
+    const N lengthwise = select(tail, N(-t.height * t.inverse_length), N(-2.0f * t.height * inverse_sq) * dy);
+    gx = select(higher, across, gx);
+    gy = select(higher, lengthwise - across * (N(t.wiggle * t.wiggle_rate) * cos(angle)), gy);
+  }
+  const Two<N> normal = stored_normal(gx, gy, u.normal_scale, u.neutral, u.span);
+  return {normal.a, normal.b, stored_flow<0>(u, lattice, px, py), stored_flow<2>(u, lattice, px, py)};
+}

@@ -1,0 +1,55 @@
+// What the host computes: uniforms and records of the bakes, in double, each rounded once; and the glass's geometry.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "image/texture.h"
+#include "rainref/rainy_glass.h"
+#include "rainy_glass/uniforms.h"
+#include "scene/camera.h"
+
+namespace rainref::rainy_glass {
+
+/// How a map stores a number n of [-1, 1]: neutral + span n. 8 bits, corrected: code 128 is exactly 0.
+struct Code {
+  double neutral, span;
+};
+Code code_of(const Settings& settings, Format stored);
+
+/// Throws Error(usage) for settings that cannot run; the first problem only.
+void check(const Settings& settings);
+/// The same for images.
+void check(const Settings& settings, const Surroundings& surroundings);
+
+scene::Camera camera(const Settings& settings);
+/// The view's direction, held level; -z where it is vertical.
+scene::Vector3 level_forward(const Settings& settings);
+/// Horizontal unit vector against which the wind blows the rain: the normal of upright glass that faces it.
+scene::Vector3 facing(const Settings& settings);
+
+/// Droplets that do not overlap, largest first; those that found no room are left out.
+std::vector<Droplet> make_droplets(const Settings& settings);
+std::vector<Trail> make_trails(const Settings& settings);
+/// Unit gradients, 2 flow_cells a side: channels 0, 1 for the flow across the glass, 2, 3 along it.
+Image make_lattice(const Settings& settings);
+
+BakeRaindropsUniforms bake_raindrops_uniforms(const Settings& settings, int droplet_count);
+BakeRivuletsUniforms bake_rivulets_uniforms(const Settings& settings, int trail_count);
+/// raindrops, rivulets: formats that the maps had before they were stored (8-bit files keep their own neutral code).
+RainOnGlassUniforms rain_on_glass_uniforms(const Settings& settings, int frame, Code raindrops, Code rivulets);
+DisplayUniforms display_uniforms(const Settings& settings);
+
+/// Those of `all`, in order, that may count in texels [x0, x1) x [y0, y1) of a map of `size` texels: that cover some of it, or
+/// are nearest to some of it. Leaving out the others changes no bit.
+std::vector<Droplet> droplets_near(std::span<const Droplet> all, bool corrected, int size, int x0, int y0, int x1, int y1);
+/// Those whose water may reach there.
+std::vector<Trail> trails_near(std::span<const Trail> all, int size, int x0, int y0, int x1, int y1);
+
+/// Fills surface (rgba32f) and orientation (rgba16f) of the picture's size.
+void make_surface(const Settings& settings, const Image& normals, Image& surface, Image& orientation);
+/// Least depth of each texel and its eight neighbours, less a margin for rounding: a bilinear lookup that gives more than z
+/// touches no texel of depth z or less.
+std::vector<float> near_depth(const Image& depth);
+
+}  // namespace rainref::rainy_glass

@@ -1,0 +1,116 @@
+#include "rainy_glass/info.h"
+
+#include "rainy_glass/uniforms.h"
+
+namespace rainref::rainy_glass {
+namespace {
+
+using namespace rainref::scene;
+using namespace rainref::capture;
+
+constexpr const char *published = "as-published", *correct = "corrected";
+
+EffectInfo make() {
+  using D = BakeRaindropsUniforms;
+  const UniformBlock bake_raindrops = uniform_block<D>(
+      "BakeRaindropsUniforms", {member<&D::inverse_size>("inverse_size", "1", "1 over the map's columns and rows."),
+                                member<&D::droplet_count>("droplet_count", "1", "Droplets in the list."),
+                                member<&D::normal_scale>("normal_scale", "1", "Slope of the water over the gradient of the height."),
+                                member<&D::neutral>("neutral", "1", "Stored value of a flat surface's normal."),
+                                member<&D::span>("span", "1", "Stored value of a unit less neutral.")});
+  using R = BakeRivuletsUniforms;
+  const UniformBlock bake_rivulets = uniform_block<R>(
+      "BakeRivuletsUniforms", {member<&R::inverse_size>("inverse_size", "1", "1 over the map's columns and rows."),
+                               member<&R::trail_count>("trail_count", "1", "Rivulets in the list."),
+                               member<&R::normal_scale>("normal_scale", "1", "Slope of the water over the gradient of the height."),
+                               member<&R::neutral>("neutral", "1", "Stored value of 0."), member<&R::span>("span", "1", "Stored value of 1 less neutral."),
+                               member<&R::flow_cells>("flow_cells", "1", "Cells of the flow's coarser octave along a side."),
+                               member<&R::flow_gain>("flow_gain", "1", "Factor of the noise before it is held in [-1, 1].")});
+  using G = RainOnGlassUniforms;
+  const UniformBlock rain_on_glass = uniform_block<G>(
+      "RainOnGlassUniforms",
+      {member<&G::pixel>("pixel", "1", "1 over the picture's columns and rows."),
+       member<&G::time>("time", "s", "as-published: frame number over frame rate, rounded once."),
+       member<&G::rain_amount>("rain_amount", "1", "1: every droplet shows."),
+       member<&G::drop_tiles>("drop_tiles", "1/m", "Tiles of the raindrop map in a metre."),
+       member<&G::rivulet_tiles>("rivulet_tiles", "1/m", "Tiles of the rivulet map in a metre."),
+       member<&G::drop_rate>("drop_rate", "1/s", "as-published: cycles of a droplet in a second."),
+       member<&G::flow_rate>("flow_rate", "1/s", "as-published: cycles of the flow in a second."),
+       member<&G::flow_strength>("flow_strength", "1", "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
+       member<&G::distortion>("distortion", "1", "as-published: pictures per unit of the summed channels."),
+       member<&G::use_probe>("use_probe", "1", "1: the reflection probe, 0: the scene's picture."),
+       member<&G::probe_level>("probe_level", "1", "Mip level of the probe."),
+       member<&G::drop_phase>("drop_phase", "1", "corrected: fraction of the droplets' cycle."),
+       member<&G::flow_phase>("flow_phase", "1", "corrected: fraction of the flow's cycle."),
+       member<&G::scroll>("scroll", "1", "corrected: way of the rivulets down the glass, fraction of a tile."),
+       member<&G::run_strength>("run_strength", "1", "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
+       member<&G::drop_neutral>("drop_neutral", "1", "corrected: stored value of 0 in the raindrop map."),
+       member<&G::drop_scale>("drop_scale", "1", "corrected: normal over stored value less neutral."),
+       member<&G::rivulet_neutral>("rivulet_neutral", "1", "corrected: stored value of 0 in the rivulet map."),
+       member<&G::rivulet_scale>("rivulet_scale", "1", "corrected: as drop_scale."),
+       member<&G::sharpness>("sharpness", "1", "corrected: 1 over the height in which a rim turns visible."),
+       member<&G::impact>("impact", "1", "corrected: share of the cycle in which a droplet spreads."),
+       member<&G::bend>("bend", "1", "corrected: refractive index of water less 1."),
+       member<&G::rivulet_amount>("rivulet_amount", "1", "corrected: weight of the rivulets' slopes."),
+       member<&G::rain_to>("rain_to", "1", "corrected: its product with the normal is the share of the rain that the glass meets."),
+       member<&G::right>("right", "1", "Unit vector to the right of the picture, world."),
+       member<&G::half_width>("half_width", "1", "Half the width of the image plane at distance 1."),
+       member<&G::up>("up", "1", "Unit vector to the top of the picture."),
+       member<&G::half_height>("half_height", "1", "Half the height of the image plane at distance 1."),
+       member<&G::forward>("forward", "1", "Unit vector into the picture.")});
+  const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
+  const UniformBlock droplet = record<Droplet>(
+      "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."), member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
+                  member<&Droplet::height>("height", "1", "At the centre."), member<&Droplet::m00>("m00", "1", "q = M d is 1 long at the rim."),
+                  member<&Droplet::m01>("m01", "1", "M is symmetric."), member<&Droplet::m11>("m11", "1", "See m00."), member<&Droplet::offset>("offset", "1", "Of its timer.")});
+  const UniformBlock trail = record<Trail>(
+      "Trail", {member<&Trail::x>("x", "1", "Centre of the head, in tiles."), member<&Trail::y>("y", "1", "Centre of the head."), member<&Trail::half_width>("half_width", "1", "Of the head."),
+                member<&Trail::inverse_length>("inverse_length", "1", "1 over the length of the tail."), member<&Trail::height>("height", "1", "Of the head."),
+                member<&Trail::wiggle>("wiggle", "1", "Amplitude of the winding."), member<&Trail::wiggle_rate>("wiggle_rate", "rad", "Of the winding, in a tile."),
+                member<&Trail::wiggle_phase>("wiggle_phase", "rad", "At the head.")});
+
+  constexpr auto envelope = Judge::envelope;
+  const auto both = [](const char* block) { return std::vector<PassVariant>{{published, 1, envelope, block}, {correct, 1, envelope, block}}; };
+  EffectInfo info;
+  info.name = "rainy_glass";
+  info.passes = {
+      {"bake_raindrops", "The raindrop map: normals, time offsets and heights of droplets on a tile. Once, before frame 0.", both("BakeRaindropsUniforms"), {{"droplets"}}, {"raindrops"}, {bake_raindrops},
+       "gather", {"1 + slope squared"}},
+      {"bake_rivulets", "The rivulet map: normals of rivulets, and their flow. Once, before frame 0.", both("BakeRivuletsUniforms"), {{"trails"}, {"lattice"}}, {"rivulets"}, {bake_rivulets}, "gather",
+       {"1 + slope squared"}},
+      {"rain_on_glass", "The scene seen through the wet glass: linear radiance.", both("RainOnGlassUniforms"),
+       {{"surface"}, {"orientation"}, {"raindrops", "bake_raindrops"}, {"rivulets", "bake_rivulets"}, {"scene"}, {"scene_depth", "", false, correct}, {"near_depth", "", false, correct}, {"probe"}},
+       {"colour"}, {rain_on_glass}, "gather", {"dot", "1 - normal squared"}},
+      {"display", "Display code.", both("DisplayUniforms"), {{"colour", "rain_on_glass"}}, {"picture"}, {display}},
+  };
+  const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
+  info.buffers = {
+      {"droplets", "records", "Droplets of the raindrop map, largest first; they do not overlap.", "1", one, "none", "none", "none", "", "Droplet"},
+      {"trails", "records", "Rivulets of the rivulet map.", "1", one, "none", "none", "none", "", "Trail"},
+      {"lattice", "rgba32f", "Unit gradients of the flow across (x, y) and along (z, w) the glass.", "1", signed_one},
+      {"raindrops", "maps.storage", "Normal x, normal y, time offset, height.", "1", one, "normals: n = 2 s - 1", "none", "none", "", "", published},
+      {"raindrops", "maps.storage", "Normal x, normal y, time offset, height.", "1", one, "normals: n = 2 s - 1; rgba8: (255 s - 128) / 127", "none", "none", "", "", correct},
+      {"rivulets", "maps.storage", "Normal x, normal y, flow across, flow along.", "1", one, "normals: n = 2 s - 1; flow unsigned", "none", "none", "", "", published},
+      {"rivulets", "maps.storage", "Normal x, normal y, flow across, flow along.", "1", one, "all n = 2 s - 1; rgba8: (255 s - 128) / 127", "none", "none", "", "", correct},
+      {"surface", "rgba32f", "Place on the glass u, v; distance along the view axis, 0 beside the glass; 0.", "m, m, m, 1", {-10, 10}},
+      {"orientation", "rgba16f", "World normal toward the rain; 1 on the glass.", "1", signed_one},
+      {"scene", "rgba16f", "The scene without the glass, linear radiance.", "1", one, "none", "linear Rec. 709", "unused"},
+      {"scene_depth", "r32f", "Its depth along the view axis.", "m", {0, 1000}, "none", "none", "none", "", "", correct},
+      {"near_depth", "r32f", "Least depth of a texel and its eight neighbours, times 1 - 2^-16.", "m", {0, 1000}, "none", "none", "none", "", "", correct},
+      {"probe", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused",
+       "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
+      {"colour", "rgba16f", "Linear radiance, alpha 1.", "1", one, "none", "linear Rec. 709", "1"},
+      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"},
+  };
+  info.records = {droplet, trail};
+  return info;
+}
+
+}  // namespace
+
+const capture::EffectInfo& effect_info() {
+  static const capture::EffectInfo info = make();
+  return info;
+}
+
+}  // namespace rainref::rainy_glass

@@ -1,0 +1,135 @@
+// Pass rain_on_glass: the scene behind wet glass; and display: its code values.
+
+/// What a pixel sees of the glass and of the scene, as stored.
+template <class N>
+struct GlassPixel {
+  N u, v;          ///< place on the glass [m]
+  N distance;      ///< along the view axis [m]
+  N covered;       ///< 1 on the glass, 0 beside it
+  Vec3<N> normal;  ///< world, toward the rain
+  Vec3<N> own;     ///< the scene's radiance at this very pixel
+  N own_depth;     ///< corrected: of the scene there, along the view axis [m]
+};
+struct GlassMaps {
+  const Texture *raindrops, *rivulets, *scene, *near_depth, *probe;
+};
+
+template <class N>
+RAINREF_FN Vec3<N> scene_at(const GlassMaps& m, N u, N v) {
+  const auto s = sample_bilinear<0, 3, N>(fixed_texture<Address::clamp, Address::clamp, 4>(*m.scene), u, v);
+  return Vec3<N>(s[0], s[1], s[2]);
+}
+/// The reflection probe along the view ray, moved on the image plane at distance 1.
+template <class N>
+RAINREF_FN Vec3<N> probe_at(const RainOnGlassUniforms& u, const GlassMaps& m, N x, N y) {
+  const Vec3<N> ray = Vec3<N>(u.forward) + x * Vec3<N>(u.right) + y * Vec3<N>(u.up);
+  return sample_latlong(fixed_texture<Address::repeat, Address::clamp, 4>(*m.probe), ray, N(u.probe_level));
+}
+
+/// The two staggered phases of a flow whose cycle has come to `phase`, and the weight of the second.
+template <class N>
+struct FlowPhases {
+  N first, second, weight;
+};
+template <class N>
+RAINREF_FN FlowPhases<N> flow_phases(N phase) {
+  const N first = fract(phase);
+  return {first, fract(phase + N(0.5f)), abs(N(1.0f) - N(2.0f) * first)};
+}
+
+// ---- as published --------------------------------------------------------------------------------------------------
+//   timer = fract(time + B),  mask = ceil(A - timer),  d = mask RG + (1 - |n . up|) rivulets,  grab(screen + distortion (2 d - 1))
+// rivulets: the map at uv + BA phase for both phases, mixed by the weight. What rain_amount does the article leaves open:
+// here it dims the map by 1 - rain_amount.
+template <class N>
+RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
+  const N zero(0.0f), one(1.0f);
+  const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
+  const auto drop = sample_bilinear<0, 4, N>(raindrops, p.u * N(u.drop_tiles), p.v * N(u.drop_tiles));
+  const N timer = fract(N(u.time) * N(u.drop_rate) + drop[2]);
+  const N mask = select(drop[3] - N(1.0f - u.rain_amount) - timer > zero, one, zero);
+
+  const N ru = p.u * N(u.rivulet_tiles), rv = p.v * N(u.rivulet_tiles);
+  const auto flow = sample_bilinear<2, 2, N>(rivulets, ru, rv);
+  const FlowPhases<N> f = flow_phases(N(u.time) * N(u.flow_rate));
+  const N strength(u.flow_strength), first = strength * f.first, second = strength * f.second;
+  const auto a = sample_bilinear<0, 2, N>(rivulets, ru + flow[0] * first, rv + flow[1] * first);
+  const auto b = sample_bilinear<0, 2, N>(rivulets, ru + flow[0] * second, rv + flow[1] * second);
+  const N upright = one - abs(p.normal.y);
+  const N dx = mask * drop[0] + upright * mix(a[0], b[0], f.weight), dy = mask * drop[1] + upright * mix(a[1], b[1], f.weight);
+  const N ox = N(u.distortion) * (N(2.0f) * dx - one), oy = N(u.distortion) * (N(2.0f) * dy - one);
+
+  const N su = (N::index(column) + N(0.5f)) * N(u.pixel[0]) + ox, sv = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) + oy;
+  const N two(2.0f);
+  const Vec3<N> behind = u.use_probe != 0 ? probe_at(u, m, (two * su - one) * N(u.half_width), (two * sv - one) * N(u.half_height)) : scene_at(m, su, sv);
+  return select(p.covered > N(0.5f), behind, p.own);
+}
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+/// Slope of the water, up along (x, y), from its stored normal.
+template <class N>
+RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
+  const N x = (stored_x - N(neutral)) * N(scale), y = (stored_y - N(neutral)) * N(scale);
+  const N inverse = N(-1.0f) / sqrt(max(sum_any_order(N(1.0f), -square(x), -square(y)), N(0.04f)));
+  return Two<N>(x * inverse, y * inverse);
+}
+/// What of the water on the glass is a droplet now, from 0 to 1. The threshold falls from 1 to 0 at the impact and then rises
+/// to 1 again: the droplet spreads, then dries from its rim.
+template <class N>
+RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N amount) {
+  const N one(1.0f), timer = fract(N(u.drop_phase) + offset);
+  const N threshold = max(one - timer * N(1.0f / u.impact), (timer - N(u.impact)) * N(1.0f / (1.0f - u.impact)));
+  return saturate((height - (one - amount) - threshold) * N(u.sharpness));
+}
+// Slopes are decoded before they are masked, so that dry glass bends nothing. A thin sheet of slope s bends a ray by (ior - 1) s
+// toward the thicker side; on the image plane what lies behind moves by that times 1 - glass distance / scene distance. Where
+// something nearer than the glass lies under any texel of that lookup the pixel shows its own scene texel.
+template <class N>
+RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
+  const N zero(0.0f), one(1.0f);
+  const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
+  const N amount = N(u.rain_amount) * saturate(dot(p.normal, Vec3<N>(u.rain_to)));
+  const N du = p.u * N(u.drop_tiles), dv = p.v * N(u.drop_tiles);
+  const auto drop = sample_bilinear<0, 4, N>(raindrops, du, dv);
+  const Two<N> bulge = slope_of(drop[0], drop[1], u.drop_neutral, u.drop_scale);
+  const N shown = droplet_shown(u, drop[3], drop[2], amount);
+
+  const N ru = p.u * N(u.rivulet_tiles), rv = p.v * N(u.rivulet_tiles), half(0.5f);
+  const auto flow = sample_bilinear<2, 2, N>(rivulets, ru, rv);
+  const N neutral(u.rivulet_neutral), scale(u.rivulet_scale);
+  const N fu = (flow[0] - neutral) * scale * N(u.flow_strength), fv = (flow[1] - neutral) * scale * N(u.run_strength);
+  const FlowPhases<N> f = flow_phases(N(u.flow_phase));
+  const N first = f.first - half, second = f.second - half, scrolled = rv + N(u.scroll);
+  const auto a = sample_bilinear<0, 2, N>(rivulets, ru + fu * first, scrolled + fv * first);
+  const auto b = sample_bilinear<0, 2, N>(rivulets, ru + fu * second, scrolled + fv * second);
+  const Two<N> streak = slope_of(mix(a[0], b[0], f.weight), mix(a[1], b[1], f.weight), u.rivulet_neutral, u.rivulet_scale);
+  const N steep = sqrt(square(p.normal.x) + square(p.normal.z)), running = N(u.rivulet_amount) * steep;
+  const N sx = shown * bulge.a + running * streak.a, sy = shown * bulge.b + running * streak.b;
+
+  // Along u, which is horizontal, and v, up the glass; both fade where the glass lies level.
+  const N inverse = one / max(steep, N(0.05f));
+  const Vec3<N> along_u(p.normal.z * inverse, zero, -p.normal.x * inverse);
+  const Vec3<N> along_v(p.normal.y * along_u.z, p.normal.z * along_u.x - p.normal.x * along_u.z, -p.normal.y * along_u.x);
+  const Vec3<N> rise = sx * along_u + sy * along_v;
+  const N x = N(u.bend) * dot(rise, Vec3<N>(u.right)), y = N(u.bend) * dot(rise, Vec3<N>(u.up));
+
+  // Dry glass shows the scene's texel itself.
+  const auto seen = (p.covered > half) & (p.own_depth > p.distance) & (square(sx) + square(sy) > N(1e-8f));
+  if (!any(seen)) return p.own;
+  const N cx = (N::index(column) + half) * N(u.pixel[0]), cy = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]), two(2.0f);
+  if (u.use_probe != 0) {
+    const Vec3<N> behind = probe_at(u, m, (two * cx - one) * N(u.half_width) + x, (two * cy - one) * N(u.half_height) + y);
+    return select(seen, behind, p.own);
+  }
+  const N beyond = saturate(one - p.distance / max(p.own_depth, N(1e-3f)));
+  const N su = cx + x * beyond * uniform_quotient(0.5f, u.half_width, N()), sv = cy + y * beyond * uniform_quotient(0.5f, u.half_height, N());
+  const N nearest = sample_bilinear<0, 1, N>(fixed_texture<Address::clamp, Address::clamp, 1>(*m.near_depth), su, sv)[0];
+  return select(seen & (nearest > p.distance), scene_at(m, su, sv), p.own);
+}
+
+// ---- display -------------------------------------------------------------------------------------------------------
+template <class N>
+RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) {
+  const Vec3<N> c = N(d.exposure) * colour;
+  return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z)));
+}

@@ -1,0 +1,175 @@
+// The order of the passes. No arithmetic.
+#include "rainref/rainy_glass.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rainref/error.h"
+#include "rainy_glass/host.h"
+#include "rainy_glass/kernels.h"
+#include "rainy_glass/storage.h"
+
+namespace rainref::rainy_glass {
+namespace {
+
+constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 8;
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+/// Time that tiles spend in one pass, over all threads.
+class PassClock {
+ public:
+  template <class Body>
+  void add(const Body& body) {
+    const Stopwatch watch;
+    body();
+    nanoseconds_ += static_cast<std::int64_t>(watch.seconds() * 1e9);
+  }
+  /// The pass's share of the wall clock with this many threads at work.
+  double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
+
+ private:
+  std::atomic<std::int64_t> nanoseconds_ = 0;
+};
+template <class T>
+RecordView records(const std::vector<T>& all) {
+  return {all.data(), all.size(), sizeof(T)};
+}
+
+}  // namespace
+
+struct RainyGlass::State {
+  Settings settings;
+  const parallel::Executor& executor;
+  bool corrected, bakes_raindrops, bakes_rivulets;
+  int frame = 0;
+  Code drop_code, rivulet_code;
+  std::vector<Droplet> droplets;
+  std::vector<Trail> trails;
+  TextureData lattice, raindrop_texture, rivulet_texture, scene_texture, near_texture, probe;
+  Image raindrops, rivulets, scene, depth, surface, orientation, colour, picture;
+
+  State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
+      : settings(s), executor(e), corrected(s.variant == Variant::corrected), bakes_raindrops(around.raindrops.empty()), bakes_rivulets(around.rivulets.empty()) {
+    const auto code = [&](const Image& map) { return code_of(s, map.empty() ? s.map_storage : map.format()); };
+    drop_code = code(around.raindrops);
+    rivulet_code = code(around.rivulets);
+    if (bakes_raindrops) {
+      droplets = make_droplets(s);
+      raindrops = Image(s.map_storage, s.map_size, s.map_size);
+    } else {
+      raindrops = stored_map(around.raindrops, s.map_storage);
+    }
+    if (bakes_rivulets) {
+      trails = make_trails(s);
+      lattice = TextureData(make_lattice(s), Address::repeat, Address::repeat);
+      rivulets = Image(s.map_storage, s.map_size, s.map_size);
+    } else {
+      rivulets = stored_map(around.rivulets, s.map_storage);
+    }
+    scene = as_half(around.colour);
+    scene_texture = TextureData(scene, Address::clamp, Address::clamp);
+    if (corrected) {
+      depth = copy(around.depth);
+      near_texture = TextureData(near_depth(depth), 1, s.width, s.height, Address::clamp, Address::clamp);
+    }
+    if (s.use_probe) {
+      probe = TextureData(around.probe, Address::repeat, Address::clamp);
+      probe.build_mips();
+    }
+    make_surface(s, around.normals, surface, orientation);
+    colour = Image(Format::rgba16f, s.width, s.height);
+    picture = Image(Format::rgba8, s.width, s.height);
+  }
+
+  template <class Uniforms>
+  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {
+    if (!recorder) return;
+    recorder->before({frame, 0, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps), static_cast<float>(1 / settings.fps), settings.rounding});
+  }
+  void report(Recorder* recorder, std::string_view pass, const PassOutput& output, double seconds) const {
+    if (recorder) recorder->pass({frame, 0, pass, {&output, 1}, seconds});
+  }
+
+  void bake(Recorder* recorder) {
+    if (bakes_raindrops) {
+      const BakeRaindropsUniforms u = bake_raindrops_uniforms(settings, static_cast<int>(droplets.size()));
+      announce(recorder, "bake_raindrops", u, std::vector<PassInput>{{"droplets", records(droplets)}});
+      const Stopwatch watch;
+      executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
+        const std::vector<Droplet> near = droplets_near(droplets, corrected, settings.map_size, t.x0, t.y0, t.x1, t.y1);
+        bake_raindrops_rows(u, corrected, settings.rounding, near, raindrops, t);
+      });
+      report(recorder, "bake_raindrops", {"raindrops", raindrops}, watch.seconds());
+    }
+    if (bakes_rivulets) {
+      const BakeRivuletsUniforms u = bake_rivulets_uniforms(settings, static_cast<int>(trails.size()));
+      announce(recorder, "bake_rivulets", u, std::vector<PassInput>{{"trails", records(trails)}, {"lattice", &lattice.view()}});
+      const Stopwatch watch;
+      executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
+        const std::vector<Trail> near = trails_near(trails, settings.map_size, t.x0, t.y0, t.x1, t.y1);
+        bake_rivulets_rows(u, settings.rounding, near, lattice.view(), rivulets, t);
+      });
+      report(recorder, "bake_rivulets", {"rivulets", rivulets}, watch.seconds());
+    }
+    raindrop_texture = TextureData(raindrops, Address::repeat, Address::repeat);
+    rivulet_texture = TextureData(rivulets, Address::repeat, Address::repeat);
+  }
+};
+
+RainyGlass::RainyGlass(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor) {
+  check(settings);
+  check(settings, surroundings);
+  state_ = std::make_unique<State>(settings, surroundings, executor);
+}
+RainyGlass::~RainyGlass() = default;
+RainyGlass::RainyGlass(RainyGlass&&) noexcept = default;
+
+void RainyGlass::frame(Recorder* recorder) {
+  State& s = *state_;
+  if (s.frame == 0) s.bake(recorder);
+  const RainOnGlassUniforms u = rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code);
+  const DisplayUniforms d = display_uniforms(s.settings);
+  std::vector<PassInput> inputs{{"surface", s.surface}, {"orientation", s.orientation}};
+  inputs.push_back({"raindrops", s.raindrops, Filter::linear, Filter::none, Address::repeat});
+  inputs.push_back({"rivulets", s.rivulets, Filter::linear, Filter::none, Address::repeat});
+  inputs.push_back({"scene", s.scene, Filter::linear});
+  if (s.corrected) {
+    inputs.push_back({"scene_depth", s.depth});
+    inputs.push_back({"near_depth", &s.near_texture.view(), Filter::linear});
+  }
+  if (s.settings.use_probe) inputs.push_back({"probe", &s.probe.view(), Filter::linear, Filter::linear});
+  const GlassInputs in{&s.raindrop_texture.view(), &s.rivulet_texture.view(), &s.scene_texture.view(), &s.near_texture.view(), &s.probe.view(), &s.surface, &s.orientation, &s.scene, &s.depth};
+  const Rounding rounding = s.settings.rounding;
+  // A tile goes through both passes while it lies in the cache.
+  PassClock rain, shown;
+  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& t) {
+    rain.add([&] { rain_on_glass_rows(u, s.corrected, rounding, in, s.colour, t); });
+    shown.add([&] { display_rows(d, rounding, s.colour, s.picture, t); });
+  });
+  // What these passes read, neither of them overwrites: they may be announced after both have run.
+  s.announce(recorder, "rain_on_glass", u, inputs);
+  s.report(recorder, "rain_on_glass", {"colour", s.colour}, rain.seconds(s.executor.threads()));
+  s.announce(recorder, "display", d, std::vector<PassInput>{{"colour", s.colour}});
+  s.report(recorder, "display", {"picture", s.picture}, shown.seconds(s.executor.threads()));
+  ++s.frame;
+}
+
+int RainyGlass::frames() const { return state_->frame; }
+const Image& RainyGlass::raindrops() const { return state_->raindrops; }
+const Image& RainyGlass::rivulets() const { return state_->rivulets; }
+const Image& RainyGlass::surface() const { return state_->surface; }
+const Image& RainyGlass::orientation() const { return state_->orientation; }
+const Image& RainyGlass::colour() const { return state_->colour; }
+const Image& RainyGlass::picture() const { return state_->picture; }
+
+}  // namespace rainref::rainy_glass

@@ -1,0 +1,199 @@
+#include "rainy_glass/readings.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "capture/bound_texture.h"
+#include "rainref/error.h"
+#include "rainy_glass/host.h"
+#include "rainy_glass/plain.h"
+
+namespace rainref::rainy_glass {
+namespace {
+
+using capture::BoundTexture;
+using capture::PassCase;
+using capture::PassModel;
+
+constexpr int block = 8;  // texels a side for which the records that may count are chosen once, as the host does for its tiles
+
+template <class N>
+void put(const scalar::Baked<N>& b, N* out) {
+  out[0] = b.r;
+  out[1] = b.g;
+  out[2] = b.b;
+  out[3] = b.a;
+}
+/// A map's records by block.
+template <class Record>
+struct Chosen {
+  int columns = 0;
+  std::vector<std::vector<Record>> blocks;
+  template <class Choose>
+  void choose(int width, int height, const Choose& near) {
+    columns = (width + block - 1) / block;
+    for (int y = 0; y < height; y += block) {
+      for (int x = 0; x < width; x += block) blocks.push_back(near(x, y, std::min(x + block, width), std::min(y + block, height)));
+    }
+  }
+  const std::vector<Record>& at(int x, int y) const { return blocks[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block)]; }
+};
+const capture::Array& square_output(const PassCase& c, const char* name) {
+  const capture::CaseOutput* out = c.output(name);
+  if (out == nullptr || out->array.width != out->array.height) throw Error(ExitCode::port_files, fmt::format("{}: expected a square output {}", c.folder(), name));
+  return out->array;
+}
+
+// ---- bake_raindrops --------------------------------------------------------------------------------------------------
+struct BakeRaindrops {
+  int width, height, values = 4;
+  BakeRaindropsUniforms uniforms;
+  bool corrected;
+  Chosen<Droplet> droplets;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const std::vector<Droplet>& near = droplets.at(x, y);
+    put(scalar::bake_raindrops<N>(uniforms, corrected, near.data(), static_cast<int>(near.size()), x, y), out);
+  }
+};
+std::unique_ptr<PassModel> bind_bake_raindrops(const PassCase& c) {
+  BakeRaindrops m;
+  m.width = m.height = square_output(c, "raindrops").width;
+  m.uniforms = capture::uniforms_of<BakeRaindropsUniforms>(c);
+  m.corrected = c.corrected();
+  const auto all = capture::records_of<Droplet>(capture::record_input(c, "droplets"));
+  m.droplets.choose(m.width, m.height, [&](int x0, int y0, int x1, int y1) { return droplets_near(all, m.corrected, m.width, x0, y0, x1, y1); });
+  return capture::model_of(std::move(m));
+}
+
+// ---- bake_rivulets ---------------------------------------------------------------------------------------------------
+struct BakeRivulets {
+  int width, height, values = 4;
+  BakeRivuletsUniforms uniforms;
+  Chosen<Trail> trails;
+  BoundTexture lattice;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const std::vector<Trail>& near = trails.at(x, y);
+    put(scalar::bake_rivulets<N>(uniforms, near.data(), static_cast<int>(near.size()), lattice.view(), x, y), out);
+  }
+};
+std::unique_ptr<PassModel> bind_bake_rivulets(const PassCase& c) {
+  BakeRivulets m;
+  m.width = m.height = square_output(c, "rivulets").width;
+  m.uniforms = capture::uniforms_of<BakeRivuletsUniforms>(c);
+  const auto all = capture::records_of<Trail>(capture::record_input(c, "trails"));
+  m.trails.choose(m.width, m.height, [&](int x0, int y0, int x1, int y1) { return trails_near(all, m.width, x0, y0, x1, y1); });
+  m.lattice = BoundTexture(capture::image_input(c, "lattice"));
+  if (m.lattice.view().width[0] < 2 * m.uniforms.flow_cells || m.lattice.view().height[0] < 2 * m.uniforms.flow_cells) {
+    throw Error(ExitCode::port_files, fmt::format("{}: in.lattice: expected {} texels a side, found {}x{}", c.folder(), 2 * m.uniforms.flow_cells, m.lattice.view().width[0], m.lattice.view().height[0]));
+  }
+  return capture::model_of(std::move(m));
+}
+
+// ---- rain_on_glass ---------------------------------------------------------------------------------------------------
+struct RainOnGlass {
+  int width, height, values = 4;
+  RainOnGlassUniforms uniforms;
+  bool corrected;
+  BoundTexture surface, orientation, raindrops, rivulets, scene, depth, near, probe;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const std::ptrdiff_t texel = static_cast<std::ptrdiff_t>(y) * width + x;
+    const float *s = surface.view().texels + 4 * texel, *n = orientation.view().texels + 4 * texel, *c = scene.view().texels + 4 * texel;
+    const scalar::GlassPixel<N> p{N::load(s),
+                                  N::load(s + 1),
+                                  N::load(s + 2),
+                                  N::load(n + 3),
+                                  plain::Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)),
+                                  plain::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)),
+                                  corrected ? N::load(depth.view().texels + texel) : N(0.0f)};
+    const Texture drops = raindrops.view(), streaks = rivulets.view(), behind = scene.view(), least = near.view(), around = probe.view();
+    const scalar::GlassMaps maps{&drops, &streaks, &behind, &least, &around};
+    const plain::Vec3<N> seen = corrected ? scalar::rain_on_glass_corrected<N>(uniforms, maps, p, x, y) : scalar::rain_on_glass_as_published<N>(uniforms, maps, p, x, y);
+    out[0] = seen.x;
+    out[1] = seen.y;
+    out[2] = seen.z;
+    out[3] = N(1.0f);
+  }
+};
+std::unique_ptr<PassModel> bind_rain_on_glass(const PassCase& c) {
+  RainOnGlass m;
+  const capture::Array& surface = capture::image_input(c, "surface").array;
+  m.width = surface.width;
+  m.height = surface.height;
+  m.uniforms = capture::uniforms_of<RainOnGlassUniforms>(c);
+  m.corrected = c.corrected();
+  const auto texture = [&](const char* name) { return BoundTexture(capture::image_input(c, name)); };
+  const auto picture = [&](const char* name) {
+    const capture::Array& a = capture::image_input(c, name).array;
+    if (a.width != m.width || a.height != m.height) {
+      throw Error(ExitCode::port_files, fmt::format("{}: in.{}: expected {}x{} like in.surface, found {}x{}", c.folder(), name, m.width, m.height, a.width, a.height));
+    }
+    return texture(name);
+  };
+  m.surface = texture("surface");
+  m.orientation = picture("orientation");
+  m.raindrops = texture("raindrops");
+  m.rivulets = texture("rivulets");
+  m.scene = picture("scene");
+  if (m.corrected) {
+    m.depth = picture("scene_depth");
+    m.near = picture("near_depth");
+  }
+  if (m.uniforms.use_probe != 0) m.probe = texture("probe");
+  return capture::model_of(std::move(m));
+}
+
+// ---- display ---------------------------------------------------------------------------------------------------------
+struct Display {
+  int width, height, values = 4;
+  DisplayUniforms uniforms;
+  BoundTexture colour;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    const float* in = colour.view().texels + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
+    const plain::Vec3<N> c = scalar::display<N>(uniforms, plain::Vec3<N>(N::load(in), N::load(in + 1), N::load(in + 2)));
+    out[0] = c.x;
+    out[1] = c.y;
+    out[2] = c.z;
+    out[3] = N(1.0f);
+  }
+};
+std::unique_ptr<PassModel> bind_display(const PassCase& c) {
+  const capture::CaseInput& colour = capture::image_input(c, "colour");
+  return capture::model_of(Display{colour.array.width, colour.array.height, 4, capture::uniforms_of<DisplayUniforms>(c), BoundTexture(colour)});
+}
+
+/// near_depth is made from scene_depth: whether it is this one's.
+std::string doubt_near_depth(const PassCase& c) {
+  if (!c.corrected()) return "";
+  const BoundTexture depth(capture::image_input(c, "scene_depth")), near(capture::image_input(c, "near_depth"));
+  const Texture d = depth.view(), n = near.view();
+  if (d.width[0] != n.width[0] || d.height[0] != n.height[0]) return "in.near_depth has another size than in.scene_depth";
+  Image image(Format::r32f, d.width[0], d.height[0]);
+  for (int y = 0; y < image.height(); ++y) std::copy_n(d.texels + static_cast<std::ptrdiff_t>(y) * image.width(), image.width(), image.row<float>(y));
+  const std::vector<float> expected = near_depth(image);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (n.texels[i] > expected[i]) {
+      return fmt::format("in.near_depth at ({}, {}) is {:.6g} m, above the least depth of scene_depth around it, {:.6g} m", i % static_cast<std::size_t>(image.width()),
+                         i / static_cast<std::size_t>(image.width()), n.texels[i], expected[i]);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+const std::vector<capture::PassReadings>& readings() {
+  static const std::vector<capture::PassReadings> all{
+      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", bind_display}};
+  return all;
+}
+
+}  // namespace rainref::rainy_glass
