@@ -6,5 +6,6 @@
 namespace rainref::cli {
 
 EffectEntry puddle_entry();
+EffectEntry edge_splash_entry();
 
 }  // namespace rainref::cli
