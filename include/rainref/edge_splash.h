@@ -50,6 +50,7 @@ struct Settings {
   double edge_bend = 0.02;                              ///< smallest share of the distance that the step is
   double softness = 0.3;                                ///< of every threshold: it ends at (1 + softness) times its beginning
   double widest_angle_deg = 75;                         ///< between an edge's normal and up
+  std::array<double, 3> up{0, 1, 0};                    ///< against the fall of the rain, world axes; any length
   double noise_size = 0.35;                             ///< of the tile [picture heights]
   std::array<double, 2> drop_velocity{0.25, -1.0};      ///< [picture heights/s]
 

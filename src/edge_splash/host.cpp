@@ -69,6 +69,7 @@ void check(const Settings& s) {
   }
   const std::size_t need = memory_bytes(s), have = physical_memory();
   if (need > have) throw Error(ExitCode::usage, fmt::format("run.size {}x{} needs {} of memory; this machine has {}", s.width, s.height, memory_text(need), memory_text(have)));
+  if (s.up[0] == 0 && s.up[1] == 0 && s.up[2] == 0) throw Error(ExitCode::usage, "edge_splash.up: expected a direction, found [0, 0, 0]");
   camera(s).basis();  // throws for a camera that looks nowhere
   camera(s).half_height();
 }
@@ -93,7 +94,7 @@ SplashUniforms splash_uniforms(const Settings& s, int frame, int noise_width, in
   put_color(s, u.drop_color);
   const scene::Camera eye = camera(s);
   const scene::Camera::Basis basis = eye.basis();
-  const scene::Vector3 up = scene::normalized(eye.up);
+  const scene::Vector3 up = scene::normalized({s.up[0], s.up[1], s.up[2]});
   u.up[0] = static_cast<float>(glm::dot(up, basis.right));
   u.up[1] = static_cast<float>(glm::dot(up, basis.up));
   u.up[2] = static_cast<float>(glm::dot(up, basis.forward));

@@ -29,6 +29,7 @@ std::span<const scene::Parameter> parameters() {
       real("edge_splash.edge_bend", "1", 1e-4, 1, 0.02, "Smallest share of its distance by which an edge stands before what is behind it; a plane has none.").only(correct),
       real("edge_splash.softness", "1", 1e-4, 10, 0.3, "Every threshold t of the masks ends at (1 + softness) t; those of noise and angle that share of their way to 1 further.").only(correct),
       real("edge_splash.widest_angle", "deg", 1, 90, 75, "Between an edge's normal and the way up.").only(correct),
+      real3("edge_splash.up", "1", -1, 1, {0, 1, 0}, "Where the rain comes from, world axes.").only(correct),
       real("edge_splash.noise_size", "picture height", 0.01, 100, 0.35, "Height of the noise tile.").only(correct),
       real2("edge_splash.drop_velocity", "picture height/s", -1000, 1000, {0.25, -1.0}, "Velocity of the noise.").only(correct),
       // The picture.
@@ -43,7 +44,7 @@ std::span<const scene::Parameter> parameters() {
       boolean("scene.reversed_depth", true, "Device depth 1 is near and 0 far; else the other way round."),
       real3("camera.position", "m", -1e5, 1e5, {0.15, 1.25, 1.2}, "Eye of the camera."),
       real3("camera.target", "m", -1e5, 1e5, {-0.35, 0.75, -6}, "Point that the camera looks at."),
-      real3("camera.up", "1", -1, 1, {0, 1, 0}, "Direction that is up in the picture, and against which rain falls."),
+      real3("camera.up", "1", -1, 1, {0, 1, 0}, "Direction that is up in the picture."),
       real("camera.vertical_fov_deg", "deg", 1, 170, 50, "Vertical field of view; of a picture from a file, too."),
       real("display.exposure", "EV", -20, 20, 1.2, "Exposure of the picture."),
   };
@@ -75,6 +76,7 @@ Settings settings_from(const scene::Config& config) {
     s.edge_bend = config.real("edge_splash.edge_bend");
     s.softness = config.real("edge_splash.softness");
     s.widest_angle_deg = config.real("edge_splash.widest_angle");
+    s.up = config.real3("edge_splash.up");
     s.noise_size = config.real("edge_splash.noise_size");
     s.drop_velocity = config.real2("edge_splash.drop_velocity");
   }
