@@ -8,6 +8,7 @@
 #include "conformance/judge_pass.h"
 #include "conformance/port_files.h"
 #include "conformance/profiles.h"
+#include "edge_splash/readings.h"
 #include "port_dump/dump_file.h"
 #include "puddle/readings.h"
 #include "rainref/error.h"
@@ -22,7 +23,7 @@ using capture::PackPass;
 using capture::PassCase;
 
 const std::vector<capture::PassReadings>& readings_of(const std::string& effect) {
-  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{{"puddle", &puddle::readings()}};
+  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{{"edge_splash", &edge_splash::readings()}, {"puddle", &puddle::readings()}};
   const auto found = all.find(effect);
   if (found != all.end()) return *found->second;
   std::vector<std::string> names;

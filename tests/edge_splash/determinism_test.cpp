@@ -169,8 +169,8 @@ TEST_P(Determinism, FloatStaysNearDouble) {
   RecordProperty("worst", fmt::format("{:.3g}", worst));
   RecordProperty("jumped", jumped);
   EXPECT_LE(jumped, checked / 100);
-  // Corrected: distances up to 900 m carry 2^-24 of 1 / z over 1 / 1000, sums and ramps a few ulp more.
-  EXPECT_LT(worst, GetParam() == Variant::corrected ? 2e-2 : 1e-6);
+  // Measured 8e-5: distances up to 900 m carry 2^-24 of 1 / z, which ramps of the masks magnify.
+  EXPECT_LT(worst, GetParam() == Variant::corrected ? 1e-3 : 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(EdgeSplash, Determinism, testing::Values(Variant::as_published, Variant::corrected),
