@@ -1,5 +1,9 @@
 #include "edge_splash/readings.h"
 
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
@@ -12,6 +16,7 @@ namespace {
 using capture::BoundTexture;
 using capture::PassCase;
 using capture::PassModel;
+using enclosed::Enclosure;
 
 /// An image of this size and these channels.
 BoundTexture image_of(const PassCase& c, const char* name, int width, int height, int channels) {
@@ -31,6 +36,50 @@ every::Channels<N, 4> four_channels(const BoundTexture& image, int x, int y) {
   return out;
 }
 
+// ---- splash, as published --------------------------------------------------------------------------------------------
+// Many decisions lead to few masks: where the scroll ends on a whole texel each coordinate of the noise may be one of two
+// texels, and in a flat place the angle is rounding alone. So an enclosure asks for the set of masks that the decisions can
+// give, and decides once, among these.
+template <std::size_t Count>
+class MaskSet {
+ public:
+  /// body() gives masks of 0 and 1, and decides what it must.
+  template <class Body>
+  explicit MaskSet(const Body& body) {
+    enclosed::Replay replay;
+    const bool is_whole = replay.for_each_alternative([&] {
+      const std::array<Enclosure, Count> masks = body();
+      std::size_t word = 0;
+      for (std::size_t k = 0; k < Count; ++k) word |= static_cast<std::size_t>(masks[k].lo != 0) << k;
+      if (std::find(words_.begin(), words_.end(), word) == words_.end()) words_.push_back(word);
+    });
+    if (!is_whole) enclosed::give_up();
+  }
+  std::array<Enclosure, Count> decide() const {
+    const std::size_t word = words_[words_.size() < 2 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(words_.size())))];
+    std::array<Enclosure, Count> masks;
+    for (std::size_t k = 0; k < Count; ++k) masks[k] = Enclosure(word >> k & 1 ? 1.0f : 0.0f);
+    return masks;
+  }
+
+ private:
+  std::vector<std::size_t> words_;
+};
+template <class N>
+every::Splash<N> as_published(const PublishedSplashUniforms& u, const Texture& depth, const Texture& noise_map, const every::Channels<N, 4>& scene, int x, int y) {
+  if constexpr (std::is_same_v<N, Enclosure>) {
+    const N px = N::index(x), py = N::index(y);
+    const auto edge_and_angle = MaskSet<2>([&] {
+                                  const every::EdgeMasks<N> m = every::edge_masks(u, depth, px, py);
+                                  return std::array<N, 2>{m.edge, m.angle};
+                                }).decide();
+    const auto noise = MaskSet<1>([&] { return std::array<N, 1>{every::noise_mask(u, noise_map, px, py)}; }).decide();
+    return every::blend_as_published<N>(u, {edge_and_angle[0], edge_and_angle[1]}, noise[0], scene, px, py);
+  } else {
+    return every::splash_as_published<N>(u, depth, noise_map, scene, x, y);
+  }
+}
+
 // ---- splash --------------------------------------------------------------------------------------------------------
 struct Splash {
   int width, height, values = 7;
@@ -44,7 +93,7 @@ struct Splash {
   void operator()(int x, int y, N* out) const {
     const every::Channels<N, 4> below = four_channels<N>(scene, x, y);
     const every::Splash<N> s = corrected ? every::splash_corrected<N>(uniforms, depth.view(), noise.view(), N::load(&layer[static_cast<std::size_t>(y) * width + x]), below, x, y)
-                                         : every::splash_as_published<N>(published_uniforms, depth.view(), noise.view(), below, x, y);
+                                         : as_published<N>(published_uniforms, depth.view(), noise.view(), below, x, y);
     out[0] = s.edge;
     out[1] = s.angle;
     out[2] = s.noise;

@@ -43,31 +43,43 @@ RAINREF_FN Gradient<N> gradient_as_published(const PublishedSplashUniforms& u, c
   const N p6 = p0, p7 = texel_at<N>(depth, x, high), p8 = texel_at<N>(depth, right, high);
   return {((((-p0 - p3 * two) - p6) + p2) + p5 * two) + p8, ((((-p0 - p1 * two) - p2) + p6) + p7 * two) + p8};
 }
-/// A read outside the depth or the noise is 0.
+/// Masks are 0 or 1. These two functions are all that decides anything.
+template <class N>
+struct EdgeMasks {
+  N edge, angle;
+};
 template <class N, class T>
-RAINREF_FN Splash<N> splash_as_published(const PublishedSplashUniforms& u, const T& depth, const T& noise_map, const Channels<N, 4>& scene, int column, int row) {
-  const N x = N::index(column), y(static_cast<float>(row)), zero(0.0f);
-  const N thickness(static_cast<float>(u.thickness)), width(static_cast<float>(u.width)), height(static_cast<float>(u.height));
-  const auto passed = (x + thickness >= width) | (y + thickness >= height) | (x - thickness < zero) | (y - thickness < zero);
+RAINREF_FN EdgeMasks<N> edge_masks(const PublishedSplashUniforms& u, const T& depth, N x, N y) {
   const Gradient<N> g = gradient_as_published(u, depth, x, y);
-  const N edge = one_where<N>(length(g.x, g.y) >= N(u.edge_threshold));
   const N pi(3.14159265f);
-  const N angle = one_where<N>((atan2(g.y, g.x) + pi) / N(2.0f * 3.14159265f) <= N(0.5f));
-
+  return {one_where<N>(length(g.x, g.y) >= N(u.edge_threshold)), one_where<N>((atan2(g.y, g.x) + pi) / N(2.0f * 3.14159265f) <= N(0.5f))};
+}
+template <class N, class T>
+RAINREF_FN N noise_mask(const PublishedSplashUniforms& u, const T& noise_map, N x, N y) {
   const N scrolled = N(u.time) * N(u.drop_speed);
-  const N noise_x = truncated(remainder_of(x + scrolled, static_cast<float>(u.noise_width)));
-  const N noise_y = truncated(remainder_of(y + scrolled, static_cast<float>(u.noise_height)));
-  const N noise = one_where<N>(texel_at<N>(noise_map, noise_x, noise_y) >= N(u.rain_drop_scale));
-
+  const N column = truncated(remainder_of(x + scrolled, static_cast<float>(u.noise_width)));
+  const N row = truncated(remainder_of(y + scrolled, static_cast<float>(u.noise_height)));
+  return one_where<N>(texel_at<N>(noise_map, column, row) >= N(u.rain_drop_scale));
+}
+template <class N>
+RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const EdgeMasks<N>& masks, N noise, const Channels<N, 4>& scene, N x, N y) {
+  const N zero(0.0f), thickness(static_cast<float>(u.thickness)), width(static_cast<float>(u.width)), height(static_cast<float>(u.height));
+  const auto passed = (x + thickness >= width) | (y + thickness >= height) | (x - thickness < zero) | (y - thickness < zero);
   // The edge is multiplied by the angle twice, which a mask of zeros and ones does not feel.
-  const N weight = (((edge * angle) * angle) * noise) * N(u.drop_color[3]);
+  const N weight = (((masks.edge * masks.angle) * masks.angle) * noise) * N(u.drop_color[3]);
   Splash<N> out;
-  out.edge = select(passed, zero, edge);
-  out.angle = select(passed, zero, angle);
+  out.edge = select(passed, zero, masks.edge);
+  out.angle = select(passed, zero, masks.angle);
   out.noise = select(passed, zero, noise);
   // The target ARGB32 holds nothing outside [0, 1].
   for (int k = 0; k < 4; ++k) out.colour[k] = saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight)));
   return out;
+}
+/// A read outside the depth or the noise is 0.
+template <class N, class T>
+RAINREF_FN Splash<N> splash_as_published(const PublishedSplashUniforms& u, const T& depth, const T& noise_map, const Channels<N, 4>& scene, int column, int row) {
+  const N x = N::index(column), y(static_cast<float>(row));
+  return blend_as_published(u, edge_masks(u, depth, x, y), noise_mask(u, noise_map, x, y), scene, x, y);
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------

@@ -52,7 +52,7 @@ TEST_P(SmallPack, IsWholeAndHasContent) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Puddle, SmallPack, testing::Values("puddle-as-published", "puddle-corrected"), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(Effects, SmallPack, testing::Values("puddle-as-published", "puddle-corrected", "edge_splash-as-published", "edge_splash-corrected"), [](const auto& tested) {
   std::string name = tested.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
