@@ -49,9 +49,9 @@ struct Settings {
   double edge_step = 0.15;                              ///< smallest step of distance at an edge [m]
   double edge_bend = 0.02;                              ///< smallest share of the distance that the step is
   double softness = 0.3;                                ///< of every threshold: it ends at (1 + softness) times its beginning
-  double widest_angle_deg = 75;                         ///< between an edge's normal and up
+  double widest_angle_deg = 62;                         ///< between an edge's normal and up
   std::array<double, 3> up{0, 1, 0};                    ///< against the fall of the rain, world axes; any length
-  double noise_size = 0.35;                             ///< of the tile [picture heights]
+  double noise_size = 0.3;                              ///< of the tile [picture heights]
   std::array<double, 2> drop_velocity{0.25, -1.0};      ///< [picture heights/s]
 
   std::array<double, 3> camera_position{0, 0, 0}, camera_target{0, 0, -1}, camera_up{0, 1, 0};

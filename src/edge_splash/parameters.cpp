@@ -28,9 +28,9 @@ std::span<const scene::Parameter> parameters() {
       real("edge_splash.edge_step", "m", 1e-4, 1000, 0.15, "Smallest step of distance that counts as an edge.").only(correct),
       real("edge_splash.edge_bend", "1", 1e-4, 1, 0.02, "Smallest share of its distance by which an edge stands before what is behind it; a plane has none.").only(correct),
       real("edge_splash.softness", "1", 1e-4, 10, 0.3, "Every threshold t of the masks ends at (1 + softness) t; those of noise and angle that share of their way to 1 further.").only(correct),
-      real("edge_splash.widest_angle", "deg", 1, 90, 75, "Between an edge's normal and the way up.").only(correct),
+      real("edge_splash.widest_angle", "deg", 1, 90, 62, "Between an edge's normal and the way up.").only(correct),
       real3("edge_splash.up", "1", -1, 1, {0, 1, 0}, "Where the rain comes from, world axes.").only(correct),
-      real("edge_splash.noise_size", "picture height", 0.01, 100, 0.35, "Height of the noise tile.").only(correct),
+      real("edge_splash.noise_size", "picture height", 0.01, 100, 0.3, "Height of the noise tile.").only(correct),
       real2("edge_splash.drop_velocity", "picture height/s", -1000, 1000, {0.25, -1.0}, "Velocity of the noise.").only(correct),
       // The picture.
       choice("scene.source", {"shapes", "street", "files"}, "shapes", "A mine track in fog, the street at night, both made here, or the files below."),

@@ -40,7 +40,11 @@ TEST(Golden, EveryRecordedLineBelongsToAScene) {
   for (const GoldenScene& scene : golden_scenes()) names.insert(scene.name);
   std::ifstream file(RAINREF_SOURCE_DIR "/tests/golden/hashes.txt");
   int lines = 0;
-  for (std::string line; std::getline(file, line); ++lines) EXPECT_TRUE(names.contains(line.substr(0, line.find(' ')))) << line;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("puddle/")) continue;  // another effect's
+    EXPECT_TRUE(names.contains(line.substr(0, line.find(' ')))) << line;
+    ++lines;
+  }
   EXPECT_GT(lines, 0);
 }
 
