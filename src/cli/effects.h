@@ -8,5 +8,6 @@ namespace rainref::cli {
 EffectEntry puddle_entry();
 EffectEntry windshield_entry();
 EffectEntry rainy_glass_entry();
+EffectEntry edge_splash_entry();
 
 }  // namespace rainref::cli

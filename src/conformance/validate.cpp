@@ -8,6 +8,7 @@
 #include "conformance/judge_pass.h"
 #include "conformance/port_files.h"
 #include "conformance/profiles.h"
+#include "edge_splash/readings.h"
 #include "port_dump/dump_file.h"
 #include "puddle/readings.h"
 #include "rainref/error.h"
@@ -23,7 +24,8 @@ using capture::PackPass;
 using capture::PassCase;
 
 const std::vector<capture::PassReadings>& readings_of(const std::string& effect) {
-  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{{"puddle", &puddle::readings()}, {"rainy_glass", &rainy_glass::readings()}};
+  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{
+      {"puddle", &puddle::readings()}, {"edge_splash", &edge_splash::readings()}, {"rainy_glass", &rainy_glass::readings()}};
   const auto found = all.find(effect);
   if (found != all.end()) return *found->second;
   std::vector<std::string> names;

@@ -15,13 +15,13 @@ namespace port_runner {
 namespace {
 
 constexpr const char* usage =
-    "usage: port_mutants --mutants FILE --packs DIR --spirv DIR [--effect NAME] [--device N|cpu] [--ids ID,ID...] [--rainref PROGRAM --out DIR]\n"
+    "usage: port_mutants --mutants FILE --packs DIR --spirv DIR [--device N|cpu] [--ids ID,ID...] [--rainref PROGRAM --out DIR]\n"
     "Prints for each mutant how many elements it changes and by how many storage codes at most. With --rainref each is\n"
     "judged, too: exit 1 when a verdict is not the expected one.\n";
 
 struct Mutant {
   int id;
-  std::string pass, variant, wrong, expected;
+  std::string effect, pass, variant, wrong, expected;
 };
 /// What a mutant changes against the port as it is meant.
 struct Change {
@@ -55,7 +55,7 @@ std::vector<Mutant> read_mutants(const fs::path& file) {
   try {
     const nlohmann::json all = nlohmann::json::parse(read_file(file));
     for (const nlohmann::json& m : all.at("mutants")) {
-      mutants.push_back({m.at("id"), m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected")});
+      mutants.push_back({m.at("id"), all.value("effect", "puddle"), m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected")});
     }
   } catch (const nlohmann::json::exception& e) {
     throw Error(file.string() + ": " + e.what());
@@ -102,7 +102,6 @@ int run(const std::map<std::string, std::string>& options) {
   const auto option = [&](const std::string& key) { return options.contains(key) ? options.at(key) : std::string(); };
   if (option("--mutants").empty() || option("--packs").empty() || option("--spirv").empty()) throw Error(usage);
   const std::vector<Mutant> mutants = read_mutants(option("--mutants"));
-  const std::string effect = option("--effect").empty() ? "puddle" : option("--effect");
   const auto programs = read_programs(option("--spirv"));
   const Device device(option("--device"));
   const Judge judge(option("--rainref"), option("--out"));
@@ -120,7 +119,7 @@ int run(const std::map<std::string, std::string>& options) {
   for (const Mutant& m : mutants) {
     if (!wanted.empty() && !wanted.contains(std::to_string(m.id))) continue;
     Port& port = ports.try_emplace(m.variant).first->second;
-    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / (effect + "-" + m.variant));
+    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / (m.effect + "-" + m.variant));
     Change change;
     for (const Case& c : port.pack.cases) {
       if (c.pass != m.pass) continue;
@@ -163,7 +162,7 @@ int run(const std::map<std::string, std::string>& options) {
 
 int main(int argc, char** argv) try {
   std::map<std::string, std::string> options;
-  const std::set<std::string> known{"--mutants", "--packs", "--spirv", "--effect", "--device", "--ids", "--rainref", "--out"};
+  const std::set<std::string> known{"--mutants", "--packs", "--spirv", "--device", "--ids", "--rainref", "--out"};
   for (int i = 1; i < argc; i += 2) {
     if (i + 1 == argc || !known.contains(argv[i])) throw port_runner::Error(std::string(argv[i]) + ": unknown, or without its value\n" + port_runner::usage);
     options[argv[i]] = argv[i + 1];

@@ -156,7 +156,7 @@ TEST_P(Port, OfRainyGlassPasses) {
 TEST(Port, SeededBugsOfRainyGlassGetTheirVerdicts) {
   const TemporaryFolder folder;
   const std::string mutants = source + "/tests/ports/rainy_glass/mutants.json";
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --effect rainy_glass --device cpu --mutants '" + mutants + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + mutants + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
                            "/rainy_glass' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids 702,713,734,751,762,784,790,794,796");
   EXPECT_EQ(all.code, 0) << all.text;
   std::string shaders;

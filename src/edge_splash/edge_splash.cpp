@@ -1,0 +1,119 @@
+// The order of the passes. No arithmetic.
+#include "rainref/edge_splash.h"
+
+#include <atomic>
+#include <chrono>
+
+#include "edge_splash/host.h"
+#include "edge_splash/kernels.h"
+#include "rainref/error.h"
+
+namespace rainref::edge_splash {
+namespace {
+
+constexpr int tile_rows = 8;
+
+/// Time that tiles spend in one pass, over all threads.
+class PassClock {
+ public:
+  template <class Body>
+  void add(const Body& body) {
+    const auto start = std::chrono::steady_clock::now();
+    body();
+    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
+  }
+  /// The pass's share of the wall clock with this many threads at work.
+  double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
+
+ private:
+  std::atomic<std::int64_t> nanoseconds_ = 0;
+};
+
+Settings with_size(Settings s, const Image& colour) {
+  s.width = colour.width();
+  s.height = colour.height();
+  check(s);
+  return s;
+}
+
+}  // namespace
+
+struct EdgeSplash::State {
+  Settings settings;
+  const parallel::Executor& executor;
+  bool corrected;
+  int frame = 0;
+  Image scene, depth_image, layer, noise_image;
+  TextureData depth, noise_map;
+  Image edge, angle, noise, colour, picture;
+  std::vector<std::string> warnings;
+
+  State(const Settings& s, const Inputs& in, const parallel::Executor& e)
+      : settings(with_size(s, in.colour)), executor(e), corrected(s.variant == Variant::corrected), scene(prepare_scene(in)), depth_image(prepare_depth(in, s.depth)),
+        layer(prepare_layer(in)), noise_image(prepare_noise(in, s)) {
+    const Address edges = corrected ? Address::clamp : Address::border, tile = corrected ? Address::repeat : Address::border;
+    depth = TextureData(depth_image, edges, edges);
+    noise_map = TextureData(noise_image, tile, tile);
+    for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
+    colour = Image(Format::rgba16f, settings.width, settings.height);
+    picture = Image(Format::rgba8, settings.width, settings.height);
+    const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
+    if (!seam.empty()) warnings.push_back(seam);
+  }
+
+  template <class Uniforms>
+  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, std::initializer_list<PassInput> inputs) const {
+    if (!recorder) return;
+    recorder->before({frame, 0, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps),
+                      static_cast<float>(1 / settings.fps), settings.rounding});
+  }
+  void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
+    if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
+  }
+};
+
+EdgeSplash::EdgeSplash(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor) {
+  if (inputs.colour.empty()) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
+  state_ = std::make_unique<State>(settings, inputs, executor);
+}
+EdgeSplash::~EdgeSplash() = default;
+EdgeSplash::EdgeSplash(EdgeSplash&&) noexcept = default;
+
+void EdgeSplash::render(Recorder* recorder) {
+  State& s = *state_;
+  const auto published = published_splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
+  const auto corrected = splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
+  const DisplayUniforms shown = display_uniforms(s.settings);
+  const SplashInputs in{&s.scene, &s.depth.view(), &s.noise_map.view(), &s.layer};
+  const SplashOutputs out{&s.edge, &s.angle, &s.noise, &s.colour};
+  const Rounding rounding = s.settings.rounding;
+
+  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.
+  PassClock splash_time, display_time;
+  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& tile) {
+    splash_time.add([&] { s.corrected ? splash_rows(corrected, rounding, in, out, tile) : splash_rows(published, rounding, in, out, tile); });
+    display_time.add([&] { display_rows(shown, rounding, s.colour, s.picture, tile); });
+  });
+  // What these passes read, none of them overwrites: they may be announced after both have run.
+  const int threads = s.executor.threads();
+  if (s.corrected) {
+    s.announce(recorder, "splash", corrected, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view(), Filter::linear}, {"layer", s.layer}});
+  } else {
+    s.announce(recorder, "splash", published, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view()}});
+  }
+  s.report(recorder, "splash", {{"edge", s.edge}, {"angle", s.angle}, {"noise", s.noise}, {"colour", s.colour}}, splash_time.seconds(threads));
+  s.announce(recorder, "display", shown, {{"colour", s.colour}});
+  s.report(recorder, "display", {{"picture", s.picture}}, display_time.seconds(threads));
+  ++s.frame;
+}
+
+int EdgeSplash::frame() const { return state_->frame; }
+const Image& EdgeSplash::edge() const { return state_->edge; }
+const Image& EdgeSplash::angle() const { return state_->angle; }
+const Image& EdgeSplash::noise() const { return state_->noise; }
+const Image& EdgeSplash::colour() const { return state_->colour; }
+const Image& EdgeSplash::picture() const { return state_->picture; }
+const Image& EdgeSplash::depth() const { return state_->depth_image; }
+const std::vector<std::string>& EdgeSplash::warnings() const { return state_->warnings; }
+
+}  // namespace rainref::edge_splash

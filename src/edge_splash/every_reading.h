@@ -1,0 +1,26 @@
+// The texts of the passes of edge_splash with every number but lanes: Plain, Enclosure and Deviant. A namespace of their
+// own, like edge_splash::scalar.
+#pragma once
+
+#include "edge_splash/uniforms.h"
+#include "image/footprint.h"
+#include "image/texture.h"
+#include "math/deviant.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+
+namespace rainref::edge_splash::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling_deviant-inl.h"
+#include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
+#include "edge_splash/splash.pass.h"
+#include "edge_splash/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::edge_splash::every

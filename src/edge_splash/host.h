@@ -1,0 +1,39 @@
+// What the host computes from the settings and the inputs: uniforms and textures, in double, each rounded once.
+#pragma once
+
+#include <string>
+
+#include "edge_splash/uniforms.h"
+#include "image/texture.h"
+#include "rainref/edge_splash.h"
+#include "scene/camera.h"
+
+namespace rainref::edge_splash {
+
+/// Throws Error(usage) for settings that cannot run; the first problem only.
+void check(const Settings& settings);
+scene::Camera camera(const Settings& settings);
+
+PublishedSplashUniforms published_splash_uniforms(const Settings& settings, int frame, int noise_width, int noise_height);
+SplashUniforms splash_uniforms(const Settings& settings, int frame, int noise_width, int noise_height);
+DisplayUniforms display_uniforms(const Settings& settings);
+
+/// Where a scroll of `velocity` tiles a second stands at frame / fps: in [0, 1). A product and a quotient of doubles, then the
+/// exact fraction: off by no more than 2^-52 of the tiles gone.
+double scrolled(double velocity, int frame, double fps);
+
+/// rgba16f linear radiance of any image of four channels.
+Image prepare_scene(const Inputs& inputs);
+/// Device depth, r32f, from any first channel. Throws Error(usage) naming the first value outside its range.
+Image prepare_depth(const Inputs& inputs, const DepthRange& range);
+/// r8.
+Image prepare_layer(const Inputs& inputs);
+/// The noise as splash samples it: as published the map itself, r8; corrected the map at half its resolution, r32f.
+Image prepare_noise(const Inputs& inputs, const Settings& settings);
+/// "" or a sentence: the map differs over its seams several times as much as between neighbours.
+std::string seam_warning(const Image& noise);
+
+/// A tile of gradient noise, side x side, r8: what the article's online tool gave.
+Image make_noise(std::uint64_t seed, int side = 256);
+
+}  // namespace rainref::edge_splash

@@ -1,0 +1,161 @@
+// Pass splash: masks of edge, angle and noise, and the scene with drops blended over it.
+
+template <class N>
+struct Splash {
+  N edge, angle, noise;
+  Channels<N, 4> colour;
+  RAINREF_FN Splash() {}
+};
+/// The single channel of a texel, by whole coordinates; outside by the texture's address rule.
+template <class N, class T>
+RAINREF_FN N texel_at(const T& t, N x, N y) {
+  const Level<N> l = uniform_level<N>(t, 0);
+  return load_texel<0, 1, N>(t, texel_column<N>(t, l, to_int(x)), texel_row<N>(t, l, to_int(y)))[0];
+}
+template <class N, class M>
+RAINREF_FN N one_where(M mask) { return select(mask, N(1.0f), N(0.0f)); }
+
+// ---- as published --------------------------------------------------------------------------------------------------
+/// A float cut to an integer as HLSL does: toward zero.
+template <class N>
+RAINREF_FN N truncated(N x) { return select(x < N(0.0f), -floor(-x), floor(x)); }
+/// x - size trunc(x / size), the remainder that % of floats means: in (-size, size), with the sign of x.
+template <class N>
+RAINREF_FN N remainder_of(N x, float size) {
+  const N rest = x - N(size) * truncated(x / N(size)), zero(0.0f), whole(size);
+  // The quotient may round up to the integer that it lies below: the remainder would have the other sign.
+  const N risen = select((x >= zero) & (rest < zero), rest + whole, rest);
+  return select((x < zero) & (rest > zero), rest - whole, risen);
+}
+template <class N>
+struct Gradient {
+  N x, y;
+};
+/// The sums of the tap pattern to the letter: p0 is p6, p1 does not shrink with distance, all rows lie one offset too low.
+template <class N, class T>
+RAINREF_FN Gradient<N> gradient_as_published(const PublishedSplashUniforms& u, const T& depth, N x, N y) {
+  const N thickness(static_cast<float>(u.thickness)), two(2.0f);
+  const N centre = texel_at<N>(depth, x, y), shift = thickness * (centre * centre);
+  const N sobel_y = truncated(y - shift);
+  const N left = truncated(x - shift), right = truncated(x + shift), low = truncated(sobel_y - shift), high = truncated(sobel_y + shift);
+  const N p0 = texel_at<N>(depth, left, high), p1 = texel_at<N>(depth, x, sobel_y - thickness), p2 = texel_at<N>(depth, right, low);
+  const N p3 = texel_at<N>(depth, left, sobel_y), p5 = texel_at<N>(depth, right, sobel_y);
+  const N p6 = p0, p7 = texel_at<N>(depth, x, high), p8 = texel_at<N>(depth, right, high);
+  return {((((-p0 - p3 * two) - p6) + p2) + p5 * two) + p8, ((((-p0 - p1 * two) - p2) + p6) + p7 * two) + p8};
+}
+/// Masks are 0 or 1. These two functions are all that decides anything.
+template <class N>
+struct EdgeMasks {
+  N edge, angle;
+};
+template <class N, class T>
+RAINREF_FN EdgeMasks<N> edge_masks(const PublishedSplashUniforms& u, const T& depth, N x, N y) {
+  const Gradient<N> g = gradient_as_published(u, depth, x, y);
+  const N pi(3.14159265f);
+  return {one_where<N>(length(g.x, g.y) >= N(u.edge_threshold)), one_where<N>((atan2(g.y, g.x) + pi) / N(2.0f * 3.14159265f) <= N(0.5f))};
+}
+template <class N, class T>
+RAINREF_FN N noise_mask(const PublishedSplashUniforms& u, const T& noise_map, N x, N y) {
+  const N scrolled = N(u.time) * N(u.drop_speed);
+  const N column = truncated(remainder_of(x + scrolled, static_cast<float>(u.noise_width)));
+  const N row = truncated(remainder_of(y + scrolled, static_cast<float>(u.noise_height)));
+  return one_where<N>(texel_at<N>(noise_map, column, row) >= N(u.rain_drop_scale));
+}
+template <class N>
+RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const EdgeMasks<N>& masks, N noise, const Channels<N, 4>& scene, N x, N y) {
+  const N zero(0.0f), thickness(static_cast<float>(u.thickness)), width(static_cast<float>(u.width)), height(static_cast<float>(u.height));
+  const auto passed = (x + thickness >= width) | (y + thickness >= height) | (x - thickness < zero) | (y - thickness < zero);
+  // The edge is multiplied by the angle twice, which a mask of zeros and ones does not feel.
+  const N weight = (((masks.edge * masks.angle) * masks.angle) * noise) * N(u.drop_color[3]);
+  Splash<N> out;
+  out.edge = select(passed, zero, masks.edge);
+  out.angle = select(passed, zero, masks.angle);
+  out.noise = select(passed, zero, noise);
+  // The target ARGB32 holds nothing outside [0, 1].
+  for (int k = 0; k < 4; ++k) out.colour[k] = saturate(select(passed, scene[k], mix(scene[k], N(u.drop_color[k]), weight)));
+  return out;
+}
+/// A read outside the depth or the noise is 0.
+template <class N, class T>
+RAINREF_FN Splash<N> splash_as_published(const PublishedSplashUniforms& u, const T& depth, const T& noise_map, const Channels<N, 4>& scene, int column, int row) {
+  const N x = N::index(column), y(static_cast<float>(row));
+  return blend_as_published(u, edge_masks(u, depth, x, y), noise_mask(u, noise_map, x, y), scene, x, y);
+}
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+// Of the distances z around the pixel, r = the band in pixels, held within [reach_min, reach_max]:
+//   g     = Sobel's sums of z over taps r apart: x to the right, y up
+//   edge  = |g| large  and  bend large,  bend = max(|q(up) + q(down) - 2 q|, |q(left) + q(right) - 2 q|) / q(nearest), q = 1 / z
+//   angle = cosine of g against up as the picture shows it here
+// q is affine over the picture of a plane, so a plane has no bend however steeply it recedes. At a step from zn to zf the
+// bend is 1 - zn / zf.
+template <class N>
+struct Taps {
+  N q[9];  ///< left to right, then bottom to top: [4] is the pixel
+  RAINREF_FN Taps() {}
+};
+template <class N, class T>
+RAINREF_FN N inverse_distance(const SplashUniforms& u, const T& depth, N x, N y) { return texel_at<N>(depth, x, y) * N(u.depth_scale) + N(u.depth_bias); }
+/// The reach that belongs to a distance, in whole texels.
+template <class N>
+RAINREF_FN N reach_of(const SplashUniforms& u, N q) { return floor(clamp(N(u.reach) * q, N(u.reach_min), N(u.reach_max)) + N(0.5f)); }
+
+/// Sobel's sums: the kernels (-1 0 1, -2 0 2, -1 0 1) and its transpose.
+template <class N>
+RAINREF_FN Gradient<N> sobel(const Taps<N>& t) {
+  N z[9];
+  for (int k = 0; k < 9; ++k) z[k] = N(1.0f) / t.q[k];
+  const N two(2.0f);
+  return {sum_any_order(z[2] - z[0], two * (z[5] - z[3]), z[8] - z[6]), sum_any_order(z[6] - z[0], two * (z[7] - z[1]), z[8] - z[2])};
+}
+template <class N>
+RAINREF_FN N bend_of(const Taps<N>& t) {
+  const N twice = N(2.0f) * t.q[4], across = abs((t.q[3] + t.q[5]) - twice), along = abs((t.q[1] + t.q[7]) - twice);
+  N nearest = t.q[4];
+  for (int k = 1; k < 9; k += 2) nearest = max(nearest, t.q[k]);
+  return max(across, along) / nearest;
+}
+
+template <class N, class T>
+RAINREF_FN Taps<N> taps_corrected(const SplashUniforms& u, const T& depth, N x, N y) {
+  // The nearest surface that the band may belong to: it decides how wide the band is.
+  const N far(u.reach_max);
+  const N q = inverse_distance(u, depth, x, y);
+  const N beside = max(inverse_distance(u, depth, x - far, y), inverse_distance(u, depth, x + far, y));
+  const N around = max(inverse_distance(u, depth, x, y - far), inverse_distance(u, depth, x, y + far));
+  const N reach = reach_of(u, max(q, max(beside, around)));
+  Taps<N> taps;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      if (i != 1 || j != 1) taps.q[3 * j + i] = inverse_distance(u, depth, i == 0 ? x - reach : i == 2 ? x + reach : x, j == 0 ? y - reach : j == 2 ? y + reach : y);
+    }
+  }
+  taps.q[4] = q;
+  return taps;
+}
+template <class N, class T, class R>
+RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, const R& noise_map, N layer, const Channels<N, 4>& scene, int column, int row) {
+  const N x = N::index(column), y(static_cast<float>(row)), half(0.5f);
+  const Taps<N> taps = taps_corrected(u, depth, x, y);
+  const Gradient<N> g = sobel(taps);
+  const N magnitude = length(g.x, g.y);
+  const N edge = smoothstep(u.step_low, u.step_high, magnitude) * smoothstep(u.bend_low, u.bend_high, bend_of(taps));
+
+  // The picture of the vertical through this pixel: the way that (X, Y) moves when the point moves up.
+  const N plane_x = (x + half) * N(u.pixel[0]) - N(u.half_size[0]), plane_y = (y + half) * N(u.pixel[1]) - N(u.half_size[1]);
+  const N up_x = N(u.up[0]) - plane_x * N(u.up[2]), up_y = N(u.up[1]) - plane_y * N(u.up[2]);
+  const N facing = ((g.x * up_x + g.y * up_y) / max(magnitude, N(u.step_low))) / max(length(up_x, up_y), N(1e-4f));
+  const N angle = smoothstep(u.cosine_low, u.cosine_high, facing);
+
+  const N s = sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]), (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1]))[0];
+  const N noise = smoothstep(u.noise_low, u.noise_high, s);
+
+  const N weight = ((edge * angle) * noise) * (layer * N(u.drop_color[3]));
+  Splash<N> out;
+  out.edge = edge;
+  out.angle = angle;
+  out.noise = noise;
+  for (int k = 0; k < 3; ++k) out.colour[k] = mix(scene[k], N(u.drop_color[k]), weight);
+  out.colour[3] = scene[3];
+  return out;
+}
