@@ -1,0 +1,17 @@
+#include "windshield/readings.h"
+
+#include "drops/readings.h"
+
+namespace rainref::windshield {
+
+const std::vector<capture::PassReadings>& readings() {
+  static const std::vector<capture::PassReadings> all{{"windshield_frame", bind_windshield_frame},
+                                                      {"spawn", nullptr, drops::recompute_spawn},
+                                                      {"integrate", drops::bind_integrate},
+                                                      {"wipe_drops", bind_wipe_drops},
+                                                      {"composite", bind_composite},
+                                                      {"display", bind_display}};
+  return all;
+}
+
+}  // namespace rainref::windshield
