@@ -16,4 +16,7 @@ std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_composite(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
 
+/// Allows more than every profile: what is settled under it is settled under each of them. wipe_drops groups drops by it.
+const enclosed::Profile& loosest_profile();
+
 }  // namespace rainref::windshield

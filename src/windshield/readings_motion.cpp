@@ -156,29 +156,13 @@ bool places(Decide decide, std::vector<Place>& out) {
   return whole;
 }
 
-/// Allows more than every profile that there is: what is settled under it is settled under each of them.
-const enclosed::Profile& loosest() {
-  static const enclosed::Profile p = [] {
-    enclosed::Profile loose;
-    loose.name = "loosest";
-    loose.reference = false;
-    loose.basic = enclosed::BasicRounding::either;
-    loose.contraction = true;
-    loose.flush = enclosed::Flush::may;
-    loose.division.ulp = loose.sqrt.ulp = loose.inverse_sqrt.ulp = 16;
-    loose.pow.relative = 0x1p-14;
-    return loose;
-  }();
-  return p;
-}
-
 /// The drops after the sweep. What a texel of the film hands on is whole quanta, so the water that a place gets is a sum
 /// of integers: of the texels that surely go there, and of those beside a border, each of which may or may not. Drops that
 /// may get the water of one place are one group, because which of them gets it hangs on where the others are.
 class SweptDrops : public capture::KeyedModel {
  public:
   explicit SweptDrops(std::shared_ptr<const Sweep> sweep) : s_(std::move(sweep)) {
-    const enclosed::ProfileScope scope(loosest());
+    const enclosed::ProfileScope scope(loosest_profile());
     share_film();
     make_groups();
   }
@@ -351,6 +335,21 @@ std::vector<Wiper> wipers_input(const PassCase& c, const WipeDropsUniforms& u) {
 }
 
 }  // namespace
+
+const enclosed::Profile& loosest_profile() {
+  static const enclosed::Profile p = [] {
+    enclosed::Profile loose;
+    loose.name = "loosest";
+    loose.reference = false;
+    loose.basic = enclosed::BasicRounding::either;
+    loose.contraction = true;
+    loose.flush = enclosed::Flush::may;
+    loose.division.ulp = loose.sqrt.ulp = loose.inverse_sqrt.ulp = 16;
+    loose.pow.relative = 0x1p-14;
+    return loose;
+  }();
+  return p;
+}
 
 std::unique_ptr<PassModel> bind_windshield_frame(const PassCase& c) {
   return std::make_unique<capture::ListPass>("glass_frame", std::make_unique<Frame>(capture::uniforms_of<WindshieldFrameUniforms>(c), c.corrected()));
