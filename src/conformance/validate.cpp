@@ -11,6 +11,7 @@
 #include "port_dump/dump_file.h"
 #include "puddle/readings.h"
 #include "rainref/error.h"
+#include "windshield/readings.h"
 
 namespace rainref::conformance {
 namespace {
@@ -22,7 +23,8 @@ using capture::PackPass;
 using capture::PassCase;
 
 const std::vector<capture::PassReadings>& readings_of(const std::string& effect) {
-  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{{"puddle", &puddle::readings()}};
+  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{{"puddle", &puddle::readings()},
+                                                                                              {"windshield", &windshield::readings()}};
   const auto found = all.find(effect);
   if (found != all.end()) return *found->second;
   std::vector<std::string> names;

@@ -1,0 +1,23 @@
+// What both wipe_textures share. Seeded bugs of both: 1531 to 1559.
+layout(std140, binding = 0) uniform WipeTextureUniforms {
+@WIPE
+} u;
+struct Wiper {
+@WIPER
+};
+
+float coverage_at(float away, Wiper w) {
+  float half_width = BUG == 1531 ? 0.5 * w.half_width : w.half_width;
+  float coverage = clamp(0.5 + (half_width - away) / u.edge_width, 0.0, 1.0);
+  return BUG == 1537 ? step(0.5, coverage) : coverage;
+}
+float segment_distance(vec2 p, vec2 a, vec2 b) {
+  vec2 along = b - a, from = p - a;
+  float t = dot(from, along) / max(dot(along, along), 1e-12);
+  if (BUG != 1546) t = clamp(t, 0.0, 1.0);
+  return length(from - t * along);
+}
+vec2 in_plane(ivec2 texel) {
+  vec2 at = vec2(texel) + (BUG == 1547 ? 0.0 : 0.5);
+  return vec2(u.frame.x * at.x + u.frame.y * at.y, u.frame.z * at.y);
+}
