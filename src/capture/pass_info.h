@@ -37,7 +37,7 @@ struct ReadInfo {
 struct PassVariant {
   std::string name;
   int revision;          ///< counts up whenever the order of operations or a constant changes
-  Judge judge;           ///< of every output
+  Judge judge;           ///< of every output; of an image beside keyed records: envelope
   std::string uniforms;  ///< the block in PassInfo::uniforms
 };
 
