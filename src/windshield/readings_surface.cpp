@@ -55,6 +55,7 @@ struct Splat {
   std::vector<drops::every::Stamp<plain::Plain<float>>> stamps;  // of each drop
   Framed film;
 
+  bool rounds_each() const { return static_cast<drops::SplatBlend>(uniforms.blend) == drops::SplatBlend::add_in_half; }
   template <class N>
   drops::every::Stamp<N> stamp(const drops::Drop& d) const {
     return drops::every::splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life));
@@ -78,10 +79,15 @@ struct Splat {
     const std::vector<drops::every::Stamp<N>> some = near<N>(x, y);
     drops::SplatUniforms u = uniforms;
     u.drop_count = static_cast<std::int32_t>(some.size());
-    const bool rounds_each = static_cast<drops::SplatBlend>(u.blend) == drops::SplatBlend::add_in_half;
-    out[0] = drops::every::splat_drops<N>(u, some.data(), x, y, [&](N height) { return rounds_each ? half_of(height, rounding) : height; });
+    out[0] = drops::every::splat_drops<N>(u, some.data(), x, y, [&](N sum) { return rounds_each() ? half_of(sum, rounding) : sum; });
     if (corrected) out[0] = drops::every::film_height<N>(u, film.row(y - 1), film.row(y), film.row(y + 1), x) + out[0];
   }
+};
+
+class SplatModel : public capture::ModelOf<Splat> {
+ public:
+  using ModelOf::ModelOf;
+  bool rounds_inside() const override { return pass().rounds_each(); }
 };
 
 // ---- wipe_texture --------------------------------------------------------------------------------------------------
@@ -188,7 +194,7 @@ std::unique_ptr<PassModel> bind_splat(const PassCase& c) {
   limit(m.uniforms.drop_count, m.drops);
   for (const drops::Drop& d : m.drops) m.stamps.push_back(m.stamp<plain::Plain<float>>(d));
   if (m.corrected) m.film = Framed(sized_input(c, "film"));
-  return capture::model_of(std::move(m));
+  return std::make_unique<SplatModel>(std::move(m));
 }
 
 std::unique_ptr<PassModel> bind_wipe_texture(const PassCase& c) {

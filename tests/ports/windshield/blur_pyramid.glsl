@@ -1,6 +1,12 @@
 // What both blur_pyramids share. Seeded bugs of both: 1581 to 1599.
 layout(std140, binding = 0) uniform BlurUniforms {
-@BLUR
+  vec3 fog_colour;    //   0  [1] Linear radiance of the fog.
+  float fog_density;  //  12  [1/m] Extinction of light in the fog.
+  vec2 middle;        //  16  [1] corrected: weight of the middle one of three texels, for columns and rows.
+  vec2 last;          //  24  [1] corrected: weight of the last one, over output index + 1.
+  ivec2 source_size;  //  32  [texel] Columns and rows of the level above.
+  int level;          //  40  [1] 0 fogs the scene, further ones halve the level above.
+  float padding_0;    //  44  padding
 } u;
 layout(binding = 1) uniform sampler2D scene_colour;
 layout(binding = 2) uniform sampler2D scene_depth;

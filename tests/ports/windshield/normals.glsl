@@ -1,6 +1,9 @@
 // What both normals share. Seeded bugs of both: 1561 to 1579.
 layout(std140, binding = 0) uniform NormalsUniforms {
-@NORMALS
+  float slope_x;      //   0  [1/mm] Slope along x for 1 mm across two columns.
+  float slope_shear;  //   4  [1/mm] corrected: slope along y for 1 mm across two columns.
+  float slope_y;      //   8  [1/mm] Slope along y for 1 mm across two rows.
+  float padding_0;    //  12  padding
 } u;
 layout(binding = 1) uniform sampler2D heights;
 layout(binding = 2) uniform sampler2D mask;

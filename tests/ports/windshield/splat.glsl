@@ -1,9 +1,22 @@
 // What both splats share. Seeded bugs of both: 1501 to 1519.
 layout(std140, binding = 0) uniform SplatUniforms {
-@SPLAT
+  vec2 size;              //   0  [texel] Columns and rows of the height texture.
+  float radius_scale;     //   8  [m] Radius of a drop of mass 1.
+  float height_scale;     //  12  [mm] Height of a drop of mass 1.
+  vec3 frame;             //  16  [m/texel] Plane coordinates of a step: x of a column, x and y of a row.
+  float smallest_radius;  //  28  [m] A smaller drop is drawn this wide, and as much lower.
+  int kernel;             //  32  [1] 0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc.
+  int blend;              //  36  [1] 0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does.
+  int drop_count;         //  40  [1] Drops in the list.
+  float film_scale;       //  44  [mm] corrected: height of a quantum in a texel.
 } u;
 struct Drop {
-@DROP
+  vec2 position;    //   0  [1] Glass coordinates u, v.
+  vec2 velocity;    //   8  [1/s] Change of the position.
+  float mass;       //  16  [1] as-published: 1 is an ordinary drop; corrected: whole quanta of 2e-11 kg, at most 2^24.
+  float life;       //  20  [s] What remains; not above 0: no drop.
+  uint id;          //  24  [1] Its own for ever, ascending in the order of birth.
+  float padding_0;  //  28  padding
 };
 layout(std430, binding = 1) readonly buffer DropBuffer { Drop drops[]; };
 
