@@ -69,6 +69,8 @@ struct EffectInfo {
   const PassInfo& pass(std::string_view pass_name) const;
   const BufferInfo& buffer(std::string_view buffer_name, std::string_view variant) const;
   const scene::UniformBlock& record(std::string_view record_name) const;
+  /// What a pass writes in a variant: of its `writes` those that the variant has.
+  std::vector<std::string> writes(const PassInfo& pass, std::string_view variant) const;
   /// Names of the passes that a variant runs, in the order of execution.
   std::vector<std::string> pass_names(std::string_view variant) const;
 };

@@ -32,6 +32,8 @@ class PassModel {
   virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
   /// Whether enclose() depends on `port`.
   virtual bool needs_port() const { return false; }
+  /// Whether the pass itself rounds to binary16 on its way, as its outputs are stored.
+  virtual bool rounds_inside() const { return false; }
   /// Whether value v is declared as not reproducible (a count of steps): it is held to its buffer's range, no more.
   virtual bool is_free(int) const { return false; }
   /// Of an output of Judge::keyed; null: its records are judged by bits.

@@ -9,6 +9,10 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"spawn", nullptr, drops::recompute_spawn},
                                                       {"integrate", drops::bind_integrate},
                                                       {"wipe_drops", bind_wipe_drops},
+                                                      {"splat", bind_splat},
+                                                      {"wipe_texture", bind_wipe_texture},
+                                                      {"normals", bind_normals},
+                                                      {"blur_pyramid", bind_blur_pyramid},
                                                       {"composite", bind_composite},
                                                       {"display", bind_display}};
   return all;
