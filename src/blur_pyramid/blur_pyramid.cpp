@@ -128,7 +128,7 @@ capture::PassInfo blur_info(const std::string& colour_from, const std::string& d
 }
 std::vector<capture::BufferInfo> blur_buffers() {
   return {{"scene_colour", "rgba16f", "Opaque scene without fog: linear radiance.", "1", {0, 1}, "none", "linear Rec. 709", "unused"},
-          {"scene_depth", "r32f", "Distance of the scene along the ray.", "m", {0, 1000}},
+          {"scene_depth", "r32f", "Distance of the scene along the view axis.", "m", {0, 1000}},
           {"blurred", "rgba16f", "Level of the blurred scene: linear radiance, alpha 1.", "1", {0, 1}, "none", "linear Rec. 709", "1"}};
 }
 

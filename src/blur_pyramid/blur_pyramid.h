@@ -36,7 +36,7 @@ BlurUniforms blur_uniforms(const BlurSettings& settings, int width, int height, 
 
 /// Levels of rgba16f, zero.
 std::vector<Image> make_levels(const BlurSettings& settings, int width, int height);
-/// The pass for level 0. colour: rgba16f, linear radiance; depth: r32f, distance along the ray [m]; out: rgba16f, alpha 1.
+/// The pass for level 0. colour: rgba16f, linear radiance; depth: r32f, distance along the view axis [m]; out: rgba16f, alpha 1.
 void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out);
 /// The pass for a further level, from the one above.
 void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out);

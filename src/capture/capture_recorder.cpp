@@ -138,7 +138,9 @@ void CaptureRecorder::pass(const PassCall& call) {
   for (const PassOutput& output : call.outputs) {
     const bool is_records = std::holds_alternative<RecordView>(output.content);
     const BufferInfo& buffer = effect_.buffer(output.name, variant_);
-    open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, declared->judge, buffer.range,
+    // An image has no keys.
+    const Judge judge = declared->judge == Judge::keyed && !is_records ? Judge::envelope : declared->judge;
+    open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, judge, buffer.range,
                               buffer.unit, buffer.colour_space});
   }
   PassCase done = std::move(*open_);

@@ -41,7 +41,7 @@ Json pass_json(const EffectInfo& effect, const PassInfo& pass, const std::string
           {"sentence", pass.sentence},
           {"formula", formula(effect, pass, *pass.variant(variant))},
           {"reads", reads},
-          {"writes", pass.writes},
+          {"writes", effect.writes(pass, variant)},
           {"uniform_block", scene::uniform_block_json(pass.block(variant))},
           {"independence", pass.independence}};
 }

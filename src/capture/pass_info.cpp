@@ -42,6 +42,15 @@ const scene::UniformBlock& EffectInfo::record(std::string_view record_name) cons
   return declared(records, "record", record_name, [&](const scene::UniformBlock& b) { return b.name == record_name; });
 }
 
+std::vector<std::string> EffectInfo::writes(const PassInfo& pass, std::string_view variant) const {
+  std::vector<std::string> out;
+  for (const std::string& written : pass.writes) {
+    const auto is_it = [&](const BufferInfo& b) { return b.name == written && (b.variant.empty() || b.variant == variant); };
+    if (std::any_of(buffers.begin(), buffers.end(), is_it)) out.push_back(written);
+  }
+  return out;
+}
+
 std::vector<std::string> EffectInfo::pass_names(std::string_view variant) const {
   std::vector<std::string> out;
   for (const PassInfo& p : passes) {

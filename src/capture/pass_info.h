@@ -37,7 +37,7 @@ struct ReadInfo {
 struct PassVariant {
   std::string name;
   int revision;          ///< counts up whenever the order of operations or a constant changes
-  Judge judge;           ///< of every output
+  Judge judge;           ///< of every output; of an image beside keyed records: envelope
   std::string uniforms;  ///< the block in PassInfo::uniforms
 };
 
@@ -69,6 +69,8 @@ struct EffectInfo {
   const PassInfo& pass(std::string_view pass_name) const;
   const BufferInfo& buffer(std::string_view buffer_name, std::string_view variant) const;
   const scene::UniformBlock& record(std::string_view record_name) const;
+  /// What a pass writes in a variant: of its `writes` those that the variant has.
+  std::vector<std::string> writes(const PassInfo& pass, std::string_view variant) const;
   /// Names of the passes that a variant runs, in the order of execution.
   std::vector<std::string> pass_names(std::string_view variant) const;
 };

@@ -27,6 +27,14 @@ enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, R
   if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference) rules.half_overflow = enclosed::StoreOverflow::either;
   return rules;
 }
+/// The profile of a device whose stores round like this.
+enclosed::Profile narrowed(const enclosed::Profile& profile, HalfMode mode) {
+  enclosed::Profile out = profile;
+  const enclosed::StoreRules rules = rules_of(profile, mode, Rounding::rne);
+  out.half_store = rules.half;
+  out.half_overflow = rules.half_overflow;
+  return out;
+}
 HalfMode mode_of(enclosed::StoreRounding r) {
   return r == enclosed::StoreRounding::rne ? HalfMode::rne : r == enclosed::StoreRounding::rtz ? HalfMode::rtz : HalfMode::either;
 }
@@ -163,8 +171,11 @@ class CaseJudge {
 
   void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
     s.stored.read(slots_, case_, port_, x, y);
-    s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
-    for (std::size_t m = 0; m < modes_.size(); ++m) one_mode(x, y, s, modes_[m], parts[m], whole[m]);
+    if (!model_.rounds_inside()) s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
+    for (std::size_t m = 0; m < modes_.size(); ++m) {
+      if (model_.rounds_inside()) s.alternatives.run(model_, x, y, s.stored.got_values.data(), narrowed(*options_.profile, modes_[m]));
+      one_mode(x, y, s, modes_[m], parts[m], whole[m]);
+    }
   }
 
   void mark(CaseJudgement& whole, int output, int x, int y, std::uint8_t what) const {
@@ -262,7 +273,7 @@ class CaseJudge {
   }
 
   void check_typical(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts, CaseJudgement& whole) const {
-    s.typical.run(model_, x, y, s.stored.got_values.data(), *options_.typical);
+    s.typical.run(model_, x, y, s.stored.got_values.data(), model_.rounds_inside() ? narrowed(*options_.typical, mode) : *options_.typical);
     if (s.typical.gave_up) return;
     int best = -1;
     std::size_t fewest = slots_.size() + 1;
@@ -470,7 +481,7 @@ bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) cons
   stored.read(slots, case_, port, x, y);
   if (stored.nan) return false;
   Alternatives alternatives;
-  alternatives.run(model_, x, y, stored.got_values.data(), profile_);
+  alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
   if (alternatives.gave_up) return true;
   std::vector<CodeRange> ranges;
   for (int a = 0; a < alternatives.count; ++a) {
@@ -483,7 +494,15 @@ bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) cons
 std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor, HalfMode mode) {
   const std::vector<Slot> slots = slots_of(c);
   std::vector<Array> out;
-  for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
+  for (const capture::CaseOutput& o : c.outputs) {
+    Array& array = out.emplace_back(o.array);
+    const capture::KeyedModel* keyed = o.judge == capture::Judge::keyed ? model.keyed(o.name) : nullptr;
+    const auto records = keyed ? keyed->reference() : std::nullopt;
+    if (!records) continue;
+    array.width = static_cast<int>(records->size() / array.element_bytes());
+    array.levels = {*records};
+  }
+  if (slots.empty()) return out;
   executor.for_tiles(model.width(), model.height(), model.width(), 4, [&](const parallel::Tile& tile) {
     std::vector<plain::Plain<float>> values(slots.size());
     for (int y = tile.y0; y < tile.y1; ++y) {

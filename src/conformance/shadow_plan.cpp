@@ -111,7 +111,7 @@ ShadowPlan ShadowPlan::of_effect(const capture::EffectInfo& effect, const std::s
     to.name = pass.name;
     to.formula = formula(effect, pass, *own);
     to.sentence = pass.sentence;
-    to.writes = pass.writes;
+    to.writes = effect.writes(pass, variant);
     to.block = pass.block(variant);
     for (const capture::ReadInfo& read : pass.reads) {
       if (!read.variant.empty() && read.variant != variant) continue;

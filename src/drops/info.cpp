@@ -65,7 +65,7 @@ std::vector<BufferInfo> buffers() {
           {"glass_frame", "records", "What moves drops, in glass coordinates.", "1", {-1000, 1000}, "none", "none", "none", "", "GlassFrame"},
           {"count_thresholds", "records", "Thresholds of the number of drops in a draw, ascending.", "1", {0, 4294967295.0}, "none", "none", "none", "", "CountThreshold", correct},
           {"spawn_masses", "records", "Masses of the 1024 size classes of arrivals, lightest first.", "1", {0, most_quanta}, "none", "none", "none", "", "SpawnMass"},
-          {"film", "r32f", "Water on the glass that is no drop: whole quanta in a texel.", "1", {0, most_quanta}, "none", "none", "none", "", "", correct}};
+          {"film", "r32f", "Water on the glass that is no drop: whole quanta of 2e-11 kg in a texel.", "1", {0, most_quanta}, "none", "none", "none", "", "", correct}};
 }
 
 PassInfo spawn_info(const std::string& last_writer_of_drops) {

@@ -79,7 +79,8 @@ SplatUniforms splat_uniforms(const SplatSettings& s) {
   u.frame[1] = static_cast<float>(shear);
   u.frame[2] = static_cast<float>(row);
   u.kernel = static_cast<std::int32_t>(k.kernel);
-  u.blend = static_cast<std::int32_t>(k.blend);
+  const bool rounds_each = !s.corrected && k.half_accumulation && k.blend == SplatBlend::add;
+  u.blend = static_cast<std::int32_t>(rounds_each ? SplatBlend::add_in_half : k.blend);
   double smallest = 0;
   if (s.corrected) {
     const double radius = cap_radius(s.contact_angle), volume = quantum / water_density;
@@ -124,7 +125,7 @@ capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const
                         member<&SplatUniforms::frame>("frame", "m/texel", "Plane coordinates of a step: x of a column, x and y of a row."),
                         member<&SplatUniforms::smallest_radius>("smallest_radius", "m", "A smaller drop is drawn this wide, and as much lower."),
                         member<&SplatUniforms::kernel>("kernel", "1", "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
-                        member<&SplatUniforms::blend>("blend", "1", "0: add, 1: max."),
+                        member<&SplatUniforms::blend>("blend", "1", "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
                         member<&SplatUniforms::drop_count>("drop_count", "1", "Drops in the list."),
                         member<&SplatUniforms::film_scale>("film_scale", "mm", "corrected: height of a quantum in a texel.")});
   return {"splat",
@@ -137,8 +138,7 @@ capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const
 }
 
 std::vector<capture::BufferInfo> splat_buffers() {
-  return {{"height", "r16f", "Height of the water over the glass.", "mm", {0, 8}},
-          {"film", "r32f", "Water of the film: a whole number of quanta of 2e-11 kg in each texel.", "quantum", {0, 16777216}, "none", "none", "none", "", "", correct}};
+  return {{"height", "r16f", "Height of the water over the glass.", "mm", {0, 8}}};
 }
 
 }  // namespace rainref::drops

@@ -55,7 +55,7 @@ struct SplatScratch {
 void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding, std::span<const Drop> drops,
            const Image* film, Image& height, SplatScratch& scratch);
 
-/// The pass, and the buffer that it writes. `drops_from` and `film_from` are passes; drops_from of as-published first.
+/// The pass, and the buffer that it writes; the film is the drops' own. `drops_from` and `film_from` are passes; drops_from of as-published first.
 capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from);
 std::vector<capture::BufferInfo> splat_buffers();
 

@@ -11,6 +11,9 @@ struct Stamp {
   N x, y, radius, inverse_radius_sq, height;
   RAINREF_FN Stamp() {}
 };
+/// x / max(x, least): the share of a drop's own radius in the one that it is drawn with.
+template <class N>
+RAINREF_FN N over_larger(N x, float least) { return x / max(x, N(least)); }
 template <class N>
 RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position_v, N mass, N life) {
   Stamp<N> s;
@@ -20,7 +23,7 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
   s.radius = max(own, N(u.smallest_radius));
   s.inverse_radius_sq = N(1.0f) / square(s.radius);
   // A drop drawn wider than it is keeps its volume.
-  const N height = (N(u.height_scale) * root) * square(own / s.radius);
+  const N height = (N(u.height_scale) * root) * square(over_larger(own, u.smallest_radius));
   s.height = select(life > N(0.0f), height, N(0.0f));
   return s;
 }

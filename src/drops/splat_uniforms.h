@@ -15,7 +15,11 @@ enum class SplatKernel : std::int32_t {
   disc         ///< 1
 };
 /// How drops join in a texel.
-enum class SplatBlend : std::int32_t { add, max };
+enum class SplatBlend : std::int32_t {
+  add,
+  max,
+  add_in_half  ///< add, and round to half after each drop. Of halves rounded one by one the largest is what max gives anyway.
+};
 
 struct SplatUniforms {
   float size[2];          ///< of the height texture [texel]

@@ -11,7 +11,16 @@ namespace rainref::windshield {
 /// Every pass of both variants that is not taken as data.
 const std::vector<capture::PassReadings>& readings();
 
+std::unique_ptr<capture::PassModel> bind_windshield_frame(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_wipe_texture(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_normals(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_blur_pyramid(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_composite(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
+
+/// Allows more than every profile: what is settled under it is settled under each of them. wipe_drops groups drops by it.
+const enclosed::Profile& loosest_profile();
 
 }  // namespace rainref::windshield

@@ -143,7 +143,7 @@ capture::PassInfo normals_info() {
 }
 std::vector<capture::BufferInfo> surface_buffers() {
   return {{"mask", "r16f", "Freshly wiped glass: 1, and falling.", "1", {0, 1}},
-          {"wiped", "r32f", "Time since the last wipe.", "s", {0, 128}, "none", "none", "none", "", "", correct},
+          {"wiped", "r32f", "Time since the last wipe, to about 32 time constants of the mask.", "s", {0, 16384}, "none", "none", "none", "", "", correct},
           {"normal", "rgba16f", "Unit normal in axes of the glass, alpha 1.", "1", {-1, 1}, "none", "none", "1"}};
 }
 

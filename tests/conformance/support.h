@@ -1,6 +1,7 @@
 // The small packs' cases with their models, and random conforming devices to judge by them.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -44,11 +45,14 @@ struct BoundPass {
   std::vector<BoundCase> cases;
   std::string name() const { return pack + " " + pass; }
 };
-inline std::vector<BoundPass> enveloped_passes() {
+/// Of some packs; all passes, or those named.
+inline std::vector<BoundPass> enveloped_passes(const std::vector<std::string>& of = packs,
+                                               const std::vector<std::string>& only = {}) {
   std::vector<BoundPass> all;
-  for (const std::string& name : packs) {
+  for (const std::string& name : of) {
     const capture::Pack pack(pack_folder(name));
     for (const capture::PackPass& pass : pack.passes) {
+      if (!only.empty() && std::find(only.begin(), only.end(), pass.name) == only.end()) continue;
       BoundPass bound{name, pass.name, {}};
       for (const capture::PackCase& entry : pack.cases) {
         if (entry.pass != pass.name) continue;

@@ -1,115 +1,13 @@
 // The envelopes are tight: no more than a few times as wide as what conforming devices really spread over, before
 // storage.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include <fmt/format.h>
-
-#include "conformance/support.h"
-#include "math/replay.h"
-#include "rainref/executor.h"
+#include "conformance/spread.h"
 
 namespace rainref::conformance {
 namespace {
 
 using namespace test;
 
-struct Measure {
-  std::vector<double> ratios, widths;  // of values with an open envelope; widths in ULP
-  std::int64_t ambiguous = 0, gave_up = 0, exact = 0, constant = 0;
-};
-
-/// The values of one invocation: the envelope that holds the reference, judged at the reference's own stored values,
-/// over the spread of the devices that it holds: others took another branch.
-void measure(const BoundCase& b, int x, int y, const enclosed::Profile& p, int devices, Measure& m) {
-  const deviant::Liberties liberties = deviant::liberties_of(p);
-  const std::size_t n = b.slots.size();
-  std::vector<plain::Plain<float>> reference(n);
-  b.model->evaluate(x, y, reference.data());
-  std::vector<float> port, low;
-  for (std::size_t v = 0; v < n; ++v) {
-    port.push_back(
-        stored_value(b.slots[v], b.slots[v].at(b.c->outputs[static_cast<std::size_t>(b.slots[v].output)].array, x, y)));
-    low.push_back(reference[v].v);
-  }
-  std::vector<float> high = low;
-  std::vector<enclosed::Enclosure> e(n), one(n);
-  const auto held = [&](const std::vector<enclosed::Enclosure>& in, const std::vector<float>& values) {
-    for (std::size_t v = 0; v < n; ++v)
-      if (!b.model->is_free(static_cast<int>(v)) && !in[v].contains(values[v])) return false;
-    return true;
-  };
-  {
-    const enclosed::ProfileScope scope(p);
-    enclosed::Replay replay;
-    bool found = false;
-    const bool whole = replay.for_each_alternative([&] {
-      b.model->enclose(x, y, port.data(), one.data());
-      if (!found && held(one, low)) {
-        e = one;
-        found = true;
-      }
-    });
-    m.ambiguous += replay.runs() != 1;
-    if (!whole) {
-      ++m.gave_up;
-      return;
-    }
-    ASSERT_TRUE(found);
-  }
-  for (int k = 0; k < devices; ++k) {
-    const std::vector<float> got = conforming_values(
-        *b.model, x, y, liberties, static_cast<std::uint64_t>(k) + 1000u * static_cast<std::uint64_t>(x + 1000 * y));
-    if (!held(e, got)) continue;
-    for (std::size_t v = 0; v < n; ++v) {
-      low[v] = std::min(low[v], got[v]);
-      high[v] = std::max(high[v], got[v]);
-    }
-  }
-  for (std::size_t v = 0; v < n; ++v) {
-    if (b.model->is_free(static_cast<int>(v))) continue;
-    if (e[v].is_point()) {
-      ++m.exact;
-      continue;
-    }
-    m.widths.push_back(e[v].width_in_ulp());
-    m.ratios.push_back(
-        high[v] > low[v] ? (static_cast<double>(e[v].hi) - e[v].lo) / (static_cast<double>(high[v]) - low[v]) : 1e9);
-    m.constant += high[v] == low[v];
-    if (std::getenv("RAINREF_TRACE"))
-      fmt::print("v {} at {} {} width {} ulp spread {} ratio {} ref {}\n", v, x, y, e[v].width_in_ulp(),
-                 enclosed::Enclosure(low[v], high[v]).width_in_ulp(), m.ratios.back(), reference[v].v);
-  }
-}
-
-TEST(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) {
-  const int devices = 128;
-  const std::int64_t texels = count_from("RAINREF_TEXELS", 300);
-  const char* only = std::getenv("RAINREF_ONLY");
-  fmt::print("{:<26} {:<8} {:>7} {:>7} {:>12} {:>10} {:>10} {:>9}\n", "pass", "profile", "ratio", "p90", "width (ULP)",
-             "exact", "ambiguous", "constant");
-  for (const BoundPass& pass : enveloped_passes()) {
-    if (only && pass.name() != only) continue;
-    const BoundCase& b = pass.cases.back();
-    for (const std::string& name : inexact_profiles()) {
-      Measure m;
-      for (std::int64_t k = 0; k < texels; ++k) {
-        const std::int64_t texel = (k * 37 + 5) % (static_cast<std::int64_t>(b.model->width()) * b.model->height());
-        measure(b, static_cast<int>(texel % b.model->width()), static_cast<int>(texel / b.model->width()),
-                profile(name), devices, m);
-      }
-      const auto at = [](std::vector<double>& values, double share) {
-        std::sort(values.begin(), values.end());
-        return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-      };
-      fmt::print("{:<26} {:<8} {:7.2f} {:7.3g} {:12.0f} {:10} {:10} {:9}\n", pass.name(), name, at(m.ratios, 0.5),
-                 at(m.ratios, 0.9), at(m.widths, 0.5), m.exact, m.ambiguous, m.constant);
-      if (!pass.is_of_masks()) EXPECT_GT(m.ratios.size(), 10u) << pass.name() << ' ' << name;
-      EXPECT_LE(at(m.ratios, 0.5), 4) << pass.name() << ' ' << name;
-    }
-  }
-}
+TEST(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) { expect_tight(enveloped_passes()); }
 
 }  // namespace
 }  // namespace rainref::conformance

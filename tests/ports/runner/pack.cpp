@@ -27,16 +27,23 @@ json read_json(const fs::path& file) {
   }
 }
 
-// The NPY type of a record: its fields one after the other, as the manifest declares them.
+// The NPY type of a record: its fields one after the other, as the manifest declares them; gaps have no name.
 std::string record_type(const json& record) {
   std::string type = "[";
+  std::size_t end = 0;
+  const auto gap = [&](std::size_t to) {
+    if (to > end) type += std::string(type.size() > 1 ? ", " : "") + "('', '|V" + std::to_string(to - end) + "')";
+  };
   for (const json& member : record.at("members")) {
     const std::string scalar = member.at("type");
+    gap(member.at("offset"));
+    end = member.at("offset").get<std::size_t>() + 4 * member.at("components").get<std::size_t>();
     type += std::string(type.size() > 1 ? ", " : "") + "('" + member.at("name").get<std::string>() + "', " +
             (scalar == "float" ? "'<f4'" : scalar == "int" ? "'<i4'" : "'<u4'");
     const int components = member.at("components");
     type += components > 1 ? ", (" + std::to_string(components) + ",))" : ")";
   }
+  gap(record.at("size"));
   return type + "]";
 }
 

@@ -1,7 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #include "port.glsl"
-layout(std140, binding = 0) uniform DisplayUniforms { float exposure; } u;
+layout(std140, binding = 0) uniform DisplayUniforms {
+  float exposure;   //   0  [1] Factor of the radiance.
+  float padding_0;  //   4  padding
+  float padding_1;  //   8  padding
+  float padding_2;  //  12  padding
+} u;
 layout(binding = 1) uniform sampler2D colour;
 layout(binding = 2) uniform writeonly image2D picture;
 

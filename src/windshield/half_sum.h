@@ -1,0 +1,45 @@
+// What a half holds of a number, for passes that round between their operations.
+#pragma once
+
+#include "image/code_range.h"
+#include "math/deviant.h"
+#include "math/enclosure.h"
+#include "math/half.h"
+#include "math/plain.h"
+
+namespace rainref::windshield {
+
+/// The value of the half that a number is stored as. `own`: how the reference rounds.
+template <class T>
+plain::Plain<T> half_of(plain::Plain<T> x, Rounding own) {
+  return plain::Plain<T>(to_float(to_half(static_cast<float>(x.v), own)));
+}
+/// By the profile's rule of stores.
+inline enclosed::Enclosure half_of(enclosed::Enclosure x, Rounding own) {
+  using enclosed::Enclosure;
+  if (x.is_vacuous()) return x;
+  const enclosed::Profile& p = enclosed::profile();
+  if (p.reference) return Enclosure::checked(to_float(to_half(x.lo, own)), to_float(to_half(x.hi, own)));
+  const enclosed::CodeRange codes = enclosed::code_range(FormatInfo::float16, x, enclosed::store_rules(p));
+  const auto value = [](std::int64_t code) { return static_cast<float>(enclosed::code_value(FormatInfo::float16, code)); };
+  return Enclosure::checked(value(codes.lo), value(codes.hi));
+}
+/// As the liberties' profile stores; where it leaves the rounding open, either neighbour at random.
+inline deviant::Deviant half_of(deviant::Deviant x, Rounding own) {
+  deviant::Behaviour& b = deviant::behaviour();
+  const auto stored = [&](Rounding r) { return deviant::Deviant::of(to_float(to_half(x.v, r))); };
+  if (!b.liberties || b.liberties->rules.reference) return stored(own);
+  switch (b.liberties->rules.half_store) {
+    case enclosed::StoreRounding::rne: return stored(Rounding::rne);
+    case enclosed::StoreRounding::rtz: return stored(Rounding::rtz);
+    default: break;
+  }
+  const deviant::Deviant cut = stored(Rounding::rtz);
+  b.random += 0x9e3779b97f4a7c15u;
+  const std::uint64_t drawn = b.random * 0xbf58476d1ce4e5b9u;
+  if (cut.v == x.v || !(drawn >> 63)) return cut;
+  const std::uint16_t bits = to_half(x.v, Rounding::rtz).bits;
+  return deviant::Deviant::of(to_float(Half{static_cast<std::uint16_t>(bits + 1)}));
+}
+
+}  // namespace rainref::windshield

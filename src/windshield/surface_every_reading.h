@@ -1,0 +1,17 @@
+// The texts of wipe_texture and normals with every number but lanes: Plain, Enclosure and Deviant; like puddle::every.
+#pragma once
+
+#include "math/deviant.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "windshield/surface.h"
+
+namespace rainref::windshield::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#include "windshield/normals.pass.h"
+#include "windshield/wipe_texture.pass.h"
+#undef RAINREF_FN
+
+}  // namespace rainref::windshield::every

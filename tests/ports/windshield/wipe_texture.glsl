@@ -1,0 +1,43 @@
+// What both wipe_textures share. Seeded bugs of both: 1531 to 1559.
+layout(std140, binding = 0) uniform WipeTextureUniforms {
+  vec3 frame;         //   0  [m/texel] Plane coordinates of a step: x of a column, x and y of a row.
+  float edge_width;   //  12  [m] Width over which coverage falls at a blade's edge.
+  vec2 axis_length;   //  16  [m] as-published: lengths of the axes u and v.
+  float strength;     //  24  [mm] as-published: what full coverage takes off the height.
+  float keep;         //  28  [1] as-published: share of the mask that a frame leaves.
+  float dt;           //  32  [s] corrected: time since the frame before, so rounded that sums are exact.
+  float inverse_tau;  //  36  [1/s] corrected: 1 over the time constant of the mask.
+  float wiped_limit;  //  40  [s] corrected: the time since a wipe grows to this and no further.
+  int wiper_count;    //  44  [1] Wipers in the list.
+} u;
+struct Wiper {
+  vec2 previous_inner;  //   0  [1] Inner end before the step, glass coordinates.
+  vec2 previous_outer;  //   8  [1] Outer end before the step.
+  vec2 inner;           //  16  [1] Inner end after it.
+  vec2 outer;           //  24  [1] Outer end after it.
+  vec2 pivot;           //  32  [m] Plane coordinates.
+  float inner_radius;   //  40  [m] Of the inner end, from the pivot.
+  float outer_radius;   //  44  [m] Of the outer end.
+  vec2 previous_axis;   //  48  [1] Cosine and sine of the blade's angle before the step.
+  vec2 axis;            //  56  [1] The same after it.
+  float half_width;     //  64  [m] Half the width that the blade wipes.
+  float rate;           //  68  [rad/s] Turned angle over the time that the record stands for.
+  float direction;      //  72  [1] Sign of rate; 0 at rest.
+  float padding_0;      //  76  padding
+};
+
+float coverage_at(float away, Wiper w) {
+  float half_width = BUG == 1531 ? 0.5 * w.half_width : w.half_width;
+  float coverage = clamp(0.5 + (half_width - away) / u.edge_width, 0.0, 1.0);
+  return BUG == 1537 ? step(0.5, coverage) : coverage;
+}
+float segment_distance(vec2 p, vec2 a, vec2 b) {
+  vec2 along = b - a, from = p - a;
+  float t = dot(from, along) / max(dot(along, along), 1e-12);
+  if (BUG != 1546) t = clamp(t, 0.0, 1.0);
+  return length(from - t * along);
+}
+vec2 in_plane(ivec2 texel) {
+  vec2 at = vec2(texel) + (BUG == 1547 ? 0.0 : 0.5);
+  return vec2(u.frame.x * at.x + u.frame.y * at.y, u.frame.z * at.y);
+}
