@@ -78,7 +78,7 @@ RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
 template <class N>
 RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N amount) {
   const N one(1.0f), timer = fract(N(u.drop_phase) + offset);
-  const N threshold = max(one - timer * N(1.0f / u.impact), (timer - N(u.impact)) * N(1.0f / (1.0f - u.impact)));
+  const N threshold = max(one - timer * uniform_quotient(1.0f, u.impact, N()), (timer - N(u.impact)) * uniform_quotient(1.0f, 1.0f - u.impact, N()));
   return saturate((height - (one - amount) - threshold) * N(u.sharpness));
 }
 // Slopes are decoded before they are masked, so that dry glass bends nothing. A thin sheet of slope s bends a ray by (ior - 1) s
