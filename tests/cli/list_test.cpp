@@ -36,13 +36,14 @@ TEST_F(List, JsonHasTheSchema) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_THAT(keys, ElementsAre("effects", "scenes", "simd_targets", "threads"));
-  ASSERT_EQ(json["effects"].size(), 1u);
+  ASSERT_EQ(json["effects"].size(), 2u);
   const auto& puddle = json["effects"][0];
   EXPECT_EQ(puddle.size(), 3u);
   EXPECT_EQ(puddle["name"], "puddle");
   EXPECT_EQ(puddle["variants"], (std::vector<std::string>{"as-published", "corrected"}));
   EXPECT_EQ(puddle["passes"], (std::vector<std::string>{"raindrops", "wave_step", "surface_hit", "ground_noise", "shade", "display"}));
-  EXPECT_EQ(json["scenes"].size(), 5u);
+  EXPECT_EQ(json["effects"][1]["passes"], (std::vector<std::string>{"bake_raindrops", "bake_rivulets", "rain_on_glass", "display"}));
+  EXPECT_EQ(json["scenes"].size(), 10u);
   EXPECT_EQ(json["simd_targets"], simd_targets());
   EXPECT_GE(json["threads"].get<int>(), 1);
 }
