@@ -84,18 +84,21 @@ RAINREF_FN Baked<N> bake_rivulets(const BakeRivuletsUniforms& u, const Trail* tr
   N height(0.0f), gx(0.0f), gy(0.0f);
   for (int k = 0; k < count; ++k) {
     const Trail& t = trails[k];
-    const N dy = fract(py - N(t.y) + N(0.125f)) - N(0.125f), angle = N(t.wiggle_rate) * dy + N(t.wiggle_phase);
+    const N dy = fract(py - N(t.y) + N(0.125f)) - N(0.125f);
+    const float two_pi = 0x1.921fb6p+2f;
+    // Within half a turn, because devices may know the sine there only.
+    const N angle = N(two_pi) * around(N(t.wiggle_rate) * dy + N(t.wiggle_phase));
     const N dx = around(px - N(t.x)) - N(t.wiggle) * sin(angle);
-    const float inverse_sq = 1.0f / (t.half_width * t.half_width);
+    const N inverse_sq = uniform_quotient(1.0f, t.half_width * t.half_width, N()), steepness = N(-2.0f * t.height) * inverse_sq;
     const auto tail = dy >= N(0.0f);
-    const N along = select(tail, dy * N(t.inverse_length), square(dy) * N(inverse_sq));
-    const N h = N(t.height) * (N(1.0f) - along - square(dx) * N(inverse_sq));
+    const N along = select(tail, dy * N(t.inverse_length), square(dy) * inverse_sq);
+    const N h = N(t.height) * (N(1.0f) - along - square(dx) * inverse_sq);
     const auto higher = h > height;
     height = select(higher, h, height);
-    const N across = N(-2.0f * t.height * inverse_sq) * dx;
-    const N lengthwise = select(tail, N(-t.height * t.inverse_length), N(-2.0f * t.height * inverse_sq) * dy);
+    const N across = steepness * dx;
+    const N lengthwise = select(tail, N(-t.height * t.inverse_length), steepness * dy);
     gx = select(higher, across, gx);
-    gy = select(higher, lengthwise - across * (N(t.wiggle * t.wiggle_rate) * cos(angle)), gy);
+    gy = select(higher, lengthwise - across * (N(two_pi * t.wiggle * t.wiggle_rate) * cos(angle)), gy);
   }
   const Two<N> normal = stored_normal(gx, gy, u.normal_scale, u.neutral, u.span);
   return {normal.a, normal.b, stored_flow<0>(u, lattice, px, py), stored_flow<2>(u, lattice, px, py)};

@@ -66,8 +66,8 @@ EffectInfo make() {
   const UniformBlock trail = record<Trail>(
       "Trail", {member<&Trail::x>("x", "1", "Centre of the head, in tiles."), member<&Trail::y>("y", "1", "Centre of the head."), member<&Trail::half_width>("half_width", "1", "Of the head."),
                 member<&Trail::inverse_length>("inverse_length", "1", "1 over the length of the tail."), member<&Trail::height>("height", "1", "Of the head."),
-                member<&Trail::wiggle>("wiggle", "1", "Amplitude of the winding."), member<&Trail::wiggle_rate>("wiggle_rate", "rad", "Of the winding, in a tile."),
-                member<&Trail::wiggle_phase>("wiggle_phase", "rad", "At the head.")});
+                member<&Trail::wiggle>("wiggle", "1", "Amplitude of the winding."), member<&Trail::wiggle_rate>("wiggle_rate", "1", "Turns of the winding in a tile."),
+                member<&Trail::wiggle_phase>("wiggle_phase", "1", "At the head, in turns.")});
 
   constexpr auto envelope = Judge::envelope;
   const auto both = [](const char* block) { return std::vector<PassVariant>{{published, 1, envelope, block}, {correct, 1, envelope, block}}; };

@@ -78,7 +78,7 @@ RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
 template <class N>
 RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N amount) {
   const N one(1.0f), timer = fract(N(u.drop_phase) + offset);
-  const N threshold = max(one - timer * N(1.0f / u.impact), (timer - N(u.impact)) * N(1.0f / (1.0f - u.impact)));
+  const N threshold = max(one - timer * uniform_quotient(1.0f, u.impact, N()), (timer - N(u.impact)) * uniform_quotient(1.0f, 1.0f - u.impact, N()));
   return saturate((height - (one - amount) - threshold) * N(u.sharpness));
 }
 // Slopes are decoded before they are masked, so that dry glass bends nothing. A thin sheet of slope s bends a ray by (ior - 1) s
@@ -87,6 +87,8 @@ RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N a
 template <class N>
 RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
   const N zero(0.0f), one(1.0f);
+  const auto glass = (p.covered > N(0.5f)) & (p.own_depth > p.distance);
+  if (!any(glass)) return p.own;
   const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
   const N amount = N(u.rain_amount) * saturate(dot(p.normal, Vec3<N>(u.rain_to)));
   const N du = p.u * N(u.drop_tiles), dv = p.v * N(u.drop_tiles);
@@ -114,7 +116,7 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const G
   const N x = N(u.bend) * dot(rise, Vec3<N>(u.right)), y = N(u.bend) * dot(rise, Vec3<N>(u.up));
 
   // Dry glass shows the scene's texel itself.
-  const auto seen = (p.covered > half) & (p.own_depth > p.distance) & (square(sx) + square(sy) > N(1e-8f));
+  const auto seen = glass & (square(sx) + square(sy) > N(1e-8f));
   if (!any(seen)) return p.own;
   const N cx = (N::index(column) + half) * N(u.pixel[0]), cy = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]), two(2.0f);
   if (u.use_probe != 0) {

@@ -67,7 +67,7 @@ std::vector<Trail> make_trails(const Settings& s) {
     const double size = 0.35 + 0.65 * unit(a[2]) * unit(a[2]), length = 0.12 + 0.6 * unit(a[3]) * size;
     const double wiggles = 2 + 5 * unit(b[0]);
     out.push_back({column, place(a[1]), static_cast<float>(size * s.trail_half_width), static_cast<float>(1 / length), static_cast<float>(size),
-                   static_cast<float>(s.trail_half_width * 1.2 * unit(b[1])), static_cast<float>(wiggles * turn), static_cast<float>(unit(b[2]) * turn)});
+                   static_cast<float>(s.trail_half_width * 1.2 * unit(b[1])), static_cast<float>(wiggles), static_cast<float>(unit(b[2]))});
   }
   return out;
 }

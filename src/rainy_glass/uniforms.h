@@ -23,8 +23,8 @@ struct Trail {
   float inverse_length;    ///< of the tail; the tail is at most 0.8 long
   float height;            ///< of the head, of 1
   float wiggle;            ///< amplitude
-  float wiggle_rate;       ///< [rad/tile]
-  float wiggle_phase;      ///< [rad]
+  float wiggle_rate;       ///< [turns/tile]
+  float wiggle_phase;      ///< [turns]
 };
 
 struct BakeRaindropsUniforms {

@@ -18,13 +18,14 @@ struct Trail {
   float inverse_length;  //  12  [1] 1 over the length of the tail.
   float height;          //  16  [1] Of the head.
   float wiggle;          //  20  [1] Amplitude of the winding.
-  float wiggle_rate;     //  24  [rad] Of the winding, in a tile.
-  float wiggle_phase;    //  28  [rad] At the head.
+  float wiggle_rate;     //  24  [1] Turns of the winding in a tile.
+  float wiggle_phase;    //  28  [1] At the head, in turns.
 };
 layout(std430, binding = 1) readonly buffer TrailBuffer { Trail trails[]; };
 layout(binding = 2) uniform sampler2D lattice;
 layout(binding = 3) uniform writeonly image2D rivulets;
 #include "bake.glsl"
+const float TWO_PI = 6.28318530717959;
 
 // Gradient noise for the flow across (xy) and along (zw) the glass.
 vec2 gradient_noise(vec2 place, int cells) {
@@ -46,7 +47,7 @@ void main() {
   for (int k = 0; k < u.trail_count; ++k) {
     Trail t = trails[k];
     float dy = BUG == 733 ? around(here.y - t.y) : fract(here.y - t.y + 0.125) - 0.125;
-    float angle = t.wiggle_rate * dy + t.wiggle_phase;
+    float angle = TWO_PI * around(t.wiggle_rate * dy + t.wiggle_phase);
     float dx = around(here.x - t.x) - t.wiggle * sin(angle);
     float inverse_sq = 1.0 / (t.half_width * t.half_width);
     bool tail = dy >= 0.0;
@@ -56,7 +57,7 @@ void main() {
       height = h;
       float across = -2.0 * t.height * inverse_sq * dx;
       float lengthwise = tail ? -t.height * t.inverse_length : -2.0 * t.height * inverse_sq * dy;
-      gradient = vec2(across, lengthwise - (BUG == 734 ? 0.0 : across * t.wiggle * t.wiggle_rate * cos(angle)));
+      gradient = vec2(across, lengthwise - (BUG == 734 ? 0.0 : across * TWO_PI * t.wiggle * t.wiggle_rate * cos(angle)));
     }
   }
   vec2 noise = gradient_noise(here, u.flow_cells) + (BUG == 735 ? 0.25 : 0.5) * gradient_noise(here, 2 * u.flow_cells);
