@@ -389,7 +389,7 @@ TEST_F(SharedFilm, AQuantumTooManyIsFound) {
 
 // What is settled beforehand under the loosest profile is settled under each.
 TEST(WindshieldMotion, TheLoosestProfileAllowsWhatEachAllows) {
-  const enclosed::Profile& loosest = windshield::loosest_profile();
+  const enclosed::Profile& loosest = drops::loosest_profile();
   for (const std::string& name : inexact_profiles()) {
     const enclosed::Profile& p = profile(name);
     for (const auto accuracy : {&enclosed::Profile::division, &enclosed::Profile::sqrt, &enclosed::Profile::inverse_sqrt}) {
