@@ -115,8 +115,8 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Texture
   const N reflected = fresnel_dielectric(saturate(dot(bent, surface)), c.water_ior);
 
   const N far = max(sample_bilinear<0, 1, N>(depth, scene_u(c, g.x), scene_v(c, g.y))[0] - g.distance, zero);
-  const N along = far / max(bent.z, N(0.05f)), deep = g.distance + along * max(bent.z, N(0.05f));
-  const N x = (g.x * g.distance + along * bent.x) / max(deep, N(1e-3f)), y = (g.y * g.distance + along * bent.y) / max(deep, N(1e-3f));
+  const N along = far / max(bent.z, N(0.05f)), deep = max(g.distance + far, N(1e-3f));
+  const N x = (g.x * g.distance + along * bent.x) / deep, y = (g.y * g.distance + along * bent.y) / deep;
   const N su = scene_u(c, x), sv = scene_v(c, y);
 
   const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));

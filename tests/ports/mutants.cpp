@@ -21,7 +21,7 @@ constexpr const char* usage =
 
 struct Mutant {
   int id;
-  std::string pass, variant, wrong, expected;
+  std::string effect, pass, variant, wrong, expected;
 };
 /// What a mutant changes against the port as it is meant.
 struct Change {
@@ -55,7 +55,7 @@ std::vector<Mutant> read_mutants(const fs::path& file) {
   try {
     const nlohmann::json all = nlohmann::json::parse(read_file(file));
     for (const nlohmann::json& m : all.at("mutants")) {
-      mutants.push_back({m.at("id"), m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected")});
+      mutants.push_back({m.at("id"), all.value("effect", "puddle"), m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected")});
     }
   } catch (const nlohmann::json::exception& e) {
     throw Error(file.string() + ": " + e.what());
@@ -119,7 +119,7 @@ int run(const std::map<std::string, std::string>& options) {
   for (const Mutant& m : mutants) {
     if (!wanted.empty() && !wanted.contains(std::to_string(m.id))) continue;
     Port& port = ports.try_emplace(m.variant).first->second;
-    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / ("puddle-" + m.variant));
+    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / (m.effect + "-" + m.variant));
     Change change;
     for (const Case& c : port.pack.cases) {
       if (c.pass != m.pass) continue;

@@ -1,43 +1,11 @@
 // The ports on a software device: they run, the judge passes them, and it catches bugs seeded in them.
-#include <algorithm>
-#include <cstdlib>
-#include <regex>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
-#include "base/temporary_folder.h"
+#include "ports/support.h"
 
 namespace rainref {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace ports;
 using testing::HasSubstr;
-
-const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV;
-std::string pack_of(const std::string& variant) { return source + "/tests/packs/puddle-" + variant; }
-
-struct Outcome {
-  int code;
-  std::string text;  ///< standard output and error
-};
-Outcome call(const std::string& command) {
-  const TemporaryFolder folder;
-  const fs::path log = folder / "log";
-  const int status = std::system((command + " >'" + log.string() + "' 2>&1").c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log)};
-}
-// The software device, the same on every machine. A driver is not built with sanitizers: it leaks what it keeps, and its threads
-// look like races; the runner itself has one thread.
-const std::string quiet = "ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=report_bugs=0 ";
-Outcome run_port(const std::string& pack, const fs::path& out, const std::string& more = "", const std::string& language = "glsl") {
-  return call(quiet + RAINREF_PORT_RUNNER " --device cpu --pack '" + pack + "' --spirv '" + spirv + "/" + language + "' --out '" +
-              out.string() + "' " + more);
-}
-Outcome judge(const std::string& pack, const fs::path& port, const std::string& more = "") {
-  return call(RAINREF_PROGRAM " validate '" + pack + "' --port '" + port.string() + "' " + more);
-}
 
 class Port : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Variants, Port, testing::Values("as-published", "corrected"),
@@ -109,38 +77,11 @@ TEST(Port, SeededBugsGetTheirVerdicts) {
   EXPECT_EQ(all.code, 0) << all.text;
 }
 
-TEST(Port, MutantsAreManyAndNamedOnce) {
-  const auto all = nlohmann::json::parse(contents(source + "/tests/ports/mutants.json"))["mutants"];
-  EXPECT_GE(all.size(), 40u);
-  std::string shaders;
-  for (const auto& file : fs::directory_iterator(source + "/tests/ports/glsl")) shaders += contents(file.path());
-  std::vector<std::string> names;
-  for (const auto& m : all) {
-    names.push_back(m["id"].dump() + m["pass"].dump() + m["variant"].dump());
-    EXPECT_TRUE(std::regex_search(shaders, std::regex("BUG [!=]= " + m["id"].dump() + "\\b"))) << "no shader has bug " << m["id"];
-    const std::vector<std::string> verdicts{"FAIL", "equivalent", "below-storage-ulp", "inside-envelope", "UNTESTED"};
-    EXPECT_THAT(verdicts, testing::Contains(m["expected"])) << m;
-    EXPECT_EQ(m["expected"] != "FAIL", m.contains("reason")) << m;
-  }
-  std::sort(names.begin(), names.end());
-  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
-}
+TEST(Port, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants(source + "/tests/ports/mutants.json", source + "/tests/ports/glsl"), 40u); }
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(Port, UniformBlocksAreTheDescribedOnes) {
-  const std::string described = call(RAINREF_PROGRAM " describe puddle --layout glsl").text;
-  int blocks = 0;
-  for (const auto& file : fs::directory_iterator(source + "/tests/ports/glsl")) {
-    const std::string text = contents(file.path());
-    for (const char* opening : {"layout(std140, binding = 0) uniform ", "struct Drop {"}) {
-      const std::size_t begin = text.find(opening);
-      if (begin == std::string::npos) continue;
-      const std::string block = text.substr(begin, text.find("\n}", begin) + 2 - begin);
-      EXPECT_THAT(described, HasSubstr(block)) << file.path();
-      ++blocks;
-    }
-  }
-  EXPECT_GE(blocks, 8);
+  EXPECT_GE(check_blocks("puddle", source + "/tests/ports/glsl", {"layout(std140, binding = 0) uniform ", "struct Drop {"}), 8);
 }
 
 // ---- the runner refuses what it cannot run -------------------------------------------------------------------------

@@ -1,0 +1,62 @@
+// The windshield's ports on a software device: they run, the judge passes them, and it catches bugs seeded in them. Passes
+// without a program yet are left out.
+#include "ports/support.h"
+
+namespace rainref {
+namespace {
+
+using namespace ports;
+using testing::HasSubstr;
+
+std::string windshield(const std::string& variant) { return pack_of(variant, "windshield"); }
+
+/// Passes that a variant runs and a program of the folder computes.
+std::vector<std::string> ported(const std::string& variant) {
+  const auto programs = nlohmann::json::parse(contents(fs::path(spirv) / "windshield" / "bindings.json"))["programs"];
+  std::vector<std::string> out;
+  for (const auto& pass : nlohmann::json::parse(contents(windshield(variant) + "/manifest.json"))["passes"])
+    if (programs.contains(pass["formula"].get<std::string>())) out.push_back(pass["name"]);
+  return out;
+}
+
+class WindshieldPort : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Variants, WindshieldPort, testing::Values("as-published", "corrected"),
+                         [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
+
+TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
+  const TemporaryFolder folder;
+  const std::string pack = windshield(GetParam());
+  const Outcome run = run_port(pack, folder.path(), "--repeat 2", "windshield");
+  ASSERT_EQ(run.code, 0) << run.text;
+  const std::vector<std::string> passes = ported(GetParam());
+  for (const char* drawn : {"splat", "wipe_texture", "normals", "blur_pyramid", "composite", "display"}) EXPECT_THAT(passes, testing::Contains(drawn));
+  for (const std::string& pass : passes) {
+    const Outcome verdict = judge(pack, folder.path(), "--only " + pass);
+    EXPECT_EQ(verdict.code, 0) << pass << '\n' << verdict.text;
+  }
+}
+
+// Some bugs of each pass; scripts/full/mutants has them all.
+TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
+  const TemporaryFolder folder;
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/windshield/mutants_surface.json' --packs '" + source +
+                           "/tests/packs' --spirv '" + spirv + "/windshield' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() +
+                           "' --ids 1503,1508,1511,1517,1533,1541,1562,1569,1570,1581,1590,1412,1435,1450");
+  EXPECT_EQ(all.code, 0) << all.text;
+}
+
+TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
+  std::size_t count = 0;
+  for (const auto& file : fs::directory_iterator(source + "/tests/ports/windshield"))
+    if (file.path().filename().string().starts_with("mutants_")) count += check_mutants(file.path(), source + "/tests/ports/windshield");
+  EXPECT_GE(count, 50u);
+}
+
+// The blocks in the shaders are what describe prints for this version.
+TEST(WindshieldPort, UniformBlocksAreTheDescribedOnes) {
+  EXPECT_GE(check_blocks("windshield", source + "/tests/ports/windshield",
+                         {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct GlassFrame {"}), 9);
+}
+
+}  // namespace
+}  // namespace rainref

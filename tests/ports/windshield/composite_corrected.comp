@@ -40,8 +40,8 @@ void main() {
   if (BUG == 1435) reflected = 0.0;
 
   float depth = max(textureLod(scene_depth, scene_at(g.place), 0.0).x - (BUG == 1436 ? 0.0 : g.distance), 0.0);
-  float along = depth / max(bent.z, 0.05), deep = g.distance + along * max(bent.z, 0.05);
-  vec2 place = (g.place * g.distance + along * bent.xy) / max(deep, 1e-3);
+  float along = depth / max(bent.z, 0.05), deep = max(g.distance + depth, 1e-3);
+  vec2 place = (g.place * g.distance + along * bent.xy) / deep;
   if (BUG == 1437) place = bent.xy / max(bent.z, 0.05);
   vec2 at = scene_at(place);
 

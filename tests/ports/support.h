@@ -1,0 +1,78 @@
+// Runs the ports and asks the judge, as a user does.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/temporary_folder.h"
+
+namespace rainref::ports {
+
+namespace fs = std::filesystem;
+inline const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV;
+inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") { return source + "/tests/packs/" + effect + "-" + variant; }
+
+struct Outcome {
+  int code;
+  std::string text;  ///< standard output and error
+};
+inline Outcome call(const std::string& command) {
+  const TemporaryFolder folder;
+  const fs::path log = folder / "log";
+  const int status = std::system((command + " >'" + log.string() + "' 2>&1").c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log)};
+}
+// The software device, the same on every machine. A driver is not built with sanitizers: it leaks what it keeps, and its threads
+// look like races; the runner itself has one thread.
+inline const std::string quiet = "ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=report_bugs=0 ";
+inline Outcome run_port(const std::string& pack, const fs::path& out, const std::string& more = "", const std::string& language = "glsl") {
+  return call(quiet + RAINREF_PORT_RUNNER " --device cpu --pack '" + pack + "' --spirv '" + spirv + "/" + language + "' --out '" +
+              out.string() + "' " + more);
+}
+inline Outcome judge(const std::string& pack, const fs::path& port, const std::string& more = "") {
+  return call(RAINREF_PROGRAM " validate '" + pack + "' --port '" + port.string() + "' " + more);
+}
+
+/// What a file of mutants says is complete, names bugs that the shaders of the folder have, each once. Gives their number.
+inline std::size_t check_mutants(const fs::path& file, const fs::path& shaders) {
+  const auto all = nlohmann::json::parse(contents(file))["mutants"];
+  std::string text;
+  for (const auto& shader : fs::directory_iterator(shaders)) text += contents(shader.path());
+  std::vector<std::string> names;
+  for (const auto& m : all) {
+    names.push_back(m["id"].dump() + m["pass"].dump() + m["variant"].dump());
+    EXPECT_TRUE(std::regex_search(text, std::regex("BUG [!=]= " + m["id"].dump() + "\\b"))) << "no shader has bug " << m["id"];
+    const std::vector<std::string> verdicts{"FAIL", "equivalent", "below-storage-ulp", "inside-envelope", "UNTESTED"};
+    EXPECT_THAT(verdicts, testing::Contains(m["expected"])) << m;
+    EXPECT_EQ(m["expected"] != "FAIL", m.contains("reason")) << m;
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  return all.size();
+}
+
+/// Uniform blocks and these records in the shaders of a folder are what describe prints for this version. Gives their number.
+inline int check_blocks(const std::string& effect, const fs::path& shaders, const std::vector<std::string>& openings) {
+  const std::string described = call(RAINREF_PROGRAM " describe " + effect + " --layout glsl").text;
+  int blocks = 0;
+  for (const auto& file : fs::directory_iterator(shaders)) {
+    const std::string text = contents(file.path());
+    for (const std::string& opening : openings) {
+      const std::size_t begin = text.find(opening);
+      if (begin == std::string::npos) continue;
+      const std::string block = text.substr(begin, text.find("\n}", begin) + 2 - begin);
+      EXPECT_THAT(described, testing::HasSubstr(block)) << file.path();
+      ++blocks;
+    }
+  }
+  return blocks;
+}
+
+}  // namespace rainref::ports
