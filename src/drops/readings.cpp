@@ -70,7 +70,7 @@ const enclosed::Profile& loosest_profile() {
     loose.basic = enclosed::BasicRounding::either;
     loose.contraction = true;
     loose.flush = enclosed::Flush::may;
-    loose.division.ulp = loose.sqrt.ulp = loose.inverse_sqrt.ulp = 16;
+    loose.division = loose.sqrt = loose.inverse_sqrt = {.ulp = 16, .relative = 0x1p-18};
     loose.pow.relative = 0x1p-14;
     return loose;
   }();
