@@ -1,7 +1,9 @@
 // A pass whose output is a list of records with ids, read as enclosures: what conformance judges such a list by.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "math/enclosure.h"
@@ -26,6 +28,10 @@ class KeyedModel {
   /// Appends a record for every id that the group may give, under the profile and replay in force; the same ids in
   /// every alternative. No id is in two groups.
   virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;
+  /// The bytes of the whole list, in any order: what the reference gives, and what Deviants give under the behaviour in
+  /// force (deviant.h). Nothing where the model cannot say.
+  virtual std::optional<std::vector<std::byte>> reference() const { return std::nullopt; }
+  virtual std::optional<std::vector<std::byte>> deviant() const { return std::nullopt; }
 };
 
 }  // namespace rainref::capture

@@ -65,13 +65,29 @@ std::unique_ptr<PassModel> model_of(Pass pass) {
   return std::make_unique<ModelOf<Pass>>(std::move(pass));
 }
 
+/// A pass that gives one keyed list and no image.
+class ListPass : public PassModel {
+ public:
+  ListPass(std::string output, std::unique_ptr<KeyedModel> list) : PassModel(0, 0, 0), output_(std::move(output)), list_(std::move(list)) {}
+  void evaluate(int, int, plain::Plain<float>*) const override {}
+  void evaluate(int, int, plain::Plain<double>*) const override {}
+  void evaluate(int, int, deviant::Deviant*) const override {}
+  void enclose(int, int, const float*, enclosed::Enclosure*) const override {}
+  const KeyedModel* keyed(std::string_view output) const override { return output == output_ ? list_.get() : nullptr; }
+
+ private:
+  std::string output_;
+  std::unique_ptr<KeyedModel> list_;
+};
+
 /// How an effect offers its passes to be judged.
 struct PassReadings {
   std::string pass;
   /// Null where no output is judged by envelope.
   /// Throws Error(port_files) when the case lacks an input or has one of another shape.
   std::unique_ptr<PassModel> (*bind)(const PassCase&);
-  /// The reference's outputs, in the order of c.outputs, where they are judged by bits; else null. Throws like bind.
+  /// The reference's outputs, in the order of c.outputs, where they are judged by bits, keyed records without a model in
+  /// any order; else null. Throws like bind.
   std::vector<Array> (*recompute)(const PassCase&) = nullptr;
   /// Why what the host derived from the other inputs cannot belong to them, or ""; null where nothing is derived.
   std::string (*doubt)(const PassCase&) = nullptr;

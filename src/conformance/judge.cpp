@@ -494,7 +494,15 @@ bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) cons
 std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor, HalfMode mode) {
   const std::vector<Slot> slots = slots_of(c);
   std::vector<Array> out;
-  for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
+  for (const capture::CaseOutput& o : c.outputs) {
+    Array& array = out.emplace_back(o.array);
+    const capture::KeyedModel* keyed = o.judge == capture::Judge::keyed ? model.keyed(o.name) : nullptr;
+    const auto records = keyed ? keyed->reference() : std::nullopt;
+    if (!records) continue;
+    array.width = static_cast<int>(records->size() / array.element_bytes());
+    array.levels = {*records};
+  }
+  if (slots.empty()) return out;
   executor.for_tiles(model.width(), model.height(), model.width(), 4, [&](const parallel::Tile& tile) {
     std::vector<plain::Plain<float>> values(slots.size());
     for (int y = tile.y0; y < tile.y1; ++y) {

@@ -48,7 +48,8 @@ class InvocationJudge {
   HalfMode mode_;
 };
 
-/// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding.
+/// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding. Keyed
+/// records where the model knows them, in any order; what no model gives is as in the case.
 std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor,
                                               HalfMode mode = HalfMode::either);
 

@@ -16,11 +16,7 @@ using capture::PassModel;
 
 /// Binds and settles a run.
 std::unique_ptr<PassModel> prepare(const capture::PackPass& pass, Bind bind, const PassRuns& runs, PortRun& run) {
-  std::unique_ptr<PassModel> model;
-  if (is_enveloped(run.c)) {
-    if (!bind) throw Error(ExitCode::internal, fmt::format("no reading of pass {}", pass.name));
-    model = bind(run.c);
-  }
+  std::unique_ptr<PassModel> model = bound(pass.name, bind, run.c);
   if (runs.settle) runs.settle(run, model.get());
   return model;
 }
@@ -106,6 +102,12 @@ std::vector<Cause> causes_of(const capture::PackPass& pass, Bind bind, const Pas
 
 bool is_enveloped(const capture::PassCase& c) {
   return std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::envelope; });
+}
+
+std::unique_ptr<PassModel> bound(const std::string& pass, Bind bind, const capture::PassCase& c) {
+  if (!bind && is_enveloped(c)) throw Error(ExitCode::internal, fmt::format("no reading of pass {}", pass));
+  const auto has_model = [](const capture::CaseOutput& o) { return o.judge == capture::Judge::envelope || o.judge == capture::Judge::keyed; };
+  return bind && std::any_of(c.outputs.begin(), c.outputs.end(), has_model) ? bind(c) : nullptr;
 }
 
 PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const JudgeOptions& options) {

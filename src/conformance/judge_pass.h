@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,13 @@ struct PassRuns {
   bool diagnose = true;
 };
 
-/// `bind` may be null when no output of the pass is judged by envelope.
+/// `bind` may be null when no output of the pass is judged by envelope; keyed records are then judged by bits.
 PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const JudgeOptions& options);
 
 /// Whether an output is judged by envelope.
 bool is_enveloped(const capture::PassCase& c);
+/// The model of a run; null where no output is judged by one. Throws Error(internal) when it needs one and there is no
+/// `bind`, and what `bind` throws.
+std::unique_ptr<capture::PassModel> bound(const std::string& pass, Bind bind, const capture::PassCase& c);
 
 }  // namespace rainref::conformance

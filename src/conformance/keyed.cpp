@@ -199,6 +199,18 @@ bool has_key(const scene::UniformBlock& record) {
   return std::any_of(record.members.begin(), record.members.end(), is_key);
 }
 
+bool same_records(const Array& a, const Array& b) {
+  const auto sorted = [](const Array& list) {
+    const std::size_t size = list.element_bytes();
+    std::vector<std::vector<std::byte>> records;
+    for (auto at = list.levels[0].begin(); at != list.levels[0].end(); at += static_cast<std::ptrdiff_t>(size))
+      records.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+    std::sort(records.begin(), records.end());
+    return records;
+  };
+  return sorted(a) == sorted(b);
+}
+
 KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& port, const capture::KeyedModel* model,
                            const enclosed::Profile& profile) {
   if (!expected.array.is_records || !has_key(expected.array.record))

@@ -32,6 +32,9 @@ struct KeyedJudgement {
 /// Whether a record has a key: the member `id`, one uint.
 bool has_key(const scene::UniformBlock& record);
 
+/// Whether two lists hold the same records, byte for byte, in any order.
+bool same_records(const capture::Array& a, const capture::Array& b);
+
 /// Judges a port's list. A group of ids passes when one alternative of the model holds all of it: who lives, their
 /// floats by envelope, their integers by bits. Ids that no group knows are extra. A group with too many alternatives is
 /// vacuous. Without a model each expected record is a group whose fields must have the expected bits. Throws

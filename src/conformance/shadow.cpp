@@ -49,8 +49,7 @@ class Shadow {
     if (found == runs_.end()) throw Error(ExitCode::internal, fmt::format("no run {}", id));
     PortRun out = load(*found);
     if (!out.untested.empty()) return out;
-    std::unique_ptr<capture::PassModel> model;
-    if (is_enveloped(out.c)) model = binder(plan_.effect, found->pass)(out.c);
+    const std::unique_ptr<capture::PassModel> model = bound(found->pass, binder(plan_.effect, found->pass), out.c);
     settle(pass_of(*found), out, model.get());
     return out;
   }
@@ -246,8 +245,12 @@ class Shadow {
     std::optional<std::vector<Array>> recomputed;
     for (std::size_t o = 0; o < run.c.outputs.size(); ++o) {
       capture::CaseOutput& output = run.c.outputs[o];
-      if (output.judge == capture::Judge::envelope) output.array = reference[o];
-      if (output.judge != capture::Judge::bits) continue;
+      const bool is_keyed = output.judge == capture::Judge::keyed;
+      if (output.judge == capture::Judge::envelope || (is_keyed && model && model->keyed(output.name))) {
+        output.array = reference[o];
+        continue;
+      }
+      if (output.judge != capture::Judge::bits && !is_keyed) continue;
       if (!readings || !readings->recompute) {
         run.untested = fmt::format("this build does not recompute {}", pass.name);
         return;

@@ -76,9 +76,8 @@ PassInfo integrate_info(const std::string& before, const std::string& glass_fram
   return {"integrate", "Forces, motion, evaporation and age of every drop.", {{published, 1, Judge::keyed, "IntegrateUniforms"}, {correct, 1, Judge::keyed, "IntegrateUniforms"}},
           {{"drops", before}, {"glass_frame", glass_frame_pass}}, {"drops"}, {integrate_block()}, "gather", {"the forces", "length"}};
 }
-// Which drops touch decides chains of any length, more alternatives than a judgement can hold apart: input_only.
 PassInfo merge_info(const std::string& before, const std::string& film_from) {
-  return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::input_only, "MergeUniforms"}},
+  return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::keyed, "MergeUniforms"}},
           {{"drops", before, false, correct}, {"film", film_from, true, correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
 }
 

@@ -1,9 +1,16 @@
 #include "windshield/readings.h"
 
+#include "drops/readings.h"
+
 namespace rainref::windshield {
 
 const std::vector<capture::PassReadings>& readings() {
-  static const std::vector<capture::PassReadings> all{{"splat", bind_splat},
+  static const std::vector<capture::PassReadings> all{{"windshield_frame", bind_windshield_frame},
+                                                      {"spawn", nullptr, drops::recompute_spawn},
+                                                      {"integrate", drops::bind_integrate},
+                                                      {"wipe_drops", bind_wipe_drops},
+                                                      {"merge", drops::bind_merge},
+                                                      {"splat", bind_splat},
                                                       {"wipe_texture", bind_wipe_texture},
                                                       {"normals", bind_normals},
                                                       {"blur_pyramid", bind_blur_pyramid},

@@ -11,6 +11,8 @@ namespace rainref::windshield {
 /// Every pass of both variants that is not taken as data.
 const std::vector<capture::PassReadings>& readings();
 
+std::unique_ptr<capture::PassModel> bind_windshield_frame(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_wipe_texture(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_normals(const capture::PassCase& c);

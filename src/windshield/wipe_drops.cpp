@@ -10,9 +10,31 @@ constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 16;
 constexpr std::uint64_t largest_mass = std::uint64_t{1} << 24;  // whole numbers up to here are floats
 
+// Quanta by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
+std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
+                                      const parallel::Executor& executor) {
+  std::vector<TexelBox> boxes;
+  for (const Wiper& w : wipers) boxes.push_back(swept_texels(w, u));
+  const std::size_t bins = wipers.size() * static_cast<std::size_t>(u.bin_count);
+  std::vector<std::vector<std::uint64_t>> by_tile(
+      static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
+      std::vector<std::uint64_t>(bins));
+  executor.for_tiles(film.width(), film.height(), film.width(), rows_to_a_tile, [&](const parallel::Tile& tile) {
+    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile,
+                   by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
+  });
+  std::vector<std::uint64_t> quanta(bins);
+  for (const auto& tile : by_tile) {
+    for (std::size_t k = 0; k < bins; ++k) quanta[k] += tile[k];
+  }
+  return quanta;
+}
+
+}  // namespace
+
 // The ends of the blade before and after, widened by half_width and by how far the arc bulges over its chord; one texel
 // more for rounding.
-TexelBox box_of(const Wiper& w, const WipeDropsUniforms& u) {
+TexelBox swept_texels(const Wiper& w, const WipeDropsUniforms& u) {
   if (w.direction == 0) return {0, 0, 0, 0};
   const double cosine =
       static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
@@ -32,28 +54,6 @@ TexelBox box_of(const Wiper& w, const WipeDropsUniforms& u) {
   range(1, margin * magnitude(u.inverse_frame[2]), u.texel[1], u.rows, box.y0, box.y1);
   return box;
 }
-
-// Quanta by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
-std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
-                                      const parallel::Executor& executor) {
-  std::vector<TexelBox> boxes;
-  for (const Wiper& w : wipers) boxes.push_back(box_of(w, u));
-  const std::size_t bins = wipers.size() * static_cast<std::size_t>(u.bin_count);
-  std::vector<std::vector<std::uint64_t>> by_tile(
-      static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
-      std::vector<std::uint64_t>(bins));
-  executor.for_tiles(film.width(), film.height(), film.width(), rows_to_a_tile, [&](const parallel::Tile& tile) {
-    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile,
-                   by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
-  });
-  std::vector<std::uint64_t> quanta(bins);
-  for (const auto& tile : by_tile) {
-    for (std::size_t k = 0; k < bins; ++k) quanta[k] += tile[k];
-  }
-  return quanta;
-}
-
-}  // namespace
 
 std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers,
                          const DropSpans& drops, Image* film, const parallel::Executor& executor) {

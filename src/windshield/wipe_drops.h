@@ -8,6 +8,9 @@
 
 namespace rainref::windshield {
 
+/// Texels of the film outside of which a record sweeps none, with more than a texel to spare.
+TexelBox swept_texels(const Wiper& wiper, const WipeDropsUniforms& uniforms);
+
 /// Moves the drops that the records sweep, in place. Returns the quanta of water that left the glass.
 ///
 /// corrected: `film` (r32f, whole quanta in each texel, at most 2^24) becomes 0 where a record sweeps a texel's centre.

@@ -145,6 +145,13 @@ RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, c
   return d;
 }
 
+/// Of the film's texel.
+template <class N>
+RAINREF_FN Plane<N> texel_centre(const WipeDropsUniforms& uniforms, int column, int row) {
+  const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]),
+          v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
+  return to_plane(uniforms.frame, u, v);
+}
 /// Which record sweeps the film's texel (column, row) first, -1: none; and its bin there.
 template <class N>
 struct SweptTexel {
@@ -152,9 +159,7 @@ struct SweptTexel {
 };
 template <class N>
 RAINREF_FN SweptTexel<N> swept_texel(const WipeDropsUniforms& uniforms, const Wiper* wipers, int column, int row) {
-  const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]),
-          v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
-  const Plane<N> p = to_plane(uniforms.frame, u, v);
+  const Plane<N> p = texel_centre<N>(uniforms, column, row);
   SweptTexel<N> swept{N(-1.0f), N(-1.0f)};
   for (int i = 0; i < uniforms.wiper_count; ++i) {
     const Wiper& w = wipers[i];

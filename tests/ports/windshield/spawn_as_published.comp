@@ -1,0 +1,6 @@
+#version 450
+#extension GL_GOOGLE_include_directive : enable
+#define DROPS_OUT 3
+#include "spawn.glsl"
+
+uint above(uint word) { return 0u; }
