@@ -14,7 +14,8 @@ std::string windshield(const std::string& variant) { return pack_of(variant, "wi
 std::vector<std::string> ported(const std::string& variant) {
   const auto programs = nlohmann::json::parse(contents(fs::path(spirv) / "windshield" / "bindings.json"))["programs"];
   std::vector<std::string> out;
-  for (const auto& pass : nlohmann::json::parse(contents(windshield(variant) + "/manifest.json"))["passes"])
+  const auto manifest = nlohmann::json::parse(contents(windshield(variant) + "/manifest.json"));
+  for (const auto& pass : manifest["passes"])
     if (programs.contains(pass["formula"].get<std::string>())) out.push_back(pass["name"]);
   return out;
 }
