@@ -34,11 +34,12 @@ RAINREF_FN N dried(const MergeUniforms& c, N film) { return max(film - N(c.dryin
 /// What a sliding drop leaves on the glass, and where: under its tail, one base radius behind the centre.
 template <class N>
 struct Trail {
-  N quanta, u, v;
+  N quanta, u, v;  ///< not yet whole where tail() gives them
   RAINREF_FN Trail() {}
 };
+/// Before rounding down to whole quanta.
 template <class N>
-RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {
+RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
   const N zero(0.0f), one(1.0f), radius = base_radius(c, d.mass);
   const N speed = length_on_glass(c.frame, d.velocity_u, d.velocity_v);
   const N back = radius / max(speed, N(1e-12f));  // seconds since the centre was there
@@ -46,7 +47,15 @@ RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {
   out.u = d.u - d.velocity_u * back;
   out.v = d.v - d.velocity_v * back;
   const auto on_glass = (d.life > zero) & (out.u >= zero) & (out.u < one) & (out.v >= zero) & (out.v < one);
-  const N left = floor((N(c.trail) * radius) * (speed * N(c.dt)));
-  out.quanta = select(on_glass, max(min(d.mass - one, left), zero), zero);
+  out.quanta = select(on_glass, (N(c.trail) * radius) * (speed * N(c.dt)), zero);
+  return out;
+}
+/// A drop keeps a quantum.
+template <class N>
+RAINREF_FN N whole_trail(N mass, N whole) { return max(min(mass - N(1.0f), whole), N(0.0f)); }
+template <class N>
+RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {
+  Trail<N> out = tail(c, d);
+  out.quanta = whole_trail(d.mass, floor(out.quanta));
   return out;
 }

@@ -62,6 +62,21 @@ std::vector<Drop> drops_input(const PassCase& c) {
   return drops;
 }
 
+const enclosed::Profile& loosest_profile() {
+  static const enclosed::Profile p = [] {
+    enclosed::Profile loose;
+    loose.name = "loosest";
+    loose.reference = false;
+    loose.basic = enclosed::BasicRounding::either;
+    loose.contraction = true;
+    loose.flush = enclosed::Flush::may;
+    loose.division = loose.sqrt = loose.inverse_sqrt = {.ulp = 16, .relative = 0x1p-18};
+    loose.pow.relative = 0x1p-14;
+    return loose;
+  }();
+  return p;
+}
+
 std::unique_ptr<capture::PassModel> bind_integrate(const PassCase& c) {
   const std::vector<GlassFrame> glass = capture::records_of<GlassFrame>(capture::record_input(c, "glass_frame"));
   if (glass.size() != 1) throw Error(ExitCode::port_files, fmt::format("{}/in.glass_frame: expected one record, found {}", c.folder(), glass.size()));

@@ -56,6 +56,11 @@ class DropByDrop : public capture::KeyedModel {
 /// The input "drops". Throws Error(port_files) where an id is there twice.
 std::vector<Drop> drops_input(const capture::PassCase& c);
 
+/// Allows more than every profile: what is settled under it is settled under each of them. Groups of drops that share
+/// decisions are found by it.
+const enclosed::Profile& loosest_profile();
+
+std::unique_ptr<capture::PassModel> bind_merge(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_integrate(const capture::PassCase& c);
 /// spawn: the drops of before and the arrivals.
 std::vector<capture::Array> recompute_spawn(const capture::PassCase& c);

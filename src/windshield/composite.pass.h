@@ -95,7 +95,7 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
 // ---- corrected -----------------------------------------------------------------------------------------------------
 // The view ray is bent into the water at the plane of the glass and out of it at the water's surface, by Snell's law at both
 // (a pane with parallel faces turns no ray), and what it meets is looked up at the depth that lies there:
-//   P = G + D2 max(depth - G.z, 0) / D2.z,  scene at P.xy / P.z
+//   P = G + D2 max(depth - G.z, 0) / D2.z,  scene at P.xy / P.z = mix(D2.xy / D2.z, G.xy / G.z, G.z / P.z)
 // Fresnel's reflectance of the water's surface, 1 beyond the critical angle, mirrors the blurred scene, dimmed: the dark rim.
 template <class N>
 RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, const Vec3<N>& surface, float ior) {
@@ -117,8 +117,8 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   const N reflected = fresnel_dielectric(saturate(dot(bent, surface)), c.water_ior);
 
   const N far = max(sample_bilinear<0, 1, N>(depth, scene_u(c, g.x), scene_v(c, g.y))[0] - g.distance, zero);
-  const N along = far / max(bent.z, N(0.05f)), deep = max(g.distance + far, N(1e-3f));
-  const N x = (g.x * g.distance + along * bent.x) / deep, y = (g.y * g.distance + along * bent.y) / deep;
+  const N ahead = max(bent.z, N(0.05f)), share = g.distance / max(g.distance + far, N(1e-3f));
+  const N x = mix(bent.x / ahead, g.x, share), y = mix(bent.y / ahead, g.y, share);
   const N su = scene_u(c, x), sv = scene_v(c, y);
 
   const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));

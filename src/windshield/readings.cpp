@@ -9,6 +9,7 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"spawn", nullptr, drops::recompute_spawn},
                                                       {"integrate", drops::bind_integrate},
                                                       {"wipe_drops", bind_wipe_drops},
+                                                      {"merge", drops::bind_merge},
                                                       {"splat", bind_splat},
                                                       {"wipe_texture", bind_wipe_texture},
                                                       {"normals", bind_normals},

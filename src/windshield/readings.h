@@ -20,7 +20,4 @@ std::unique_ptr<capture::PassModel> bind_blur_pyramid(const capture::PassCase& c
 std::unique_ptr<capture::PassModel> bind_composite(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
 
-/// Allows more than every profile: what is settled under it is settled under each of them. wipe_drops groups drops by it.
-const enclosed::Profile& loosest_profile();
-
 }  // namespace rainref::windshield

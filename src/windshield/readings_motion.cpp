@@ -162,7 +162,7 @@ bool places(Decide decide, std::vector<Place>& out) {
 class SweptDrops : public capture::KeyedModel {
  public:
   explicit SweptDrops(std::shared_ptr<const Sweep> sweep) : s_(std::move(sweep)) {
-    const enclosed::ProfileScope scope(loosest_profile());
+    const enclosed::ProfileScope scope(drops::loosest_profile());
     share_film();
     make_groups();
   }
@@ -335,21 +335,6 @@ std::vector<Wiper> wipers_input(const PassCase& c, const WipeDropsUniforms& u) {
 }
 
 }  // namespace
-
-const enclosed::Profile& loosest_profile() {
-  static const enclosed::Profile p = [] {
-    enclosed::Profile loose;
-    loose.name = "loosest";
-    loose.reference = false;
-    loose.basic = enclosed::BasicRounding::either;
-    loose.contraction = true;
-    loose.flush = enclosed::Flush::may;
-    loose.division.ulp = loose.sqrt.ulp = loose.inverse_sqrt.ulp = 16;
-    loose.pow.relative = 0x1p-14;
-    return loose;
-  }();
-  return p;
-}
 
 std::unique_ptr<PassModel> bind_windshield_frame(const PassCase& c) {
   return std::make_unique<capture::ListPass>("glass_frame", std::make_unique<Frame>(capture::uniforms_of<WindshieldFrameUniforms>(c), c.corrected()));

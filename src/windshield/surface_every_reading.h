@@ -4,6 +4,7 @@
 #include "math/deviant.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "windshield/segment_distance_enclosed.h"
 #include "windshield/surface.h"
 
 namespace rainref::windshield::every {

@@ -79,8 +79,11 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
     const int x = static_cast<int>(texel % b.model->width()), y = static_cast<int>(texel / b.model->width());
     const HalfMode mode = drawn_mode(p, words);
     // A pass that rounds on its way does so as its device stores.
-    if (mode != HalfMode::either) liberties.rules.half_store = mode == HalfMode::rne ? enclosed::StoreRounding::rne : enclosed::StoreRounding::rtz;
-    else liberties.rules.half_store = enclosed::StoreRounding::either;
+    if (of.half_store == p.half_store) {
+      liberties.rules.half_store = mode == HalfMode::rne   ? enclosed::StoreRounding::rne
+                                   : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz
+                                                           : enclosed::StoreRounding::either;
+    }
     const std::vector<float> values = conforming_values(*b.model, x, y, liberties, words());
     for (std::size_t v = 0; v < values.size(); ++v) {
       const Slot& s = b.slots[v];
@@ -145,19 +148,20 @@ inline void expect_honest(const std::vector<BoundPass>& passes) {
           pass.name(), name, tally.judged.load(), percent(tally.differing), percent(tally.gave_up),
           tally.outside.load());
       EXPECT_EQ(tally.outside, 0) << pass.name() << ' ' << name << '\n' << tally.first;
-      // Devices that differ nowhere prove nothing.
-      EXPECT_GT(tally.differing, tally.judged / (pass.is_of_masks() ? 2000 : 200)) << pass.name() << ' ' << name;
+      // Devices that differ nowhere prove nothing. Rounding on the way hides most of what floats differ by, masks even more.
+      const bool hides = pass.cases.front().model->rounds_inside();
+      EXPECT_GT(tally.differing, hides ? 0 : tally.judged / (pass.is_of_masks() ? 2000 : 200)) << pass.name() << ' ' << name;
     }
   }
 }
 
-/// What vulkan allows lies outside of cuda without a sampler, in every pass.
-inline void expect_looser_outside(const std::vector<BoundPass>& passes) {
+/// What vulkan allows lies outside of cuda without a sampler, in every pass; of so many devices for each case.
+inline void expect_looser_outside(const std::vector<BoundPass>& passes, int devices = 2000) {
   enclosed::Profile narrow = profile("cuda");
   narrow.subtexel_bits = narrow.coordinate_bits = narrow.lod_bits = 0;
   for (const BoundPass& pass : passes) {
     Tally tally;
-    judge_devices(pass.cases.front(), profile("vulkan"), narrow, 0, 2000, tally);
+    for (const BoundCase& b : pass.cases) judge_devices(b, profile("vulkan"), narrow, 0, devices, tally);
     EXPECT_GT(tally.outside, 20) << pass.name();
   }
 }

@@ -31,7 +31,7 @@ using capture::PassCase;
 using drops::Drop;
 
 const std::vector<std::string> variants{"as-published", "corrected"};
-const std::vector<std::string> moving{"windshield_frame", "integrate", "wipe_drops"};
+const std::vector<std::string> moving{"windshield_frame", "integrate", "wipe_drops", "merge"};  // published: no merge
 
 Array with_records(Array like, const std::vector<std::byte>& bytes) {
   like.width = static_cast<int>(bytes.size() / like.element_bytes());
@@ -151,23 +151,30 @@ TEST(WindshieldMotion, NoConformingDeviceIsOutside) {
             gave_up += j.gave_up;
           }
         }
+        if (lists == 0) continue;
         fmt::print("{:<13} {:<17} {:<8} {:5} lists, {:5} differ, {:7} groups, {:5} ambiguous, {:4} another branch, {:3} given up\n", variant, pass, name, lists, differing, groups,
                    ambiguous, other, gave_up);
-        EXPECT_GT(differing, lists / 2) << variant << ' ' << pass << ' ' << name;
+        // The published frame is a dozen operations, of which few are inexact.
+        EXPECT_GT(differing, pass == "windshield_frame" ? lists / 50 : lists / 2) << variant << ' ' << pass << ' ' << name;
         EXPECT_LE(gave_up * 1000, groups) << variant << ' ' << pass << ' ' << name;
       }
     }
   }
 }
 
-TEST(WindshieldMotion, NoConformingFilmIsOutside) {
-  for (const PassCase& c : cases_of("corrected", "wipe_drops")) {
-    const ListCase l(busy(c, 10, 7));
+class WindshieldFilm : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Passes, WindshieldFilm, testing::Values("wipe_drops", "merge"));
+
+TEST_P(WindshieldFilm, NoConformingOneIsOutside) {
+  const bool is_wiped = std::string(GetParam()) == "wipe_drops";
+  for (const PassCase& c : cases_of("corrected", GetParam())) {
+    const ListCase l(is_wiped ? busy(c, 10, 7) : c);
     for (const std::string& name : inexact_profiles()) {
       const enclosed::Profile& p = profile(name);
       const deviant::Liberties liberties = deviant::liberties_of(p);
       const enclosed::ProfileScope scope(p);
       int wiped = 0, kept = 0;
+      double widest = 0;
       for (int y = 0; y < l.model->height(); ++y) {
         for (int x = 0; x < l.model->width(); ++x) {
           const float got = conforming_values(*l.model, x, y, liberties, static_cast<std::uint64_t>(y * 100 + x)).front();
@@ -177,13 +184,15 @@ TEST(WindshieldMotion, NoConformingFilmIsOutside) {
           const bool whole = replay.for_each_alternative([&] {
             enclosed::Enclosure e;
             l.model->enclose(x, y, &got, &e);
-            held |= e.lo == got && e.hi == got;
+            held |= e.contains(got);
+            widest = std::max(widest, static_cast<double>(e.hi) - e.lo);
           });
           EXPECT_TRUE(whole && held) << l.c->folder() << ' ' << name << ' ' << x << ' ' << y;
         }
       }
-      EXPECT_GT(wiped, 20);
-      EXPECT_GT(kept, 500);
+      EXPECT_GT(wiped, is_wiped ? 20 : 0);
+      EXPECT_GT(kept, 100);
+      EXPECT_LE(widest, is_wiped ? 0 : 64) << name;
     }
   }
 }
@@ -194,17 +203,19 @@ TEST(WindshieldMotion, DevicesOfALooserProfileAreOutside) {
   for (const std::string& variant : variants) {
     for (const std::string& pass : moving) {
       int outside = 0;
-      for (const ListCase& l : list_cases(variant, pass, 1))
+      const std::vector<ListCase> cases = list_cases(variant, pass, 1);
+      if (cases.empty()) continue;
+      for (const ListCase& l : cases)
         for (std::uint64_t k = 1; k < 5; ++k) outside += l.judged(l.conforming(liberties, k), "cuda").failing > 0;
       EXPECT_GT(outside, 0) << variant << ' ' << pass;
     }
   }
 }
 
-/// Widths of a list's envelopes over the spread of 128 devices, of the floats that are not points, and over the largest
-/// magnitude that the field has.
+/// Widths of a list's envelopes, of the floats that are not points: over the spread of 128 devices, over the largest
+/// magnitude that the field has, and in ULP.
 struct Widths {
-  std::vector<double> over_spread, over_field;
+  std::vector<double> over_spread, over_field, ulp;
 };
 Widths widths_of(const ListCase& l, const std::string& under) {
   const enclosed::Profile& p = profile(under);
@@ -256,6 +267,7 @@ Widths widths_of(const ListCase& l, const std::string& under) {
         }
         out.over_spread.push_back(high > low ? width / (static_cast<double>(high) - low) : 1e9);
         out.over_field.push_back(width / largest[f]);
+        out.ulp.push_back(r.floats[f].width_in_ulp());
       }
     }
   }
@@ -265,14 +277,20 @@ Widths widths_of(const ListCase& l, const std::string& under) {
 TEST(WindshieldMotion, EnvelopesAreTight) {
   for (const std::string& variant : variants) {
     for (const std::string& pass : moving) {
-      const ListCase l(cases_of(variant, pass).back());
+      std::vector<PassCase> cases = cases_of(variant, pass);
+      if (cases.empty()) continue;
+      // Few drops of the pack merge.
+      const ListCase l(pass == "merge" ? busy(std::move(cases.back()), 300, 3) : std::move(cases.back()));
       for (const std::string& name : inexact_profiles()) {
         Widths w = widths_of(l, name);
         ASSERT_GT(w.over_spread.size(), 3u) << variant << ' ' << pass << ' ' << name;
         std::sort(w.over_spread.begin(), w.over_spread.end());
+        std::sort(w.ulp.begin(), w.ulp.end());
         const double median = w.over_spread[w.over_spread.size() / 2], widest = *std::max_element(w.over_field.begin(), w.over_field.end());
-        fmt::print("{:<13} {:<17} {:<8} {:5} floats, width over spread {:6.2f}, widest over field {:.1e}\n", variant, pass, name, w.over_spread.size(), median, widest);
-        EXPECT_LE(median, 4) << variant << ' ' << pass << ' ' << name;
+        const double ulp = w.ulp[w.ulp.size() / 2];
+        fmt::print("{:<13} {:<17} {:<8} {:5} floats, width over spread {:6.2f}, {:4} ULP, widest over field {:.1e}\n", variant, pass, name, w.over_spread.size(), median, ulp, widest);
+        // Devices that round to nearest differ by an ULP or none: of envelopes this narrow the spread says nothing.
+        EXPECT_TRUE(median <= 4 || ulp <= 6) << variant << ' ' << pass << ' ' << name << ": " << median << ", " << ulp << " ULP";
         // Not vacuous: a hundredth of a percent of what the field holds would not go unseen.
         EXPECT_LE(widest, 1e-4) << variant << ' ' << pass << ' ' << name;
       }
@@ -284,7 +302,9 @@ TEST(WindshieldMotion, EnvelopesAreTight) {
 TEST(WindshieldMotion, MistakesAreFound) {
   for (const std::string& variant : variants) {
     for (const std::string& pass : moving) {
-      const ListCase l(cases_of(variant, pass).back());
+      std::vector<PassCase> cases = cases_of(variant, pass);
+      if (cases.empty()) continue;
+      const ListCase l(std::move(cases.back()));
       int differing = 0, found = 0, by_bits = 0;
       std::string missed;
       for (const deviant::SlipInfo& s : deviant::slips()) {
@@ -329,26 +349,34 @@ class SharedFilm : public testing::Test {
     std::sort(out.begin(), out.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
     return out;
   }
-  /// A place that the first blade captures with water, and the border of its sweep, seen from there along +u or -u: the last
-  /// captured u and the first that is not.
+  /// A place inside a sweep, and two neighbouring floats of its u or v: a drop at `last` is captured and gets the water of
+  /// the same bin, one at `first_free` stays where it is.
   struct Border {
-    float u, v, last, first_free;
+    Drop inside, last, first_free;
   };
   static Border border() {
-    const PassCase c = cases_of("corrected", "wipe_drops").front();
-    for (float v = 0.1f; v < 0.9f; v += 0.01f) {
-      for (float u = 0.05f; u < 0.95f; u += 0.004f) {
-        if (reference(with({at(u, v, 1)}))[0].mass == 500) continue;
-        float in = u, out = u;
-        while (reference(with({at(out, v, 1)}))[0].mass != 500) out += 0.01f;
-        while (true) {
-          const float middle = in + (out - in) / 2;
-          if (middle == in || middle == out) return {u, v, in, out};
-          (reference(with({at(middle, v, 1)}))[0].mass != 500 ? in : out) = middle;
+    const auto is_captured = [](const Drop& d) { return reference(with({d}))[0].position[0] != d.position[0]; };
+    const auto water = [](const Drop& d) { return reference(with({d}))[0].mass; };
+    for (float v = 0.1f; v < 0.9f; v += 0.04f) {
+      for (float u = 0.05f; u < 0.95f; u += 0.02f) {
+        const Drop start = at(u, v, 2);
+        if (water(start) == 500) continue;
+        for (const int axis : {0, 1}) {
+          for (const float step : {0.01f, -0.01f}) {
+            Drop in = at(u, v, 1), out = in;
+            while (is_captured(out)) out.position[axis] += step;
+            while (true) {
+              Drop middle = in;
+              middle.position[axis] += (out.position[axis] - in.position[axis]) / 2;
+              if (middle.position[axis] == in.position[axis] || middle.position[axis] == out.position[axis]) break;
+              (is_captured(middle) ? in : out) = middle;
+            }
+            if (water(in) > 500 && reference(with({in, start}))[1].mass == 500) return {start, in, out};
+          }
         }
       }
     }
-    throw std::runtime_error("no drop gets water");
+    throw std::runtime_error("no drop on a border gets water");
   }
 };
 
@@ -356,28 +384,27 @@ class SharedFilm : public testing::Test {
 // does. Both is wrong, and neither is.
 TEST_F(SharedFilm, TheWaterOfABinGoesToOneDropWhicheverItIs) {
   const Border b = border();
-  const ListCase captured = with({at(b.last, b.v, 1), at(b.u, b.v, 2)}), free = with({at(b.first_free, b.v, 1), at(b.u, b.v, 2)});
-  std::vector<Drop> first = reference(captured), second = reference(free);
-  // The two are in one bin only where the border runs along the radius; then one has all of it.
+  const ListCase captured = with({b.last, b.inside}), free = with({b.first_free, b.inside});
+  const std::vector<Drop> first = reference(captured), second = reference(free);
   ASSERT_GT(first[0].mass, 500);
+  ASSERT_EQ(first[1].mass, 500);
   ASSERT_EQ(second[0].mass, 500);
   ASSERT_GT(second[1].mass, 500);
-  if (first[1].mass != 500) GTEST_SKIP() << "the two lie in different bins";
   for (const ListCase* l : {&captured, &free}) {
-    KeyedJudgement j = l->judged(drops::bytes_of(first), "vulkan");
-    EXPECT_EQ(j.failing, 0) << j.events.text();
-    EXPECT_GT(j.ambiguous, 0);
-    j = l->judged(drops::bytes_of({at(l == &captured ? b.last : b.first_free, b.v, 1), second[1]}), "vulkan");
-    EXPECT_EQ(j.failing, 0) << j.events.text();
+    const Drop stays = l == &captured ? b.last : b.first_free;
+    const KeyedJudgement one = l->judged(drops::bytes_of(first), "vulkan"), other = l->judged(drops::bytes_of({stays, second[1]}), "vulkan");
+    EXPECT_EQ(one.failing, 0) << one.events.text();
+    EXPECT_EQ(other.failing, 0) << other.events.text();
+    EXPECT_EQ(one.ambiguous, 1);
     EXPECT_GT(l->judged(drops::bytes_of({first[0], second[1]}), "vulkan").failing, 0) << "both have it";
-    EXPECT_GT(l->judged(drops::bytes_of({at(b.last, b.v, 1), first[1]}), "vulkan").failing, 0) << "nobody has it";
+    EXPECT_GT(l->judged(drops::bytes_of({stays, first[1]}), "vulkan").failing, 0) << "nobody has it";
     EXPECT_GT(l->judged(drops::bytes_of({first[0]}), "vulkan").failing, 0) << "one is lost";
   }
 }
 
 TEST_F(SharedFilm, AQuantumTooManyIsFound) {
   const Border b = border();
-  const ListCase l = with({at(b.u, b.v, 2)}, 4000);
+  const ListCase l = with({b.inside}, 4000);
   std::vector<Drop> list = reference(l);
   for (const float off : {1.0f, -1.0f}) {
     list[0].mass += off;
@@ -387,15 +414,54 @@ TEST_F(SharedFilm, AQuantumTooManyIsFound) {
   EXPECT_EQ(l.judged(drops::bytes_of(list), "vulkan").failing, 0);
 }
 
+// Two circles that touch or not, by the last bit: one drop with the water of both, or two; not one alone, nor all three.
+TEST(WindshieldMotion, AMergeIsJudgedWhole) {
+  PassCase c = cases_of("corrected", "merge").front();
+  const auto with = [&](const std::vector<Drop>& all) {
+    for (capture::CaseInput& input : c.inputs)
+      if (input.name == "drops") input.array = with_records(input.array, drops::bytes_of(all));
+    return ListCase(c);
+  };
+  const auto drop = [](float u, float mass, std::uint32_t id) { return Drop{{u, 0.5f}, {0, 0}, mass, 9, id, 0}; };
+  float near = 0.5f, far = 0.6f;
+  const Drop large = drop(0.5f, 3e6f, 4);
+  while (true) {
+    const float middle = near + (far - near) / 2;
+    if (middle == near || middle == far) break;
+    (with({large, drop(middle, 1e6f, 3)}).list.array.width == 1 ? near : far) = middle;
+  }
+  const std::vector<Drop> apart{large, drop(near, 1e6f, 3)};
+  const ListCase l = with(apart);
+  const std::vector<Drop> together = drops_in(l.list.array);
+  ASSERT_EQ(together.size(), 1u);
+  EXPECT_EQ(together[0].id, 4u);
+  EXPECT_EQ(together[0].mass, 4e6f);
+  const auto failing = [&](const std::vector<Drop>& list, const char* under) { return l.judged(drops::bytes_of(list), under).failing; };
+  EXPECT_EQ(failing(together, "ieee"), 0);
+  EXPECT_GT(failing(apart, "ieee"), 0);
+  EXPECT_EQ(failing(together, "vulkan"), 0);
+  EXPECT_EQ(failing(apart, "vulkan"), 0);
+  EXPECT_GT(failing({large}, "vulkan"), 0) << "the small one is lost";
+  EXPECT_GT(failing({together[0], apart[1]}, "vulkan"), 0) << "it is there twice";
+  // Farther apart it is settled.
+  const ListCase settled = with({large, drop(near + 1e-3f, 1e6f, 3)});
+  EXPECT_GT(settled.judged(drops::bytes_of(together), "vulkan").failing, 0);
+}
+
 // What is settled beforehand under the loosest profile is settled under each.
 TEST(WindshieldMotion, TheLoosestProfileAllowsWhatEachAllows) {
-  const enclosed::Profile& loosest = windshield::loosest_profile();
+  const enclosed::Profile& loosest = drops::loosest_profile();
   for (const std::string& name : inexact_profiles()) {
     const enclosed::Profile& p = profile(name);
     for (const auto accuracy : {&enclosed::Profile::division, &enclosed::Profile::sqrt, &enclosed::Profile::inverse_sqrt}) {
-      EXPECT_GE((loosest.*accuracy).ulp, 2 * (p.*accuracy).ulp) << name;
-      EXPECT_EQ((p.*accuracy).relative + (p.*accuracy).absolute + (p.*accuracy).ulp_per_x, 0) << name;
+      const enclosed::Accuracy &wide = loosest.*accuracy, &own = p.*accuracy;
+      EXPECT_GE(wide.ulp, own.ulp) << name;
+      EXPECT_GE(wide.relative, 8 * own.relative) << name;
+      EXPECT_EQ(own.absolute, 0) << name;
+      EXPECT_EQ(own.ulp_per_x, 0) << name;
     }
+    // A root may be 1 / inverse_sqrt.
+    EXPECT_GT(loosest.sqrt.ulp, 2 * p.inverse_sqrt.ulp + 2 * p.division.ulp + 2) << name;
     // A power of 2^-8 ... 2^8, as exp2(y log2 x) or by itself.
     EXPECT_LT(p.pow.ulp, 64) << name;
     EXPECT_LT(p.pow.relative, 0x1p-15) << name;

@@ -40,9 +40,9 @@ void main() {
   if (BUG == 1435) reflected = 0.0;
 
   float depth = max(textureLod(scene_depth, scene_at(g.place), 0.0).x - (BUG == 1436 ? 0.0 : g.distance), 0.0);
-  float along = depth / max(bent.z, 0.05), deep = max(g.distance + depth, 1e-3);
-  vec2 place = (g.place * g.distance + along * bent.xy) / deep;
-  if (BUG == 1437) place = bent.xy / max(bent.z, 0.05);
+  float ahead = max(bent.z, 0.05);
+  vec2 place = mix(bent.xy / ahead, g.place, g.distance / max(g.distance + depth, 1e-3));
+  if (BUG == 1437) place = bent.xy / ahead;
   vec2 at = scene_at(place);
 
   vec3 sharp = textureLod(pyramid, at, 0.0).rgb, blur = textureLod(pyramid, BUG == 1438 ? scene_at(g.place) : at, u.blur_lod).rgb;
