@@ -197,7 +197,7 @@ TEST(BlurPyramid, DecodedLevelsAreTheLevels) {
   for (int l = 0; l < t.levels; ++l) {
     for (int y = 0; y < t.height[l]; ++y) {
       for (int i = 0; i < 4 * t.width[l]; ++i) {
-        ASSERT_EQ(t.texels[t.offset[l] + 4 * t.width[l] * y + i], to_float(levels[static_cast<std::size_t>(l)].row<Half>(y)[i]));
+        ASSERT_EQ(t.texels[4 * (t.offset[l] + t.width[l] * y) + i], to_float(levels[static_cast<std::size_t>(l)].row<Half>(y)[i]));
       }
     }
   }

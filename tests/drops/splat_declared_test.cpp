@@ -51,6 +51,22 @@ TEST(SplatDeclared, ScenesSetWhatTheVariantUses) {
   EXPECT_EQ(blur.rounding, Rounding::rtz);
 }
 
+// A port learns from the uniforms alone whether each drop is rounded.
+TEST(SplatDeclared, TheUniformsSayHowDropsJoin) {
+  const auto blend = [](bool corrected, bool half, drops::SplatBlend wanted) {
+    drops::SplatSettings s;
+    s.corrected = corrected;
+    s.keys.half_accumulation = half;
+    s.keys.blend = wanted;
+    return static_cast<drops::SplatBlend>(drops::splat_uniforms(s).blend);
+  };
+  using enum drops::SplatBlend;
+  EXPECT_EQ(blend(false, true, add), add_in_half);
+  EXPECT_EQ(blend(false, false, add), add);
+  EXPECT_EQ(blend(true, false, add), add);
+  EXPECT_EQ(blend(false, true, max), max) << "the largest half is the half of the largest";
+}
+
 TEST(SplatDeclared, PassesAndTheirBuffers) {
   // Making a block validates it: an error would throw.
   const capture::PassInfo splat = drops::splat_info({"wipe_drops", "merge"}, "merge"), blur = blur_pyramid::blur_info("scene", "scene");

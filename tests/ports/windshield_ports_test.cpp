@@ -12,11 +12,11 @@ std::string windshield(const std::string& variant) { return pack_of(variant, "wi
 
 /// Passes that a variant runs and a program of the folder computes.
 std::vector<std::string> ported(const std::string& variant) {
-  const auto programs = nlohmann::json::parse(contents(fs::path(spirv) / "windshield" / "bindings.json"))["programs"];
-  std::vector<std::string> out;
+  const auto bindings = nlohmann::json::parse(contents(fs::path(spirv) / "windshield" / "bindings.json"));
   const auto manifest = nlohmann::json::parse(contents(windshield(variant) + "/manifest.json"));
+  std::vector<std::string> out;
   for (const auto& pass : manifest["passes"])
-    if (programs.contains(pass["formula"].get<std::string>())) out.push_back(pass["name"]);
+    if (bindings["programs"].contains(pass["formula"].get<std::string>())) out.push_back(pass["name"]);
   return out;
 }
 

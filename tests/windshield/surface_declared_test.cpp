@@ -3,6 +3,7 @@
 
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "windshield/info.h"
 #include "windshield/surface.h"
 
 namespace rainref::windshield {
@@ -34,6 +35,35 @@ TEST(SurfaceDeclared, PassesAndTheirBuffers) {
   effect.buffers = surface_buffers();
   for (const char* name : {"mask", "wiped", "normal"}) EXPECT_NO_THROW(effect.buffer(name, "corrected")) << name;
   EXPECT_NO_THROW(effect.buffer("mask", "as-published"));
+}
+
+TEST(SurfaceDeclared, PassesNameOnlyBuffersThatTheVariantHas) {
+  const capture::EffectInfo& effect = effect_info();
+  for (const std::string variant : {"as-published", "corrected"}) {
+    for (const std::string& name : effect.pass_names(variant)) {
+      const capture::PassInfo& pass = effect.pass(name);
+      for (const capture::ReadInfo& read : pass.reads)
+        if (read.variant.empty() || read.variant == variant) {
+          EXPECT_NO_THROW(effect.buffer(read.buffer, variant)) << name << ' ' << variant;
+        }
+      EXPECT_FALSE(effect.writes(pass, variant).empty()) << name;
+    }
+    for (std::size_t i = 0; i < effect.buffers.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const capture::BufferInfo &a = effect.buffers[i], &b = effect.buffers[k];
+        EXPECT_FALSE(a.name == b.name && (a.variant.empty() || b.variant.empty() || a.variant == b.variant)) << a.name << " is declared twice";
+      }
+  }
+  const std::vector<std::string> published{"height", "mask"}, correct{"height", "mask", "wiped"};
+  EXPECT_EQ(effect.writes(effect.pass("wipe_texture"), "as-published"), published);
+  EXPECT_EQ(effect.writes(effect.pass("wipe_texture"), "corrected"), correct);
+  EXPECT_EQ(effect.writes(effect.pass("wipe_drops"), "as-published"), std::vector<std::string>{"drops"});
+}
+
+// The declared range holds what the largest time constant lets `wiped` grow to.
+TEST(SurfaceDeclared, TheTimeSinceAWipeStaysInItsRange) {
+  EXPECT_EQ(wiped_limit(600), effect_info().buffer("wiped", "corrected").range[1]);
+  EXPECT_LT(wiped_limit(4), wiped_limit(600));
 }
 
 TEST(SurfaceDeclared, FramesTogetherMakeTheTimeThatHasPassed) {
