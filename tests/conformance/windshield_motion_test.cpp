@@ -418,7 +418,7 @@ TEST_F(SharedFilm, TheWaterOfABinGoesToOneDropWhicheverItIs) {
 
 TEST_F(SharedFilm, NoConformingDeviceOnABorderIsOutside) {
   const Border b = border();
-  // To stay free a drop must be missed in both rounds and in the last test, so most devices capture it.
+  // Measured: all of these are of the drop that the reference leaves free; none of 360 devices misses the captured one.
   EXPECT_GT(other_branches(with({b.last, b.inside})) + other_branches(with({b.first_free, b.inside})), 10);
 }
 
