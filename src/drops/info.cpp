@@ -68,9 +68,9 @@ std::vector<BufferInfo> buffers() {
           {"film", "r32f", "Water on the glass that is no drop: whole quanta of 2e-11 kg in a texel.", "1", {0, most_quanta}, "none", "none", "none", "", "", correct}};
 }
 
-PassInfo spawn_info(const std::string& last_writer_of_drops) {
+PassInfo spawn_info(const std::array<std::string, 2>& last_writers) {
   return {"spawn", "New drops in free slots.", {{published, 1, Judge::keyed, "SpawnUniforms"}, {correct, 1, Judge::keyed, "SpawnUniforms"}},
-          {{"drops", last_writer_of_drops, true}, {"count_thresholds", "", false, correct}, {"spawn_masses"}}, {"drops"}, {spawn_block()}};
+          {{"drops", last_writers[0], true, published}, {"drops", last_writers[1], true, correct}, {"count_thresholds", "", false, correct}, {"spawn_masses"}}, {"drops"}, {spawn_block()}};
 }
 PassInfo integrate_info(const std::string& before, const std::string& glass_frame_pass) {
   return {"integrate", "Forces, motion, evaporation and age of every drop.", {{published, 1, Judge::keyed, "IntegrateUniforms"}, {correct, 1, Judge::keyed, "IntegrateUniforms"}},
@@ -78,7 +78,7 @@ PassInfo integrate_info(const std::string& before, const std::string& glass_fram
 }
 PassInfo merge_info(const std::string& before, const std::string& film_from) {
   return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::keyed, "MergeUniforms"}},
-          {{"drops", before, false, correct}, {"film", film_from, true, correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
+          {{"drops", before, false, correct}, {"film", film_from, false, correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
 }
 
 }  // namespace rainref::drops

@@ -1,6 +1,8 @@
 // The passes and records of this room described to others, for the effects that list them.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "capture/pass_info.h"
@@ -12,10 +14,11 @@ namespace rainref::drops {
 std::vector<scene::UniformBlock> records();
 /// Buffers drops (both variants), glass_frame, count_thresholds, spawn_masses and film.
 std::vector<capture::BufferInfo> buffers();
-/// The passes. before: the pass that wrote the drops which this one takes; spawn takes those of the frame before.
-capture::PassInfo spawn_info(const std::string& last_writer_of_drops);
+/// The passes. before: the pass that wrote the drops which this one takes; spawn takes those of the step before, from the
+/// last writer of as-published and of corrected.
+capture::PassInfo spawn_info(const std::array<std::string, 2>& last_writers);
 capture::PassInfo integrate_info(const std::string& before, const std::string& glass_frame_pass);
-/// film_from: the pass that wrote the film before this one.
+/// film_from: the pass that wrote the film before this one, in the same step.
 capture::PassInfo merge_info(const std::string& before, const std::string& film_from);
 
 }  // namespace rainref::drops

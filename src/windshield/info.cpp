@@ -23,7 +23,7 @@ EffectInfo make() {
   info.up_axis = "z";
   info.depth = "along the view axis [m], not reversed";
   info.passes = {windshield_frame_info(),
-                 drops::spawn_info("wipe_drops"),
+                 drops::spawn_info({"wipe_drops", "merge"}),
                  drops::integrate_info("spawn", "windshield_frame"),
                  wipe_drops_info("integrate"),
                  drops::merge_info("wipe_drops", "wipe_drops"),

@@ -191,10 +191,24 @@ TEST_P(WindshieldFilm, NoConformingOneIsOutside) {
         }
       }
       EXPECT_GT(wiped, is_wiped ? 20 : 0);
-      EXPECT_GT(kept, 300);
+      EXPECT_GT(kept, 100);
       EXPECT_LE(widest, is_wiped ? 0 : 64) << name;
     }
   }
+}
+
+/// Conforming devices on a case that lies on a border: how many take another branch than the reference.
+int other_branches(const ListCase& l) {
+  int other = 0;
+  for (const std::string& name : inexact_profiles()) {
+    const deviant::Liberties liberties = deviant::liberties_of(profile(name));
+    for (std::uint64_t k = 1; k <= 60; ++k) {
+      const KeyedJudgement j = l.judged(l.conforming(liberties, k), name);
+      EXPECT_EQ(j.failing, 0) << name << ' ' << k << ": " << j.events.text();
+      other += j.other_branch > 0;
+    }
+  }
+  return other;
 }
 
 // The proof can fail: what vulkan allows lies outside of a profile that rounds to nearest.
@@ -212,10 +226,10 @@ TEST(WindshieldMotion, DevicesOfALooserProfileAreOutside) {
   }
 }
 
-/// Widths of a list's envelopes over the spread of 128 devices, of the floats that are not points, and over the largest
-/// magnitude that the field has.
+/// Widths of a list's envelopes, of the floats that are not points: over the spread of 128 devices, over the largest
+/// magnitude that the field has, and in ULP.
 struct Widths {
-  std::vector<double> over_spread, over_field;
+  std::vector<double> over_spread, over_field, ulp;
 };
 Widths widths_of(const ListCase& l, const std::string& under) {
   const enclosed::Profile& p = profile(under);
@@ -267,6 +281,7 @@ Widths widths_of(const ListCase& l, const std::string& under) {
         }
         out.over_spread.push_back(high > low ? width / (static_cast<double>(high) - low) : 1e9);
         out.over_field.push_back(width / largest[f]);
+        out.ulp.push_back(r.floats[f].width_in_ulp());
       }
     }
   }
@@ -278,15 +293,18 @@ TEST(WindshieldMotion, EnvelopesAreTight) {
     for (const std::string& pass : moving) {
       std::vector<PassCase> cases = cases_of(variant, pass);
       if (cases.empty()) continue;
-      const ListCase l(std::move(cases.back()));
+      // Few drops of the pack merge.
+      const ListCase l(pass == "merge" ? busy(std::move(cases.back()), 300, 3) : std::move(cases.back()));
       for (const std::string& name : inexact_profiles()) {
         Widths w = widths_of(l, name);
         ASSERT_GT(w.over_spread.size(), 3u) << variant << ' ' << pass << ' ' << name;
         std::sort(w.over_spread.begin(), w.over_spread.end());
-        // Of a handful of floats a device that rounds to nearest may hit one value each time.
+        std::sort(w.ulp.begin(), w.ulp.end());
         const double median = w.over_spread[w.over_spread.size() / 2], widest = *std::max_element(w.over_field.begin(), w.over_field.end());
-        fmt::print("{:<13} {:<17} {:<8} {:5} floats, width over spread {:6.2f}, widest over field {:.1e}\n", variant, pass, name, w.over_spread.size(), median, widest);
-        EXPECT_LE(w.over_spread.size() > 10 ? median : 0, 4) << variant << ' ' << pass << ' ' << name;
+        const double ulp = w.ulp[w.ulp.size() / 2];
+        fmt::print("{:<13} {:<17} {:<8} {:5} floats, width over spread {:6.2f}, {:4} ULP, widest over field {:.1e}\n", variant, pass, name, w.over_spread.size(), median, ulp, widest);
+        // Devices that round to nearest differ by an ULP or none: of envelopes this narrow the spread says nothing.
+        EXPECT_TRUE(median <= 4 || ulp <= 6) << variant << ' ' << pass << ' ' << name << ": " << median << ", " << ulp << " ULP";
         // Not vacuous: a hundredth of a percent of what the field holds would not go unseen.
         EXPECT_LE(widest, 1e-4) << variant << ' ' << pass << ' ' << name;
       }
@@ -398,6 +416,12 @@ TEST_F(SharedFilm, TheWaterOfABinGoesToOneDropWhicheverItIs) {
   }
 }
 
+TEST_F(SharedFilm, NoConformingDeviceOnABorderIsOutside) {
+  const Border b = border();
+  // Measured: all of these are of the drop that the reference leaves free; none of 360 devices misses the captured one.
+  EXPECT_GT(other_branches(with({b.last, b.inside})) + other_branches(with({b.first_free, b.inside})), 10);
+}
+
 TEST_F(SharedFilm, AQuantumTooManyIsFound) {
   const Border b = border();
   const ListCase l = with({b.inside}, 4000);
@@ -408,6 +432,41 @@ TEST_F(SharedFilm, AQuantumTooManyIsFound) {
     list[0].mass -= off;
   }
   EXPECT_EQ(l.judged(drops::bytes_of(list), "vulkan").failing, 0);
+}
+
+// Two circles that touch or not, by the last bit: one drop with the water of both, or two; not one alone, nor all three.
+TEST(WindshieldMotion, AMergeIsJudgedWhole) {
+  PassCase c = cases_of("corrected", "merge").front();
+  const auto with = [&](const std::vector<Drop>& all) {
+    for (capture::CaseInput& input : c.inputs)
+      if (input.name == "drops") input.array = with_records(input.array, drops::bytes_of(all));
+    return ListCase(c);
+  };
+  const auto drop = [](float u, float mass, std::uint32_t id) { return Drop{{u, 0.5f}, {0, 0}, mass, 9, id, 0}; };
+  float near = 0.5f, far = 0.6f;
+  const Drop large = drop(0.5f, 3e6f, 4);
+  while (true) {
+    const float middle = near + (far - near) / 2;
+    if (middle == near || middle == far) break;
+    (with({large, drop(middle, 1e6f, 3)}).list.array.width == 1 ? near : far) = middle;
+  }
+  const std::vector<Drop> apart{large, drop(near, 1e6f, 3)};
+  const ListCase l = with(apart);
+  const std::vector<Drop> together = drops_in(l.list.array);
+  ASSERT_EQ(together.size(), 1u);
+  EXPECT_EQ(together[0].id, 4u);
+  EXPECT_EQ(together[0].mass, 4e6f);
+  const auto failing = [&](const std::vector<Drop>& list, const char* under) { return l.judged(drops::bytes_of(list), under).failing; };
+  EXPECT_EQ(failing(together, "ieee"), 0);
+  EXPECT_GT(failing(apart, "ieee"), 0);
+  EXPECT_EQ(failing(together, "vulkan"), 0);
+  EXPECT_EQ(failing(apart, "vulkan"), 0);
+  EXPECT_GT(failing({large}, "vulkan"), 0) << "the small one is lost";
+  EXPECT_GT(failing({together[0], apart[1]}, "vulkan"), 0) << "it is there twice";
+  EXPECT_GT(other_branches(l), 10);
+  // Farther apart it is settled.
+  const ListCase settled = with({large, drop(near + 1e-3f, 1e6f, 3)});
+  EXPECT_GT(settled.judged(drops::bytes_of(together), "vulkan").failing, 0);
 }
 
 // What is settled beforehand under the loosest profile is settled under each.

@@ -30,6 +30,7 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
   const Outcome run = run_port(pack, folder.path(), "--repeat 2", "windshield");
   ASSERT_EQ(run.code, 0) << run.text;
   const std::vector<std::string> passes = ported(GetParam());
+  for (const char* listed : {"windshield_frame", "spawn", "integrate", "wipe_drops"}) EXPECT_THAT(passes, testing::Contains(listed));
   for (const char* drawn : {"splat", "wipe_texture", "normals", "blur_pyramid", "composite", "display"}) EXPECT_THAT(passes, testing::Contains(drawn));
   for (const std::string& pass : passes) {
     const Outcome verdict = judge(pack, folder.path(), "--only " + pass);
@@ -38,12 +39,15 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
 }
 
 // Some bugs of each pass; scripts/full/mutants has them all.
-TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
+void judge_bugs(const std::string& mutants, const std::string& ids) {
   const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/windshield/mutants_surface.json' --packs '" + source +
-                           "/tests/packs' --spirv '" + spirv + "/windshield' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() +
-                           "' --ids 1503,1508,1511,1517,1533,1541,1562,1569,1570,1581,1590,1412,1435,1450");
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/windshield/" + mutants + "' --packs '" + source +
+                           "/tests/packs' --spirv '" + spirv + "/windshield' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids " + ids);
   EXPECT_EQ(all.code, 0) << all.text;
+}
+TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
+  judge_bugs("mutants_surface.json", "1503,1508,1511,1517,1533,1541,1562,1569,1570,1581,1590,1412,1435,1450");
+  judge_bugs("mutants_motion.json", "1104,1107,1126,1130,1144,1146,1154,1161,1173,1176,1181,1189,1190,1195,1207,1210,1212,1217");
 }
 
 TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
