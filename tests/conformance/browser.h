@@ -26,8 +26,9 @@ class Browser {
 
   static bool is_installed() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
 
-  /// An empty tab whose console, network and exceptions are recorded. Throws when the browser does not answer.
-  Browser() {
+  /// An empty tab whose console, network and exceptions are recorded. `more`: options besides the usual ones; with some,
+  /// the graphics adapter is not turned off. Throws when the browser does not answer.
+  explicit Browser(const std::vector<std::string>& more = {}) {
     int to[2], from[2];
     if (::pipe(to) != 0 || ::pipe(from) != 0) throw std::runtime_error("no pipe");
     const std::string profile = "--user-data-dir=" + folder_.path().string();
@@ -43,8 +44,14 @@ class Browser {
       ::dup2(nothing, 2);
       for (int d = 5; d < 64; ++d) ::close(d);
       // A sandbox needs rights that root in a container has not.
-      ::execlp("chromium", "chromium", "--headless", "--disable-gpu", "--no-first-run", "--remote-debugging-pipe", profile.c_str(), "--window-size=1400,1000",
-               ::geteuid() == 0 ? "--no-sandbox" : "--disable-extensions", static_cast<char*>(nullptr));
+      std::vector<std::string> options{"chromium", "--headless", "--no-first-run", "--remote-debugging-pipe", profile, "--window-size=1400,1000",
+                                       ::geteuid() == 0 ? "--no-sandbox" : "--disable-extensions"};
+      if (more.empty()) options.push_back("--disable-gpu");
+      options.insert(options.end(), more.begin(), more.end());
+      std::vector<char*> arguments;
+      for (std::string& option : options) arguments.push_back(option.data());
+      arguments.push_back(nullptr);
+      ::execvp("chromium", arguments.data());
       ::_exit(127);
     }
     ::close(to[0]);
