@@ -1,11 +1,9 @@
-// Pass blur_pyramid: the fogged scene, then each level from the one above.
+// Pass blur_pyramid: the fogged scene, then each level from the one above. Needs optics-inl.h.
 
 /// Level 0: fog (1 - T) + colour T, T = exp(-density depth).
 template <class N>
-RAINREF_FN N transmittance(const BlurUniforms& u, N depth) { return exp(-(N(u.fog_density) * max(depth, N(0.0f)))); }
-template <class N>
 RAINREF_FN Vec3<N> fogged(const BlurUniforms& u, const Vec3<N>& colour, N depth) {
-  return mix(Vec3<N>(u.fog_colour), colour, transmittance(u, depth));
+  return mix(Vec3<N>(u.fog_colour), colour, transmittance(N(u.fog_density), max(depth, N(0.0f))));
 }
 
 /// as-published: a box of 2 x 2 texels. With an odd size the last column or row of the level above is dropped.

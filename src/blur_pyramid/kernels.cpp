@@ -11,6 +11,7 @@
 RAINREF_TARGET_BEGIN(blur_pyramid)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "math/optics-inl.h"
 #include "blur_pyramid/blur_pyramid.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

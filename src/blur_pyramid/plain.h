@@ -10,6 +10,7 @@ using namespace rainref::plain;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
+#include "math/optics-inl.h"
 #include "blur_pyramid/blur_pyramid.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -1,9 +1,7 @@
 // The order of the passes. No arithmetic.
 #include "rainref/edge_splash.h"
 
-#include <atomic>
-#include <chrono>
-
+#include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/kernels.h"
 #include "rainref/error.h"
@@ -11,23 +9,9 @@
 namespace rainref::edge_splash {
 namespace {
 
+using capture::PassClock;
+
 constexpr int tile_rows = 8;
-
-/// Time that tiles spend in one pass, over all threads.
-class PassClock {
- public:
-  template <class Body>
-  void add(const Body& body) {
-    const auto start = std::chrono::steady_clock::now();
-    body();
-    nanoseconds_ += std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
-  }
-  /// The pass's share of the wall clock with this many threads at work.
-  double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
-
- private:
-  std::atomic<std::int64_t> nanoseconds_ = 0;
-};
 
 Settings with_size(Settings s, const Image& colour) {
   s.width = colour.width();

@@ -29,3 +29,6 @@ RAINREF_FN Vec3<N> encode_srgb(const Vec3<N>& c) {
   return Vec3<N>(select(c.x <= knee, c.x * slope, curve.x), select(c.y <= knee, c.y * slope, curve.y),
                  select(c.z <= knee, c.z * slope, curve.z));
 }
+/// The same of any radiance, held within [0, 1] first.
+template <class N>
+RAINREF_FN Vec3<N> display_code(const Vec3<N>& c) { return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z))); }

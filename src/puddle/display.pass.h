@@ -14,6 +14,5 @@ RAINREF_FN Vec3<N> display_as_published(const DisplayUniforms& u, const Vec3<N>&
 /// Corrected: exposure, a vignette that ends at black, sRGB.
 template <class N>
 RAINREF_FN Vec3<N> display_corrected(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
-  const Vec3<N> c = (max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour;
-  return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z)));
+  return display_code((max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour);
 }

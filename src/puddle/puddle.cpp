@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <vector>
 
-#include "rainref/executor.h"
+#include "capture/pass_clock.h"
 #include "puddle/bounds.h"
 #include "puddle/environment.h"
 #include "puddle/ground.h"
@@ -15,35 +13,16 @@
 #include "puddle/kernels.h"
 #include "puddle/rainfall.h"
 #include "rainref/error.h"
+#include "rainref/executor.h"
 
 namespace rainref::puddle {
 namespace {
 
+using capture::records;
+using capture::Stopwatch;
+using capture::PassClock;
+
 constexpr int wave_tile_rows = 32, picture_tile_rows = 8;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Time that tiles spend in one pass, over all threads.
-class PassClock {
- public:
-  template <class Body>
-  void add(const Body& body) {
-    const Stopwatch watch;
-    body();
-    nanoseconds_ += static_cast<std::int64_t>(watch.seconds() * 1e9);
-  }
-  /// The pass's share of the wall clock with this many threads at work.
-  double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
-
- private:
-  std::atomic<std::int64_t> nanoseconds_ = 0;
-};
 
 Format channel_format(Format storage) {
   switch (storage) {
@@ -52,11 +31,6 @@ Format channel_format(Format storage) {
     case Format::rgba8: return Format::r8;
     default: throw Error(ExitCode::usage, "puddle.storage: expected rg16f, rg32f or rgba8");
   }
-}
-
-template <class T>
-RecordView records(const std::vector<T>& all) {
-  return {all.data(), all.size(), sizeof(T)};
 }
 
 }  // namespace

@@ -131,7 +131,4 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const G
 
 // ---- display -------------------------------------------------------------------------------------------------------
 template <class N>
-RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) {
-  const Vec3<N> c = N(d.exposure) * colour;
-  return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z)));
-}
+RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) { return display_code(N(d.exposure) * colour); }

@@ -1,13 +1,12 @@
 // The order of the passes. No arithmetic.
 #include "rainref/rainy_glass.h"
 
-#include <atomic>
-#include <chrono>
 #include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "capture/pass_clock.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
@@ -16,34 +15,11 @@
 namespace rainref::rainy_glass {
 namespace {
 
+using capture::records;
+using capture::Stopwatch;
+using capture::PassClock;
+
 constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 8;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-/// Time that tiles spend in one pass, over all threads.
-class PassClock {
- public:
-  template <class Body>
-  void add(const Body& body) {
-    const Stopwatch watch;
-    body();
-    nanoseconds_ += static_cast<std::int64_t>(watch.seconds() * 1e9);
-  }
-  /// The pass's share of the wall clock with this many threads at work.
-  double seconds(int threads) const { return static_cast<double>(nanoseconds_) * 1e-9 / threads; }
-
- private:
-  std::atomic<std::int64_t> nanoseconds_ = 0;
-};
-template <class T>
-RecordView records(const std::vector<T>& all) {
-  return {all.data(), all.size(), sizeof(T)};
-}
 
 }  // namespace
 

@@ -32,7 +32,7 @@ struct StreetDrive::State {
   night_street::Street street;
   const parallel::Executor& executor;
   std::map<int, Keyframe> keyframes;
-  int standing = -1;  // the keyframe that `view` of look() holds
+  bool stands = false;  // the view of look() is rendered and stays
 
   State(const scene::Camera& c, int w, int h, std::uint64_t seed, const parallel::Executor& e) : camera(c), width(w), height(h), street({seed}), executor(e) {}
 
@@ -57,17 +57,17 @@ StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, std
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
 
-void StreetDrive::look(double odometer, bool moves, SceneView& view) {
+bool StreetDrive::look(double odometer, bool moves, SceneView& view) {
   State& s = *state_;
   const double place = odometer - street_length * std::floor(odometer / street_length);
   if (!moves) {
-    if (view.colour.width() == s.width && s.standing == 0) return;
+    if (s.stands) return false;
     const night_street::Street::View v = s.render(place);
     view.colour = as_half(v.colour);
     view.depth = Image(Format::r32f, s.width, s.height);
     for (int y = 0; y < s.height; ++y) std::copy_n(v.depth.row<float>(y), s.width, view.depth.row<float>(y));
-    s.standing = 0;
-    return;
+    s.stands = true;
+    return true;
   }
   if (view.colour.width() != s.width || view.colour.height() != s.height) {
     view.colour = Image(Format::rgba16f, s.width, s.height);
@@ -93,6 +93,7 @@ void StreetDrive::look(double odometer, bool moves, SceneView& view) {
   // The older picture fades out after a new one was taken; before the first there is none.
   u.weight = k == 0 ? 1.0f : static_cast<float>(std::min(1.0, gone / 3));
   s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, newer, older, view, tile); });
+  return true;
 }
 
 }  // namespace rainref::windshield

@@ -34,8 +34,8 @@ class StreetDrive {
   ~StreetDrive();
   StreetDrive(StreetDrive&&) noexcept;
 
-  /// A car that stands sees a rendered view as it is.
-  void look(double odometer, bool moves, SceneView& view);
+  /// Whether the view changed. `moves` is the same in every call; where it is false, the first view stays.
+  bool look(double odometer, bool moves, SceneView& view);
 
  private:
   struct State;

@@ -2,9 +2,9 @@
 #include "rainref/windshield.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
+#include "capture/pass_clock.h"
 #include "drops/host.h"
 #include "drops/passes.h"
 #include "rainref/error.h"
@@ -15,20 +15,11 @@
 namespace rainref::windshield {
 namespace {
 
+using capture::records;
+using capture::Stopwatch;
+
 constexpr int picture_tile_rows = 8;
 
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-template <class T>
-RecordView records(const std::vector<T>& all) {
-  return {all.data(), all.size(), sizeof(T)};
-}
 template <class T>
 RecordView record(const T& one) {
   return {&one, 1, sizeof(T)};
@@ -62,7 +53,6 @@ struct Windshield::State {
   std::optional<blur_pyramid::DecodedLevels> pyramid;
   TextureData depth_texture, height_texture, normal_texture, mask_texture;
   std::vector<Glint> lights;
-  int scene_version = 0, shown_version = -1;
 
   State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
       : settings(settings_from(config)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
@@ -110,7 +100,7 @@ struct Windshield::State {
   }
 
   void step(Recorder* recorder, int substep);
-  void look();
+  bool look();
 };
 
 void Windshield::State::step(Recorder* recorder, int substep) {
@@ -190,14 +180,11 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   ++steps;
 }
 
-/// The scene as the camera sees it in this frame.
-void Windshield::State::look() {
-  if (!own_scene) return;
-  const double distance = vehicle.at(frame * frame_time()).distance;
+/// The scene as the camera sees it in this frame; whether it is another one than before.
+bool Windshield::State::look() {
+  if (!own_scene) return levels.empty();
   const bool moves = settings.scene_moves;
-  const bool first = scene.colour.empty();
-  street->look(settings.street_start + (moves ? distance : 0), moves, scene);
-  if (first || moves) ++scene_version;
+  return street->look(settings.street_start + (moves ? vehicle.at(frame * frame_time()).distance : 0), moves, scene);
 }
 
 Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor)
@@ -255,7 +242,8 @@ void Windshield::render(Recorder* recorder) {
   normals(executor, slopes, s.corrected, rounding, s.height, s.mask, s.normal);
   s.report(recorder, last_step, "normals", {{"normal", s.normal}}, normals_clock.seconds());
 
-  s.look();
+  // A scene that stands still has its pyramid already.
+  const bool anew = s.look();
   const int width = s.scene.colour.width(), height = s.scene.colour.height();
   if (s.levels.empty()) {
     s.levels = blur_pyramid::make_levels(settings.blur, width, height);
@@ -265,8 +253,6 @@ void Windshield::render(Recorder* recorder) {
     s.normal_texture = TextureData(s.normal, Address::clamp, Address::clamp);
     s.mask_texture = TextureData(s.mask, Address::clamp, Address::clamp);
   }
-  // A scene that stands still has its pyramid already.
-  const bool anew = s.shown_version != s.scene_version || s.shown_version < 0;
   for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
     const std::size_t l = static_cast<std::size_t>(level);
     const blur_pyramid::BlurUniforms blur = blur_pyramid::blur_uniforms(settings.blur, width, height, level);
@@ -284,7 +270,6 @@ void Windshield::render(Recorder* recorder) {
   if (anew) {
     s.pyramid->refresh(executor, s.levels);
     decode(executor, s.scene.depth, s.depth_texture);
-    s.shown_version = s.scene_version;
   }
   decode(executor, s.height, s.height_texture);
   decode(executor, s.normal, s.normal_texture);

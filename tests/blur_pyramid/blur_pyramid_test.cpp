@@ -169,7 +169,10 @@ TEST(BlurPyramid, Fog) {
   s.fog_density = 0.02;
   s.fog_colour = {0.5, 0.25, 2};
   const BlurUniforms u = blur_uniforms(s, 8, 8, 0);
-  const auto t = [&](double depth) { return scalar::transmittance(u, D(depth)).v; };
+  // White before black fog is the transmittance.
+  BlurUniforms black = u;
+  std::fill_n(black.fog_colour, 3, 0.0f);
+  const auto t = [&](double depth) { return scalar::fogged(black, scalar::Vec3<D>(D(1), D(1), D(1)), D(depth)).x.v; };
   // T(a + b) = T(a) T(b), for the density as a float.
   for (const double a : {0.0, 3.0, 50.0}) EXPECT_NEAR(t(a + 7) / (t(a) * t(7)), 1, 1e-12);
   EXPECT_NEAR(t(50), std::exp(-1), 1e-7);

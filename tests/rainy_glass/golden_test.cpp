@@ -1,52 +1,19 @@
 // The recorded hashes of every pass, variant and storage.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <set>
-
+#include "golden/golden_check.h"
 #include "rainy_glass/golden_scenes.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
-std::vector<std::string> recorded(const std::string& scene) {
-  std::ifstream file(RAINREF_SOURCE_DIR "/tests/golden/hashes.txt");
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(scene + " ")) lines.push_back(line);
-  }
-  return lines;
-}
-
 class RainyGlassGolden : public testing::TestWithParam<GoldenScene> {};
 
-TEST_P(RainyGlassGolden, HashesAreAsRecorded) {
-  const std::vector<std::string> expected = recorded(GetParam().name);
-  ASSERT_FALSE(expected.empty()) << "no line of tests/golden/hashes.txt starts with " << GetParam().name;
-  // Line by line, so that the first pass that differs is the one named.
-  const std::vector<std::string> found = golden_lines(GetParam(), parallel::Executor(2));
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i], expected[i]);
-}
+TEST_P(RainyGlassGolden, HashesAreAsRecorded) { golden::expect_as_recorded(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, RainyGlassGolden, testing::ValuesIn(golden_scenes()), [](const auto& param) {
-  std::string name = param.param.name;
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, RainyGlassGolden, testing::ValuesIn(golden_scenes()), [](const auto& param) { return golden::test_name(param); });
 
-TEST(RainyGlassGoldenFile, EveryRecordedLineBelongsToAScene) {
-  std::set<std::string> names;
-  for (const GoldenScene& scene : golden_scenes()) names.insert(scene.name);
-  std::ifstream file(RAINREF_SOURCE_DIR "/tests/golden/hashes.txt");
-  int lines = 0;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("rainy_glass/")) continue;
-    ++lines;
-    EXPECT_TRUE(names.contains(line.substr(0, line.find(' ')))) << line;
-  }
-  EXPECT_GT(lines, 0);
-}
+TEST(RainyGlassGoldenFile, EveryRecordedLineBelongsToAScene) { golden::expect_every_line_has_a_scene("rainy_glass", golden_scenes()); }
 
 }  // namespace
 }  // namespace rainref::rainy_glass
