@@ -1,0 +1,75 @@
+// Water on the outer face of a pane: its height over the face as a texture says it, and the surfaces that it makes.
+//
+// Where a cell between four texel centres has any water, the face is an interface of glass and water and the water's surface
+// one of water and air; elsewhere the face is glass and air, and there is no other surface. The water's surface stands
+// `clearance` over its height, so that no ray starts on two surfaces at once.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "compositor/pane.h"
+#include "rainref/image.h"
+
+namespace rainref::compositor {
+
+/// Heights by the pane's (u, v); texel centre (i, j) is at ((i + 1/2) / width, (j + 1/2) / height). Immutable.
+class WaterLayer {
+ public:
+  static constexpr double clearance = 1e-7;  ///< [m]
+
+  /// height: r16f or r32f [mm], as pass splat leaves it. Negative heights count as none; the outermost texels are dry, so that
+  /// water ends on the pane. Throws Error(usage) for another format or fewer than 3 texels a side.
+  explicit WaterLayer(const Image& height);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Row by row [m], as the surface stands: with the clearance where the texel touches a wet cell.
+  const std::vector<float>& metres() const { return metres_; }
+  double highest() const { return highest_; }  ///< [m]
+  /// Whether there is water in the cell that holds (u, v).
+  bool is_wet(double u, double v) const;
+  /// dh/du and dh/dv [m]: central differences at the texels, bilinear between them.
+  struct Rise {
+    double u, v;
+  };
+  Rise rise(double u, double v) const;
+  /// Bilinear between texel centres [m], 0 outside them.
+  double at(double u, double v) const;
+
+ private:
+  double texel(int i, int j) const;
+  int width_, height_;
+  double highest_ = 0;
+  std::vector<float> metres_;
+  std::vector<std::uint8_t> wet_;  // cell (i, j) between texels i and i + 1, j and j + 1
+};
+
+/// The outer face of the pane where it is dry, or where it is wet.
+class OuterFace : public PaneFace {
+ public:
+  OuterFace(const Pane& pane, std::shared_ptr<const WaterLayer> water, bool wet) : PaneFace(pane, 0), water_(std::move(water)), wet_(wet) {}
+
+ protected:
+  bool is_there(double u, double v) const override { return water_->is_wet(u, v) == wet_; }
+
+ private:
+  std::shared_ptr<const WaterLayer> water_;
+  bool wet_;
+};
+
+/// The water's surface on any pane, bent ones too: met at the clearance over the face and turned by the slope of the height
+/// there. Light leaves it as far from where it should as the water is high, times the tangent of its angle to the normal.
+class SlopedWater : public PaneFace {
+ public:
+  SlopedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water) : PaneFace(pane, WaterLayer::clearance), water_(std::move(water)) {}
+  Vec normal(const Ray& ray, const Hit& hit) const override;
+
+ protected:
+  bool is_there(double u, double v) const override { return water_->is_wet(u, v); }
+
+ private:
+  std::shared_ptr<const WaterLayer> water_;
+};
+
+}  // namespace rainref::compositor
