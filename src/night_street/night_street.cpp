@@ -1,7 +1,10 @@
 #include "night_street/night_street.h"
 
+#include <limits>
+
 #include "base/floating_point.h"
 #include "night_street/city.h"
+#include "night_street/shade.h"
 
 namespace rainref::night_street {
 
@@ -17,5 +20,10 @@ Street::Street(Street&&) noexcept = default;
 Street& Street::operator=(Street&&) noexcept = default;
 
 const std::vector<Lamp>& Street::lamps() const { return lamps_; }
+
+Street::Sight Street::look(const scene::Vector3& origin, const scene::Vector3& direction) const {
+  const Seen seen = night_street::look(*city_, Ray(origin, direction));
+  return {seen.radiance, seen.hit.is_surface() ? seen.hit.t : std::numeric_limits<double>::infinity()};
+}
 
 }  // namespace rainref::night_street

@@ -12,8 +12,6 @@ using scene::Vector3;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
 
-// x forward, y left, z up becomes the street's x right, y up, z backward.
-Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
 Image as_half(const Image& from) {
   Image to(Format::rgba16f, from.width(), from.height());
   for (int y = 0; y < from.height(); ++y) {
@@ -26,6 +24,13 @@ Image as_half(const Image& from) {
 
 }  // namespace
 
+// x forward, y left, z up becomes the street's x right, y up, z backward.
+Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
+Vector3 place_in_street(double odometer) {
+  const double length = StreetDrive::street_length;
+  return {lane, 0, start_z - (odometer - length * std::floor(odometer / length))};
+}
+
 struct StreetDrive::State {
   scene::Camera camera;
   int width, height;
@@ -37,7 +42,7 @@ struct StreetDrive::State {
   State(const scene::Camera& c, int w, int h, std::uint64_t seed, const parallel::Executor& e) : camera(c), width(w), height(h), street({seed}), executor(e) {}
 
   night_street::Street::View render(double odometer) const {
-    const Vector3 start(lane, 0, start_z - odometer);
+    const Vector3 start = place_in_street(odometer);
     scene::Camera c = camera;
     c.position = start + in_street(camera.position);
     c.target = start + in_street(camera.target);

@@ -21,6 +21,11 @@ struct SceneView {
 };
 constexpr double street_far = 1000;
 
+/// A vector of car axes in the axes of the street, for a car that drives straight along it in the right lane.
+scene::Vector3 in_street(const scene::Vector3& car);
+/// Where the car's origin is in the street after `odometer` metres, street_length as good as none.
+scene::Vector3 place_in_street(double odometer);
+
 /// Views of the street for a car that has gone `odometer` metres along it, straight on; after street_length metres it
 /// starts again. The street is rendered every `spacing` metres; between, each view is made from the last one by its depth, which
 /// fades in over the one before. The same bits on every machine.
