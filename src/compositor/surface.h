@@ -11,7 +11,8 @@ namespace rainref::compositor {
 /// A point [m] or a direction, in the scene's own axes.
 using Vec = glm::dvec3;
 
-/// origin + t direction; the direction need not be a unit vector. Hits outside [nearest, farthest] are not seen.
+/// origin + t direction; the direction is finite and not zero, but need not be a unit vector. Hits outside
+/// [nearest, farthest] are not seen; nearest >= 0.
 struct Ray {
   Vec origin, direction;
   double nearest = 0, farthest = std::numeric_limits<double>::infinity();
@@ -37,16 +38,22 @@ struct Box {
   Vec low, high;
 };
 
+struct Packet;
+
 /// A surface, cut into primitives that Embree culls by their boxes. Immutable while rays are traced.
 class Surface {
  public:
   virtual ~Surface() = default;
+  /// Changes whenever bounds or primitives do, so that Tracer::commit knows what to take notice of.
+  virtual std::uint64_t revision() const { return 0; }
   virtual std::uint32_t primitives() const = 0;
   /// Holds everything of a primitive that a ray can meet; the tracer adds the margin that Embree's float boxes need.
   virtual Box bounds(std::uint32_t primitive) const = 0;
   /// Every hit of the primitive within the ray's limits is compared with `first` and takes its place if it precedes it.
   /// `self` is this surface's number. Only operations of the determinism contract, in double.
   virtual void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const = 0;
+  /// The same for every slot in the bit set `lanes`, to the same bits. Surfaces that gain by it override it.
+  virtual void meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const;
   /// The geometric normal at a hit: unit, on the side that the surface calls its outside.
   virtual Vec normal(const Ray& ray, const Hit& hit) const = 0;
 };

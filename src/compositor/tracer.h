@@ -12,13 +12,16 @@
 
 namespace rainref::compositor {
 
+/// None of these changes a bit of any answer.
 struct TracerOptions {
-  std::string embree_config;  ///< as rtcNewDevice takes it, for example "isa=sse2"; it changes no bit of any answer
+  std::string embree_config;  ///< as rtcNewDevice takes it, for example "isa=sse2,threads=2"
+  int packet_width = 16;      ///< rays that Embree takes at once: 1, 4, 8 or 16
+  bool robust = true;         ///< Embree's robust traversal
 };
 
 class Tracer {
  public:
-  /// Throws Error(usage) when Embree does not take the configuration.
+  /// Throws Error(usage) when Embree does not take the configuration or the width is none of the four.
   explicit Tracer(const TracerOptions& options = {});
   ~Tracer();
   Tracer(Tracer&&) noexcept;
@@ -26,7 +29,7 @@ class Tracer {
   /// Numbers count from 0 in this order. The surface may be altered between frames; `commit` takes notice.
   std::uint32_t add(std::shared_ptr<const Surface> surface);
   const Surface& surface(std::uint32_t number) const;
-  /// Before the first ray, and after surfaces were added or altered.
+  /// Before the first ray, and after surfaces were added or altered. Cheap for those that did not change.
   void commit();
 
   /// hits[i] is the first hit of rays[i]. Any number of rays; may be called from several threads at once.

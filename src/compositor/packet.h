@@ -1,0 +1,31 @@
+// A few rays side by side, as Embree hands them to a surface.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "compositor/surface.h"
+
+namespace rainref::compositor {
+
+/// Up to 16 rays, each in a slot of its own, and their first hits so far.
+struct Packet {
+  static constexpr int slots = 16;
+
+  const Ray* rays = nullptr;  ///< slot by slot
+  Hit* first = nullptr;
+  /// The same rays component by component, for surfaces that take several at once; slots without a ray hold finite
+  /// numbers.
+  alignas(64) double origin[3][slots], direction[3][slots], nearest[slots], farthest[slots];
+
+  /// Fills the components from rays[0, count); the other slots repeat the last ray. 1 <= count <= slots.
+  void spread(const Ray* from, int count);
+};
+
+/// Calls visit(slot) for every bit of `lanes`, lowest first.
+template <class Visit>
+void for_each_lane(std::uint32_t lanes, const Visit& visit) {
+  for (; lanes != 0; lanes &= lanes - 1) visit(static_cast<std::uint32_t>(__builtin_ctz(lanes)));
+}
+
+}  // namespace rainref::compositor
