@@ -24,9 +24,16 @@ struct PictureOptions {
   int samples = 1;  ///< 1, 4, 8 or 16
 };
 
-/// The primary ray through a point of the picture, in pixels from its lower left corner. Its direction has length 1 along
-/// the view axis, so that distances of its hits are depths.
-Ray primary_ray(const scene::Camera::Basis& basis, const scene::Camera& camera, int width, int height, double x, double y);
+/// The rays of a camera's pixels. A direction has length 1 along the view axis, so that distances of its hits are depths.
+class PrimaryRays {
+ public:
+  PrimaryRays(const scene::Camera& camera, int width, int height);
+  /// Through a point of the picture, in pixels from its lower left corner.
+  Ray through(double x, double y) const { return {position_, corner_ + x * across_ + y * up_}; }
+
+ private:
+  Vec position_, corner_, across_, up_;
+};
 
 /// Traces a picture in tiles. The same bits for every number of threads and every configuration of Embree.
 Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width, int height, const PictureOptions& options,

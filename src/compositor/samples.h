@@ -5,7 +5,7 @@
 
 namespace rainref::compositor {
 
-/// A place in a pixel, from its centre, in pixels: x to the right, y up, both in (-1/2, 1/2).
+/// A place in a pixel, from its centre, in pixels: x to the right, y up, both in [-1/2, 1/2).
 struct Sample {
   double x, y;
 };

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include "compositor/surface.h"
 #include "compositor/tracer.h"
 
