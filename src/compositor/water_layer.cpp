@@ -60,9 +60,12 @@ WaterLayer::Rise WaterLayer::rise(double u, double v) const {
   return {0.5 * width_ * sum.u, 0.5 * height_ * sum.v};
 }
 
-Vec SlopedWater::normal(const Ray&, const Hit& hit) const {
-  const WaterLayer::Rise rise = water_->rise(hit.u, hit.v);
-  return pane().tilted(hit.u, rise.u, rise.v);
+std::function<Vec(const Place&)> water_normal(const Pane& pane, std::shared_ptr<const WaterLayer> water) {
+  return [pane, water = std::move(water)](const Place& place) {
+    const PaneCoordinates foot = pane.coordinates(place.point);
+    const WaterLayer::Rise rise = water->rise(foot.u, foot.v);
+    return pane.tilted(foot.u, rise.u, rise.v);
+  };
 }
 
 }  // namespace rainref::compositor

@@ -5,10 +5,13 @@
 // `clearance` over its height, so that no ray starts on two surfaces at once.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "compositor/pane.h"
+#include "compositor/scene.h"
 #include "rainref/image.h"
 
 namespace rainref::compositor {
@@ -24,7 +27,7 @@ class WaterLayer {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Row by row [m], as the surface stands: with the clearance where the texel touches a wet cell.
+  /// Row by row [m].
   const std::vector<float>& metres() const { return metres_; }
   double highest() const { return highest_; }  ///< [m]
   /// Whether there is water in the cell that holds (u, v).
@@ -58,12 +61,12 @@ class OuterFace : public PaneFace {
   bool wet_;
 };
 
-/// The water's surface on any pane, bent ones too: met at the clearance over the face and turned by the slope of the height
-/// there. Light leaves it as far from where it should as the water is high, times the tangent of its angle to the normal.
+/// The water's surface on any pane, bent ones too: met at the clearance over the face, with water_normal turned by the slope of
+/// the height there. Light leaves it as far from where it should as the water is high, times the tangent of its angle to the
+/// normal.
 class SlopedWater : public PaneFace {
  public:
   SlopedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water) : PaneFace(pane, WaterLayer::clearance), water_(std::move(water)) {}
-  Vec normal(const Ray& ray, const Hit& hit) const override;
 
  protected:
   bool is_there(double u, double v) const override { return water_->is_wet(u, v); }
@@ -71,5 +74,8 @@ class SlopedWater : public PaneFace {
  private:
   std::shared_ptr<const WaterLayer> water_;
 };
+
+/// The smooth normal of the water's surface over the foot of a place: by the rise of the height there.
+std::function<Vec(const Place&)> water_normal(const Pane& pane, std::shared_ptr<const WaterLayer> water);
 
 }  // namespace rainref::compositor
