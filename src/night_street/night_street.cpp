@@ -21,6 +21,10 @@ Street& Street::operator=(Street&&) noexcept = default;
 
 const std::vector<Lamp>& Street::lamps() const { return lamps_; }
 
+scene::Vector3 Street::radiance(const scene::Vector3& origin, const scene::Vector3& direction) const {
+  return night_street::look(*city_, Ray(from(origin), unit(direction))).radiance;
+}
+
 Street::Sight Street::look(const scene::Vector3& origin, const scene::Vector3& direction) const {
   const Seen seen = night_street::look(*city_, Ray(origin, direction));
   return {seen.radiance, seen.hit.is_surface() ? seen.hit.t : std::numeric_limits<double>::infinity()};
