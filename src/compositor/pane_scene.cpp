@@ -1,11 +1,9 @@
 #include "compositor/pane_scene.h"
 
-#include "rainref/error.h"
-
 namespace rainref::compositor {
 
 void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> water, WaterShape shape, std::shared_ptr<const Opaque> rim,
-              const PaneMedia& media) {
+              const parallel::Executor& executor, const PaneMedia& media) {
   scene.add(std::make_shared<PaneFace>(pane, -pane.shape().thickness), Material::interface_of(media.pane, media.within));
   if (!water) {
     scene.add(std::make_shared<PaneFace>(pane, 0), Material::interface_of(media.outside, media.pane));
@@ -15,8 +13,8 @@ void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> 
     Material surface = Material::interface_of(media.outside, media.water);
     surface.smooth_normal = water_normal(pane, water);
     surface.is_masked = true;
-    static_cast<void>(shape);
-    scene.add(std::make_shared<SlopedWater>(pane, water), surface);
+    if (shape == WaterShape::displaced) scene.add(std::make_shared<DisplacedWater>(pane, water, executor), surface);
+    else scene.add(std::make_shared<SlopedWater>(pane, water), surface);
   }
   scene.add(std::make_shared<PaneRim>(pane, 1e-4 + WaterLayer::clearance + (water ? water->highest() : 0)), Material::of(std::move(rim)));
 }

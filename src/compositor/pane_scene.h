@@ -27,6 +27,6 @@ enum class WaterShape : std::uint8_t { displaced, sloped };
 ///   rim              opaque
 /// with the medium of the outward side first.
 void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> water, WaterShape shape, std::shared_ptr<const Opaque> rim,
-              const PaneMedia& media = {});
+              const parallel::Executor& executor, const PaneMedia& media = {});
 
 }  // namespace rainref::compositor

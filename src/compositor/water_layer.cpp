@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "compositor/packet.h"
 #include "math/half.h"
 #include "rainref/error.h"
 
@@ -30,7 +31,7 @@ WaterLayer::WaterLayer(const Image& height) : width_(height.width()), height_(he
 bool WaterLayer::is_wet(double u, double v) const {
   const double x = u * width_ - 0.5, y = v * height_ - 0.5;
   if (!(x >= 0 && y >= 0 && x < width_ - 1 && y < height_ - 1)) return false;
-  return wet_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] != 0;
+  return is_wet_cell(static_cast<int>(x), static_cast<int>(y));
 }
 
 double WaterLayer::texel(int i, int j) const {
@@ -58,6 +59,55 @@ WaterLayer::Rise WaterLayer::rise(double u, double v) const {
     }
   }
   return {0.5 * width_ * sum.u, 0.5 * height_ * sum.v};
+}
+
+namespace {
+
+// A texel's centre is a vertex.
+HeightfieldFrame frame_of(const Pane& pane, const WaterLayer& water) {
+  if (!pane.is_flat()) throw Error(ExitCode::usage, "displaced water: expected a flat pane, found a bent one");
+  const double w = water.width(), h = water.height();
+  return {pane.point(0.5 / w, 0.5 / h, WaterLayer::clearance), ((w - 1) / w) * pane.shape().e_u, ((h - 1) / h) * pane.shape().e_v, pane.normal(0)};
+}
+
+}  // namespace
+
+DisplacedWater::DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor)
+    : water_(std::move(water)), field_(frame_of(pane, *water_), water_->width() - 1, water_->height() - 1) {
+  field_.assign(water_->metres(), executor);
+}
+
+bool DisplacedWater::is_dry(const Hit& hit) const {
+  const int cell = static_cast<int>(hit.part / 2), columns = field_.columns();
+  return !water_->is_wet_cell(cell % columns, cell / columns);
+}
+
+void DisplacedWater::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const {
+  Ray rest = ray;
+  // A dry cell is level, so the ray crosses the sheet there once; behind it another cell may be wet. The step behind the
+  // crossing starts at a rounding of t and grows, for the walk's own rounding may find the same crossing again.
+  for (double step = 0x1p-52; step < 1; step *= 2) {
+    Hit hit = first;
+    field_.meet(self, primitive, rest, hit);
+    if (hit.surface != self || hit.t == first.t) return;
+    if (!is_dry(hit)) {
+      first = hit;
+      return;
+    }
+    rest.nearest = hit.t + step * (hit.t < 1e-3 ? 1e-3 : hit.t);
+  }
+}
+
+void DisplacedWater::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
+  Hit before[Packet::slots];
+  for_each_lane(lanes, [&](std::uint32_t slot) { before[slot] = packet.first[slot]; });
+  field_.meet_packet(self, primitive, lanes, packet);
+  for_each_lane(lanes, [&](std::uint32_t slot) {
+    Hit& first = packet.first[slot];
+    if (first.surface != self || first.t == before[slot].t || !is_dry(first)) return;
+    first = before[slot];
+    meet(self, primitive, packet.rays[slot], first);
+  });
 }
 
 std::function<Vec(const Place&)> water_normal(const Pane& pane, std::shared_ptr<const WaterLayer> water) {

@@ -10,8 +10,10 @@
 #include <memory>
 #include <vector>
 
+#include "compositor/heightfield.h"
 #include "compositor/pane.h"
 #include "compositor/scene.h"
+#include "rainref/executor.h"
 #include "rainref/image.h"
 
 namespace rainref::compositor {
@@ -32,6 +34,8 @@ class WaterLayer {
   double highest() const { return highest_; }  ///< [m]
   /// Whether there is water in the cell that holds (u, v).
   bool is_wet(double u, double v) const;
+  /// The same of the cell between texels (i, j) and (i + 1, j + 1), 0 <= i < width - 1, 0 <= j < height - 1.
+  bool is_wet_cell(int i, int j) const { return wet_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)] != 0; }
   /// dh/du and dh/dv [m]: central differences at the texels, bilinear between them.
   struct Rise {
     double u, v;
@@ -73,6 +77,23 @@ class SlopedWater : public PaneFace {
 
  private:
   std::shared_ptr<const WaterLayer> water_;
+};
+
+/// The water's surface on a flat pane as it is: a heightfield of the texels over the face, without its dry cells.
+class DisplacedWater : public Surface {
+ public:
+  /// Throws Error(usage) when the pane is bent.
+  DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor);
+  std::uint32_t primitives() const override { return field_.primitives(); }
+  Box bounds(std::uint32_t primitive) const override { return field_.bounds(primitive); }
+  void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
+  void meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
+  Vec normal(const Ray& ray, const Hit& hit) const override { return field_.normal(ray, hit); }
+
+ private:
+  bool is_dry(const Hit& hit) const;
+  std::shared_ptr<const WaterLayer> water_;
+  Heightfield field_;
 };
 
 /// The smooth normal of the water's surface over the foot of a place: by the rise of the height there.

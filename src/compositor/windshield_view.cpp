@@ -47,8 +47,8 @@ class Outside : public Environment {
 
 }  // namespace
 
-WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer)
-    : settings_(settings), tracer_(tracer), pane_(shape_of(settings.corners, glass)), vehicle_(settings.vehicle), street_({settings.seed}) {}
+WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer, const parallel::Executor& executor)
+    : settings_(settings), tracer_(tracer), executor_(executor), pane_(shape_of(settings.corners, glass)), vehicle_(settings.vehicle), street_({settings.seed}) {}
 
 double WindshieldView::odometer(const windshield::Windshield& rendered) const {
   const double time = std::max(0, rendered.frame() - 1) / settings_.fps;
@@ -61,7 +61,8 @@ std::unique_ptr<Scene> WindshieldView::scene(const Image& height, double odomete
   auto scene = std::make_unique<Scene>(tracer_);
   PaneMedia media;
   media.water = water(settings_.picture.water_ior);
-  add_pane(*scene, pane_, std::make_shared<const WaterLayer>(height), pane_.is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)), media);
+  add_pane(*scene, pane_, std::make_shared<const WaterLayer>(height), pane_.is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)),
+           executor_, media);
   scene->set_environment(std::make_shared<Outside>(*this, odometer));
   scene->commit();
   return scene;

@@ -19,9 +19,10 @@ struct WindshieldGlass {
 class WindshieldView {
  public:
   /// Throws Error(usage) for a pane that cannot be.
-  WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer);
+  WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer, const parallel::Executor& executor);
 
-  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene.
+  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
+  /// and the executor the view.
   std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
   /// The same with this height texture [mm], the car `odometer` metres along the street.
   std::unique_ptr<Scene> scene(const Image& height, double odometer) const;
@@ -36,6 +37,7 @@ class WindshieldView {
  private:
   windshield::Settings settings_;
   TracerOptions tracer_;
+  const parallel::Executor& executor_;
   Pane pane_;
   windshield::Vehicle vehicle_;
   night_street::Street street_;
