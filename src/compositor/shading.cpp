@@ -225,8 +225,12 @@ class Generations {
       terms_.push_back({p.pixel, weight * f.radiance, false});
       const bool mirrors = largest(f.mirror) > 0;
       if (depth == 1) seen.normal = mirrors ? f.mirror_normal : facing;
-      if (mirrors) go_on(at.direction - 2 * dot(at.direction, f.mirror_normal) * f.mirror_normal, weight * f.mirror, m.from_outside, *p.medium, f.blur, false);
-      return;
+      if (!mirrors) return;
+      Vec mirrored = at.direction - 2 * dot(at.direction, f.mirror_normal) * f.mirror_normal;
+      // A bump's normal may turn the ray into the surface that it mirrors: it is turned out again.
+      const double out = dot(mirrored, facing);
+      if (out < 0) mirrored -= 2 * out * facing;
+      return go_on(mirrored, weight * f.mirror, m.from_outside, *p.medium, f.blur, false);
     }
 
     const Medium& here = m.from_outside ? material.outside : material.inside;
