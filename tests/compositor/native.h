@@ -37,6 +37,7 @@ struct NativeHit {
 class NativeWorld {
  public:
   NativeWorld(const World& world, const char* config) : device_(rtcNewDevice(config)), scene_(rtcNewScene(device_)) {
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);  // or a commit rebuilds what was to be refitted
     rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
     constexpr unsigned across = water_cells + 1;
     water_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
