@@ -74,7 +74,7 @@ Box Heightfield::bounds(std::uint32_t primitive) const {
 }
 
 void Heightfield::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const { meet_tile(view_, tiles_[primitive], self, ray, first); }
-void Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { meet_tile(view_, tiles_[primitive], self, lanes, packet); }
+std::uint32_t Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { return meet_tile(view_, tiles_[primitive], self, lanes, packet); }
 
 Heightfield::Place Heightfield::place(const Hit& hit) const {
   const auto cell = static_cast<int>(hit.part / 2);

@@ -14,6 +14,10 @@ R whole(R a) {
   return cut > a.v ? cut - 1 : cut;
 }
 R gather(const float* p, R index) { return static_cast<double>(p[static_cast<std::int64_t>(index.v)]); }
+void gather_two(const float* p, R index, R& a, R& b) {
+  a = gather(p, index);
+  b = gather(p + 1, index);
+}
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

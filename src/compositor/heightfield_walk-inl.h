@@ -10,7 +10,7 @@
 // change of sign, or that begin after the nearer hit. So the answer does not depend on tiles, lanes or what else is met.
 //
 // Needs of R: + - * /, comparisons to R::Mask, & | ^ ! of masks, select, R::any, whole(a) (the floor of a, for
-// |a| < 2^31), gather(p, i) (p[i], widened), minimum and maximum.
+// |a| < 2^31), gather(p, i) (p[i], widened), gather_two(p, i, a, b) (p[i] and p[i + 1]), minimum and maximum.
 
 /// A ray in the grid's axes: x and y in cells, h along the axis.
 template <class R>
@@ -91,8 +91,9 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   const Mask unknown = active & (t <= begin);
   if (R::any(unknown)) {
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(unknown, j * stride + i, zero);
-    const R h00 = gather(field.heights, at), h10 = gather(field.heights + 1, at);
-    const R h01 = gather(field.heights, at + stride), h11 = gather(field.heights + 1, at + stride);
+    R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+    gather_two(field.heights, at, h00, h10);
+    gather_two(field.heights, at + stride, h01, h11);
     const R tx = (kx - step_x - r.ox) * ix, ty = (ky - step_y - r.oy) * iy, entry = maximum(tx, ty);
     const R g = at_wall(entry, tx > ty, ty > tx, i, j, select(right, h00, h10), select(right, h01, h11), select(up, h00, h01), select(up, h10, h11), one - ahead_y);
     const R x = within_unit(r.ox + r.nearest * r.dx - i), y = within_unit(r.oy + r.nearest * r.dy - j);
@@ -102,7 +103,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   }
 
   const R lowered = r.oh - R(tile.margin), first_cell = zero - (ahead_y * columns + ahead_x);
-  R hit_i = zero, hit_j = zero, hit_upper = zero;
+  R hit_i = zero, hit_j = zero, hit_upper = zero, base = zero, slope_x = zero, slope_y = zero;
   Mask walking = active, waiting = found;
   while (R::any(active)) {
     // Every ray walks to a cell that it may hit; there it waits for the others.
@@ -123,8 +124,9 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     }
     if (!R::any(waiting)) break;
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
-    const R h00 = gather(field.heights, at), h10 = gather(field.heights + 1, at);
-    const R h01 = gather(field.heights, at + stride), h11 = gather(field.heights + 1, at + stride);
+    R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+    gather_two(field.heights, at, h00, h10);
+    gather_two(field.heights, at + stride, h01, h11);
     const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00), select(up, h11, h10), ahead_y);
     const R diagonal = (i + j + one - sum_o) * is;
     const Mask crosses = (t < diagonal) & (diagonal < exit);
@@ -135,6 +137,9 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     hit_i = select(hit, i, hit_i);
     hit_j = select(hit, j, hit_j);
     hit_upper = select(hit & upper, one, hit_upper);
+    base = select(hit, select(upper, h11, h00), base);
+    slope_x = select(hit, select(upper, h11 - h01, h10 - h00), slope_x);
+    slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
     found = found | hit;
     const Mask steps = waiting & !hit & (exit < end);
     active = active & (steps | !waiting);
@@ -146,13 +151,8 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   }
   if (!R::any(found)) return found;
 
-  const R at = hit_j * stride + hit_i;
-  const R h00 = gather(field.heights, at), h10 = gather(field.heights + 1, at);
-  const R h01 = gather(field.heights, at + stride), h11 = gather(field.heights + 1, at + stride);
-  const Mask is_upper = hit_upper > zero;
-  const R slope_x = select(is_upper, h11 - h01, h10 - h00), slope_y = select(is_upper, h11 - h10, h01 - h00);
   const R x = r.ox - hit_i - hit_upper, y = r.oy - hit_j - hit_upper;
-  const R gap = r.oh - (select(is_upper, h11, h00) + (x * slope_x + y * slope_y));
+  const R gap = r.oh - (base + (x * slope_x + y * slope_y));
   const R closing = r.dh - (r.dx * slope_x + r.dy * slope_y);
   const R on_plane = (zero - gap) / without_zero(closing);
   const R low_x = (hit_i - r.ox) * ix, high_x = (hit_i + one - r.ox) * ix, low_y = (hit_j - r.oy) * iy, high_y = (hit_j + one - r.oy) * iy;
