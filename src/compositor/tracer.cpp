@@ -111,6 +111,10 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
     const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
     make_floats(rays.data() + begin, count, hits.data() + begin, extent, query.packet, query.floats);
     if (query.floats.enters == 0) continue;
+    // An ISA whose vectors are narrower than the packet takes it for a stream and does not look at `valid`.
+    for (int slot = 0; slot < width; ++slot) {
+      if ((query.floats.enters >> slot & 1) == 0) query.floats.nearest[slot] = 1, query.floats.farthest[slot] = -1;
+    }
     fill<width>(query.floats, packet);
     for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
     ask(valid, query, packet);
