@@ -78,8 +78,9 @@ class PuddleSimulation : public Simulation {
   void frame(Recorder* recorder) override {
     puddle_.simulate(recorder);
     puddle_.render(recorder);
-    if (is_traced_) tracing().trace(puddle_, executor_, recorder);
+    if (is_traced_ && is_shown_) tracing().trace(puddle_, executor_, recorder);
   }
+  void show(bool is_shown) override { is_shown_ = is_shown; }
   const Image& picture() const override { return is_traced_ ? tracing_->shown() : puddle_.picture(); }
   void write_exr(const std::filesystem::path& path) const override {
     if (is_traced_) return tracing_->write_exr(path);
@@ -116,7 +117,7 @@ class PuddleSimulation : public Simulation {
   scene::Config config_;
   const parallel::Executor& executor_;
   puddle::Settings settings_;
-  bool is_traced_;
+  bool is_traced_, is_shown_ = true;
   puddle::Surroundings surroundings_;
   puddle::Puddle puddle_;
   std::optional<PuddleTracing> tracing_;  // made when something is traced

@@ -23,6 +23,8 @@ class Simulation {
   virtual ~Simulation() = default;
   /// Advances by one frame, then renders it.
   virtual void frame(Recorder* recorder) = 0;
+  /// Whether the pictures of the frames to come are wanted; tracing is left out of those that are not. True at first.
+  virtual void show(bool) {}
   /// The picture as display code, row 0 = bottom.
   virtual const Image& picture() const = 0;
   /// The layers of an EXR, top row first.

@@ -113,6 +113,7 @@ int run(const RunOptions& options) {
     Progress progress(config.effect(), frames);
     for (int frame = 0; frame < frames; ++frame) {
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
+      simulation->show(written(frame) || frame == frames - 1);
       simulation->frame(&recorders);
       last = recorder.take_lines();
       if (written(frame)) {

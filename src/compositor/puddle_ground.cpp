@@ -35,7 +35,8 @@ Finish PuddleGround::finish(const Place& place) const {
     out.radiance = ambient * (left * albedo + (1 - left) * tint);
     return out;
   }
-  const auto tilt = sample_mip<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(*look_.relief), s, t, lod);
+  // Slopes of grains that a pixel does not resolve spread what it mirrors: they are sampled, not averaged away.
+  const auto tilt = sample_bilinear<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(*look_.relief), s, t);
   const double film = smoothstep(0.0f, u.shore_width, N(u.shore_width - p.y)).v;
   const Vec level = sheet_ ? sheet_->smooth_normal(place.hit) : Vec(0, 1, 0);
   const double rough = 1 - film;
@@ -43,7 +44,7 @@ Finish PuddleGround::finish(const Place& place) const {
   const double cosine = std::clamp(-dot(place.direction, out.mirror_normal), 1e-3, 1.0);
   const double reflectance = fresnel_dielectric(N(cosine), look_.water_ior).v * (u.wetness + (1 - u.wetness) * film);
   out.mirror = Vec(reflectance, reflectance, reflectance);
-  out.blur = u.gloss_level * rough;
+  out.blur = 2 * rough;
   out.radiance = (1 - reflectance) * ambient * albedo;
   return out;
 }

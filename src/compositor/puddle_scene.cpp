@@ -38,7 +38,43 @@ struct Ringed {
       : heights(static_cast<std::size_t>(w + 2) * (h + 2), border), width(w), height(h), half_x(0.5 * extent_x / w * (w + 1)), half_z(0.5 * extent_z / h * (h + 1)) {
     sheet = std::make_shared<Heightfield>(HeightfieldFrame{{-half_x, 0, -half_z}, {2 * half_x, 0, 0}, {0, 0, 2 * half_z}, {0, 1, 0}}, w + 1, h + 1);
   }
+  std::size_t stride() const { return static_cast<std::size_t>(width + 2); }
   float* row(int y) { return heights.data() + static_cast<std::size_t>(y + 1) * (width + 2) + 1; }
+};
+
+/// Slopes of a sheet at its vertices by central differences, for normals between them.
+class Slopes {
+ public:
+  void take(const Ringed& sheet, double cell, const parallel::Executor& executor) {
+    const int w = sheet.width + 2, h = sheet.height + 2;
+    width_ = w;
+    slopes_.resize(2 * sheet.heights.size());
+    const float gain = static_cast<float>(0.5 / cell);
+    executor.for_tiles(w, h, w, 32, [&](const parallel::Tile& tile) {
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        const float* row = sheet.heights.data() + static_cast<std::size_t>(y) * w;
+        const float *south = y > 0 ? row - w : row, *north = y + 1 < h ? row + w : row;
+        float* out = slopes_.data() + 2 * static_cast<std::size_t>(y) * w;
+        for (int x = 0; x < w; ++x) {
+          out[2 * x] = (row[x > 0 ? x - 1 : x] - row[x + 1 < w ? x + 1 : x]) * gain;
+          out[2 * x + 1] = (south[x] - north[x]) * gain;
+        }
+      }
+    });
+  }
+  /// The normal at a hit of the sheet: slopes interpolated, as surface_hit does.
+  Vec normal(const Hit& hit) const {
+    const int columns = width_ - 1, cell = static_cast<int>(hit.part / 2), x = cell % columns, y = cell / columns;
+    const float* low = slopes_.data() + 2 * (static_cast<std::size_t>(y) * width_ + x);
+    const float* high = low + 2 * static_cast<std::size_t>(width_);
+    const auto at = [&](int k) { return (1 - hit.v) * ((1 - hit.u) * low[k] + hit.u * low[k + 2]) + hit.v * ((1 - hit.u) * high[k] + hit.u * high[k + 2]); };
+    const double sx = at(0), sz = at(1), scale = 1 / std::sqrt(sx * sx + 1 + sz * sz);
+    return {scale * sx, scale, scale * sz};
+  }
+
+ private:
+  int width_ = 0;
+  std::vector<float> slopes_;
 };
 
 }  // namespace
@@ -50,6 +86,7 @@ struct PuddleScene::State {
   std::unique_ptr<night_street::Street> street;
   scene::Camera camera;
   Ringed water;
+  Slopes slopes;
   std::shared_ptr<Heightfield> bed;  // null: level
   Scene scene;
 
@@ -82,7 +119,7 @@ struct PuddleScene::State {
     Material surface = Material::interface_of(above, below);
     surface.is_masked = true;
     Material rippled = surface;
-    rippled.smooth_normal = [sheet = water.sheet.get()](const Place& p) { return sheet->smooth_normal(p.hit); };
+    rippled.smooth_normal = [of_water = &slopes](const Place& p) { return of_water->normal(p.hit); };
     scene.set_eye(above);
     scene.add(water.sheet, rippled);
 
@@ -131,6 +168,7 @@ void PuddleScene::update(const puddle::Puddle& puddle, const parallel::Executor&
     for (int x = 0; x < s.water.width; ++x) row[x] = static_cast<float>(s.encoding.scale * from[static_cast<std::size_t>(y) * s.water.width + x] + s.encoding.bias);
   }
   s.water.sheet->assign(s.water.heights, executor);
+  s.slopes.take(s.water, s.settings.cell_size, executor);
   s.scene.commit();
 }
 
