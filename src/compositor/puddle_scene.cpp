@@ -16,10 +16,19 @@ namespace rainref::compositor {
 namespace {
 
 constexpr double water_ior = 1.333;  // as shade's
-constexpr double outer = 1000;       // half a side of the level plane around the rectangle [m]
+constexpr double everywhere = 1000;  // half a side of the level ground around the rectangle [m]
+constexpr double in_street = 6;      // the same where the street's own road goes on
+
+/// Height of the ground where the passes have this depth of water. They know dry ground only as level: what stands out of
+/// the water keeps its slope at the shore and is flattened toward 6 mm.
+float ground_height(float depth) {
+  constexpr double flattest = 0.006;
+  const double height = -static_cast<double>(depth);
+  return static_cast<float>(height <= 0 ? height : height * flattest / (flattest + height));
+}
 
 /// A level plane with a hole: four rectangles, their outside up.
-std::shared_ptr<Plates> surround(double half_x, double half_z, double height) {
+std::shared_ptr<Plates> surround(double half_x, double half_z, double height, double outer) {
   const auto piece = [height](double x0, double x1, double z0, double z1) {
     return Plate{Plate::parallelogram, {x0, height, z0}, {0, 0, z1 - z0}, {x1 - x0, 0, 0}};
   };
@@ -124,27 +133,27 @@ struct PuddleScene::State {
     scene.add(water.sheet, rippled);
 
     if (s.shape == puddle::Shape::basin) {
-      scene.add(std::make_shared<Plates>(std::vector<Plate>{{Plate::parallelogram, {-outer, -s.puddle_depth, -outer}, {0, 0, 2 * outer}, {2 * outer, 0, 0}}}),
+      scene.add(std::make_shared<Plates>(std::vector<Plate>{{Plate::parallelogram, {-everywhere, -s.puddle_depth, -everywhere}, {0, 0, 2 * everywhere}, {2 * everywhere, 0, 0}}}),
                 Material::of(std::make_shared<PuddleGround>(look, nullptr)));
-      scene.add(surround(water.half_x, water.half_z, 0), surface);
+      scene.add(surround(water.half_x, water.half_z, 0, everywhere), surface);
     } else {
       const TextureData depths = puddle::make_bed(s);
       const Texture& d = depths.view();
-      Ringed sheet(s.grid[0] * s.cell_size, s.grid[1] * s.cell_size, d.width[0], d.height[0], -d.border[0]);
+      Ringed sheet(s.grid[0] * s.cell_size, s.grid[1] * s.cell_size, d.width[0], d.height[0], ground_height(d.border[0]));
       for (int y = 0; y < sheet.height; ++y) {
-        for (int x = 0; x < sheet.width; ++x) sheet.row(y)[x] = -d.texels[static_cast<std::size_t>(y) * sheet.width + x];
+        for (int x = 0; x < sheet.width; ++x) sheet.row(y)[x] = ground_height(d.texels[static_cast<std::size_t>(y) * sheet.width + x]);
       }
       sheet.sheet->assign(sheet.heights, executor);
       bed = sheet.sheet;
       scene.add(bed, Material::of(std::make_shared<PuddleGround>(look, bed.get())));
-      scene.add(surround(sheet.half_x, sheet.half_z, -d.border[0]), Material::of(std::make_shared<PuddleGround>(look, nullptr)));
+      scene.add(surround(sheet.half_x, sheet.half_z, ground_height(d.border[0]), options.is_street ? in_street : everywhere), Material::of(std::make_shared<PuddleGround>(look, nullptr)));
     }
 
     const Rotation rotation(s.env_rotation);
     if (options.is_street) {
       street = std::make_unique<night_street::Street>();
-      // As the panorama that the passes take: seen from 5 cm above the road.
-      scene.set_environment(std::make_shared<StreetEnvironment>(*street, Vec(0, 0.05, 0), environment.view(), rotation));
+      // The ground around the water is level with the road.
+      scene.set_environment(std::make_shared<StreetEnvironment>(*street, Vec(0, -ground_height(static_cast<float>(-s.puddle_depth)), 0), environment.view(), rotation));
     } else {
       scene.set_environment(std::make_shared<PictureEnvironment>(environment.view(), around.environment_is_cube, rotation));
     }
