@@ -9,7 +9,7 @@ namespace rainref::compositor {
 
 struct HeightfieldView {
   const float* heights;   ///< of the vertices, rows of columns + 1
-  const float* highest;   ///< of the four corners of each cell, rows of columns
+  const float* highest;   ///< of the four corners of each cell, rows of columns; readable up to columns + 1 cells outside
   double columns;
   double origin[3];
   double to_grid[3][3];   ///< rows: of a direction in the world, its cells along u, its cells along v, its height

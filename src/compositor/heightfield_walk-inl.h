@@ -9,7 +9,7 @@
 // Whatever skips cells (their highest vertex, the tile's slab, a nearer hit) only leaves out intervals in which g has no
 // change of sign, or that begin after the nearer hit. So the answer does not depend on tiles, lanes or what else is met.
 //
-// Needs of R: + - * /, comparisons to R::Mask, & | ^ ! of masks, select, R::any, whole(a) (the floor of a, for
+// Needs of R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor of a, for
 // |a| < 2^31), gather(p, i) (p[i], widened), gather_two(p, i, a, b) (p[i] and p[i + 1]), minimum and maximum.
 
 /// A ray in the grid's axes: x and y in cells, h along the axis.
@@ -69,7 +69,8 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   R t = maximum(begin, minimum(slab_a, slab_b));
   const R end = minimum(minimum(minimum(x_out, y_out), last), maximum(slab_a, slab_b));
   active = active & (t < end);
-  Mask found = active & !active;
+  const Mask nowhere = without(active, active);
+  Mask found = nowhere;
   if (!R::any(active)) return found;
   t = select(active, t, begin);
 
@@ -99,30 +100,32 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     const R x = within_unit(r.ox + r.nearest * r.dx - i), y = within_unit(r.oy + r.nearest * r.dy - j);
     const R lower = h00 + (x * (h10 - h00) + y * (h01 - h00)), upper = h11 + ((one - x) * (h01 - h11) + (one - y) * (h10 - h11));
     const R inside = (r.oh + r.nearest * r.dh) - select(x + y < one, lower, upper);
-    above = (unknown & (select(r.nearest > entry, inside, g) > zero)) | (falls & !unknown);
+    above = (unknown & (select(r.nearest > entry, inside, g) > zero)) | without(falls, unknown);
   }
 
   const R lowered = r.oh - R(tile.margin), first_cell = zero - (ahead_y * columns + ahead_x);
   R hit_i = zero, hit_j = zero, hit_upper = zero, base = zero, slope_x = zero, slope_y = zero;
-  Mask walking = active, waiting = found;
+  Mask walking = active, waiting = nowhere;
   while (R::any(active)) {
-    // Every ray walks to a cell that it may hit; there it waits for the others.
-    R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
+    // Every ray walks to a cell that it may hit; there it waits for the others. Two cells at a time: what the second one
+    // needs does not hang on the first one's answer, so that their fetches overlap.
     while (R::any(walking)) {
-      const R lowest = lowered + select(falls, exit, t) * r.dh;
-      const Mask candidate = walking & (lowest <= gather(field.highest, select(walking, ky * columns + kx + first_cell, zero)));
-      waiting = waiting | candidate;
-      const Mask stays = exit < end, steps = walking & !candidate & stays;
-      active = active & (stays | !walking | candidate);
-      t = select(steps, exit, t);
-      kx = select(steps & (tx <= ty), kx + step_x, kx);
-      ky = select(steps & (ty <= tx), ky + step_y, ky);
-      walking = steps;
-      tx = (kx - r.ox) * ix;
-      ty = (ky - r.oy) * iy;
-      exit = minimum(tx, ty);
+      const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
+      const R next_kx = select(tx <= ty, kx + step_x, kx), next_ky = select(ty <= tx, ky + step_y, ky);
+      const R next_tx = (next_kx - r.ox) * ix, next_ty = (next_ky - r.oy) * iy, next_exit = minimum(next_tx, next_ty);
+      const R top = gather(field.highest, ky * columns + kx + first_cell), next_top = gather(field.highest, next_ky * columns + next_kx + first_cell);
+      const Mask clear = lowered + select(falls, exit, t) * r.dh > top, next_clear = lowered + select(falls, next_exit, exit) * r.dh > next_top;
+      const Mask once = walking & clear & (exit < end), twice = once & next_clear & (next_exit < end);
+      const Mask here = without(walking, clear), there = without(once, next_clear);
+      waiting = waiting | here | there;
+      active = without(active, without(walking, here | there | twice));
+      t = select(twice, next_exit, select(once, exit, t));
+      kx = select(twice & (next_tx <= next_ty), next_kx + step_x, select(once, next_kx, kx));
+      ky = select(twice & (next_ty <= next_tx), next_ky + step_y, select(once, next_ky, ky));
+      walking = twice;
     }
     if (!R::any(waiting)) break;
+    const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
     R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
     gather_two(field.heights, at, h00, h10);
@@ -131,7 +134,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     const R diagonal = (i + j + one - sum_o) * is;
     const Mask crosses = (t < diagonal) & (diagonal < exit);
     const R g_diagonal = difference(diagonal, h01, h10, within_unit(r.ox + diagonal * r.dx - i));
-    const Mask above_then = (crosses & (g_diagonal > zero)) | (above & !crosses), above_at_exit = g_exit > zero;
+    const Mask above_then = (crosses & (g_diagonal > zero)) | without(above, crosses), above_at_exit = g_exit > zero;
     const Mask before = above ^ above_then, hit = waiting & (t < exit) & (before | (above_then ^ above_at_exit));
     const Mask upper = (before | (diagonal >= exit)) ^ to_upper;
     hit_i = select(hit, i, hit_i);
@@ -141,13 +144,13 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     slope_x = select(hit, select(upper, h11 - h01, h10 - h00), slope_x);
     slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
     found = found | hit;
-    const Mask steps = waiting & !hit & (exit < end);
-    active = active & (steps | !waiting);
+    const Mask steps = without(waiting, hit) & (exit < end);
+    active = without(active, without(waiting, steps));
     t = select(steps, exit, t);
     kx = select(steps & (tx <= ty), kx + step_x, kx);
     ky = select(steps & (ty <= tx), ky + step_y, ky);
     walking = steps;
-    waiting = waiting & !waiting;
+    waiting = nowhere;
   }
   if (!R::any(found)) return found;
 
