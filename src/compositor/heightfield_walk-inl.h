@@ -74,8 +74,9 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   if (!R::any(active)) return found;
   t = select(active, t, begin);
 
-  R kx = leaving_wall(t, r.ox, r.dx, ix, ahead_x, step_x, tile.x0, tile.x1 - 1);
-  R ky = leaving_wall(t, r.oy, r.dy, iy, ahead_y, step_y, tile.y0, tile.y1 - 1);
+  // Rays that are not active stand in the tile's first cell: what they fetch must be there.
+  R kx = select(active, leaving_wall(t, r.ox, r.dx, ix, ahead_x, step_x, tile.x0, tile.x1 - 1), R(tile.x0) + ahead_x);
+  R ky = select(active, leaving_wall(t, r.oy, r.dy, iy, ahead_y, step_y, tile.y0, tile.y1 - 1), R(tile.y0) + ahead_y);
   const R sum_o = r.ox + r.oy, is = one / without_zero(r.dx + r.dy);
   const Mask to_upper = r.dx + r.dy > zero;
 
@@ -106,24 +107,22 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   const R lowered = r.oh - R(tile.margin), first_cell = zero - (ahead_y * columns + ahead_x);
   R hit_i = zero, hit_j = zero, hit_upper = zero, base = zero, slope_x = zero, slope_y = zero;
   Mask walking = active, waiting = nowhere;
-  while (R::any(active)) {
+  while (R::any(walking)) {
     // Every ray walks to a cell that it may hit; there it waits for the others. Two cells at a time: what the second one
     // needs does not hang on the first one's answer, so that their fetches overlap.
-    while (R::any(walking)) {
+    do {
       const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
       const R next_kx = select(tx <= ty, kx + step_x, kx), next_ky = select(ty <= tx, ky + step_y, ky);
       const R next_tx = (next_kx - r.ox) * ix, next_ty = (next_ky - r.oy) * iy, next_exit = minimum(next_tx, next_ty);
       const R top = gather(field.highest, ky * columns + kx + first_cell), next_top = gather(field.highest, next_ky * columns + next_kx + first_cell);
       const Mask clear = lowered + select(falls, exit, t) * r.dh > top, next_clear = lowered + select(falls, next_exit, exit) * r.dh > next_top;
       const Mask once = walking & clear & (exit < end), twice = once & next_clear & (next_exit < end);
-      const Mask here = without(walking, clear), there = without(once, next_clear);
-      waiting = waiting | here | there;
-      active = without(active, without(walking, here | there | twice));
+      waiting = waiting | without(walking, clear) | without(once, next_clear);
       t = select(twice, next_exit, select(once, exit, t));
       kx = select(twice & (next_tx <= next_ty), next_kx + step_x, select(once, next_kx, kx));
       ky = select(twice & (next_ty <= next_tx), next_ky + step_y, select(once, next_ky, ky));
       walking = twice;
-    }
+    } while (R::any(walking));
     if (!R::any(waiting)) break;
     const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
@@ -145,7 +144,6 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
     found = found | hit;
     const Mask steps = without(waiting, hit) & (exit < end);
-    active = without(active, without(waiting, steps));
     t = select(steps, exit, t);
     kx = select(steps & (tx <= ty), kx + step_x, kx);
     ky = select(steps & (ty <= tx), ky + step_y, ky);
