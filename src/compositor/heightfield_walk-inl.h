@@ -108,20 +108,24 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   R hit_i = zero, hit_j = zero, hit_upper = zero, base = zero, slope_x = zero, slope_y = zero;
   Mask walking = active, waiting = nowhere;
   while (R::any(walking)) {
-    // Every ray walks to a cell that it may hit; there it waits for the others. Two cells at a time: what the second one
-    // needs does not hang on the first one's answer, so that their fetches overlap.
+    // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
+    // whether it may go there, so that the fetches of several cells overlap.
     do {
-      const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
-      const R next_kx = select(tx <= ty, kx + step_x, kx), next_ky = select(ty <= tx, ky + step_y, ky);
-      const R next_tx = (next_kx - r.ox) * ix, next_ty = (next_ky - r.oy) * iy, next_exit = minimum(next_tx, next_ty);
-      const R top = gather(field.highest, ky * columns + kx + first_cell), next_top = gather(field.highest, next_ky * columns + next_kx + first_cell);
-      const Mask clear = lowered + select(falls, exit, t) * r.dh > top, next_clear = lowered + select(falls, next_exit, exit) * r.dh > next_top;
-      const Mask once = walking & clear & (exit < end), twice = once & next_clear & (next_exit < end);
-      waiting = waiting | without(walking, clear) | without(once, next_clear);
-      t = select(twice, next_exit, select(once, exit, t));
-      kx = select(twice & (next_tx <= next_ty), next_kx + step_x, select(once, next_kx, kx));
-      ky = select(twice & (next_ty <= next_tx), next_ky + step_y, select(once, next_ky, ky));
-      walking = twice;
+      R ahead_kx = kx, ahead_ky = ky, ahead_t = t;
+      _Pragma("GCC unroll 4")
+      for (int cell = 0; cell < cells_ahead; ++cell) {
+        const R tx = (ahead_kx - r.ox) * ix, ty = (ahead_ky - r.oy) * iy, exit = minimum(tx, ty);
+        const R top = gather(field.highest, ahead_ky * columns + ahead_kx + first_cell);
+        const Mask clear = lowered + select(falls, exit, ahead_t) * r.dh > top;
+        waiting = waiting | without(walking, clear);
+        walking = walking & clear & (exit < end);
+        ahead_kx = select(tx <= ty, ahead_kx + step_x, ahead_kx);
+        ahead_ky = select(ty <= tx, ahead_ky + step_y, ahead_ky);
+        ahead_t = exit;
+        kx = select(walking, ahead_kx, kx);
+        ky = select(walking, ahead_ky, ky);
+        t = select(walking, exit, t);
+      }
     } while (R::any(walking));
     if (!R::any(waiting)) break;
     const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
