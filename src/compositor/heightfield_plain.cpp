@@ -9,6 +9,7 @@ namespace {
 using R = Real64;
 R minimum(R a, R b) { return select(b < a, b, a); }
 R maximum(R a, R b) { return select(a < b, b, a); }
+bool without(bool a, bool b) { return a && !b; }
 R whole(R a) {
   const double cut = static_cast<double>(static_cast<std::int64_t>(a.v));
   return cut > a.v ? cut - 1 : cut;

@@ -7,9 +7,12 @@
 
 namespace rainref::compositor {
 
+/// A walk fetches what it may need before it knows: up to this many cells, less one, beyond the field.
+inline constexpr int cells_ahead = 3;
+
 struct HeightfieldView {
   const float* heights;   ///< of the vertices, rows of columns + 1
-  const float* highest;   ///< of the four corners of each cell, rows of columns
+  const float* highest;   ///< of the four corners of each cell, rows of columns; readable cells_ahead - 1 rows and cells outside
   double columns;
   double origin[3];
   double to_grid[3][3];   ///< rows: of a direction in the world, its cells along u, its cells along v, its height

@@ -13,7 +13,7 @@ using LaneMask = Real64Lanes::Mask;
 HWY_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {hn::And(a.m, b.m)}; }
 HWY_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {hn::Or(a.m, b.m)}; }
 HWY_INLINE LaneMask operator^(LaneMask a, LaneMask b) { return {hn::Xor(a.m, b.m)}; }
-HWY_INLINE LaneMask operator!(LaneMask a) { return {hn::Not(a.m)}; }
+HWY_INLINE LaneMask without(LaneMask a, LaneMask b) { return {hn::AndNot(b.m, a.m)}; }
 
 HWY_INLINE Real64Lanes minimum(Real64Lanes a, Real64Lanes b) { return select(b < a, b, a); }
 HWY_INLINE Real64Lanes maximum(Real64Lanes a, Real64Lanes b) { return select(a < b, b, a); }
@@ -45,7 +45,7 @@ using Pair = Real64Pair<Real64Lanes>;
 HWY_INLINE Pair::Mask operator&(const Pair::Mask& a, const Pair::Mask& b) { return {a.lower & b.lower, a.upper & b.upper}; }
 HWY_INLINE Pair::Mask operator|(const Pair::Mask& a, const Pair::Mask& b) { return {a.lower | b.lower, a.upper | b.upper}; }
 HWY_INLINE Pair::Mask operator^(const Pair::Mask& a, const Pair::Mask& b) { return {a.lower ^ b.lower, a.upper ^ b.upper}; }
-HWY_INLINE Pair::Mask operator!(const Pair::Mask& a) { return {!a.lower, !a.upper}; }
+HWY_INLINE Pair::Mask without(const Pair::Mask& a, const Pair::Mask& b) { return {without(a.lower, b.lower), without(a.upper, b.upper)}; }
 HWY_INLINE Pair minimum(const Pair& a, const Pair& b) { return {minimum(a.lower, b.lower), minimum(a.upper, b.upper)}; }
 HWY_INLINE Pair maximum(const Pair& a, const Pair& b) { return {maximum(a.lower, b.lower), maximum(a.upper, b.upper)}; }
 HWY_INLINE Pair whole(const Pair& a) { return {whole(a.lower), whole(a.upper)}; }

@@ -15,9 +15,6 @@ struct Packet {
   Hit* first = nullptr;
   /// The same rays component by component, for surfaces that take several at once; slots without a ray repeat the last.
   alignas(64) double origin[3][slots], direction[3][slots], nearest[slots], farthest[slots];
-
-  /// Fills the components from `from`, and makes every hit none. 1 <= count <= slots.
-  void spread(const Ray* from, int count, Hit* hits);
 };
 
 /// Calls visit(slot) for every bit of `lanes`, lowest first.

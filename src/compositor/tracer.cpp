@@ -40,17 +40,26 @@ struct PacketQuery : embree::Query {
 
 void bounds_from_table(const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID]; }
 
-template <class Arguments, class Farthest>
-void ask_surface(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+/// Embree hands over a packet whole or in pieces of N lanes; a lane's id is its slot.
+template <unsigned n, class Arguments, class Farthest>
+void ask_lanes(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
   const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
   PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
   std::uint32_t lanes = 0;
-  for (unsigned i = 0; i < a->N; ++i) lanes |= a->valid[i] != 0 ? 1u << RTCRayN_id(rays, a->N, i) : 0;
+  for (unsigned i = 0; i < n; ++i) lanes |= static_cast<std::uint32_t>(a->valid[i] & 1) << RTCRayN_id(rays, n, i);
   const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes, query.packet);
-  if (changed == 0) return;
-  for (unsigned i = 0; i < a->N; ++i) {
-    const std::uint32_t slot = RTCRayN_id(rays, a->N, i);
-    if (a->valid[i] != 0 && (changed >> slot & 1) != 0) RTCRayN_tfar(rays, a->N, i) = farthest(query, slot);
+  for (unsigned i = 0; changed != 0 && i < n; ++i) {
+    const std::uint32_t slot = RTCRayN_id(rays, n, i);
+    if ((changed >> slot & static_cast<std::uint32_t>(a->valid[i]) & 1) != 0) RTCRayN_tfar(rays, n, i) = farthest(query, slot);
+  }
+}
+template <class Arguments, class Farthest>
+void ask_surface(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+  switch (a->N) {
+    case 1: return ask_lanes<1>(a, rays, farthest);
+    case 4: return ask_lanes<4>(a, rays, farthest);
+    case 8: return ask_lanes<8>(a, rays, farthest);
+    default: return ask_lanes<16>(a, rays, farthest);
   }
 }
 void find_first(const RTCIntersectFunctionNArguments* a) {
