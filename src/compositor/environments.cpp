@@ -20,12 +20,19 @@ void PictureEnvironment::radiance(std::span<const Sight> sights, std::span<Vec> 
 StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation)
     : street_(&street), offset_(offset), panorama_(panorama, false, Rotation()), rotation_(rotation) {}
 
+namespace {
+
+// A hollow of the scene lies under the street's road, which would hide everything from there.
+Vec above_road(const Vec& p) { return {p.x, p.y < 0.001 ? 0.001 : p.y, p.z}; }
+
+}  // namespace
+
 void StreetEnvironment::radiance(std::span<const Sight> sights, std::span<Vec> out) const {
   for (std::size_t i = 0; i < sights.size(); ++i) {
     Sight turned = sights[i];
     turned.direction = rotation_.apply(turned.direction);
     if (turned.blur > 0) panorama_.radiance({&turned, 1}, {&out[i], 1});
-    else out[i] = street_->radiance(rotation_.apply(turned.origin) + offset_, turned.direction);
+    else out[i] = street_->radiance(above_road(rotation_.apply(turned.origin) + offset_), turned.direction);
   }
 }
 

@@ -1,4 +1,7 @@
+// Rays that start far outside the scene, or whose directions are very long or short; kernels_float_rays.cpp does the rest.
 #include "compositor/float_rays.h"
+
+#include "compositor/extraordinary_ray.h"
 
 namespace rainref::compositor {
 
@@ -6,13 +9,9 @@ namespace {
 
 double min_of(double a, double b) { return b < a ? b : a; }
 double max_of(double a, double b) { return a < b ? b : a; }
-double largest_of(const Vec& a) {
-  const auto magnitude = [](double x) { return x < 0 ? -x : x; };
-  return max_of(max_of(magnitude(a.x), magnitude(a.y)), magnitude(a.z));
-}
-constexpr double largest_float = 0x1.fffffep127;
+double magnitude(double x) { return x < 0 ? -x : x; }
 
-/// The power of two that brings x > 0 into [1/2, 2).
+/// The power of two that brings x into [1/2, 2); 0 < x <= 2^1000.
 double scale_for(double x) {
   double scale = 1;
   while (x * scale >= 2) scale *= x * scale >= 0x1p64 ? 0x1p-64 : 0.5;
@@ -25,7 +24,7 @@ bool entry_of(const Ray& ray, const Box& box, double& entry) {
   double from = ray.nearest, to = ray.farthest;
   for (int k = 0; k < 3; ++k) {
     if (ray.direction[k] == 0) {
-      if (ray.origin[k] < box.low[k] || ray.origin[k] > box.high[k]) return false;
+      if (!(ray.origin[k] >= box.low[k] && ray.origin[k] <= box.high[k])) return false;
       continue;
     }
     const double a = (box.low[k] - ray.origin[k]) / ray.direction[k], b = (box.high[k] - ray.origin[k]) / ray.direction[k];
@@ -38,27 +37,24 @@ bool entry_of(const Ray& ray, const Box& box, double& entry) {
 
 }  // namespace
 
-float float_farthest(double t, double slack) { return static_cast<float>(min_of(t * 1.0001 + slack, largest_float)); }
-
-FloatRay float_ray(const Ray& ray, const SceneExtent& extent) {
-  FloatRay out{};
-  Vec origin = ray.origin, direction = ray.direction;
-  const double length = largest_of(direction);
-  if (!(largest_of(origin) <= reach_of_largest * extent.largest && length >= 0.5 && length <= 1024)) {
-    out.enters = length > 0 && length <= 0x1p1000 && entry_of(ray, extent.box, out.start);
-    if (!out.enters) return out;
-    out.scale = scale_for(length);
-    origin = ray.at(out.start);
-    direction *= out.scale;
+void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, FloatPacket& out) {
+  const Vec& d = ray.direction;
+  const double length = max_of(max_of(magnitude(d.x), magnitude(d.y)), magnitude(d.z));
+  double start = 0;
+  if (!(length >= 0x1p-1000 && length <= 0x1p1000 && entry_of(ray, extent.box, start))) {
+    out.enters &= ~(1u << slot);
+    return;
   }
-  const double slack = slack_of(extent);
+  const double scale = scale_for(length), slack = extent.slack();
+  const Vec origin = ray.at(start), direction = scale * d;
   for (int k = 0; k < 3; ++k) {
-    out.origin[k] = static_cast<float>(origin[k]);
-    out.direction[k] = static_cast<float>(direction[k]);
+    out.origin[k][slot] = static_cast<float>(origin[k]);
+    out.direction[k][slot] = static_cast<float>(direction[k]);
   }
-  out.nearest = static_cast<float>(min_of(max_of((ray.nearest - out.start) * out.scale * 0.9999 - slack, 0), largest_float));
-  out.farthest = float_farthest((ray.farthest - out.start) * out.scale, slack);
-  return out;
+  out.start[slot] = start;
+  out.scale[slot] = scale;
+  out.nearest[slot] = static_cast<float>(min_of(max_of((ray.nearest - start) * scale * 0.9999 - slack, 0), largest_float));
+  out.farthest[slot] = float_farthest((ray.farthest - start) * scale, slack);
 }
 
 }  // namespace rainref::compositor

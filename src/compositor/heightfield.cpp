@@ -26,7 +26,8 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
   if (!(magnitude(volume) > 1e-9 * largest)) throw Error(ExitCode::usage, "the edges and the axis of a heightfield must not lie in one plane");
   const Vec to_x = cross(v, n) / volume, to_y = cross(n, u) / volume, to_h = cross(u, v) / volume;
   heights_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1), 0.0f);
-  highest_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0f);
+  first_cell_ = static_cast<std::size_t>(cells_ahead - 1) * static_cast<std::size_t>(columns + 1);
+  highest_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 2 * first_cell_, 0.0f);
   cell_height_ = std::max(glm::length(u), glm::length(v)) / glm::length(n);
   tiles_across_ = tiles_of(columns, tile_cells);
   for (int y = 0; y < rows; y += tile_cells) {
@@ -34,7 +35,7 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
       tiles_.push_back({double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows)), 0, 0, 1e-9 * cell_height_});
     }
   }
-  view_ = {heights_.data(), highest_.data(), double(columns), {frame.origin.x, frame.origin.y, frame.origin.z},
+  view_ = {heights_.data(), highest_.data() + first_cell_, double(columns), {frame.origin.x, frame.origin.y, frame.origin.z},
            {{to_x.x, to_x.y, to_x.z}, {to_y.x, to_y.y, to_y.z}, {to_h.x, to_h.y, to_h.z}}};
 }
 
@@ -47,7 +48,7 @@ void Heightfield::assign(std::span<const float> heights, const parallel::Executo
   executor.for_range(static_cast<std::int64_t>(tiles_.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       HeightfieldTile& tile = tiles_[i];
-      summarize_tile(heights_.data(), columns_, highest_.data(), tile);
+      summarize_tile(heights_.data(), columns_, highest_.data() + first_cell_, tile);
       tile.margin = 1e-6 * (tile.high - tile.low) + 1e-9 * (cell_height_ + std::max(magnitude(tile.low), magnitude(tile.high)));
     }
   });
@@ -74,7 +75,7 @@ Box Heightfield::bounds(std::uint32_t primitive) const {
 }
 
 void Heightfield::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const { meet_tile(view_, tiles_[primitive], self, ray, first); }
-void Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { meet_tile(view_, tiles_[primitive], self, lanes, packet); }
+std::uint32_t Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { return meet_tile(view_, tiles_[primitive], self, lanes, packet); }
 
 Heightfield::Place Heightfield::place(const Hit& hit) const {
   const auto cell = static_cast<int>(hit.part / 2);

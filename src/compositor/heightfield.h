@@ -28,6 +28,9 @@ class Heightfield final : public Surface {
   /// frame spans space and tile_cells is positive.
   Heightfield(const HeightfieldFrame& frame, int columns, int rows, int tile_cells = 128);
 
+  Heightfield(const Heightfield&) = delete;
+  Heightfield& operator=(const Heightfield&) = delete;
+
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   /// Takes the (columns + 1)(rows + 1) finite heights of all vertices, row by row. Throws Error(internal) for another count.
@@ -48,7 +51,7 @@ class Heightfield final : public Surface {
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(tiles_.size()); }
   Box bounds(std::uint32_t primitive) const override;
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
-  void meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
+  std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override;
 
  private:
@@ -56,6 +59,7 @@ class Heightfield final : public Surface {
   HeightfieldFrame frame_;
   int columns_, rows_, tile_cells_, tiles_across_;
   double cell_height_;  ///< longer side of a cell, in units of the axis
+  std::size_t first_cell_;  ///< of highest_, which has cells to spare on both sides
   std::vector<float> heights_, highest_;
   std::vector<HeightfieldTile> tiles_;
   HeightfieldView view_;

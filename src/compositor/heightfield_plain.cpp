@@ -9,11 +9,16 @@ namespace {
 using R = Real64;
 R minimum(R a, R b) { return select(b < a, b, a); }
 R maximum(R a, R b) { return select(a < b, b, a); }
+bool without(bool a, bool b) { return a && !b; }
 R whole(R a) {
   const double cut = static_cast<double>(static_cast<std::int64_t>(a.v));
   return cut > a.v ? cut - 1 : cut;
 }
 R gather(const float* p, R index) { return static_cast<double>(p[static_cast<std::int64_t>(index.v)]); }
+void gather_two(const float* p, R index, R& a, R& b) {
+  a = gather(p, index);
+  b = gather(p + 1, index);
+}
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

@@ -7,9 +7,12 @@
 
 namespace rainref::compositor {
 
+/// A walk fetches what it may need before it knows: up to this many cells, less one, beyond the field.
+inline constexpr int cells_ahead = 3;
+
 struct HeightfieldView {
   const float* heights;   ///< of the vertices, rows of columns + 1
-  const float* highest;   ///< of the four corners of each cell, rows of columns
+  const float* highest;   ///< of the four corners of each cell, rows of columns; readable cells_ahead - 1 rows and cells outside
   double columns;
   double origin[3];
   double to_grid[3][3];   ///< rows: of a direction in the world, its cells along u, its cells along v, its height
@@ -23,7 +26,7 @@ struct HeightfieldTile {
 
 /// Meets the tile with the lanes' rays, as Surface::meet_packet says. Parts are 2 cell + (1 on the side of the fourth
 /// vertex).
-void meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet);
+std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet);
 /// The same for one ray, by the plain reading.
 void meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, const Ray& ray, Hit& first);
 

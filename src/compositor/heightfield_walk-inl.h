@@ -9,8 +9,8 @@
 // Whatever skips cells (their highest vertex, the tile's slab, a nearer hit) only leaves out intervals in which g has no
 // change of sign, or that begin after the nearer hit. So the answer does not depend on tiles, lanes or what else is met.
 //
-// Needs of R: + - * /, comparisons to R::Mask, & | ^ ! of masks, select, R::any, whole(a) (the floor of a, for
-// |a| < 2^31), gather(p, i) (p[i], widened), minimum and maximum.
+// Needs of R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor of a, for
+// |a| < 2^31), gather(p, i) (p[i], widened), gather_two(p, i, a, b) (p[i] and p[i + 1]), minimum and maximum.
 
 /// A ray in the grid's axes: x and y in cells, h along the axis.
 template <class R>
@@ -69,12 +69,14 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   R t = maximum(begin, minimum(slab_a, slab_b));
   const R end = minimum(minimum(minimum(x_out, y_out), last), maximum(slab_a, slab_b));
   active = active & (t < end);
-  Mask found = active & !active;
+  const Mask nowhere = without(active, active);
+  Mask found = nowhere;
   if (!R::any(active)) return found;
   t = select(active, t, begin);
 
-  R kx = leaving_wall(t, r.ox, r.dx, ix, ahead_x, step_x, tile.x0, tile.x1 - 1);
-  R ky = leaving_wall(t, r.oy, r.dy, iy, ahead_y, step_y, tile.y0, tile.y1 - 1);
+  // Rays that are not active stand in the tile's first cell: what they fetch must be there.
+  R kx = select(active, leaving_wall(t, r.ox, r.dx, ix, ahead_x, step_x, tile.x0, tile.x1 - 1), R(tile.x0) + ahead_x);
+  R ky = select(active, leaving_wall(t, r.oy, r.dy, iy, ahead_y, step_y, tile.y0, tile.y1 - 1), R(tile.y0) + ahead_y);
   const R sum_o = r.ox + r.oy, is = one / without_zero(r.dx + r.dy);
   const Mask to_upper = r.dx + r.dy > zero;
 
@@ -91,68 +93,71 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   const Mask unknown = active & (t <= begin);
   if (R::any(unknown)) {
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(unknown, j * stride + i, zero);
-    const R h00 = gather(field.heights, at), h10 = gather(field.heights + 1, at);
-    const R h01 = gather(field.heights, at + stride), h11 = gather(field.heights + 1, at + stride);
+    R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+    gather_two(field.heights, at, h00, h10);
+    gather_two(field.heights, at + stride, h01, h11);
     const R tx = (kx - step_x - r.ox) * ix, ty = (ky - step_y - r.oy) * iy, entry = maximum(tx, ty);
     const R g = at_wall(entry, tx > ty, ty > tx, i, j, select(right, h00, h10), select(right, h01, h11), select(up, h00, h01), select(up, h10, h11), one - ahead_y);
     const R x = within_unit(r.ox + r.nearest * r.dx - i), y = within_unit(r.oy + r.nearest * r.dy - j);
     const R lower = h00 + (x * (h10 - h00) + y * (h01 - h00)), upper = h11 + ((one - x) * (h01 - h11) + (one - y) * (h10 - h11));
     const R inside = (r.oh + r.nearest * r.dh) - select(x + y < one, lower, upper);
-    above = (unknown & (select(r.nearest > entry, inside, g) > zero)) | (falls & !unknown);
+    above = (unknown & (select(r.nearest > entry, inside, g) > zero)) | without(falls, unknown);
   }
 
   const R lowered = r.oh - R(tile.margin), first_cell = zero - (ahead_y * columns + ahead_x);
-  R hit_i = zero, hit_j = zero, hit_upper = zero;
-  Mask walking = active, waiting = found;
-  while (R::any(active)) {
-    // Every ray walks to a cell that it may hit; there it waits for the others.
-    R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
-    while (R::any(walking)) {
-      const R lowest = lowered + select(falls, exit, t) * r.dh;
-      const Mask candidate = walking & (lowest <= gather(field.highest, select(walking, ky * columns + kx + first_cell, zero)));
-      waiting = waiting | candidate;
-      const Mask stays = exit < end, steps = walking & !candidate & stays;
-      active = active & (stays | !walking | candidate);
-      t = select(steps, exit, t);
-      kx = select(steps & (tx <= ty), kx + step_x, kx);
-      ky = select(steps & (ty <= tx), ky + step_y, ky);
-      walking = steps;
-      tx = (kx - r.ox) * ix;
-      ty = (ky - r.oy) * iy;
-      exit = minimum(tx, ty);
-    }
+  R hit_i = zero, hit_j = zero, hit_upper = zero, base = zero, slope_x = zero, slope_y = zero;
+  Mask walking = active, waiting = nowhere;
+  while (R::any(walking)) {
+    // Every ray walks to a cell that it may hit; there it waits for the others. A ray runs a few cells ahead of the answer
+    // whether it may go there, so that the fetches of several cells overlap.
+    do {
+      R ahead_kx = kx, ahead_ky = ky, ahead_t = t;
+      _Pragma("GCC unroll 4")
+      for (int cell = 0; cell < cells_ahead; ++cell) {
+        const R tx = (ahead_kx - r.ox) * ix, ty = (ahead_ky - r.oy) * iy, exit = minimum(tx, ty);
+        const R top = gather(field.highest, ahead_ky * columns + ahead_kx + first_cell);
+        const Mask clear = lowered + select(falls, exit, ahead_t) * r.dh > top;
+        waiting = waiting | without(walking, clear);
+        walking = walking & clear & (exit < end);
+        ahead_kx = select(tx <= ty, ahead_kx + step_x, ahead_kx);
+        ahead_ky = select(ty <= tx, ahead_ky + step_y, ahead_ky);
+        ahead_t = exit;
+        kx = select(walking, ahead_kx, kx);
+        ky = select(walking, ahead_ky, ky);
+        t = select(walking, exit, t);
+      }
+    } while (R::any(walking));
     if (!R::any(waiting)) break;
+    const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
     const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
-    const R h00 = gather(field.heights, at), h10 = gather(field.heights + 1, at);
-    const R h01 = gather(field.heights, at + stride), h11 = gather(field.heights + 1, at + stride);
+    R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+    gather_two(field.heights, at, h00, h10);
+    gather_two(field.heights, at + stride, h01, h11);
     const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00), select(up, h11, h10), ahead_y);
     const R diagonal = (i + j + one - sum_o) * is;
     const Mask crosses = (t < diagonal) & (diagonal < exit);
     const R g_diagonal = difference(diagonal, h01, h10, within_unit(r.ox + diagonal * r.dx - i));
-    const Mask above_then = (crosses & (g_diagonal > zero)) | (above & !crosses), above_at_exit = g_exit > zero;
+    const Mask above_then = (crosses & (g_diagonal > zero)) | without(above, crosses), above_at_exit = g_exit > zero;
     const Mask before = above ^ above_then, hit = waiting & (t < exit) & (before | (above_then ^ above_at_exit));
     const Mask upper = (before | (diagonal >= exit)) ^ to_upper;
     hit_i = select(hit, i, hit_i);
     hit_j = select(hit, j, hit_j);
     hit_upper = select(hit & upper, one, hit_upper);
+    base = select(hit, select(upper, h11, h00), base);
+    slope_x = select(hit, select(upper, h11 - h01, h10 - h00), slope_x);
+    slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
     found = found | hit;
-    const Mask steps = waiting & !hit & (exit < end);
-    active = active & (steps | !waiting);
+    const Mask steps = without(waiting, hit) & (exit < end);
     t = select(steps, exit, t);
     kx = select(steps & (tx <= ty), kx + step_x, kx);
     ky = select(steps & (ty <= tx), ky + step_y, ky);
     walking = steps;
-    waiting = waiting & !waiting;
+    waiting = nowhere;
   }
   if (!R::any(found)) return found;
 
-  const R at = hit_j * stride + hit_i;
-  const R h00 = gather(field.heights, at), h10 = gather(field.heights + 1, at);
-  const R h01 = gather(field.heights, at + stride), h11 = gather(field.heights + 1, at + stride);
-  const Mask is_upper = hit_upper > zero;
-  const R slope_x = select(is_upper, h11 - h01, h10 - h00), slope_y = select(is_upper, h11 - h10, h01 - h00);
   const R x = r.ox - hit_i - hit_upper, y = r.oy - hit_j - hit_upper;
-  const R gap = r.oh - (select(is_upper, h11, h00) + (x * slope_x + y * slope_y));
+  const R gap = r.oh - (base + (x * slope_x + y * slope_y));
   const R closing = r.dh - (r.dx * slope_x + r.dy * slope_y);
   const R on_plane = (zero - gap) / without_zero(closing);
   const R low_x = (hit_i - r.ox) * ix, high_x = (hit_i + one - r.ox) * ix, low_y = (hit_j - r.oy) * iy, high_y = (hit_j + one - r.oy) * iy;

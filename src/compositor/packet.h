@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "compositor/surface.h"
 
@@ -14,12 +13,8 @@ struct Packet {
 
   const Ray* rays = nullptr;  ///< slot by slot
   Hit* first = nullptr;
-  /// The same rays component by component, for surfaces that take several at once; slots without a ray hold finite
-  /// numbers.
+  /// The same rays component by component, for surfaces that take several at once; slots without a ray repeat the last.
   alignas(64) double origin[3][slots], direction[3][slots], nearest[slots], farthest[slots];
-
-  /// Fills the components from rays[0, count); the other slots repeat the last ray. 1 <= count <= slots.
-  void spread(const Ray* from, int count);
 };
 
 /// Calls visit(slot) for every bit of `lanes`, lowest first.

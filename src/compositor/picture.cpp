@@ -4,14 +4,12 @@
 #include <cmath>
 #include <vector>
 
-#include "math/half.h"
+#include "math/half_array.h"
 
 namespace rainref::compositor {
 namespace {
 
-constexpr int tile_width = 64, tile_height = 16;
-
-Half half_of(double x) { return to_half(static_cast<float>(x) + 0.0f); }
+constexpr int tile_width = 64, tile_height = 4;  // a tile's rays stay in the cache
 
 /// Sums over the samples of a pixel.
 struct Sum {
@@ -61,20 +59,29 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
       }
     }
     const double share = 1.0 / static_cast<double>(pattern.size());  // a power of two: exact
-    for (std::size_t i = 0; i < count; ++i) {
-      const int x = tile.x0 + static_cast<int>(i) % columns, y = tile.y0 + static_cast<int>(i) / columns;
-      const Sum& sum = sums[i];
-      Half* beauty = out.beauty.row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
-      Half* normal = out.normal.row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
-      for (int k = 0; k < 3; ++k) {
-        beauty[k] = half_of(std::min(share * sum.radiance[k], 65504.0));
-        normal[k] = half_of(share * sum.normal[k]);
+    for (int row = 0; row < rows; ++row) {
+      // All floats of the row, then one conversion for each image.
+      float beauty[4 * tile_width], normal[4 * tile_width], film[tile_width], mask[tile_width];
+      const int y = tile.y0 + row;
+      for (int x = 0; x < columns; ++x) {
+        const Sum& sum = sums[static_cast<std::size_t>(row) * columns + x];
+        for (int k = 0; k < 3; ++k) {
+          beauty[4 * x + k] = static_cast<float>(std::min(share * sum.radiance[k], 65504.0)) + 0.0f;
+          normal[4 * x + k] = static_cast<float>(share * sum.normal[k]) + 0.0f;
+        }
+        beauty[4 * x + 3] = 1;
+        normal[4 * x + 3] = static_cast<float>(share * sum.met);
+        film[x] = static_cast<float>(share * sum.film);
+        mask[x] = static_cast<float>(share * sum.mask);
+        out.depth.row<float>(y)[tile.x0 + x] = static_cast<float>(sum.depth);
       }
-      beauty[3] = half_of(1);
-      normal[3] = half_of(share * sum.met);
-      out.depth.row<float>(y)[x] = static_cast<float>(sum.depth);
-      out.film.row<Half>(y)[x] = half_of(share * sum.film);
-      out.mask.row<Half>(y)[x] = half_of(share * sum.mask);
+      const auto store = [&](const float* from, Image& image, int channels) {
+        to_half_array(from, image.row<Half>(y) + channels * static_cast<std::ptrdiff_t>(tile.x0), static_cast<std::size_t>(channels) * columns, Rounding::rne);
+      };
+      store(beauty, out.beauty, 4);
+      store(normal, out.normal, 4);
+      store(film, out.film, 1);
+      store(mask, out.mask, 1);
     }
   });
   return out;

@@ -108,6 +108,7 @@ class Scene {
   void commit() { tracer_.commit(); }
 
   const Tracer& tracer() const { return tracer_; }
+  std::uint32_t surfaces() const { return static_cast<std::uint32_t>(materials_.size()); }
   const Material& material(std::uint32_t surface) const { return materials_[surface]; }
   /// Throws Error(internal) when none was set.
   const Environment& environment() const;

@@ -31,10 +31,10 @@ struct Seen {
 /// the order of their parents, the reflected before the refracted: a pure function of the scene and the ray, whichever
 /// rays lie beside it. From several threads at once.
 ///
-/// A new ray starts exactly where its parent ended, with no offset. Rounding may put that point on the wrong side of the
-/// surface; so a ray that left a surface on one side does not see hits of that surface that come from the other side:
-/// they contradict where it is. Tracing goes on behind such a hit. For this a surface that bounds a medium has to
-/// be closed, or closed by others wherever rays can come.
+/// A new ray starts where its parent ended; only what is nearer than the spacing of numbers there is left out. Rounding may
+/// put that point on the wrong side of the surface; so a ray that left a surface on one side does not see hits of that
+/// surface that come from the other side: they contradict where it is. Tracing goes on behind such a hit. For this a
+/// surface that bounds a medium has to be closed, or closed by others wherever rays can come.
 void shade(const Scene& scene, const ShadingOptions& options, std::span<const Ray> rays, std::span<Seen> seen);
 
 }  // namespace rainref::compositor

@@ -52,8 +52,9 @@ class Surface {
   /// Every hit of the primitive within the ray's limits is compared with `first` and takes its place if it precedes it.
   /// `self` is this surface's number. Only operations of the determinism contract, in double.
   virtual void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const = 0;
-  /// The same for every slot in the bit set `lanes`, to the same bits. Surfaces that gain by it override it.
-  virtual void meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const;
+  /// The same for every slot in the bit set `lanes`, to the same bits; gives the slots whose first hit changed. Surfaces
+  /// that gain by it override it.
+  virtual std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const;
   /// The geometric normal at a hit: unit, on the side that the surface calls its outside.
   virtual Vec normal(const Ray& ray, const Hit& hit) const = 0;
 };

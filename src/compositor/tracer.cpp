@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -31,23 +32,34 @@ struct Entry {
 
 struct PacketQuery : embree::Query {
   Packet packet;
-  double start[Packet::slots], scale[Packet::slots], slack = 0;
+  FloatPacket floats;
+  double slack = 0;
 
-  float farthest_of(std::uint32_t slot) const { return float_farthest((packet.first[slot].t - start[slot]) * scale[slot], slack); }
+  float farthest_of(std::uint32_t slot) const { return float_farthest((packet.first[slot].t - floats.start[slot]) * floats.scale[slot], slack); }
 };
 
 void bounds_from_table(const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID]; }
 
-template <class Arguments, class Farthest>
-void ask_surface(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+/// Embree hands over a packet whole or in pieces of N lanes; a lane's id is its slot.
+template <unsigned n, class Arguments, class Farthest>
+void ask_lanes(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
   const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
   PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
   std::uint32_t lanes = 0;
-  for (unsigned i = 0; i < a->N; ++i) lanes |= a->valid[i] != 0 ? 1u << RTCRayN_id(rays, a->N, i) : 0;
-  entry.surface->meet_packet(entry.number, a->primID, lanes, query.packet);
-  for (unsigned i = 0; i < a->N; ++i) {
-    const std::uint32_t slot = RTCRayN_id(rays, a->N, i);
-    if (a->valid[i] != 0 && query.packet.first[slot].is_surface()) RTCRayN_tfar(rays, a->N, i) = farthest(query, slot);
+  for (unsigned i = 0; i < n; ++i) lanes |= static_cast<std::uint32_t>(a->valid[i] & 1) << RTCRayN_id(rays, n, i);
+  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes, query.packet);
+  for (unsigned i = 0; changed != 0 && i < n; ++i) {
+    const std::uint32_t slot = RTCRayN_id(rays, n, i);
+    if ((changed >> slot & static_cast<std::uint32_t>(a->valid[i]) & 1) != 0) RTCRayN_tfar(rays, n, i) = farthest(query, slot);
+  }
+}
+template <class Arguments, class Farthest>
+void ask_surface(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+  switch (a->N) {
+    case 1: return ask_lanes<1>(a, rays, farthest);
+    case 4: return ask_lanes<4>(a, rays, farthest);
+    case 8: return ask_lanes<8>(a, rays, farthest);
+    default: return ask_lanes<16>(a, rays, farthest);
   }
 }
 void find_first(const RTCIntersectFunctionNArguments* a) {
@@ -58,47 +70,63 @@ void find_any(const RTCOccludedFunctionNArguments* a) {
 }
 
 template <int width>
-void fill(embree::RayHit<width>& to, int slot, const FloatRay& ray) {
-  const auto at = [slot](auto& field) -> decltype(auto) {
-    if constexpr (width == 1) return (field);
-    else return (field[slot]);
-  };
-  at(to.ray.org_x) = ray.origin[0];
-  at(to.ray.org_y) = ray.origin[1];
-  at(to.ray.org_z) = ray.origin[2];
-  at(to.ray.dir_x) = ray.direction[0];
-  at(to.ray.dir_y) = ray.direction[1];
-  at(to.ray.dir_z) = ray.direction[2];
-  at(to.ray.tnear) = ray.nearest;
-  at(to.ray.tfar) = ray.farthest;
-  at(to.ray.time) = 0;
-  at(to.ray.mask) = ~0u;
-  at(to.ray.id) = static_cast<unsigned>(slot);
-  at(to.ray.flags) = 0;
-  at(to.hit.geomID) = RTC_INVALID_GEOMETRY_ID;
+void fill(const FloatPacket& from, embree::RayHit<width>& to) {
+  if constexpr (width == 1) {
+    to.ray.org_x = from.origin[0][0];
+    to.ray.org_y = from.origin[1][0];
+    to.ray.org_z = from.origin[2][0];
+    to.ray.dir_x = from.direction[0][0];
+    to.ray.dir_y = from.direction[1][0];
+    to.ray.dir_z = from.direction[2][0];
+    to.ray.tnear = from.nearest[0];
+    to.ray.tfar = from.farthest[0];
+  } else {
+    const auto copy = [](const float* a, float* b) { std::memcpy(b, a, width * sizeof(float)); };
+    copy(from.origin[0], to.ray.org_x);
+    copy(from.origin[1], to.ray.org_y);
+    copy(from.origin[2], to.ray.org_z);
+    copy(from.direction[0], to.ray.dir_x);
+    copy(from.direction[1], to.ray.dir_y);
+    copy(from.direction[2], to.ray.dir_z);
+    copy(from.nearest, to.ray.tnear);
+    copy(from.farthest, to.ray.tfar);
+  }
+}
+
+/// What is the same for all packets; Embree writes none of it, because the surfaces keep the hits.
+template <int width>
+void prepare(embree::RayHit<width>& rays) {
+  std::memset(&rays, 0, sizeof rays);
+  if constexpr (width == 1) {
+    rays.ray.mask = ~0u;
+    rays.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  } else {
+    for (unsigned i = 0; i < width; ++i) {
+      rays.ray.mask[i] = ~0u;
+      rays.ray.id[i] = i;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
 }
 
 template <int width, class Ask>
 void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> hits, const Ask& ask) {
   PacketQuery query;
-  query.slack = slack_of(extent);
-  alignas(64) embree::RayHit<width> packet{};
-  alignas(64) int valid[Packet::slots];
+  query.slack = extent.slack();
+  alignas(64) embree::RayHit<width> packet;
+  prepare<width>(packet);
+  alignas(64) int valid[width];
   for (std::size_t begin = 0; begin < rays.size(); begin += width) {
     const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
-    query.packet.spread(rays.data() + begin, count);
-    query.packet.first = hits.data() + begin;
+    make_floats(rays.data() + begin, count, hits.data() + begin, extent, query.packet, query.floats);
+    if (query.floats.enters == 0) continue;
+    // An ISA whose vectors are narrower than the packet takes it for a stream and does not look at `valid`.
     for (int slot = 0; slot < width; ++slot) {
-      valid[slot] = 0;
-      if (slot >= count) continue;
-      hits[begin + slot] = Hit{};
-      const FloatRay ray = float_ray(rays[begin + slot], extent);
-      fill<width>(packet, slot, ray);
-      query.start[slot] = ray.start;
-      query.scale[slot] = ray.scale;
-      valid[slot] = ray.enters ? -1 : 0;
+      if ((query.floats.enters >> slot & 1) == 0) query.floats.nearest[slot] = 1, query.floats.farthest[slot] = -1;
     }
-    if (width > 1 || valid[0] != 0) ask(valid, query, packet);
+    fill<width>(query.floats, packet);
+    for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
+    ask(valid, query, packet);
   }
 }
 
@@ -199,29 +227,26 @@ void Tracer::commit() {
     }
     if (!entry->boxes.empty()) include(extent.box, entry->all);
   }
+  // A power of two, or every ripple would change the margin, and with it all boxes.
   if (extent.box.low.x <= extent.box.high.x) {
-    for (int k = 0; k < 3; ++k) extent.largest = std::max({extent.largest, -extent.box.low[k], extent.box.high[k]});
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, -extent.box.low[k], extent.box.high[k]});
+    while (extent.largest < largest) extent.largest *= 2;
+    while (extent.largest > 0x1p-60 && 0.5 * extent.largest >= largest) extent.largest *= 0.5;
   }
-  // A margin that changes with every ripple would make every surface new; powers of two seldom change.
-  double power = 1;
-  while (power < extent.largest) power *= 2;
-  while (power > extent.largest && power > 0x1p-40) power *= 0.5;
-  if (power < extent.largest) power *= 2;
-  extent.largest = power;
-  extent.margin = margin_of_largest * power;
-  const bool all_new = extent.margin != s.extent.margin;
+  const bool all_new = extent.largest != s.extent.largest;
   for (std::size_t i = 0; i < s.entries.size(); ++i) {
     Entry& entry = *s.entries[i];
     if (!all_new && !changed[i]) continue;
     entry.padded.resize(entry.boxes.size());
-    for (std::size_t k = 0; k < entry.boxes.size(); ++k) entry.padded[k] = padded(entry.boxes[k], extent.margin);
+    for (std::size_t k = 0; k < entry.boxes.size(); ++k) entry.padded[k] = padded(entry.boxes[k], extent.margin());
     rtcSetGeometryUserPrimitiveCount(entry.geometry, static_cast<unsigned>(entry.boxes.size()));
     rtcCommitGeometry(entry.geometry);
     entry.committed = true;
   }
   for (int k = 0; k < 3; ++k) {
-    extent.box.low[k] -= extent.margin;
-    extent.box.high[k] += extent.margin;
+    extent.box.low[k] -= extent.margin();
+    extent.box.high[k] += extent.margin();
   }
   s.extent = extent;
   rtcCommitScene(s.scene);

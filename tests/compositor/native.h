@@ -16,6 +16,7 @@ namespace rainref::compositor::test {
 /// 16 rays component by component, as rtcIntersect16 takes them.
 struct NativePacket {
   alignas(64) float origin[3][16], direction[3][16];
+  Ray ray(std::size_t k) const { return {{origin[0][k], origin[1][k], origin[2][k]}, {direction[0][k], direction[1][k], direction[2][k]}}; }
 };
 inline std::vector<NativePacket> native_packets(const std::vector<Ray>& rays) {
   std::vector<NativePacket> out(rays.size() / 16);
@@ -37,6 +38,7 @@ struct NativeHit {
 class NativeWorld {
  public:
   NativeWorld(const World& world, const char* config) : device_(rtcNewDevice(config)), scene_(rtcNewScene(device_)) {
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);  // or a commit rebuilds what was to be refitted
     rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
     constexpr unsigned across = water_cells + 1;
     water_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -65,7 +67,7 @@ class NativeWorld {
 
   /// The per-frame update: new heights, boxes of the hierarchy refitted.
   void update(std::span<const float> heights) {
-    set_positions(heights);
+    for (std::size_t i = 0; i < heights.size(); ++i) positions_[3 * i + 1] = heights[i];
     rtcUpdateGeometryBuffer(water_, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(water_);
     rtcCommitScene(scene_);
