@@ -98,16 +98,18 @@ void DisplacedWater::meet(std::uint32_t self, std::uint32_t primitive, const Ray
   }
 }
 
-void DisplacedWater::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
+std::uint32_t DisplacedWater::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
   Hit before[Packet::slots];
   for_each_lane(lanes, [&](std::uint32_t slot) { before[slot] = packet.first[slot]; });
-  field_.meet_packet(self, primitive, lanes, packet);
-  for_each_lane(lanes, [&](std::uint32_t slot) {
+  std::uint32_t changed = field_.meet_packet(self, primitive, lanes, packet);
+  for_each_lane(changed, [&](std::uint32_t slot) {
     Hit& first = packet.first[slot];
-    if (first.surface != self || first.t == before[slot].t || !is_dry(first)) return;
+    if (!is_dry(first)) return;
     first = before[slot];
     meet(self, primitive, packet.rays[slot], first);
+    if (first.t == before[slot].t && first.surface == before[slot].surface) changed &= ~(1u << slot);
   });
+  return changed;
 }
 
 std::function<Vec(const Place&)> water_normal(const Pane& pane, std::shared_ptr<const WaterLayer> water) {

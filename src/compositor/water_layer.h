@@ -87,7 +87,7 @@ class DisplacedWater : public Surface {
   std::uint32_t primitives() const override { return field_.primitives(); }
   Box bounds(std::uint32_t primitive) const override { return field_.bounds(primitive); }
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
-  void meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
+  std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override { return field_.normal(ray, hit); }
 
  private:
