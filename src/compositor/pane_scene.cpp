@@ -11,12 +11,16 @@ void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> 
     scene.add(std::make_shared<OuterFace>(pane, water, false), Material::interface_of(media.outside, media.pane));
     scene.add(std::make_shared<OuterFace>(pane, water, true), Material::interface_of(media.water, media.pane));
     Material surface = Material::interface_of(media.outside, media.water);
-    surface.smooth_normal = water_normal(pane, water);
     surface.is_masked = true;
-    if (shape == WaterShape::displaced) scene.add(std::make_shared<DisplacedWater>(pane, water, executor), surface);
-    else scene.add(std::make_shared<SlopedWater>(pane, water), surface);
+    if (shape == WaterShape::displaced) {
+      surface.smooth_normal = water_normal(pane, water);
+      scene.add(std::make_shared<DisplacedWater>(pane, water, executor), surface);
+    } else {
+      scene.add(std::make_shared<SlopedWater>(pane, water), surface);
+    }
   }
-  scene.add(std::make_shared<PaneRim>(pane, 1e-4 + WaterLayer::clearance + (water ? water->highest() : 0)), Material::of(std::move(rim)));
+  // Water ends on the pane, so the rim need not stand higher than what a dry texel's surface would.
+  scene.add(std::make_shared<PaneRim>(pane, 2 * WaterLayer::clearance), Material::of(std::move(rim)));
 }
 
 }  // namespace rainref::compositor

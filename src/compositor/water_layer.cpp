@@ -61,6 +61,12 @@ WaterLayer::Rise WaterLayer::rise(double u, double v) const {
   return {0.5 * width_ * sum.u, 0.5 * height_ * sum.v};
 }
 
+Vec SlopedWater::normal(const Ray& ray, const Hit& hit) const {
+  const WaterLayer::Rise rise = water_->rise(hit.u, hit.v);
+  const Vec face = pane().normal(hit.u), sloped = pane().tilted(hit.u, rise.u, rise.v);
+  return dot(ray.direction, face) * dot(ray.direction, sloped) > 0 ? sloped : face;
+}
+
 namespace {
 
 // A texel's centre is a vertex.

@@ -65,12 +65,13 @@ class OuterFace : public PaneFace {
   bool wet_;
 };
 
-/// The water's surface on any pane, bent ones too: met at the clearance over the face, with water_normal turned by the slope of
-/// the height there. Light leaves it as far from where it should as the water is high, times the tangent of its angle to the
-/// normal.
+/// The water's surface on any pane, bent ones too: met at the clearance over the face, with the normal of the height's slope
+/// there, or the face's where the slope turns away from the ray. Light leaves it as far from where it should as the water is
+/// high, times the tangent of its angle to the normal; what the surface mirrors sideways does not meet it again.
 class SlopedWater : public PaneFace {
  public:
   SlopedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water) : PaneFace(pane, WaterLayer::clearance), water_(std::move(water)) {}
+  Vec normal(const Ray& ray, const Hit& hit) const override;
 
  protected:
   bool is_there(double u, double v) const override { return water_->is_wet(u, v); }
