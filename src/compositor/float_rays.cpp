@@ -38,15 +38,17 @@ bool entry_of(const Ray& ray, const Box& box, double& entry) {
 }  // namespace
 
 void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, FloatPacket& out) {
-  const Vec& d = ray.direction;
+  const Vec &o = ray.origin, &d = ray.direction;
+  const double sum = magnitude(o.x) + magnitude(o.y) + magnitude(o.z) + magnitude(d.x) + magnitude(d.y) + magnitude(d.z);
   const double length = max_of(max_of(magnitude(d.x), magnitude(d.y)), magnitude(d.z));
   double start = 0;
-  if (!(length >= 0x1p-1000 && length <= 0x1p1000 && entry_of(ray, extent.box, start))) {
+  if (!(sum <= 0x1p1000 && length >= 0x1p-1000 && entry_of(ray, extent.box, start))) {
     out.enters &= ~(1u << slot);
     return;
   }
-  const double scale = scale_for(length), slack = extent.slack();
-  const Vec origin = ray.at(start), direction = scale * d;
+  // origin + t d = origin at start + (t - start) / shrink * (shrink d), and both factors are powers of two.
+  const double shrink = scale_for(length), scale = 1 / shrink, slack = extent.slack();
+  const Vec origin = ray.at(start), direction = shrink * d;
   for (int k = 0; k < 3; ++k) {
     out.origin[k][slot] = static_cast<float>(origin[k]);
     out.direction[k][slot] = static_cast<float>(direction[k]);

@@ -24,11 +24,11 @@ struct SceneExtent {
 struct FloatPacket {
   alignas(64) float origin[3][Packet::slots], direction[3][Packet::slots], nearest[Packet::slots], farthest[Packet::slots];
   double start[Packet::slots], scale[Packet::slots];
-  std::uint32_t enters;  ///< slots whose rays do not pass the whole scene by
+  std::uint32_t enters;  ///< slots whose rays do not pass the whole scene by; the others end before they begin
 };
 
 /// Spreads the rays into `packet` and makes its hits none; gives them in floats. 1 <= count <= slots.
-void make_floats(const Ray* rays, int count, Hit* hits, const SceneExtent& extent, Packet& packet, FloatPacket& out);
+void make_floats(const Ray* rays, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out);
 
 inline constexpr double largest_float = 0x1.fffffep127;
 /// What Embree may take for the end of a ray that has a hit at parameter t': nothing that precedes or equals it is culled.

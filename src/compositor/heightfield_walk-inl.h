@@ -77,8 +77,8 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
   // Rays that are not active stand in the tile's first cell: what they fetch must be there.
   R kx = select(active, leaving_wall(t, r.ox, r.dx, ix, ahead_x, step_x, tile.x0, tile.x1 - 1), R(tile.x0) + ahead_x);
   R ky = select(active, leaving_wall(t, r.oy, r.dy, iy, ahead_y, step_y, tile.y0, tile.y1 - 1), R(tile.y0) + ahead_y);
-  const R sum_o = r.ox + r.oy, is = one / without_zero(r.dx + r.dy);
-  const Mask to_upper = r.dx + r.dy > zero;
+  const R sum_o = r.ox + r.oy, sum_d = without_zero(r.dx + r.dy), is = one / sum_d;
+  const Mask to_upper = sum_d > zero;
 
   const auto difference = [&](R at, R a, R b, R f) RAINREF_LAMBDA { return (r.oh + at * r.dh) - (a * (one - f) + b * f); };
   // g at time `at`, on the wall x (a to b along y), the wall y (c to d along x), or in the corner that f says.

@@ -1,4 +1,7 @@
 // Rays to floats, several at once; compiled once for each SIMD target.
+#include <algorithm>
+#include <limits>
+
 #include "compositor/extraordinary_ray.h"
 #include "compositor/float_rays.h"
 
@@ -55,19 +58,20 @@ std::uint32_t RoundPacket(const Packet& packet, const SceneExtent& extent, Float
   for (int slot = 0; slot < Packet::slots; slot += n) {
     const auto at = [&](const double* p) HWY_ATTR { return R(hn::Load(d, p + slot)); };
     const auto put = [&](R x, float* p) HWY_ATTR { hn::Store(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
-    R reach = zero, length = zero;
+    R reach = zero, length = zero, sum = zero;  // sums keep a NaN
     for (int k = 0; k < 3; ++k) {
       const R o = at(packet.origin[k]), direction = at(packet.direction[k]);
-      reach = larger(reach, abs(o));
+      reach = reach + abs(o);
       length = larger(length, abs(direction));
+      sum = sum + abs(direction);
       put(o, out.origin[k]);
       put(direction, out.direction[k]);
     }
-    put(smaller(larger(at(packet.nearest) * R(0.9999) - slack, zero), largest), out.nearest);
-    put(smaller(at(packet.farthest) * R(1.0001) + slack, largest), out.farthest);
+    put(smaller(largest, larger(zero, at(packet.nearest) * R(0.9999) - slack)), out.nearest);
+    put(smaller(largest, at(packet.farthest) * R(1.0001) + slack), out.farthest);
     hn::Store(zero.v, d, out.start + slot);
     hn::Store(one.v, d, out.scale + slot);
-    const auto near = (reach <= R(extent.reach())).m, long_enough = (length >= R(0.5)).m, short_enough = (length <= R(1024.0)).m;
+    const auto near = (reach <= R(extent.reach())).m, long_enough = (length >= R(0.5)).m, short_enough = (sum <= R(1024.0)).m;
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hn::And(near, hn::And(long_enough, short_enough)), bits);
     ordinary |= static_cast<std::uint32_t>(bits[0]) << slot;
@@ -83,13 +87,14 @@ namespace rainref::compositor {
 RAINREF_EXPORT(SpreadRays);
 RAINREF_EXPORT(RoundPacket);
 
-void make_floats(const Ray* rays, int count, Hit* hits, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
+void make_floats(const Ray* rays, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
   RAINREF_DISPATCH(SpreadRays)(rays, count, packet);
   packet.rays = rays;
-  packet.first = hits;
-  for (int slot = 0; slot < count; ++slot) hits[slot] = Hit{};
+  std::fill(packet.first, packet.first + count, Hit{});
   out.enters = (1u << count) - 1;
   for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(rays[slot], extent, static_cast<int>(slot), out); });
+  // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
+  for_each_lane(~out.enters & ((1u << Packet::slots) - 1), [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });
 }
 
 }  // namespace rainref::compositor

@@ -12,7 +12,7 @@ struct Packet {
   static constexpr int slots = 16;
 
   const Ray* rays = nullptr;  ///< slot by slot
-  Hit* first = nullptr;
+  Hit first[slots];
   /// The same rays component by component, for surfaces that take several at once; slots without a ray repeat the last.
   alignas(64) double origin[3][slots], direction[3][slots], nearest[slots], farthest[slots];
 };

@@ -1,5 +1,8 @@
 #include "compositor/puddle_truth.h"
 
+#include <algorithm>
+#include <array>
+
 #include "compositor/interface.h"
 #include "math/real64.h"
 #include "puddle/ground.h"
@@ -49,13 +52,14 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
 
   PuddleTruth out;
   out.pixels = static_cast<std::size_t>(width) * height;
-  enum { distance, angle, offset, colour, code, schlick };
+  enum { distance, angle, offset, colour, code, ground_code, schlick };
   const auto add = [&](const char* name, const char* unit) { out.differences.emplace_back(name, unit, width, height); };
   add("hit_distance", "m");
   add("normal_angle", "deg");
   add("ground_offset", "m");
   add("colour", "");
   add("display", "code");
+  add("ground_display", "code");
   add("schlick", "");
 
   std::vector<std::array<std::size_t, 3>> counts(static_cast<std::size_t>(height));
@@ -115,8 +119,12 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
         d[k] = static_cast<double>(to_float(passes[k])) - to_float(true_colour[k]);
         c[k] = static_cast<double>(passes_code[k].code) - true_code[k].code;
       }
-      out.differences[colour].at(x, y) = sign_of_largest(d);
-      out.differences[code].at(x, y) = sign_of_largest(c);
+      if (is_water && is_truly_water) {
+        out.differences[colour].at(x, y) = sign_of_largest(d);
+        out.differences[code].at(x, y) = sign_of_largest(c);
+      } else if (hits[x].is_surface() && !is_truly_water) {
+        out.differences[ground_code].at(x, y) = sign_of_largest(c);
+      }
     }
   });
   for (const auto& c : counts) {

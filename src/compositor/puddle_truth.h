@@ -13,9 +13,9 @@ struct PuddleTruth {
   std::size_t pixels = 0, water_in_both = 0;
   std::size_t water_in_passes_only = 0, water_in_truth_only = 0;  ///< along the shore
   /// In order: hit_distance [m] along the view ray, normal_angle [deg] and ground_offset [m] (how far the refracted rays'
-  /// ends on the bed lie apart) where both see water; colour (the channel that differs most, linear radiance) and
-  /// display (the same of what is shown, code values of 255) everywhere; schlick (Schlick's reflectance minus Fresnel's
-  /// at the true normal) on water.
+  /// ends on the bed lie apart), colour (the channel that differs most, linear radiance) and display (the same of what is
+  /// shown, code values of 255) where both see water; ground_display where the truth sees ground; schlick (Schlick's
+  /// reflectance minus Fresnel's at the true normal) where it sees water.
   std::vector<Difference> differences;
 };
 

@@ -47,6 +47,7 @@ void ask_lanes(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
   PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
   std::uint32_t lanes = 0;
   for (unsigned i = 0; i < n; ++i) lanes |= static_cast<std::uint32_t>(a->valid[i] & 1) << RTCRayN_id(rays, n, i);
+  lanes &= query.floats.enters;
   const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes, query.packet);
   for (unsigned i = 0; changed != 0 && i < n; ++i) {
     const std::uint32_t slot = RTCRayN_id(rays, n, i);
@@ -118,15 +119,13 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
   alignas(64) int valid[width];
   for (std::size_t begin = 0; begin < rays.size(); begin += width) {
     const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
-    make_floats(rays.data() + begin, count, hits.data() + begin, extent, query.packet, query.floats);
-    if (query.floats.enters == 0) continue;
-    // An ISA whose vectors are narrower than the packet takes it for a stream and does not look at `valid`.
-    for (int slot = 0; slot < width; ++slot) {
-      if ((query.floats.enters >> slot & 1) == 0) query.floats.nearest[slot] = 1, query.floats.farthest[slot] = -1;
+    make_floats(rays.data() + begin, count, extent, query.packet, query.floats);
+    if (query.floats.enters != 0) {
+      fill<width>(query.floats, packet);
+      for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
+      ask(valid, query, packet);
     }
-    fill<width>(query.floats, packet);
-    for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
-    ask(valid, query, packet);
+    std::copy_n(query.packet.first, count, hits.data() + begin);
   }
 }
 

@@ -15,7 +15,10 @@
 #include "compositor/tracer.h"
 #include "random/counter.h"
 
+namespace rainref::test {}
 namespace rainref::compositor::test {
+
+using namespace rainref::test;  // NOLINT: what the tests of all rooms share
 
 inline constexpr int water_cells = 512;
 inline constexpr double water_half_side = 42;
