@@ -73,8 +73,9 @@ class WindshieldSimulation : public Simulation {
   void frame(Recorder* recorder) override {
     windshield_.simulate(recorder);
     windshield_.render(recorder);
-    if (is_traced_) tracing().trace(windshield_, recorder);
+    if (is_traced_ && is_shown_) tracing().trace(windshield_, recorder);
   }
+  void show(bool is_shown) override { is_shown_ = is_shown; }
   const Image& picture() const override { return is_traced_ ? tracing_->shown() : windshield_.picture(); }
   bool has_truth() const override { return has_street_; }
   nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing().compare(windshield_, stem); }
@@ -113,7 +114,7 @@ class WindshieldSimulation : public Simulation {
 
   scene::Config config_;
   const parallel::Executor& executor_;
-  bool is_traced_, has_street_;
+  bool is_traced_, has_street_, is_shown_ = true;
   windshield::Windshield windshield_;
   std::optional<WindshieldTracing> tracing_;  // made when something is traced
 };
