@@ -13,9 +13,9 @@ class WindshieldTruth : public CommandLine {
     for (const char* variant : {"corrected", "as-published"}) {
       put(folder / (std::string(variant) + ".toml"), std::string("effect = \"windshield\"\nvariant = \"") + variant + R"("
 [run]
-frames = 12
-fps = 4
-size = [48, 27]
+frames = 30
+fps = 10
+size = [96, 54]
 [vehicle]
 speed = 0
 [wipers]
@@ -58,10 +58,10 @@ TEST_F(WindshieldTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
 
 TEST_F(WindshieldTruth, CompositeIsComparedInBothVariants) {
   for (const std::string variant : {"corrected", "as-published"}) {
-    const Outcome o = rainref({"run", variant + ".toml", "-o", variant, "--compare-truth"});
+    const Outcome o = rainref({"run", variant + ".toml", "-o", variant, "--set", "compositor.glass_thickness=1e-4", "--compare-truth"});
     ASSERT_EQ(o.code, 0) << o.err;
     const nlohmann::json truth = summary(variant)["truth"].at(0);
-    EXPECT_EQ(truth["glass_pixels"], 48 * 27);
+    EXPECT_EQ(truth["glass_pixels"], 96 * 54);
     EXPECT_GT(truth["drop_pixels"], 10) << variant;
     for (const char* name : {"refraction", "refraction_film", "colour", "colour_film", "display"}) {
       const nlohmann::json d = truth["differences"][name];
@@ -80,7 +80,7 @@ TEST_F(WindshieldTruth, AgreeWhereThereIsNothingToRefract) {
   const nlohmann::json truth = summary("o")["truth"].at(0);
   EXPECT_EQ(truth["drop_pixels"], 0);
   const nlohmann::json film = truth["differences"]["refraction_film"];
-  EXPECT_EQ(film["pixels"], 48 * 27);
+  EXPECT_EQ(film["pixels"], 96 * 54);
   EXPECT_LT(film["max"], 1e-3);  // float uniforms on one side, 10 um of glass 1 m from the eye on the other
 }
 
