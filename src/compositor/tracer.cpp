@@ -122,6 +122,7 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
     const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
     make_floats(rays.data() + begin, count, extent, query.packet, query.floats);
     if (query.floats.enters != 0) {
+      query.set_coherent(rays[begin].origin == rays[begin + static_cast<std::size_t>(count) - 1].origin);  // a pinhole's
       fill<width>(query.floats, packet);
       for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
       ask(valid, query, packet);
