@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <limits>
-#include <regex>
 
 #include <fmt/format.h>
 
@@ -122,6 +121,7 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
     const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
     make_floats(rays.data() + begin, count, extent, query.packet, query.floats);
     if (query.floats.enters != 0) {
+      query.set_coherent(rays[begin].origin == rays[begin + static_cast<std::size_t>(count) - 1].origin);  // a pinhole's
       fill<width>(query.floats, packet);
       for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
       ask(valid, query, packet);
@@ -135,9 +135,8 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
 /// Embree takes an instruction set that it does not know for its default, without a word.
 void check_isa(const std::string& config) {
   static const std::vector<std::string> known{"sse", "sse2", "sse3", "ssse3", "sse4.1", "sse4.2", "avx", "avxi", "avx2", "avx512", "neon"};
-  const std::regex pattern("\\b(max_)?isa\\s*=\\s*([^,\\s]*)");
-  for (std::sregex_iterator i(config.begin(), config.end(), pattern), end; i != end; ++i) {
-    const std::string name = (*i)[2];
+  for (std::size_t at = config.find("isa="); at != std::string::npos; at = config.find("isa=", at + 4)) {
+    const std::string name = config.substr(at + 4, config.find_first_of(", ", at) - at - 4);
     if (std::find(known.begin(), known.end(), name) == known.end()) refuse(config, fmt::format("no instruction set is called \"{}\"{}", name, did_you_mean(name, known)));
   }
 }
