@@ -8,8 +8,8 @@ struct SeenFrom {
   Vec3<N> colour;
   N depth;
 };
-template <class N>
-RAINREF_FN SeenFrom<N> seen_from(const ReprojectUniforms& r, const Texture& colour, const Texture& depth, N x, N y, float way) {
+template <class N, class Colours, class Depths>
+RAINREF_FN SeenFrom<N> seen_from(const ReprojectUniforms& r, const Colours& colour, const Depths& depth, N x, N y, float way) {
   const N half(0.5f), su = uniform_quotient(0.5f, r.half_size[0], N()), sv = uniform_quotient(0.5f, r.half_size[1], N()), nearest(0.5f);
   const N wx = N(way * r.forward[0]), wy = N(way * r.forward[1]), wz = N(way * r.forward[2]);
   N u = half + x * su, v = half + y * sv, d = max(sample_nearest<0, 1, N>(depth, u, v)[0], nearest);
@@ -22,9 +22,12 @@ RAINREF_FN SeenFrom<N> seen_from(const ReprojectUniforms& r, const Texture& colo
   const auto c = sample_bilinear<0, 3, N>(colour, u, v);
   return {Vec3<N>(c[0], c[1], c[2]), d};
 }
-template <class N>
-RAINREF_FN SeenFrom<N> reprojected(const ReprojectUniforms& r, const Texture& newer, const Texture& newer_depth, const Texture& older, const Texture& older_depth, int column, int row) {
+/// The newer view over the older one.
+template <class N, class Colours, class Depths>
+RAINREF_FN SeenFrom<N> reprojected(const ReprojectUniforms& r, const Colours& newer, const Depths& newer_depth, const Colours& older, const Depths& older_depth, int column, int row) {
   const N x = (N::index(column) + N(0.5f)) * N(r.pixel[0]) - N(r.half_size[0]), y = (N(static_cast<float>(row) + 0.5f)) * N(r.pixel[1]) - N(r.half_size[1]);
-  const SeenFrom<N> a = seen_from<N>(r, newer, newer_depth, x, y, r.newer_by), b = seen_from<N>(r, older, older_depth, x, y, r.older_by);
+  const SeenFrom<N> a = seen_from<N>(r, newer, newer_depth, x, y, r.newer_by);
+  if (r.weight == 1.0f) return a;
+  const SeenFrom<N> b = seen_from<N>(r, older, older_depth, x, y, r.older_by);
   return {mix(b.colour, a.colour, N(r.weight)), a.depth};
 }

@@ -47,8 +47,8 @@ struct StreetDrive::State {
   const Keyframe& keyframe(int k) {
     const auto found = keyframes.find(k);
     if (found != keyframes.end()) return found->second;
-    const night_street::Street::View v = render(k * spacing);
-    return keyframes.emplace(k, Keyframe{TextureData(as_half(v.colour), Address::clamp, Address::clamp), TextureData(v.depth, Address::clamp, Address::clamp)}).first->second;
+    night_street::Street::View v = render(k * spacing);
+    return keyframes.emplace(k, Keyframe{as_half(v.colour), std::move(v.depth)}).first->second;
   }
 };
 
@@ -62,10 +62,9 @@ bool StreetDrive::look(double odometer, bool moves, SceneView& view) {
   const double place = odometer - street_length * std::floor(odometer / street_length);
   if (!moves) {
     if (s.stands) return false;
-    const night_street::Street::View v = s.render(place);
+    night_street::Street::View v = s.render(place);
     view.colour = as_half(v.colour);
-    view.depth = Image(Format::r32f, s.width, s.height);
-    for (int y = 0; y < s.height; ++y) std::copy_n(v.depth.row<float>(y), s.width, view.depth.row<float>(y));
+    view.depth = std::move(v.depth);
     s.stands = true;
     return true;
   }

@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "image/texture.h"
+#include "image/stored_texture.h"
 #include "night_street/night_street.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
@@ -50,7 +50,8 @@ struct ReprojectUniforms {
   float weight;        ///< of the newer picture
 };
 struct Keyframe {
-  TextureData colour, depth;
+  Image colour;  ///< rgba16f
+  Image depth;   ///< r32f
 };
 /// Rows of the view between two keyframes.
 void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile);

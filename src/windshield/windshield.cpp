@@ -7,6 +7,7 @@
 #include "capture/pass_clock.h"
 #include "drops/host.h"
 #include "drops/passes.h"
+#include "image/code_table.h"
 #include "rainref/error.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
@@ -46,12 +47,12 @@ struct Windshield::State {
   std::vector<Wiper> wipers;        // of the frame
 
   Image film, height, mask, wiped, normal, colour, picture;
+  CodeTable display;
   SceneView scene;
   bool own_scene;
   std::optional<StreetDrive> street;
   std::vector<Image> levels;
-  std::optional<blur_pyramid::DecodedLevels> pyramid;
-  TextureData depth_texture, height_texture, normal_texture, mask_texture;
+  std::optional<blur_pyramid::LevelTexture> pyramid;
   std::vector<Glint> lights;
 
   State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
@@ -69,6 +70,7 @@ struct Windshield::State {
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
+    display = CodeTable([&](const Image& in, Image& out) { display_rows(display_uniforms(settings.picture), settings.surface.rounding, in, out, {0, 0, in.width(), in.height()}); });
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     if (own_scene) {
@@ -248,10 +250,6 @@ void Windshield::render(Recorder* recorder) {
   if (s.levels.empty()) {
     s.levels = blur_pyramid::make_levels(settings.blur, width, height);
     s.pyramid.emplace(s.levels);
-    s.depth_texture = TextureData(s.scene.depth, Address::clamp, Address::clamp);
-    s.height_texture = TextureData(s.height, Address::clamp, Address::clamp);
-    s.normal_texture = TextureData(s.normal, Address::clamp, Address::clamp);
-    s.mask_texture = TextureData(s.mask, Address::clamp, Address::clamp);
   }
   for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
     const std::size_t l = static_cast<std::size_t>(level);
@@ -267,16 +265,10 @@ void Windshield::render(Recorder* recorder) {
     s.report(recorder, last_step, "blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
   }
   Stopwatch composite_clock;
-  if (anew) {
-    s.pyramid->refresh(executor, s.levels);
-    decode(executor, s.scene.depth, s.depth_texture);
-  }
-  decode(executor, s.height, s.height_texture);
-  decode(executor, s.normal, s.normal_texture);
-  decode(executor, s.mask, s.mask_texture);
+  if (anew) s.pyramid->refresh(executor, s.levels);
   const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners);
-  const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.height_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
-  const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
+  const CompositeInputs in{s.pyramid->view(), stored_texture<float>(s.scene.depth), stored_texture<Half>(s.height), stored_texture<Half>(s.normal), stored_texture<Half>(s.mask), s.lights};
+  const PassInput pyramid{"blurred", std::span<const Image>(s.levels), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
       lights{"glints", records(s.lights)};
   if (s.corrected) {
     s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, water, normal, mask, lights});
@@ -292,7 +284,7 @@ void Windshield::render(Recorder* recorder) {
   const DisplayUniforms display = display_uniforms(settings.picture);
   s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
   Stopwatch display_clock;
-  tiles([&](const parallel::Tile& tile) { display_rows(display, rounding, s.colour, s.picture, tile); });
+  tiles([&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
   s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_clock.seconds());
   s.frame = recorded_frame;
 }

@@ -191,16 +191,16 @@ TEST(BlurPyramid, Fog) {
   }
 }
 
-TEST(BlurPyramid, DecodedLevelsAreTheLevels) {
+TEST(BlurPyramid, TheTextureHoldsTheLevels) {
   const std::vector<Image> levels = pyramid(settings(true), image_of(37, 21, [](int x, int y) { return x + 0.25 * y; }));
-  DecodedLevels decoded(levels);
-  decoded.refresh(two_threads(), levels);
-  const Texture& t = decoded.view();
+  LevelTexture texture(levels);
+  texture.refresh(two_threads(), levels);
+  const StoredTexture<Half>& t = texture.view();
   ASSERT_EQ(t.levels, static_cast<int>(levels.size()));
   for (int l = 0; l < t.levels; ++l) {
     for (int y = 0; y < t.height[l]; ++y) {
       for (int i = 0; i < 4 * t.width[l]; ++i) {
-        ASSERT_EQ(t.texels[4 * (t.offset[l] + t.width[l] * y) + i], to_float(levels[static_cast<std::size_t>(l)].row<Half>(y)[i]));
+        ASSERT_EQ(t.texels[4 * (t.offset[l] + t.pitch[l] * y) + i].bits, levels[static_cast<std::size_t>(l)].row<Half>(y)[i].bits);
       }
     }
   }
