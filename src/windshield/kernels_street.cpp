@@ -16,10 +16,10 @@ RAINREF_TARGET_BEGIN(windshield)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile) {
+void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile) {
   constexpr Address edge = Address::clamp;
-  const StoredTexture<Half> colours[2] = {stored_texture<Half>(newer.colour), stored_texture<Half>(older.colour)};
-  const StoredTexture<float> depths[2] = {stored_texture<float>(newer.depth), stored_texture<float>(older.depth)};
+  const StoredTexture<Half> colours[2] = {stored_texture<Half>(behind.colour), stored_texture<Half>(ahead.colour)};
+  const StoredTexture<float> depths[2] = {stored_texture<float>(behind.depth), stored_texture<float>(ahead.depth)};
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
       const SeenFrom<Lanes> s =
@@ -37,8 +37,8 @@ namespace rainref::windshield {
 
 RAINREF_EXPORT(ReprojectRows);
 
-void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(ReprojectRows)(uniforms, newer, older, view, tile);
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile) {
+  RAINREF_DISPATCH(ReprojectRows)(uniforms, behind, ahead, view, tile);
 }
 
 }  // namespace rainref::windshield

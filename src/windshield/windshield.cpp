@@ -76,7 +76,7 @@ struct Windshield::State {
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
-      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.seed, executor);
+      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.street_start, settings.seed, executor);
     } else {
       scene.colour = std::move(surroundings.colour);
       scene.depth = std::move(surroundings.depth);
@@ -186,7 +186,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
 bool Windshield::State::look() {
   if (!own_scene) return levels.empty();
   const bool moves = settings.scene_moves;
-  return street->look(settings.street_start + (moves ? vehicle.at(frame * frame_time()).distance : 0), moves, scene);
+  return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
 }
 
 Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor)

@@ -71,12 +71,12 @@ struct Scene {
   Pyramid pyramid{37, 23};
   Image depth = pattern<float>(Format::r32f, 37, 23, 60), water = pattern<Half>(Format::r16f, 29, 17), normal = pattern<Half>(Format::rgba16f, 29, 17), mask = pattern<Half>(Format::r16f, 29, 17);
   TextureData plain_depth = decoded(depth), plain_water = decoded(water), plain_normal = decoded(normal), plain_mask = decoded(mask);
-  Keyframe newer{pattern<Half>(Format::rgba16f, 19, 13), pattern<float>(Format::r32f, 19, 13, 40)},
-      older{pattern<Half>(Format::rgba16f, 19, 13, 0.5f), pattern<float>(Format::r32f, 19, 13, 50)};
+  Keyframe behind{pattern<Half>(Format::rgba16f, 19, 13), pattern<float>(Format::r32f, 19, 13, 40)},
+      ahead{pattern<Half>(Format::rgba16f, 19, 13, 0.5f), pattern<float>(Format::r32f, 19, 13, 50)};
   PictureSettings settings;
   CompositeUniforms composite;
   DisplayUniforms display;
-  ReprojectUniforms reproject{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, 10.5f, 0.4f};
+  ReprojectUniforms reproject{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, -5.5f, 0.4f};
   std::vector<Glint> lights;
 
   explicit Scene(int width) {
@@ -99,7 +99,7 @@ struct Scene {
     executor.for_tiles(settings.width, height, settings.width, 2, [&](const parallel::Tile& tile) {
       composite_rows(composite, corrected, Rounding::rne, in, v.colour, tile);
       display_rows(display, Rounding::rne, v.colour, v.picture, tile);
-      reproject_rows(reproject, newer, older, v.street, tile);
+      reproject_rows(reproject, behind, ahead, v.street, tile);
     });
     return v;
   }
