@@ -1,14 +1,26 @@
 // The blurred pyramid: means, spreads, odd sizes, fog (physics: W17), and its bits on every target.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "blur_pyramid/plain.h"
+#include "image/texture.h"
 #include "math/half.h"
+#include "math/half_array.h"
 #include "math/simd_target.h"
+
+namespace rainref::blur_pyramid::sampled {
+using namespace rainref::plain;
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "image/sampling-inl.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+}  // namespace rainref::blur_pyramid::sampled
 
 namespace rainref::blur_pyramid {
 namespace {
@@ -154,6 +166,42 @@ TEST(BlurPyramid, NoiseAndSpread) {
       const double xx = at(pyramid(settings(corrected), image_of(8, 8, [](int i, int) { return i * i; }))[static_cast<std::size_t>(l)], 0, 0);
       EXPECT_EQ(xx - x * x, (std::pow(4, l) - 1) / 12);
     }
+  }
+}
+
+// White noise of variance 1 has variance sum w^2, w the answer to an impulse in each texel of level 0: an exact figure, with no
+// noise drawn. At the centre of a texel of level L, trilinear at L + f takes that texel (variance V_L = 4^-L) and of level L + 1
+// a bilinear mix whose weights are 9, 3, 3, 1 / 16, of which the first is the texel's own parent (covariance V_{L+1}):
+//   (1 - f)^2 V_L + 2 f (1 - f) 9/16 V_{L+1} + f^2 100/256 V_{L+1}.
+// Where the coarse level is read at its own texel's centre the fine one is a bilinear mix of its four: both equal their mean, V_{L+1}.
+TEST(BlurPyramid, NoiseBetweenTwoLevels) {
+  constexpr int side = 32;
+  const auto variance = [](double u, double v, double lod) {
+    double sum = 0;
+    for (int i = 0; i < side * side; ++i) {
+      const std::vector<Image> levels = pyramid(settings(true), image_of(side, side, [&](int x, int y) { return y * side + x == i ? 1 : 0; }));
+      LevelTexture texture(levels);
+      texture.refresh(two_threads(), levels);
+      StoredTexture<float> t{nullptr, 4, texture.view().levels};
+      std::copy_n(texture.view().width, t.levels, t.width);
+      std::copy_n(texture.view().height, t.levels, t.height);
+      std::copy_n(texture.view().pitch, t.levels, t.pitch);
+      std::copy_n(texture.view().offset, t.levels, t.offset);
+      std::vector<float> texels(4 * static_cast<std::size_t>(t.offset[t.levels - 1] + 1));
+      to_float_array(texture.view().texels, texels.data(), texels.size());
+      t.texels = texels.data();
+      const double w = sampled::sample_trilinear<0, 1, D>(fixed_texture<Address::clamp, Address::clamp, 4>(t), D(u), D(v), D(lod))[0].v;
+      sum += w * w;
+    }
+    return sum;
+  };
+  for (const int level : {0, 1, 2}) {
+    const double fine = std::pow(0.25, level), coarse = fine / 4, texel = std::exp2(level) / side;
+    for (const double f : {0.0, 0.25, 0.5, 1.0}) {
+      const double expected = (1 - f) * (1 - f) * fine + 2 * f * (1 - f) * 9 / 16 * coarse + f * f * 100 / 256 * coarse;
+      EXPECT_NEAR(variance(2.5 * texel, 3.5 * texel, level + f), expected, 1e-14) << level << " " << f;
+    }
+    EXPECT_NEAR(variance(2 * texel * 1.5, 2 * texel * 1.5, level + 0.4), coarse, 1e-14) << level;
   }
 }
 
