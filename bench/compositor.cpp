@@ -78,19 +78,19 @@ void compare(benchmark::State& state, const std::string& set, int threads) {
   // cache. Ours first makes records of the rays, and that is part of its time.
   const auto trace = [&] {
     r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
-      Ray rays[chunk_packets * 16];
-      Hit hits[chunk_packets * 16];
+      thread_local std::vector<Ray> rays(chunk_packets * 16);
+      thread_local std::vector<Hit> hits(chunk_packets * 16);
       const auto n = static_cast<std::size_t>(end - begin) * 16;
       for (std::size_t i = 0; i < n; ++i) rays[i] = packets[static_cast<std::size_t>(begin) + i / 16].ray(i % 16);
-      r.tracer.first_hits({rays, n}, {hits, n});
-      benchmark::DoNotOptimize(hits);
+      r.tracer.first_hits(std::span(rays).first(n), hits);
+      benchmark::DoNotOptimize(hits.data());
     });
   };
   const auto trace_native = [&] {
     r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
-      test::NativeHit hits[chunk_packets * 16];
-      r.native.trace(std::span(packets).subspan(begin, end - begin), coherent, hits);
-      benchmark::DoNotOptimize(hits);
+      thread_local std::vector<test::NativeHit> hits(chunk_packets * 16);
+      r.native.trace(std::span(packets).subspan(begin, end - begin), coherent, hits.data());
+      benchmark::DoNotOptimize(hits.data());
     });
   };
   std::vector<double> ours, theirs, ratio, ratio_with_update, our_update, their_update;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -121,6 +122,7 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
     const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
     make_floats(rays.data() + begin, count, extent, query.packet, query.floats);
     if (query.floats.enters != 0) {
+      query.set_coherent(rays[begin].origin == rays[begin + static_cast<std::size_t>(count) - 1].origin);  // a pinhole's
       fill<width>(query.floats, packet);
       for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
       ask(valid, query, packet);
@@ -129,10 +131,16 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
   }
 }
 
-[[noreturn]] void refuse(RTCDevice device, const std::string& config) {
-  const RTCError code = rtcGetDeviceError(device);
-  if (device) rtcReleaseDevice(device);
-  throw Error(ExitCode::usage, fmt::format("compositor.embree_config: Embree {} does not take \"{}\" (its error {})", RTC_VERSION_STRING, config, static_cast<int>(code)));
+[[noreturn]] void refuse(const std::string& config, const std::string& why) { throw Error(ExitCode::usage, fmt::format("compositor.embree_config = \"{}\": {}", config, why)); }
+
+/// Embree takes an instruction set that it does not know for its default, without a word.
+void check_isa(const std::string& config) {
+  static const std::vector<std::string> known{"sse", "sse2", "sse3", "ssse3", "sse4.1", "sse4.2", "avx", "avxi", "avx2", "avx512", "neon"};
+  const std::regex pattern("\\b(max_)?isa\\s*=\\s*([^,\\s]*)");
+  for (std::sregex_iterator i(config.begin(), config.end(), pattern), end; i != end; ++i) {
+    const std::string name = (*i)[2];
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse(config, fmt::format("no instruction set is called \"{}\"{}", name, did_you_mean(name, known)));
+  }
 }
 
 void include(Box& box, const Box& other) {
@@ -184,8 +192,9 @@ Tracer::Tracer(const TracerOptions& options) : state_(std::make_unique<State>())
   if (constexpr std::array widths{1, 4, 8, 16}; std::find(widths.begin(), widths.end(), options.packet_width) == widths.end()) {
     throw Error(ExitCode::usage, fmt::format("the packet width {} is none of 1, 4, 8, 16", options.packet_width));
   }
+  check_isa(options.embree_config);
   s.device = rtcNewDevice(options.embree_config.c_str());
-  if (!s.device) refuse(nullptr, options.embree_config);
+  if (!s.device) refuse(options.embree_config, fmt::format("Embree {} does not take it (its error {})", RTC_VERSION_STRING, static_cast<int>(rtcGetDeviceError(nullptr))));
   s.scene = rtcNewScene(s.device);
   rtcSetSceneFlags(s.scene, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
 }

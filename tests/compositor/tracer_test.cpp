@@ -264,7 +264,8 @@ TEST(Tracer, RefusesWhatEmbreeOrItselfDoesNotTake) {
     }
     return std::string();
   };
-  EXPECT_NE(message({"isa=sse9"}).find("isa=sse9"), std::string::npos);
+  EXPECT_EQ(message({"threads=1,isa=avx22"}), "compositor.embree_config = \"threads=1,isa=avx22\": no instruction set is called \"avx22\"; did you mean 'avx2'?");
+  EXPECT_NE(message({"threads=many"}).find("does not take it"), std::string::npos);
   EXPECT_NE(message({"", 5}).find("width 5"), std::string::npos);
   EXPECT_EQ(message({"threads=1"}), "");
 }
