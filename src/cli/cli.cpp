@@ -138,6 +138,7 @@ int parse_and_run(int argc, const char* const* argv) {
   run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none");
   run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)");
   run_verb.add_option("--capture", captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)");
+  run_verb.add_flag("--compare-truth", run_options.compare_truth, "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
   run_verb.add_flag("--json", run_options.json, "Print the summary as JSON");
   run_verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
 

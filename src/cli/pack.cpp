@@ -34,7 +34,7 @@ std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const st
 }  // namespace
 
 int pack(const PackOptions& options) {
-  const scene::Config config = scene::load(options.scene.scene, options.scene.overrides, effect_table());
+  const scene::Config config = config_of_passes(scene::load(options.scene.scene, options.scene.overrides, effect_table()));
   const EffectEntry& entry = effect(config.effect());
   const std::vector<std::string> passes = chosen_passes(*entry.info, config.variant(), options.passes);
   const parallel::Executor executor(options.scene.threads);

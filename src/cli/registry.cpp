@@ -11,6 +11,14 @@ const std::vector<EffectEntry>& effects() {
   return all;
 }
 
+scene::Config config_of_passes(const scene::Config& config) {
+  std::vector<scene::Config::Entry> entries;
+  for (const scene::Config::Entry& e : config.entries()) {
+    if (!e.parameter.key.starts_with("compositor.")) entries.push_back(e);
+  }
+  return scene::Config(std::move(entries), config.directory());
+}
+
 const EffectEntry& effect(std::string_view name) {
   const scene::Effect& found = effect_table().find(name);
   return *std::find_if(effects().begin(), effects().end(), [&](const EffectEntry& e) { return e.name == found.name; });

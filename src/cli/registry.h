@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "capture/pass_info.h"
 #include "rainref/executor.h"
 #include "rainref/recorder.h"
@@ -21,10 +23,16 @@ class Simulation {
   virtual ~Simulation() = default;
   /// Advances by one frame, then renders it.
   virtual void frame(Recorder* recorder) = 0;
+  /// Whether the pictures of the frames to come are wanted; tracing is left out of those that are not. True at first.
+  virtual void show(bool) {}
   /// The picture as display code, row 0 = bottom.
   virtual const Image& picture() const = 0;
   /// The layers of an EXR, top row first.
   virtual void write_exr(const std::filesystem::path& path) const = 0;
+  /// Whether there is a traced truth to compare the passes with.
+  virtual bool has_truth() const { return false; }
+  /// Compares the rendered frame with it and writes pictures of the differences, whose names begin with `stem`; gives the numbers.
+  virtual nlohmann::ordered_json compare_truth(const std::filesystem::path&) { return nullptr; }
 };
 
 /// A file that a scene named, as it was decoded.
@@ -41,6 +49,11 @@ struct EffectEntry {
   /// Reads the scene's input files, which are added to `inputs`, and builds the effect.
   std::function<std::unique_ptr<Simulation>(const scene::Config&, const parallel::Executor&, std::vector<InputFile>& inputs)> make;
 };
+
+/// The name under which a simulation reports what it traced; no pass of an effect, so no pack holds it.
+inline constexpr std::string_view traced_pass = "compositor";
+/// The configuration without the keys of traced pictures, which no pass takes: what packs and captures hold.
+scene::Config config_of_passes(const scene::Config& config);
 
 const std::vector<EffectEntry>& effects();
 const EffectEntry& effect(std::string_view name);

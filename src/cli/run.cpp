@@ -63,8 +63,8 @@ struct Capture {
  private:
   Capture(const capture::EffectInfo& info, const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
           const std::function<bool(int)>& written)
-      : writer(folder, info, config, options.scene.scene.filename().string(), options.capture == RunOptions::all, info.pass_names(config.variant())),
-        recorder(info, config.variant(), options.capture == RunOptions::all, [written](int frame, std::string_view) { return written(frame); },
+      : writer(folder, info, config_of_passes(config), options.scene.scene.filename().string(), options.capture == RunOptions::all, info.pass_names(config.variant())),
+        recorder(info, config.variant(), options.capture == RunOptions::all, [written](int frame, std::string_view pass) { return pass != traced_pass && written(frame); },
                  [this](const capture::PassCase& c) { writer.add(c); }) {}
 };
 
@@ -96,6 +96,9 @@ int run(const RunOptions& options) {
 
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
+  if (options.compare_truth && !simulation->has_truth()) {
+    throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with; puddle corrected has", config.effect(), config.variant()));
+  }
   const int frames = static_cast<int>(config.integer("run.frames"));
   const auto written = [&](int frame) { return options.every > 0 ? frame % options.every == 0 : frame == frames - 1; };
   capture::HashRecorder recorder;
@@ -104,11 +107,13 @@ int run(const RunOptions& options) {
   capture::RecorderList recorders(capture ? std::vector<Recorder*>{&recorder, &capture->recorder} : std::vector<Recorder*>{&recorder});
   std::vector<capture::HashLine> last;
   int pictures = 0;
+  nlohmann::ordered_json truth = nlohmann::ordered_json::array();
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress(config.effect(), frames);
     for (int frame = 0; frame < frames; ++frame) {
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
+      simulation->show(written(frame) || frame == frames - 1);
       simulation->frame(&recorders);
       last = recorder.take_lines();
       if (written(frame)) {
@@ -116,12 +121,18 @@ int run(const RunOptions& options) {
         if (options.png) write_picture(folder / (stem + ".png"), simulation->picture());
         if (options.exr) simulation->write_exr(folder / (stem + ".exr"));
         pictures += options.png + options.exr;
+        if (options.compare_truth) {
+          nlohmann::ordered_json of_frame{{"frame", frame}};
+          of_frame.update(simulation->compare_truth(folder / (stem + ".truth")));
+          truth.push_back(of_frame);
+        }
       }
       progress.advance();
     }
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
+  nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
+  if (options.compare_truth) report["truth"] = truth;
   if (capture) capture->writer.finish();
   write_file(folder / "summary.json", json_text(report) + "\n");
   made.keep();

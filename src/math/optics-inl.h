@@ -8,8 +8,9 @@ RAINREF_FN N fresnel_schlick(N cosine, float f0) {
 }
 /// Fresnel's reflectance of unpolarized light, cos_i in [0, 1], eta = n_t / n_i >= 1:
 ///   r_par = (eta cos_i - cos_t) / (eta cos_i + cos_t), r_perp = (cos_i - eta cos_t) / (cos_i + eta cos_t).
-template <class N>
-RAINREF_FN N fresnel_dielectric(N cos_i, float eta) {
+/// The ratio is a float, or a double where N takes one.
+template <class N, class Ratio>
+RAINREF_FN N fresnel_dielectric(N cos_i, Ratio eta) {
   const N sin2_t = (N(1.0f) - square(cos_i)) * N(1.0f / (eta * eta));
   const N cos_t = sqrt(max(N(1.0f) - sin2_t, N(0.0f))), e(eta), tiny(1e-20f);
   const N parallel = (e * cos_i - cos_t) / max(e * cos_i + cos_t, tiny);

@@ -84,9 +84,10 @@ RAINREF_FN Two<N> atan2(const Two<N>& y, const Two<N>& x) { return Two<N>(atan2(
 /// v - 2 (n . v) n
 template <class N>
 RAINREF_FN Vec3<N> reflect(const Vec3<N>& v, const Vec3<N>& n) { return v - (N(2.0f) * dot(n, v)) * n; }
-/// Snell's refraction of unit v at unit n (against v), eta = n1 / n2; zero vector at total internal reflection.
-template <class N>
-RAINREF_FN Vec3<N> refract(const Vec3<N>& v, const Vec3<N>& n, float eta) {
+/// Snell's refraction of unit v at unit n (against v), eta = n1 / n2; zero vector at total internal reflection. The ratio
+/// is a float, or a double where N takes one.
+template <class N, class Ratio>
+RAINREF_FN Vec3<N> refract(const Vec3<N>& v, const Vec3<N>& n, Ratio eta) {
   const N cosine = dot(n, v);
   const N k = N(1.0f) - N(eta) * N(eta) * (N(1.0f) - square(cosine));
   const Vec3<N> bent = N(eta) * v - (N(eta) * cosine + sqrt(max(k, N(0.0f)))) * n;

@@ -2,6 +2,7 @@
 
 #include "base/floating_point.h"
 #include "night_street/city.h"
+#include "night_street/shade.h"
 
 namespace rainref::night_street {
 
@@ -17,5 +18,9 @@ Street::Street(Street&&) noexcept = default;
 Street& Street::operator=(Street&&) noexcept = default;
 
 const std::vector<Lamp>& Street::lamps() const { return lamps_; }
+
+scene::Vector3 Street::radiance(const scene::Vector3& origin, const scene::Vector3& direction) const {
+  return look(*city_, Ray(from(origin), unit(direction))).radiance;
+}
 
 }  // namespace rainref::night_street

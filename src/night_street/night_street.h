@@ -44,6 +44,10 @@ class Street {
   /// Every emissive sphere, in a fixed order: street lamps first.
   const std::vector<Lamp>& lamps() const;
 
+  /// Linear radiance that arrives at `origin` (metres, on the road or above it) along a ray toward `direction` (not zero): what lies
+  /// there, mirrored in wet surfaces, dimmed by haze. One ray, not a texel: sharp lamps, no filtering.
+  scene::Vector3 radiance(const scene::Vector3& origin, const scene::Vector3& direction) const;
+
   /// Latitude/longitude panorama seen from `eye` (metres), rgba32f linear radiance, alpha 1.
   /// Row 0 = v 0 = straight DOWN (-y) ... last row = straight up (+y); u = 0.5 + atan2(z, x) / (2 pi).
   /// A puddle on the road sees it from (0, 0.05, 0).

@@ -28,7 +28,7 @@ struct Library {
   const char* room;
 };
 const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"}, {"^hwy/", "math"},         {"^OpenImageIO/|^Imath/|^OpenEXR/", "image_io"},
-                                     {"^embree", "compositor"},       {"^toml", "scene"},        {"^CLI/", "cli"},
+                                     {"^embree|^assimp", "compositor"},       {"^toml", "scene"},        {"^CLI/", "cli"},
                                      {"^xxhash", "base"}};
 
 struct Include {

@@ -1,0 +1,140 @@
+// Rays through water among other things, beside Embree's own triangles in the same process. What a row says: README.md.
+#include <benchmark/benchmark.h>
+
+#include <time.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "compositor/native.h"
+#include "compositor/world.h"
+#include "stream.h"
+
+namespace rainref::compositor {
+namespace {
+
+constexpr int width = 1920, height = 1080;
+constexpr std::int64_t chunk_packets = 128;  // a task, of ours and of theirs
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// With one thread, the processor's time of that thread: other programs do not lengthen it. With more, the wall's.
+double seconds_of(int threads, const auto& work) {
+  if (threads > 1) return bench::seconds_of(work);
+  const auto now = [] {
+    timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double start = now();
+  work();
+  return now() - start;
+}
+
+// Built once for each number of threads.
+struct Race {
+  explicit Race(int count) : threads(count) {
+    for (int k = 0; k < 4; ++k) frames.push_back(test::water_heights(1 + 0.1 * k));
+    world.add_to(tracer);
+    rays["camera"] = test::camera_rays(width, height);
+    rays["grazing"] = test::grazing_rays(width, height);
+    rays["reflection"] = test::reflection_rays(world, rays["camera"], test::first_hits(tracer, rays["camera"]));
+  }
+  void update(std::size_t frame) {
+    world.water->assign(frames[frame], executor);
+    tracer.commit();
+  }
+
+  int threads;
+  parallel::Executor executor{threads};
+  test::World world;
+  Tracer tracer{{fmt::format("threads={}", threads)}};
+  test::NativeWorld native{world, fmt::format("threads={}", threads).c_str()};
+  std::vector<std::vector<float>> frames;
+  std::map<std::string, std::vector<Ray>> rays;
+};
+Race& race(int threads) {
+  static std::unique_ptr<Race> now;
+  if (!now || now->threads != threads) now.reset(), now = std::make_unique<Race>(threads);
+  return *now;
+}
+
+// Each go measures both, one right after the other, so that what else runs on the machine slows both; the medians of the
+// ratios of the goes count.
+void compare(benchmark::State& state, const std::string& set, int threads) {
+  Race& r = race(threads);
+  const auto packets = test::native_packets(r.rays.at(set));
+  const auto count = static_cast<std::int64_t>(packets.size()) * 16;
+  const bool coherent = set != "reflection";
+  // Both take the same packets of floats, 2048 rays at a time, and leave their hits where a shader would find them: in the
+  // cache. Ours first makes records of the rays, and that is part of its time.
+  const auto trace = [&] {
+    r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
+      thread_local std::vector<Ray> rays(chunk_packets * 16);
+      thread_local std::vector<Hit> hits(chunk_packets * 16);
+      const auto n = static_cast<std::size_t>(end - begin) * 16;
+      for (std::size_t i = 0; i < n; ++i) rays[i] = packets[static_cast<std::size_t>(begin) + i / 16].ray(i % 16);
+      r.tracer.first_hits(std::span(rays).first(n), hits);
+      benchmark::DoNotOptimize(hits.data());
+    });
+  };
+  const auto trace_native = [&] {
+    r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
+      thread_local std::vector<test::NativeHit> hits(chunk_packets * 16);
+      r.native.trace(std::span(packets).subspan(begin, end - begin), coherent, hits.data());
+      benchmark::DoNotOptimize(hits.data());
+    });
+  };
+  std::vector<double> ours, theirs, ratio, ratio_with_update, our_update, their_update;
+  for (auto _ : state) {
+    // The update makes another frame; the frame that is traced is always the first, for which the rays were made.
+    const double u = seconds_of(threads, [&] { r.update(ours.size() % 3 + 1); });
+    const double nu = seconds_of(threads, [&] { r.native.update(r.frames[ours.size() % 3 + 1]); });
+    r.update(0);
+    r.native.update(r.frames[0]);
+    const double t = seconds_of(threads, trace), nt = seconds_of(threads, trace_native);
+    ours.push_back(t);
+    theirs.push_back(nt);
+    our_update.push_back(u);
+    their_update.push_back(nu);
+    ratio.push_back(nt / t);
+    ratio_with_update.push_back((nt + nu) / (t + u));
+    state.SetIterationTime(t);
+  }
+  const double n = static_cast<double>(count) * 1e-6;
+  state.counters["Mray/s"] = n / median(ours);
+  state.counters["native_Mray/s"] = n / median(theirs);
+  state.counters["update_ms"] = 1e3 * median(our_update);
+  state.counters["native_update_ms"] = 1e3 * median(their_update);
+  state.counters["ratio"] = median(ratio);
+  state.counters["ratio_with_update"] = median(ratio_with_update);
+  Hasher hasher;
+  for (const Hit& hit : test::first_hits(r.tracer, r.rays.at(set))) {
+    hasher.add(std::as_bytes(std::span(&hit.t, 1)));
+    hasher.add(std::as_bytes(std::span(&hit.surface, 2)));
+  }
+  state.SetLabel(hasher.finish().text().substr(0, 16));
+}
+
+const bool registered = [] {
+  for (const int threads : {1, 2}) {
+    for (const std::string set : {"camera", "grazing", "reflection"}) {
+      benchmark::RegisterBenchmark(fmt::format("rays/{}/{}x{}/threads:{}", set, width, height, threads).c_str(), [=](benchmark::State& state) { compare(state, set, threads); })
+          ->UseManualTime()
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(15);
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace rainref::compositor

@@ -1,0 +1,17 @@
+// Differences between passes and truth as files and numbers.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "compositor/truth.h"
+
+namespace rainref::cli {
+
+/// Writes a PNG of each difference, STEM.NAME-SCALE-UNIT.png, and gives {name: {unit, pixels, p50, p90, p99, max, mean,
+/// scale, picture}}.
+nlohmann::ordered_json write_differences(const std::filesystem::path& stem, std::span<const compositor::Difference> differences);
+
+}  // namespace rainref::cli

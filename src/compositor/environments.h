@@ -1,0 +1,45 @@
+// Surroundings that come with rainref: a picture by direction, and the street at night, ray by ray.
+#pragma once
+
+#include "compositor/scene.h"
+#include "image/texture.h"
+#include "night_street/night_street.h"
+
+namespace rainref::compositor {
+
+/// Turns directions about the vertical axis, as shade's env_rotation: a direction of azimuth a is looked up at a - angle.
+struct Rotation {
+  double cosine = 1, sine = 0;
+  explicit Rotation(double angle = 0);
+  Vec apply(const Vec& d) const { return {cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x}; }
+};
+
+/// The radiance of a latitude/longitude or cube texture with mips, linear, looked up as passes do, in double.
+class PictureEnvironment : public Environment {
+ public:
+  /// The texture must outlive this.
+  PictureEnvironment(const Texture& texture, bool is_cube, const Rotation& rotation = Rotation());
+  void radiance(std::span<const Sight> sights, std::span<Vec> radiance) const override;
+
+ private:
+  const Texture* texture_;
+  bool is_cube_;
+  Rotation rotation_;
+};
+
+/// The street at night: a sharp sight is a ray of its own from where it begins, `offset` [m] being the place of the
+/// scene's origin in the street; a blurred one is looked up in the panorama.
+class StreetEnvironment : public Environment {
+ public:
+  /// Street and panorama (latitude/longitude with mips, linear) must outlive this.
+  StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation = Rotation());
+  void radiance(std::span<const Sight> sights, std::span<Vec> radiance) const override;
+
+ private:
+  const night_street::Street* street_;
+  Vec offset_;
+  PictureEnvironment panorama_;
+  Rotation rotation_;
+};
+
+}  // namespace rainref::compositor

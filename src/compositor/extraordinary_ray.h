@@ -1,0 +1,10 @@
+#pragma once
+
+#include "compositor/float_rays.h"
+
+namespace rainref::compositor {
+
+/// Rewrites a slot for a ray that floats cannot hold near enough as it stands.
+void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, FloatPacket& out);
+
+}  // namespace rainref::compositor

@@ -1,0 +1,111 @@
+#include "compositor/heightfield.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "rainref/error.h"
+
+namespace rainref::compositor {
+
+namespace {
+
+double magnitude(double a) { return a < 0 ? -a : a; }
+int tiles_of(int cells, int tile) { return (cells + tile - 1) / tile; }
+
+}  // namespace
+
+Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, int tile_cells)
+    : frame_(frame), columns_(columns), rows_(rows), tile_cells_(tile_cells) {
+  if (columns < 1 || rows < 1 || static_cast<std::int64_t>(columns) * rows >= std::int64_t{1} << 30 || tile_cells < 1) {
+    throw Error(ExitCode::usage, fmt::format("a heightfield of {} x {} cells in tiles of {}: each must be positive, and the cells fewer than 2^30", columns, rows, tile_cells));
+  }
+  const Vec u = frame.edge_u / static_cast<double>(columns), v = frame.edge_v / static_cast<double>(rows), n = frame.axis;
+  const double volume = dot(cross(u, v), n), largest = glm::length(u) * glm::length(v) * glm::length(n);
+  if (!(magnitude(volume) > 1e-9 * largest)) throw Error(ExitCode::usage, "the edges and the axis of a heightfield must not lie in one plane");
+  const Vec to_x = cross(v, n) / volume, to_y = cross(n, u) / volume, to_h = cross(u, v) / volume;
+  heights_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1), 0.0f);
+  first_cell_ = static_cast<std::size_t>(cells_ahead - 1) * static_cast<std::size_t>(columns + 1);
+  highest_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) + 2 * first_cell_, 0.0f);
+  cell_height_ = std::max(glm::length(u), glm::length(v)) / glm::length(n);
+  tiles_across_ = tiles_of(columns, tile_cells);
+  for (int y = 0; y < rows; y += tile_cells) {
+    for (int x = 0; x < columns; x += tile_cells) {
+      tiles_.push_back({double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows)), 0, 0, 1e-9 * cell_height_});
+    }
+  }
+  view_ = {heights_.data(), highest_.data() + first_cell_, double(columns), {frame.origin.x, frame.origin.y, frame.origin.z},
+           {{to_x.x, to_x.y, to_x.z}, {to_y.x, to_y.y, to_y.z}, {to_h.x, to_h.y, to_h.z}}};
+}
+
+void Heightfield::assign(std::span<const float> heights, const parallel::Executor& executor) {
+  if (heights.size() != heights_.size()) throw Error(ExitCode::internal, fmt::format("a heightfield takes {} heights, not {}", heights_.size(), heights.size()));
+  executor.for_tiles(columns_ + 1, rows_ + 1, columns_ + 1, 64, [&](const parallel::Tile& t) {
+    const auto begin = static_cast<std::size_t>(t.y0) * static_cast<std::size_t>(columns_ + 1), end = static_cast<std::size_t>(t.y1) * static_cast<std::size_t>(columns_ + 1);
+    std::copy(heights.begin() + begin, heights.begin() + end, heights_.begin() + begin);
+  });
+  executor.for_range(static_cast<std::int64_t>(tiles_.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      HeightfieldTile& tile = tiles_[i];
+      summarize_tile(heights_.data(), columns_, highest_.data() + first_cell_, tile);
+      tile.margin = 1e-6 * (tile.high - tile.low) + 1e-9 * (cell_height_ + std::max(magnitude(tile.low), magnitude(tile.high)));
+    }
+  });
+  ++revision_;
+}
+
+double Heightfield::height(int x, int y) const {
+  const int cx = std::clamp(x, 0, columns_), cy = std::clamp(y, 0, rows_);
+  return static_cast<double>(heights_[static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_ + 1) + static_cast<std::size_t>(cx)]);
+}
+
+Box Heightfield::bounds(std::uint32_t primitive) const {
+  const HeightfieldTile& tile = tiles_[primitive];
+  Box box{Vec(1e300), Vec(-1e300)};
+  for (int corner = 0; corner < 8; ++corner) {
+    const double x = (corner & 1 ? tile.x1 : tile.x0) / columns_, y = (corner & 2 ? tile.y1 : tile.y0) / rows_;
+    const Vec p = frame_.origin + x * frame_.edge_u + y * frame_.edge_v + (corner & 4 ? tile.high : tile.low) * frame_.axis;
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = std::min(box.low[k], p[k]);
+      box.high[k] = std::max(box.high[k], p[k]);
+    }
+  }
+  return box;
+}
+
+void Heightfield::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const { meet_tile(view_, tiles_[primitive], self, ray, first); }
+std::uint32_t Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { return meet_tile(view_, tiles_[primitive], self, lanes, packet); }
+
+Heightfield::Place Heightfield::place(const Hit& hit) const {
+  const auto cell = static_cast<int>(hit.part / 2);
+  return {cell % columns_ + hit.u, cell / columns_ + hit.v};
+}
+
+Vec Heightfield::normal_of_slopes(double slope_x, double slope_y) const {
+  const auto& m = view_.to_grid;
+  const Vec up{m[2][0], m[2][1], m[2][2]};
+  const Vec n = up - slope_x * Vec{m[0][0], m[0][1], m[0][2]} - slope_y * Vec{m[1][0], m[1][1], m[1][2]};
+  return n / glm::length(n);
+}
+
+Vec Heightfield::normal(const Ray&, const Hit& hit) const {
+  const auto cell = static_cast<int>(hit.part / 2);
+  const int x = cell % columns_, y = cell / columns_, upper = static_cast<int>(hit.part & 1);
+  return normal_of_slopes(height(x + 1, y + upper) - height(x, y + upper), height(x + upper, y + 1) - height(x + upper, y));
+}
+
+Vec Heightfield::smooth_normal(const Hit& hit) const {
+  const auto cell = static_cast<int>(hit.part / 2);
+  const int x = cell % columns_, y = cell / columns_;
+  const auto at_vertex = [&](int i, int j) {
+    const int w = std::max(i - 1, 0), e = std::min(i + 1, columns_), s = std::max(j - 1, 0), n = std::min(j + 1, rows_);
+    return normal_of_slopes((height(e, j) - height(w, j)) / (e - w), (height(i, n) - height(i, s)) / (n - s));
+  };
+  const Vec south = (1 - hit.u) * at_vertex(x, y) + hit.u * at_vertex(x + 1, y);
+  const Vec north = (1 - hit.u) * at_vertex(x, y + 1) + hit.u * at_vertex(x + 1, y + 1);
+  const Vec sum = (1 - hit.v) * south + hit.v * north;
+  return sum / glm::length(sum);
+}
+
+}  // namespace rainref::compositor

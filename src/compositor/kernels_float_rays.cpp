@@ -1,0 +1,101 @@
+// Rays to floats, several at once; compiled once for each SIMD target.
+#include <algorithm>
+#include <limits>
+
+#include "compositor/extraordinary_ray.h"
+#include "compositor/float_rays.h"
+
+#define RAINREF_KERNELS "compositor/kernels_float_rays.cpp"
+#include "math/foreach_target.h"
+#include "math/real64_lanes-inl.h"
+
+RAINREF_TARGET_BEGIN(compositor)
+
+using R = Real64Lanes;
+constexpr int n = static_cast<int>(hn::MaxLanes(R::D()));
+
+/// Component by component, what lies ray by ray; as many as a vector has lanes.
+HWY_INLINE HWY_ATTR void transpose(const double* const* rays, double* const* components, int slot) {
+#if HWY_TARGET == HWY_AVX3
+  const R::D d;
+  R::V v[8];
+  for (int k = 0; k < 8; ++k) v[k] = hn::LoadU(d, rays[k]);
+  for (int odd = 0; odd < 2; ++odd) {
+    // Blocks of two: in block b, component 2 b + odd of two rays.
+    R::V a[4];
+    for (int k = 0; k < 4; ++k) a[k] = odd ? hn::InterleaveUpper(d, v[2 * k], v[2 * k + 1]) : hn::InterleaveLower(d, v[2 * k], v[2 * k + 1]);
+    const auto even01 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(a[1]), a[0]), odd01 = hn::OddEvenBlocks(a[1], hn::SwapAdjacentBlocks(a[0]));
+    const auto even23 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(a[3]), a[2]), odd23 = hn::OddEvenBlocks(a[3], hn::SwapAdjacentBlocks(a[2]));
+    hn::Store(hn::ConcatLowerLower(d, even23, even01), d, components[odd] + slot);
+    hn::Store(hn::ConcatLowerLower(d, odd23, odd01), d, components[2 + odd] + slot);
+    hn::Store(hn::ConcatUpperUpper(d, even23, even01), d, components[4 + odd] + slot);
+    hn::Store(hn::ConcatUpperUpper(d, odd23, odd01), d, components[6 + odd] + slot);
+  }
+#else
+  for (int k = 0; k < n; ++k) {
+    for (int c = 0; c < 8; ++c) components[c][slot + k] = rays[k][c];
+  }
+#endif
+}
+
+void SpreadRays(const Ray* rays, int count, Packet& packet) {
+  static_assert(sizeof(Ray) == 8 * sizeof(double));
+  double* const components[8] = {packet.origin[0], packet.origin[1], packet.origin[2], packet.direction[0], packet.direction[1], packet.direction[2], packet.nearest, packet.farthest};
+  for (int slot = 0; slot < Packet::slots; slot += n) {
+    const double* from[n];
+    for (int k = 0; k < n; ++k) from[k] = &rays[slot + k < count ? slot + k : count - 1].origin.x;
+    transpose(from, components, slot);
+  }
+}
+
+/// Gives the slots of rays that floats hold near enough.
+std::uint32_t RoundPacket(const Packet& packet, const SceneExtent& extent, FloatPacket& out) {
+  const R::D d;
+  const R zero(0.0), one(1.0), slack(extent.slack()), largest(largest_float);
+  const auto smaller = [](R a, R b) HWY_ATTR { return select(b < a, b, a); };
+  const auto larger = [](R a, R b) HWY_ATTR { return select(a < b, b, a); };
+  std::uint32_t ordinary = 0;
+  for (int slot = 0; slot < Packet::slots; slot += n) {
+    const auto at = [&](const double* p) HWY_ATTR { return R(hn::Load(d, p + slot)); };
+    const auto put = [&](R x, float* p) HWY_ATTR { hn::Store(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
+    R reach = zero, length = zero, sum = zero;  // sums keep a NaN
+    for (int k = 0; k < 3; ++k) {
+      const R o = at(packet.origin[k]), direction = at(packet.direction[k]);
+      reach = reach + abs(o);
+      length = larger(length, abs(direction));
+      sum = sum + abs(direction);
+      put(o, out.origin[k]);
+      put(direction, out.direction[k]);
+    }
+    put(smaller(largest, larger(zero, at(packet.nearest) * R(0.9999) - slack)), out.nearest);
+    put(smaller(largest, at(packet.farthest) * R(1.0001) + slack), out.farthest);
+    hn::Store(zero.v, d, out.start + slot);
+    hn::Store(one.v, d, out.scale + slot);
+    const auto near = (reach <= R(extent.reach())).m, long_enough = (length >= R(0.5)).m, short_enough = (sum <= R(1024.0)).m;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::And(near, hn::And(long_enough, short_enough)), bits);
+    ordinary |= static_cast<std::uint32_t>(bits[0]) << slot;
+  }
+  return ordinary;
+}
+
+RAINREF_TARGET_END(compositor)
+
+#if RAINREF_ONCE
+namespace rainref::compositor {
+
+RAINREF_EXPORT(SpreadRays);
+RAINREF_EXPORT(RoundPacket);
+
+void make_floats(const Ray* rays, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
+  RAINREF_DISPATCH(SpreadRays)(rays, count, packet);
+  packet.rays = rays;
+  std::fill(packet.first, packet.first + count, Hit{});
+  out.enters = (1u << count) - 1;
+  for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(rays[slot], extent, static_cast<int>(slot), out); });
+  // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
+  for_each_lane(~out.enters & ((1u << Packet::slots) - 1), [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });
+}
+
+}  // namespace rainref::compositor
+#endif

@@ -1,0 +1,23 @@
+// The double reading of the optics that every pass uses: the same text, no second formula.
+#pragma once
+
+#include "compositor/surface.h"
+#include "image/texture.h"
+#include "math/plain.h"
+
+namespace rainref::compositor::scalar {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling-inl.h"
+#include "image/environment-inl.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+using Number = Plain<double>;
+inline Vec3<Number> number(const Vec& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
+inline Vec vec(const Vec3<Number>& a) { return {a.x.v, a.y.v, a.z.v}; }
+
+}  // namespace rainref::compositor::scalar

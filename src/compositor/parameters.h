@@ -1,0 +1,23 @@
+// Scene parameters of traced pictures, which the command line adds to those of an effect.
+#pragma once
+
+#include <vector>
+
+#include "compositor/picture.h"
+#include "scene/config.h"
+
+namespace rainref::compositor {
+
+/// compositor.picture, .samples, .depth and .embree_config, of corrected variants.
+std::vector<scene::Parameter> parameters();
+
+struct Choice {
+  bool is_traced = false;  ///< the picture is traced, not the passes'
+  PictureOptions picture;
+  TracerOptions tracer;
+};
+/// What a scene chose; where these parameters are not declared, the passes' picture. Throws Error(usage) for a
+/// number of samples that has no pattern.
+Choice choice_from(const scene::Config& config);
+
+}  // namespace rainref::compositor

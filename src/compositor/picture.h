@@ -1,0 +1,42 @@
+// A traced picture and what goes with it.
+#pragma once
+
+#include "compositor/samples.h"
+#include "compositor/shading.h"
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "scene/camera.h"
+
+namespace rainref::compositor {
+
+/// Row 0 = bottom, as every effect's picture. Means over the samples of a pixel, but for depth.
+struct Picture {
+  Image beauty;  ///< rgba16f: linear radiance, alpha 1
+  Image normal;  ///< rgba16f: mean of the unit normals of the first surfaces, as shaded; alpha: share of samples that met one
+  Image depth;   ///< r32f: least distance along the view axis [m]; `far` where every sample met nothing
+  Image film;    ///< r16f: length of the refracted ray in media that count as film [m]
+  Image mask;    ///< r16f: share of samples that met a masked surface
+};
+inline constexpr float far = 10000;  ///< [m]
+
+struct PictureOptions {
+  ShadingOptions shading;
+  int samples = 1;  ///< 1, 4, 8 or 16
+};
+
+/// The rays of a camera's pixels. A direction has length 1 along the view axis, so that distances of its hits are depths.
+class PrimaryRays {
+ public:
+  PrimaryRays(const scene::Camera& camera, int width, int height);
+  /// Through a point of the picture, in pixels from its lower left corner.
+  Ray through(double x, double y) const { return {position_, corner_ + x * across_ + y * up_}; }
+
+ private:
+  Vec position_, corner_, across_, up_;
+};
+
+/// Traces a picture in tiles. The same bits for every number of threads and every configuration of Embree.
+Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width, int height, const PictureOptions& options,
+                      const parallel::Executor& executor);
+
+}  // namespace rainref::compositor

@@ -1,0 +1,37 @@
+// Flat pieces: parallelograms and ellipses.
+#pragma once
+
+#include <vector>
+
+#include "compositor/surface.h"
+
+namespace rainref::compositor {
+
+/// Points origin + u edge_u + v edge_v, with u and v in [0, 1] for a parallelogram, u^2 + v^2 <= 1 for an ellipse. The
+/// outside is on the side of cross(edge_u, edge_v).
+struct Plate {
+  enum Shape { parallelogram, ellipse } shape = parallelogram;
+  Vec origin, edge_u, edge_v;
+};
+
+/// One part, and one primitive, for each plate; met from both sides. Borders belong to the plates, but plates side by side
+/// are not watertight between them: use a TriangleMesh for that.
+class Plates final : public Surface {
+ public:
+  /// Throws Error(usage) when a plate's edges are parallel or zero.
+  explicit Plates(std::vector<Plate> plates);
+
+  std::uint32_t primitives() const override { return static_cast<std::uint32_t>(plates_.size()); }
+  Box bounds(std::uint32_t primitive) const override;
+  void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
+  Vec normal(const Ray& ray, const Hit& hit) const override;
+
+ private:
+  struct Flat {
+    Plate plate;
+    Vec normal, to_u, to_v;  ///< unit normal; u = to_u . (p - origin), v likewise
+  };
+  std::vector<Flat> plates_;
+};
+
+}  // namespace rainref::compositor

@@ -1,0 +1,124 @@
+// What rays see: surfaces with materials, and the surroundings.
+//
+// A ray's radiance here is basic radiance, L / n^2, which does not change where light passes from one medium to another.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "compositor/surface.h"
+#include "compositor/tracer.h"
+
+namespace rainref::compositor {
+
+/// What fills the space between surfaces. After s metres light L has become t L + (1 - t) glow, t = exp(-extinction s).
+struct Medium {
+  double ior = 1;            ///< index of refraction, at least 1
+  Vec extinction{0, 0, 0};   ///< of red, green and blue [1/m]
+  Vec glow{0, 0, 0};         ///< radiance of an endless path: what turbid water or fog scatters toward the eye
+  bool is_film = false;      ///< its paths count as `film`
+};
+inline Medium air() { return {}; }
+inline Medium water(double ior = 1.333) { return {ior, {0, 0, 0}, {0, 0, 0}, true}; }
+inline Medium glass(double ior = 1.52) { return {ior, {0, 0, 0}, {0, 0, 0}, false}; }
+
+/// A place where a ray met a surface.
+struct Place {
+  Vec point;        ///< [m]
+  Vec direction;    ///< of the ray, unit
+  Vec normal;       ///< unit, geometric, on the side that the surface calls its outside
+  double distance;  ///< [m] along the ray and the rays before it, from the eye
+  Hit hit;
+};
+
+/// What leaves an opaque surface toward the ray: its own light, and a mirror image of what lies along one more ray.
+struct Finish {
+  Vec radiance{0, 0, 0};       ///< emitted, or scattered by a diffuse surface
+  Vec mirror{0, 0, 0};         ///< share of the mirrored ray's radiance; 0: there is none
+  Vec mirror_normal{0, 0, 0};  ///< unit, about which the ray is mirrored
+  double blur = 0;             ///< mip level at which the mirrored surroundings are looked up
+};
+class Opaque {
+ public:
+  virtual ~Opaque() = default;
+  /// finishes[i] is that of places[i]. From several threads at once; a pure function of each place.
+  virtual void finish(std::span<const Place> places, std::span<Finish> finishes) const = 0;
+};
+
+/// How a surface treats light. Without `opaque` it is a smooth interface between two media: which lies on which side is
+/// said here and nowhere else.
+struct Material {
+  std::shared_ptr<const Opaque> opaque;
+  Medium outside, inside;  ///< on the side of the geometric normal, and on the other
+  /// The smooth normal of an interface that is made of facets, unit, near Place::normal; null: the geometric one. Where it
+  /// would send a ray through the wrong side of the facet, the geometric one serves.
+  std::function<Vec(const Place&)> smooth_normal;
+  bool is_masked = false;  ///< the channel `mask` is 1 where the eye sees this surface
+
+  static Material interface_of(const Medium& outside, const Medium& inside) {
+    Material m;
+    m.outside = outside;
+    m.inside = inside;
+    return m;
+  }
+  static Material of(std::shared_ptr<const Opaque> opaque) {
+    Material m;
+    m.opaque = std::move(opaque);
+    return m;
+  }
+};
+
+/// An opaque finish by a function of one place.
+std::shared_ptr<const Opaque> opaque_of(std::function<Finish(const Place&)> finish);
+/// A diffuse surface under equal light from everywhere: radiance = albedo * light.
+std::shared_ptr<const Opaque> diffuse(const Vec& albedo, const Vec& light);
+/// Shines alike from both sides in every direction; mirrors nothing.
+std::shared_ptr<const Opaque> emitter(const Vec& radiance);
+
+/// A ray that left everything behind.
+struct Sight {
+  Vec origin, direction;  ///< direction unit
+  double blur = 0;        ///< mip level: 0 sharp, each level twice as wide
+};
+class Environment {
+ public:
+  virtual ~Environment() = default;
+  /// radiance[i] is what arrives along sights[i]. From several threads at once; a pure function of each sight.
+  virtual void radiance(std::span<const Sight> sights, std::span<Vec> radiance) const = 0;
+};
+/// Surroundings by a function of one sight.
+std::shared_ptr<const Environment> environment_of(std::function<Vec(const Sight&)> radiance);
+
+/// Surfaces with their materials, within surroundings.
+class Scene {
+ public:
+  explicit Scene(const TracerOptions& options = {}) : tracer_(options) {}
+
+  /// Gives the surface's number.
+  std::uint32_t add(std::shared_ptr<const Surface> surface, Material material);
+  void set_material(std::uint32_t surface, Material material) { materials_[surface] = std::move(material); }
+  void set_environment(std::shared_ptr<const Environment> environment) { environment_ = std::move(environment); }
+  /// The medium at the eye.
+  void set_eye(const Medium& medium) { eye_ = medium; }
+  /// Before the first ray, and after surfaces were added or altered.
+  void commit() { tracer_.commit(); }
+
+  const Tracer& tracer() const { return tracer_; }
+  std::uint32_t surfaces() const { return static_cast<std::uint32_t>(materials_.size()); }
+  const Material& material(std::uint32_t surface) const { return materials_[surface]; }
+  /// Throws Error(internal) when none was set.
+  const Environment& environment() const;
+  const Medium& eye() const { return eye_; }
+
+ private:
+  Tracer tracer_;
+  std::vector<Material> materials_;
+  std::shared_ptr<const Environment> environment_;
+  Medium eye_;
+};
+
+}  // namespace rainref::compositor

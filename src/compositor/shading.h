@@ -1,0 +1,40 @@
+// The radiance of rays: every reflection and refraction followed, nothing left to chance.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "compositor/scene.h"
+
+namespace rainref::compositor {
+
+struct ShadingOptions {
+  int depth = 8;                ///< surfaces that a path may meet one after the other, at least 1
+  double least_weight = 1e-3;   ///< a ray whose share in its pixel is below this is followed no further
+};
+
+/// What a primary ray sees.
+struct Seen {
+  Vec radiance{0, 0, 0};  ///< linear
+  Hit hit;                ///< the first one
+  Vec normal{0, 0, 0};    ///< at it, toward the ray, as shaded; 0 where the ray met nothing
+  double film = 0;        ///< [m] that the ray, refracted and never reflected, runs through media that count as film
+  bool is_masked = false; ///< the first surface is one that the mask shows
+};
+
+/// seen[i] is what rays[i] sees; directions need not be unit vectors, the distance of `hit` counts in their lengths. At each interface a ray goes
+/// on as a reflected and a refracted one, weighted by Fresnel's equations for unpolarized light (all of it reflected
+/// beyond the critical angle), and media absorb along the way (Beer). A ray that `options` cut off sees the surroundings
+/// as if nothing lay between, so no light is lost.
+///
+/// Rays are traced a generation at a time, and each pixel adds up its rays in the order of the generations, within one in
+/// the order of their parents, the reflected before the refracted: a pure function of the scene and the ray, whichever
+/// rays lie beside it. From several threads at once.
+///
+/// A new ray starts where its parent ended; only what is nearer than the spacing of numbers there is left out. Rounding may
+/// put that point on the wrong side of the surface; so a ray that left a surface on one side does not see hits of that
+/// surface that come from the other side: they contradict where it is. Tracing goes on behind such a hit. For this a
+/// surface that bounds a medium has to be closed, or closed by others wherever rays can come.
+void shade(const Scene& scene, const ShadingOptions& options, std::span<const Ray> rays, std::span<Seen> seen);
+
+}  // namespace rainref::compositor

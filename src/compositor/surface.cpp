@@ -1,0 +1,19 @@
+#include "compositor/surface.h"
+
+#include "compositor/packet.h"
+
+namespace rainref::compositor {
+
+std::uint32_t Surface::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
+  std::uint32_t changed = 0;
+  for_each_lane(lanes, [&](std::uint32_t slot) {
+    Hit& first = packet.first[slot];
+    const double t = first.t;
+    const std::uint32_t surface = first.surface, part = first.part;
+    meet(self, primitive, packet.rays[slot], first);
+    if (first.t != t || first.surface != surface || first.part != part) changed |= 1u << slot;
+  });
+  return changed;
+}
+
+}  // namespace rainref::compositor

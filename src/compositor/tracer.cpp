@@ -1,0 +1,296 @@
+#include "compositor/tracer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "base/floating_point.h"
+#include "compositor/embree_api.h"
+#include "compositor/float_rays.h"
+#include "compositor/packet.h"
+#include "rainref/error.h"
+
+namespace rainref::compositor {
+
+namespace {
+
+/// What Embree's callbacks know of a surface. Boxes are kept in a table: Embree runs the bounds callback with subnormals
+/// flushed, so nothing may be computed there.
+struct Entry {
+  std::shared_ptr<const Surface> surface;
+  std::uint32_t number = 0;
+  RTCGeometry geometry = nullptr;
+  bool committed = false;
+  std::uint64_t revision = 0;
+  std::vector<Box> boxes;
+  std::vector<RTCBounds> padded;
+  Box all;
+};
+
+struct PacketQuery : embree::Query {
+  Packet packet;
+  FloatPacket floats;
+  double slack = 0;
+
+  float farthest_of(std::uint32_t slot) const { return float_farthest((packet.first[slot].t - floats.start[slot]) * floats.scale[slot], slack); }
+};
+
+void bounds_from_table(const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID]; }
+
+/// Embree hands over a packet whole or in pieces of N lanes; a lane's id is its slot.
+template <unsigned n, class Arguments, class Farthest>
+void ask_lanes(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+  const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
+  PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
+  std::uint32_t lanes = 0;
+  for (unsigned i = 0; i < n; ++i) lanes |= static_cast<std::uint32_t>(a->valid[i] & 1) << RTCRayN_id(rays, n, i);
+  lanes &= query.floats.enters;
+  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes, query.packet);
+  for (unsigned i = 0; changed != 0 && i < n; ++i) {
+    const std::uint32_t slot = RTCRayN_id(rays, n, i);
+    if ((changed >> slot & static_cast<std::uint32_t>(a->valid[i]) & 1) != 0) RTCRayN_tfar(rays, n, i) = farthest(query, slot);
+  }
+}
+template <class Arguments, class Farthest>
+void ask_surface(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+  switch (a->N) {
+    case 1: return ask_lanes<1>(a, rays, farthest);
+    case 4: return ask_lanes<4>(a, rays, farthest);
+    case 8: return ask_lanes<8>(a, rays, farthest);
+    default: return ask_lanes<16>(a, rays, farthest);
+  }
+}
+void find_first(const RTCIntersectFunctionNArguments* a) {
+  ask_surface(a, RTCRayHitN_RayN(a->rayhit, a->N), [](const PacketQuery& query, std::uint32_t slot) { return query.farthest_of(slot); });
+}
+void find_any(const RTCOccludedFunctionNArguments* a) {
+  ask_surface(a, a->ray, [](const PacketQuery&, std::uint32_t) { return -std::numeric_limits<float>::infinity(); });
+}
+
+template <int width>
+void fill(const FloatPacket& from, embree::RayHit<width>& to) {
+  if constexpr (width == 1) {
+    to.ray.org_x = from.origin[0][0];
+    to.ray.org_y = from.origin[1][0];
+    to.ray.org_z = from.origin[2][0];
+    to.ray.dir_x = from.direction[0][0];
+    to.ray.dir_y = from.direction[1][0];
+    to.ray.dir_z = from.direction[2][0];
+    to.ray.tnear = from.nearest[0];
+    to.ray.tfar = from.farthest[0];
+  } else {
+    const auto copy = [](const float* a, float* b) { std::memcpy(b, a, width * sizeof(float)); };
+    copy(from.origin[0], to.ray.org_x);
+    copy(from.origin[1], to.ray.org_y);
+    copy(from.origin[2], to.ray.org_z);
+    copy(from.direction[0], to.ray.dir_x);
+    copy(from.direction[1], to.ray.dir_y);
+    copy(from.direction[2], to.ray.dir_z);
+    copy(from.nearest, to.ray.tnear);
+    copy(from.farthest, to.ray.tfar);
+  }
+}
+
+/// What is the same for all packets; Embree writes none of it, because the surfaces keep the hits.
+template <int width>
+void prepare(embree::RayHit<width>& rays) {
+  std::memset(&rays, 0, sizeof rays);
+  if constexpr (width == 1) {
+    rays.ray.mask = ~0u;
+    rays.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  } else {
+    for (unsigned i = 0; i < width; ++i) {
+      rays.ray.mask[i] = ~0u;
+      rays.ray.id[i] = i;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+}
+
+template <int width, class Ask>
+void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> hits, const Ask& ask) {
+  PacketQuery query;
+  query.slack = extent.slack();
+  alignas(64) embree::RayHit<width> packet;
+  prepare<width>(packet);
+  alignas(64) int valid[width];
+  for (std::size_t begin = 0; begin < rays.size(); begin += width) {
+    const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
+    make_floats(rays.data() + begin, count, extent, query.packet, query.floats);
+    if (query.floats.enters != 0) {
+      query.set_coherent(rays[begin].origin == rays[begin + static_cast<std::size_t>(count) - 1].origin);  // a pinhole's
+      fill<width>(query.floats, packet);
+      for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
+      ask(valid, query, packet);
+    }
+    std::copy_n(query.packet.first, count, hits.data() + begin);
+  }
+}
+
+[[noreturn]] void refuse(const std::string& config, const std::string& why) { throw Error(ExitCode::usage, fmt::format("compositor.embree_config = \"{}\": {}", config, why)); }
+
+/// Embree takes an instruction set that it does not know for its default, without a word.
+void check_isa(const std::string& config) {
+  static const std::vector<std::string> known{"sse", "sse2", "sse3", "ssse3", "sse4.1", "sse4.2", "avx", "avxi", "avx2", "avx512", "neon"};
+  const std::regex pattern("\\b(max_)?isa\\s*=\\s*([^,\\s]*)");
+  for (std::sregex_iterator i(config.begin(), config.end(), pattern), end; i != end; ++i) {
+    const std::string name = (*i)[2];
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse(config, fmt::format("no instruction set is called \"{}\"{}", name, did_you_mean(name, known)));
+  }
+}
+
+void include(Box& box, const Box& other) {
+  for (int k = 0; k < 3; ++k) {
+    box.low[k] = std::min(box.low[k], other.low[k]);
+    box.high[k] = std::max(box.high[k], other.high[k]);
+  }
+}
+Box nothing() {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return {Vec(inf), Vec(-inf)};
+}
+
+/// The box, enlarged by at least the margin, in floats.
+RTCBounds padded(const Box& box, double margin) {
+  const auto low = [&](int k) { return static_cast<float>(box.low[k] - margin); };
+  const auto high = [&](int k) { return static_cast<float>(box.high[k] + margin); };
+  return {low(0), low(1), low(2), 0, high(0), high(1), high(2), 0};
+}
+
+}  // namespace
+
+struct Tracer::State {
+  TracerOptions options;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<std::unique_ptr<Entry>> entries;
+  SceneExtent extent;
+
+  ~State() {
+    for (const auto& entry : entries) rtcReleaseGeometry(entry->geometry);
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+  template <class Visit>
+  void with_width(const Visit& visit) const {
+    switch (options.packet_width) {
+      case 1: return visit(std::integral_constant<int, 1>());
+      case 4: return visit(std::integral_constant<int, 4>());
+      case 8: return visit(std::integral_constant<int, 8>());
+      default: return visit(std::integral_constant<int, 16>());
+    }
+  }
+};
+
+Tracer::Tracer(const TracerOptions& options) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.options = options;
+  if (constexpr std::array widths{1, 4, 8, 16}; std::find(widths.begin(), widths.end(), options.packet_width) == widths.end()) {
+    throw Error(ExitCode::usage, fmt::format("the packet width {} is none of 1, 4, 8, 16", options.packet_width));
+  }
+  check_isa(options.embree_config);
+  s.device = rtcNewDevice(options.embree_config.c_str());
+  if (!s.device) refuse(options.embree_config, fmt::format("Embree {} does not take it (its error {})", RTC_VERSION_STRING, static_cast<int>(rtcGetDeviceError(nullptr))));
+  s.scene = rtcNewScene(s.device);
+  rtcSetSceneFlags(s.scene, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+}
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+
+std::uint32_t Tracer::add(std::shared_ptr<const Surface> surface) {
+  State& s = *state_;
+  const auto number = static_cast<std::uint32_t>(s.entries.size());
+  Entry& entry = *s.entries.emplace_back(std::make_unique<Entry>());
+  entry.surface = std::move(surface);
+  entry.number = number;
+  entry.geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserData(entry.geometry, &entry);
+  rtcSetGeometryBoundsFunction(entry.geometry, bounds_from_table, nullptr);
+  rtcSetGeometryIntersectFunction(entry.geometry, find_first);
+  rtcSetGeometryOccludedFunction(entry.geometry, find_any);
+  rtcAttachGeometryByID(s.scene, entry.geometry, number);
+  return number;
+}
+
+const Surface& Tracer::surface(std::uint32_t number) const { return *state_->entries.at(number)->surface; }
+
+void Tracer::commit() {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  SceneExtent extent;
+  extent.box = nothing();
+  std::vector<bool> changed;
+  for (const auto& entry : s.entries) {
+    const std::uint64_t revision = entry->surface->revision();
+    changed.push_back(!entry->committed || entry->revision != revision);
+    if (changed.back()) {
+      entry->revision = revision;
+      entry->boxes.resize(entry->surface->primitives());
+      entry->all = nothing();
+      for (std::uint32_t i = 0; i < entry->boxes.size(); ++i) include(entry->all, entry->boxes[i] = entry->surface->bounds(i));
+    }
+    if (!entry->boxes.empty()) include(extent.box, entry->all);
+  }
+  // A power of two, or every ripple would change the margin, and with it all boxes.
+  if (extent.box.low.x <= extent.box.high.x) {
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, -extent.box.low[k], extent.box.high[k]});
+    while (extent.largest < largest) extent.largest *= 2;
+    while (extent.largest > 0x1p-60 && 0.5 * extent.largest >= largest) extent.largest *= 0.5;
+  }
+  const bool all_new = extent.largest != s.extent.largest;
+  for (std::size_t i = 0; i < s.entries.size(); ++i) {
+    Entry& entry = *s.entries[i];
+    if (!all_new && !changed[i]) continue;
+    entry.padded.resize(entry.boxes.size());
+    for (std::size_t k = 0; k < entry.boxes.size(); ++k) entry.padded[k] = padded(entry.boxes[k], extent.margin());
+    rtcSetGeometryUserPrimitiveCount(entry.geometry, static_cast<unsigned>(entry.boxes.size()));
+    rtcCommitGeometry(entry.geometry);
+    entry.committed = true;
+  }
+  for (int k = 0; k < 3; ++k) {
+    extent.box.low[k] -= extent.margin();
+    extent.box.high[k] += extent.margin();
+  }
+  s.extent = extent;
+  rtcCommitScene(s.scene);
+  if (const RTCError code = rtcGetDeviceError(s.device); code != RTC_ERROR_NONE) {
+    throw Error(ExitCode::internal, fmt::format("Embree cannot build the scene (its error {})", static_cast<int>(code)));
+  }
+}
+
+void Tracer::first_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
+  const FloatingPointGuard guard;
+  state_->with_width([&](auto width) {
+    trace<width>(state_->extent, rays, hits, [&](const int* valid, PacketQuery& query, auto& packet) { embree::intersect<width>(valid, state_->scene, query, packet); });
+  });
+}
+
+void Tracer::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  const FloatingPointGuard guard;
+  constexpr std::size_t block = 256;
+  Hit hits[block];
+  for (std::size_t begin = 0; begin < rays.size(); begin += block) {
+    const std::size_t count = std::min(block, rays.size() - begin);
+    state_->with_width([&](auto width) {
+      trace<width>(state_->extent, rays.subspan(begin, count), {hits, count},
+                   [&](const int* valid, PacketQuery& query, auto& packet) { embree::occluded<width>(valid, state_->scene, query, packet); });
+    });
+    for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = hits[i].is_surface();
+  }
+}
+
+Hit first_hit_of_all(std::span<const std::shared_ptr<const Surface>> surfaces, const Ray& ray) {
+  const FloatingPointGuard guard;
+  Hit first;
+  for (std::uint32_t self = 0; self < surfaces.size(); ++self) {
+    for (std::uint32_t i = 0; i < surfaces[self]->primitives(); ++i) surfaces[self]->meet(self, i, ray, first);
+  }
+  return first;
+}
+
+}  // namespace rainref::compositor

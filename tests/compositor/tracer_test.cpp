@@ -1,0 +1,274 @@
+// The tracer: against the oracle that asks everything, and whether anything but the rays and the surfaces decides.
+#include "compositor/tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "base/hostile_state.h"
+#include "compositor/world.h"
+#include "math/every_target.h"
+#include "rainref/error.h"
+
+namespace rainref::compositor {
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// A whole world's rays, made once.
+const std::vector<Ray>& every_kind_of_ray() {
+  static const std::vector<Ray> all = [] {
+    const test::World world;
+    Tracer tracer;
+    world.add_to(tracer);
+    std::vector<Ray> rays = test::camera_rays(128, 72);
+    const auto append = [&](const std::vector<Ray>& more) { rays.insert(rays.end(), more.begin(), more.end()); };
+    append(test::reflection_rays(world, rays, test::first_hits(tracer, rays)));
+    append(test::grazing_rays(128, 72));
+    append(test::aimed_rays(world, 6001));
+    // Limits, other lengths of the direction, far origins.
+    for (std::size_t i = 0; i < 4000; ++i) {
+      Ray ray = rays[i * 7];
+      switch (i % 4) {
+        case 0: ray.nearest = 20; break;
+        case 1: ray.farthest = 25; break;
+        case 2: ray.direction *= i % 8 < 4 ? 1e-6 : 1e6; break;
+        default: ray.origin -= 1e5 * ray.direction;
+      }
+      rays.push_back(ray);
+    }
+    return rays;
+  }();
+  return all;
+}
+bool same(const Hit& a, const Hit& b) { return a.t == b.t && a.surface == b.surface && a.part == b.part && a.u == b.u && a.v == b.v; }
+std::string text(const Hit& hit) { return fmt::format("{} on {}/{} at ({}, {})", hit.t, hit.surface, hit.part, hit.u, hit.v); }
+
+void add(Hasher& hasher, std::span<const Hit> hits) {
+  for (const Hit& hit : hits) {
+    hasher.add(std::as_bytes(std::span(&hit.t, 1)));
+    hasher.add(std::as_bytes(std::span(&hit.surface, 2)));
+    hasher.add(std::as_bytes(std::span(&hit.u, 2)));
+  }
+}
+/// Of first and any hits, in tasks of 500 rays.
+std::string hash_of(const Tracer& tracer, const std::vector<Ray>& rays, int threads) {
+  const parallel::Executor executor(threads);
+  std::vector<Hit> hits(rays.size());
+  std::vector<std::uint8_t> blocked(rays.size());
+  executor.for_range(static_cast<std::int64_t>(rays.size()), 500, [&](std::int64_t begin, std::int64_t end) {
+    const auto first = static_cast<std::size_t>(begin), count = static_cast<std::size_t>(end - begin);
+    tracer.first_hits(std::span(rays).subspan(first, count), std::span(hits).subspan(first, count));
+    tracer.any_hits(std::span(rays).subspan(first, count), std::span(blocked).subspan(first, count));
+  });
+  Hasher hasher;
+  add(hasher, hits);
+  hasher.add(std::as_bytes(std::span(blocked)));
+  return hasher.finish().text();
+}
+
+/// Every instruction set that this machine's Embree can use.
+std::vector<std::string> embree_isas() {
+#if defined(__x86_64__)
+  std::vector<std::string> isas{"sse2", "sse4.2"};
+  if (__builtin_cpu_supports("avx")) isas.push_back("avx");
+  if (__builtin_cpu_supports("avx2")) isas.push_back("avx2");
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) isas.push_back("avx512");
+  return isas;
+#else
+  return {""};
+#endif
+}
+std::string config(const std::string& isa) { return isa.empty() ? "" : "isa=" + isa; }
+
+TEST(Tracer, FindsWhatAskingEverySurfaceFinds) {
+  const test::World world;
+  const std::vector<Ray>& rays = every_kind_of_ray();
+  Tracer tracer;
+  world.add_to(tracer);
+  const std::vector<Hit> hits = test::first_hits(tracer, rays);
+  std::vector<std::uint8_t> blocked(rays.size());
+  tracer.any_hits(rays, blocked);
+  int met[3] = {};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Hit expected = first_hit_of_all(world.surfaces, rays[i]);
+    ASSERT_TRUE(same(hits[i], expected)) << "ray " << i << ": " << text(hits[i]) << ", oracle " << text(expected);
+    ASSERT_EQ(blocked[i] != 0, expected.is_surface()) << "ray " << i;
+    if (expected.is_surface()) ++met[expected.surface];
+  }
+  // Water, boxes and the pane all take part.
+  EXPECT_GT(met[0], 15'000);
+  EXPECT_GT(met[1], 2'000);
+  EXPECT_GT(met[2], 20);
+}
+
+TEST(Tracer, OneHashForEveryIsaWidthTraversalTileAndNumberOfThreads) {
+  const std::vector<Ray>& rays = every_kind_of_ray();
+  std::set<std::string> hashes;
+  int runs = 0;
+  for (const int tile : {512, 128, 64, 37}) {
+    const test::World world(tile);
+    for (const std::string& isa : embree_isas()) {
+      for (const bool robust : {true, false}) {
+        for (const int width : {1, 4, 8, 16}) {
+          Tracer tracer({config(isa), width, robust});
+          world.add_to(tracer);
+          hashes.insert(hash_of(tracer, rays, 1 + runs % 8));
+          ASSERT_EQ(hashes.size(), 1u) << isa << ", width " << width << ", tiles of " << tile << (robust ? ", robust" : "");
+          ++runs;
+        }
+      }
+    }
+  }
+  RecordProperty("runs", runs);
+}
+
+TEST(Tracer, OneHashForEverySimdTarget) {
+  const test::World world;
+  std::set<std::string> hashes;
+  test::for_every_target([&] {
+    for (const std::string& isa : {embree_isas().front(), embree_isas().back()}) {
+      Tracer tracer({config(isa)});
+      world.add_to(tracer);
+      hashes.insert(hash_of(tracer, every_kind_of_ray(), 2));
+      ASSERT_EQ(hashes.size(), 1u);
+    }
+  });
+}
+
+TEST(Tracer, PinsTheFloatingPointState) {
+  const test::World world;
+  Tracer expected;
+  world.add_to(expected);
+  const std::string hash = hash_of(expected, every_kind_of_ray(), 1);
+  const test::KeepFloatingPoint keep;
+  for (const test::HostileState& state : test::hostile_states()) {
+    set_floating_point_control(state.control);
+    Tracer tracer;
+    world.add_to(tracer);
+    std::vector<Hit> hits(every_kind_of_ray().size());
+    tracer.first_hits(every_kind_of_ray(), hits);
+    EXPECT_EQ(floating_point_control(), state.control) << state.name;
+    set_floating_point_control(pinned_floating_point_control);
+    EXPECT_EQ(hash_of(tracer, every_kind_of_ray(), 1), hash) << state.name;
+    Hasher now, then;
+    add(now, hits);
+    add(then, test::first_hits(expected, every_kind_of_ray()));
+    EXPECT_EQ(now.finish(), then.finish()) << state.name;
+  }
+}
+
+TEST(Tracer, AnAlteredSurfaceIsSeenAfterCommit) {
+  test::World world;
+  Tracer tracer;
+  world.add_to(tracer);
+  const parallel::Executor executor(2);
+  for (const double phase : {2.0, 5.0}) {
+    // Waves that grow beyond every box of before.
+    std::vector<float> heights = test::water_heights(phase);
+    for (float& h : heights) h *= static_cast<float>(phase);
+    world.water->assign(heights, executor);
+    tracer.commit();
+    Tracer fresh;
+    world.add_to(fresh);
+    EXPECT_EQ(hash_of(tracer, every_kind_of_ray(), 2), hash_of(fresh, every_kind_of_ray(), 2)) << phase;
+  }
+}
+
+TEST(Tracer, WritesOnlyTheHitsThatItIsAskedFor) {
+  const test::World world;
+  const std::vector<Ray> rays(every_kind_of_ray().end() - 40, every_kind_of_ray().end());
+  for (const std::string& isa : embree_isas()) {
+    for (const int width : {1, 4, 8, 16}) {
+      Tracer tracer({config(isa), width});
+      world.add_to(tracer);
+      for (std::size_t count = 0; count <= 33; ++count) {
+        std::vector<Hit> hits(40);
+        tracer.first_hits(std::span(rays).first(count), std::span(hits).first(count));
+        for (std::size_t i = count; i < hits.size(); ++i) ASSERT_TRUE(same(hits[i], Hit{})) << isa << " " << width << " " << count;
+      }
+    }
+  }
+}
+
+TEST(Tracer, EqualDistancesGoToTheLowerNumber) {
+  const auto square = [](const Vec& origin) { return Plate{Plate::parallelogram, origin, {1, 0, 0}, {0, 0, 1}}; };
+  // Two surfaces with two plates each, all in one plane.
+  std::vector<std::shared_ptr<const Surface>> surfaces;
+  for (int k = 0; k < 2; ++k) surfaces.push_back(std::make_shared<Plates>(std::vector<Plate>{square({0, 0, 0}), square({-0.5, 0, 0})}));
+  Tracer tracer;
+  for (const auto& surface : surfaces) tracer.add(surface);
+  tracer.commit();
+  const std::vector<Hit> hits = test::first_hits(tracer, {{{0.25, 1, 0.5}, {0, -1, 0}}, {{-0.25, 1, 0.5}, {0, -1, 0}}, {{2, 1, 0.5}, {0, -1, 0}}});
+  EXPECT_EQ(hits[0].surface, 0u);
+  EXPECT_EQ(hits[0].part, 0u);
+  EXPECT_EQ(hits[0].t, 1);
+  EXPECT_EQ(hits[1].surface, 0u);
+  EXPECT_EQ(hits[1].part, 1u);
+  EXPECT_FALSE(hits[2].is_surface());
+}
+
+TEST(Tracer, LimitsBelongToTheRay) {
+  Tracer tracer;
+  tracer.add(std::make_shared<Plates>(std::vector<Plate>{{Plate::parallelogram, {-1, 0, -1}, {2, 0, 0}, {0, 0, 2}}}));
+  tracer.commit();
+  const Vec from{0, 1, 0}, down{0, -1, 0};
+  const double above = std::nextafter(1.0, 2.0), below = std::nextafter(1.0, 0.0);
+  const std::vector<Hit> hits = test::first_hits(tracer, {{from, down, 1, inf}, {from, down, above, inf}, {from, down, 0, 1}, {from, down, 0, below}});
+  EXPECT_TRUE(hits[0].is_surface());
+  EXPECT_FALSE(hits[1].is_surface());
+  EXPECT_TRUE(hits[2].is_surface());
+  EXPECT_FALSE(hits[3].is_surface());
+}
+
+TEST(Tracer, RaysOfAnyLengthFromAnywhereFindASmallThing) {
+  // A plate of a millimetre, a kilometre from the origin of the axes.
+  const Vec centre{1000, -300, 200};
+  std::vector<std::shared_ptr<const Surface>> surfaces{std::make_shared<Plates>(std::vector<Plate>{{Plate::ellipse, centre, {5e-4, 0, 0}, {0, 0, 5e-4}}})};
+  Tracer tracer;
+  tracer.add(surfaces[0]);
+  tracer.commit();
+  std::vector<Ray> rays;
+  for (const double distance : {1e-3, 1.0, 1e3, 1e6, 1e9}) {
+    for (const double length : {1e-12, 1e-3, 1.0, 1e5, 1e15}) {
+      const Vec direction = glm::normalize(Vec(0.3, -1, 0.2));
+      rays.push_back({centre - distance * direction, length * direction});
+      rays.push_back({centre - distance * direction, -length * direction});
+    }
+  }
+  const std::vector<Hit> hits = test::first_hits(tracer, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].is_surface(), i % 2 == 0) << i;
+}
+
+TEST(Tracer, ANothingAndRaysThatGoNowhere) {
+  Tracer empty;
+  empty.commit();
+  EXPECT_FALSE(test::first_hits(empty, {{{0, 1, 0}, {0, -1, 0}}})[0].is_surface());
+  const test::World world;
+  Tracer tracer;
+  world.add_to(tracer);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Hit& hit : test::first_hits(tracer, {{{0, 1, 0}, {0, 0, 0}}, {{0, nan, 0}, {0, -1, 0}}, {{0, 1, 0}, {nan, -1, 0}}, {{0, 1, 0}, {0, inf, 0}}})) EXPECT_FALSE(hit.is_surface());
+}
+
+TEST(Tracer, RefusesWhatEmbreeOrItselfDoesNotTake) {
+  const auto message = [](const TracerOptions& options) {
+    try {
+      Tracer tracer(options);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message({"threads=1,isa=avx22"}), "compositor.embree_config = \"threads=1,isa=avx22\": no instruction set is called \"avx22\"; did you mean 'avx2'?");
+  EXPECT_NE(message({"threads=many"}).find("does not take it"), std::string::npos);
+  EXPECT_NE(message({"", 5}).find("width 5"), std::string::npos);
+  EXPECT_EQ(message({"threads=1"}), "");
+}
+
+}  // namespace
+}  // namespace rainref::compositor
