@@ -61,6 +61,7 @@ class Windshield {
   const Image& mask() const;     ///< r16f: 1 just wiped
   const Image& film() const;     ///< corrected: r32f, whole quanta in a texel
   const Image& normal() const;   ///< rgba16f: normal in the axes of the glass
+  const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
   const Image& colour() const;   ///< rgba16f: linear radiance
   const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
 

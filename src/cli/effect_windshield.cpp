@@ -1,8 +1,14 @@
+#include <optional>
+
 #include <fmt/format.h>
 
+#include "capture/pass_clock.h"
 #include "cli/effects.h"
 #include "cli/inputs.h"
 #include "cli/pictures.h"
+#include "cli/truth.h"
+#include "compositor/parameters.h"
+#include "compositor/windshield_truth.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
 #include "rainref/windshield.h"
@@ -13,17 +19,68 @@
 namespace rainref::cli {
 namespace {
 
+std::vector<scene::Parameter> pane_parameters() {
+  return {
+      scene::real("compositor.glass_thickness", "m", 1e-5, 0.1, 5e-3, "Thickness of the pane that rays go through."),
+      scene::real("compositor.glass_radius", "m", 0, 1e6, 0, "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."),
+  };
+}
+
+/// What is traced: the view through the wet pane, and the picture of it, if the scene wants one.
+class WindshieldTracing {
+ public:
+  WindshieldTracing(const scene::Config& config, const parallel::Executor& executor)
+      : choice_(compositor::choice_from(config)), executor_(executor),
+        view_(windshield::settings_from(config), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")}, choice_.tracer, executor) {}
+
+  void trace(const windshield::Windshield& windshield, Recorder* recorder) {
+    capture::Stopwatch time;
+    const windshield::Settings& s = view_.settings();
+    picture_ = compositor::trace_picture(*view_.scene(windshield), view_.camera(), s.picture.width, s.picture.height, choice_.picture, executor_);
+    shown_ = compositor::display(s, picture_.beauty, executor_);
+    if (!recorder) return;
+    const std::vector<PassOutput> outputs{{"beauty", picture_.beauty}, {"normal", picture_.normal}, {"depth", picture_.depth},
+                                          {"film", picture_.film},     {"mask", picture_.mask},     {"picture", shown_}};
+    recorder->pass({windshield.frame() - 1, 0, traced_pass, outputs, time.seconds()});
+  }
+  const Image& shown() const { return shown_; }
+  void write_exr(const std::filesystem::path& path) const { write_traced_exr(path, picture_); }
+  nlohmann::ordered_json compare(const windshield::Windshield& windshield, const std::filesystem::path& stem) const {
+    const compositor::WindshieldTruth truth = compositor::compare(windshield, view_, choice_.picture, executor_);
+    nlohmann::ordered_json out{{"glass_pixels", truth.glass}, {"drop_pixels", truth.drops}, {"mirrored_pixels", truth.mirrored}};
+    out["differences"] = write_differences(stem, truth.differences);
+    return out;
+  }
+
+ private:
+  compositor::Choice choice_;
+  const parallel::Executor& executor_;
+  compositor::WindshieldView view_;
+  compositor::Picture picture_;
+  Image shown_;
+};
+
 class WindshieldSimulation : public Simulation {
  public:
   WindshieldSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs)
-      : windshield_(config, surroundings(config, inputs), executor) {}
+      : config_(config), executor_(executor), is_traced_(compositor::choice_from(config).is_traced), has_street_(config.text("scene.image").empty()),
+        windshield_(config, surroundings(config, inputs), executor) {
+    if (!is_traced_) return;
+    if (!has_street_) throw Error(ExitCode::usage, "compositor.picture: expected \"passes\", for rays need the street made here and scene.image names a picture");
+    tracing();
+  }
 
   void frame(Recorder* recorder) override {
     windshield_.simulate(recorder);
     windshield_.render(recorder);
+    if (is_traced_ && is_shown_) tracing().trace(windshield_, recorder);
   }
-  const Image& picture() const override { return windshield_.picture(); }
+  void show(bool is_shown) override { is_shown_ = is_shown; }
+  const Image& picture() const override { return is_traced_ ? tracing_->shown() : windshield_.picture(); }
+  bool has_truth() const override { return has_street_; }
+  nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing().compare(windshield_, stem); }
   void write_exr(const std::filesystem::path& path) const override {
+    if (is_traced_) return tracing_->write_exr(path);
     const Image colour = flipped(windshield_.colour());
     image_io::write_exr(path, {{"", {"R", "G", "B"}, &colour}});
   }
@@ -50,13 +107,34 @@ class WindshieldSimulation : public Simulation {
     return s;
   }
 
+  WindshieldTracing& tracing() {
+    if (!tracing_) tracing_.emplace(config_, executor_);
+    return *tracing_;
+  }
+
+  scene::Config config_;
+  const parallel::Executor& executor_;
+  bool is_traced_, has_street_, is_shown_ = true;
   windshield::Windshield windshield_;
+  std::optional<WindshieldTracing> tracing_;  // made when something is traced
 };
+
+/// The windshield's own parameters and those of traced pictures.
+std::span<const scene::Parameter> all_parameters() {
+  static const std::vector<scene::Parameter> all = [] {
+    const auto own = windshield::parameters();
+    std::vector<scene::Parameter> table(own.begin(), own.end());
+    for (scene::Parameter& p : compositor::parameters()) table.push_back(std::move(p));
+    for (scene::Parameter& p : pane_parameters()) table.push_back(std::move(p));
+    return table;
+  }();
+  return all;
+}
 
 }  // namespace
 
 EffectEntry windshield_entry() {
-  return {"windshield", {"as-published", "corrected"}, windshield::parameters(), &windshield::effect_info(),
+  return {"windshield", {"as-published", "corrected"}, all_parameters(), &windshield::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<WindshieldSimulation>(config, executor, inputs);
           }};

@@ -1,6 +1,7 @@
 #include "cli/truth.h"
 
 #include "cli/pictures.h"
+#include "image_io/write.h"
 
 namespace rainref::cli {
 
@@ -15,6 +16,11 @@ nlohmann::ordered_json write_differences(const std::filesystem::path& stem, std:
                      {"mean", d.mean()}, {"scale", d.scale()}, {"picture", path.filename().string()}};
   }
   return out;
+}
+
+void write_traced_exr(const std::filesystem::path& path, const compositor::Picture& picture) {
+  const Image beauty = flipped(picture.beauty), normal = flipped(picture.normal), depth = flipped(picture.depth), film = flipped(picture.film), mask = flipped(picture.mask);
+  image_io::write_exr(path, {{"", {"R", "G", "B"}, &beauty}, {"normal", {"X", "Y", "Z"}, &normal}, {"depth", {"Z"}, &depth}, {"", {"film"}, &film}, {"", {"mask"}, &mask}});
 }
 
 }  // namespace rainref::cli

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "compositor/picture.h"
 #include "compositor/truth.h"
 
 namespace rainref::cli {
@@ -13,5 +14,8 @@ namespace rainref::cli {
 /// Writes a PNG of each difference, STEM.NAME-SCALE-UNIT.png, and gives {name: {unit, pixels, p50, p90, p99, max, mean,
 /// scale, picture}}.
 nlohmann::ordered_json write_differences(const std::filesystem::path& stem, std::span<const compositor::Difference> differences);
+
+/// All that was traced, as named channels: R G B, normal.X .Y .Z, depth.Z, film, mask.
+void write_traced_exr(const std::filesystem::path& path, const compositor::Picture& picture);
 
 }  // namespace rainref::cli

@@ -1,5 +1,7 @@
 #include "night_street/night_street.h"
 
+#include <limits>
+
 #include "base/floating_point.h"
 #include "night_street/city.h"
 #include "night_street/shade.h"
@@ -20,7 +22,12 @@ Street& Street::operator=(Street&&) noexcept = default;
 const std::vector<Lamp>& Street::lamps() const { return lamps_; }
 
 scene::Vector3 Street::radiance(const scene::Vector3& origin, const scene::Vector3& direction) const {
-  return look(*city_, Ray(from(origin), unit(direction))).radiance;
+  return night_street::look(*city_, Ray(from(origin), unit(direction))).radiance;
+}
+
+Street::Sight Street::look(const scene::Vector3& origin, const scene::Vector3& direction) const {
+  const Seen seen = night_street::look(*city_, Ray(origin, direction));
+  return {seen.radiance, seen.hit.is_surface() ? seen.hit.t : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace rainref::night_street

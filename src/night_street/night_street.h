@@ -61,6 +61,13 @@ class Street {
   /// The street seen by a camera; row 0 = bottom (v = 0). Throws Error(usage) when `far` is not positive and finite.
   View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor, Parts parts = Parts::nine) const;
 
+  /// What one ray sees. `direction` is unit. From several threads at once, each with a FloatingPointGuard.
+  struct Sight {
+    scene::Vector3 radiance;  ///< linear
+    double distance;          ///< metres to the surface that it met; infinite for the sky
+  };
+  Sight look(const scene::Vector3& origin, const scene::Vector3& direction) const;
+
  private:
   std::unique_ptr<const City> city_;
   std::vector<Lamp> lamps_;

@@ -40,7 +40,11 @@ template <class N>
 RAINREF_FN Vec3<N> to_camera(const CompositeUniforms& c, const Vec3<N>& glass) {
   return glass.x * Vec3<N>(c.plane_x) + glass.y * Vec3<N>(c.plane_y) + glass.z * Vec3<N>(c.outward);
 }
-/// Texture coordinates in the picture of the scene.
+/// Texture coordinates in the picture of the scene: what a pixel of a drop shows.
+template <class N>
+struct ScenePoint {
+  N u, v;
+};
 template <class N>
 RAINREF_FN N scene_u(const CompositeUniforms& c, N x) { return N(0.5f) + x * N(c.scene_scale[0]); }
 template <class N>
@@ -69,6 +73,11 @@ RAINREF_FN N highlight(const Vec3<N>& normal, const Vec3<N>& to_light, const Vec
 //   bgBlur = pyramid(screen, blurLOD),  bgSharp = scene(screen + offset),  offset = refraction n.xy visibility
 // then film over the scene by wetness, drops over the film by their visibility, both cut by the wiper mask; glints from the
 // perturbed normal. The article leaves the sign of the offset open; here the picture moves along n.xy (E0 10).
+template <class N>
+RAINREF_FN ScenePoint<N> shown_as_published(const CompositeUniforms& c, const GlassPoint<N>& g, const Water<N>& w, N visibility) {
+  const N strength = N(c.refraction) * visibility;
+  return {scene_u(c, g.x) + strength * w.normal.x, scene_v(c, g.y) + strength * w.normal.y};
+}
 template <class N, class Colours, class Values>
 RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colours& pyramid, const Values& height, const Colours& normal, const Values& mask, const Glint* glints, int column,
                                           int row) {
@@ -76,9 +85,10 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
   const Water<N> w = water_at<N>(height, normal, mask, g);
   const N wet = N(1.0f) - w.mask;
   const N visibility = smoothstep(c.visible_from, c.visible_to, w.height) * wet;
-  const N su = scene_u(c, g.x), sv = scene_v(c, g.y), strength = N(c.refraction) * visibility;
+  const N su = scene_u(c, g.x), sv = scene_v(c, g.y);
+  const ScenePoint<N> shown = shown_as_published(c, g, w, visibility);
   const Vec3<N> behind = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
-  const Vec3<N> sharp = sharp_at<N>(pyramid, su + strength * w.normal.x, sv + strength * w.normal.y);
+  const Vec3<N> sharp = sharp_at<N>(pyramid, shown.u, shown.v);
   Vec3<N> colour = mix(mix(behind, blur, N(c.wetness) * wet), sharp, visibility);
   const N eye_inverse = N(1.0f) / length(Vec3<N>(g.x, g.y, N(1.0f)));
   const Vec3<N> to_eye = (-eye_inverse) * Vec3<N>(g.x, g.y, N(1.0f));
@@ -102,6 +112,13 @@ RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, con
   const Vec3<N> inside = refract(ray, N(-1.0f) * outward, 1.0f / ior);
   return refract(inside, N(-1.0f) * surface, ior);
 }
+template <class N, class Depths>
+RAINREF_FN ScenePoint<N> shown_corrected(const CompositeUniforms& c, const Depths& depth, const GlassPoint<N>& g, const Vec3<N>& bent) {
+  const N far = max(sample_bilinear<0, 1, N>(depth, scene_u(c, g.x), scene_v(c, g.y))[0] - g.distance, N(0.0f));
+  const N ahead = max(bent.z, N(0.05f)), share = g.distance / max(g.distance + far, N(1e-3f));
+  const N x = mix(bent.x / ahead, g.x, share), y = mix(bent.y / ahead, g.y, share);
+  return {scene_u(c, x), scene_v(c, y)};
+}
 template <class N, class Colours, class Depths, class Values>
 RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Depths& depth, const Values& height, const Colours& normal, const Values& mask,
                                        const Glint* glints, int column, int row) {
@@ -116,10 +133,8 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   const Vec3<N> bent = through_water(ray, outward, surface, c.water_ior);
   const N reflected = fresnel_dielectric(saturate(dot(bent, surface)), c.water_ior);
 
-  const N far = max(sample_bilinear<0, 1, N>(depth, scene_u(c, g.x), scene_v(c, g.y))[0] - g.distance, zero);
-  const N ahead = max(bent.z, N(0.05f)), share = g.distance / max(g.distance + far, N(1e-3f));
-  const N x = mix(bent.x / ahead, g.x, share), y = mix(bent.y / ahead, g.y, share);
-  const N su = scene_u(c, x), sv = scene_v(c, y);
+  const ScenePoint<N> shown = shown_corrected(c, depth, g, bent);
+  const N su = shown.u, sv = shown.v;
 
   const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
   Vec3<N> colour = mix(sharp, blur, N(c.wetness) * wet * (one - visibility));

@@ -12,8 +12,6 @@ using scene::Vector3;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
 
-// x forward, y left, z up becomes the street's x right, y up, z backward.
-Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
 Image as_half(const Image& from) {
   Image to(Format::rgba16f, from.width(), from.height());
   for (int y = 0; y < from.height(); ++y) {
@@ -25,6 +23,15 @@ Image as_half(const Image& from) {
 }
 
 }  // namespace
+
+// x forward, y left, z up becomes the street's x right, y up, z backward.
+Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
+// The street begins again between two keyframes, so that no view lies between its end and its beginning.
+Vector3 place_in_street(double start, double distance) {
+  constexpr double length = StreetDrive::street_length, spacing = StreetDrive::spacing;
+  const double taken = spacing * std::floor(distance / spacing), way = start + taken;
+  return {lane, 0, start_z - (way - length * std::floor(way / length) + (distance - taken))};
+}
 
 struct StreetDrive::State {
   scene::Camera camera;
@@ -38,13 +45,10 @@ struct StreetDrive::State {
   State(const scene::Camera& c, int w, int h, double start, std::uint64_t seed, const parallel::Executor& e)
       : camera(c), width(w), height(h), first(start), street({seed}), executor(e) {}
 
-  /// Along the street, of a keyframe.
-  double place(int k) const {
-    const double way = first + k * spacing;
-    return way - street_length * std::floor(way / street_length);
-  }
+  /// Where keyframe k is taken.
+  Vector3 place(int k) const { return place_in_street(first, k * spacing); }
   night_street::Street::View render(int k, night_street::Parts parts) const {
-    const Vector3 start(lane, 0, start_z - place(k));
+    const Vector3 start = place(k);
     scene::Camera c = camera;
     c.position = start + in_street(camera.position);
     c.target = start + in_street(camera.target);
@@ -81,7 +85,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   }
   const int k = static_cast<int>(distance / spacing);
   const double gone = distance - k * spacing;
-  const bool stands = distance == k * spacing, starts_anew = s.place(k + 1) < s.place(k);
+  const bool stands = distance == k * spacing, starts_anew = s.place(k + 1).z > s.place(k).z;
   // At a keyframe, and where the street ends, there is no need to look ahead.
   const Keyframe &behind = s.keyframe(k), &ahead = stands || starts_anew ? behind : s.keyframe(k + 1);
   s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k));

@@ -21,6 +21,11 @@ struct SceneView {
 };
 constexpr double street_far = 1000;
 
+/// A vector of car axes in the axes of the street, for a car that drives straight along it in the right lane.
+scene::Vector3 in_street(const scene::Vector3& car);
+/// Where the car's origin is in the street that StreetDrive shows, `distance` metres after it began at `start`.
+scene::Vector3 place_in_street(double start, double distance);
+
 /// Views of the street for a car that goes along it, straight on; after street_length metres it starts again. The street is
 /// rendered every `spacing` metres; between, each view is made from the one behind and the one ahead, by their depths. The same
 /// bits on every machine.

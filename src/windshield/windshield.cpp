@@ -259,6 +259,7 @@ const Image& Windshield::height() const { return state_->height; }
 const Image& Windshield::mask() const { return state_->mask; }
 const Image& Windshield::film() const { return state_->water.film; }
 const Image& Windshield::normal() const { return state_->normal; }
+const Image& Windshield::scene_depth() const { return state_->scene.depth; }
 const Image& Windshield::colour() const { return state_->colour; }
 const Image& Windshield::picture() const { return state_->picture; }
 

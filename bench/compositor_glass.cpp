@@ -1,0 +1,90 @@
+// The whole picture of a traced windshield: the water of a frame as surfaces, tracing, the street behind. What a row says: README.md.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "capture/hashing.h"
+#include "compositor/windshield_view.h"
+#include "scene/toml.h"
+#include "stream.h"
+
+namespace rainref::compositor {
+namespace {
+
+// scenes/windshield/default.toml after 100 frames. `rays` are primary ones; each sees the street at least once, which is most of
+// the work, so the same rays with nothing but the street stand beside it.
+void picture(benchmark::State& state, double radius, const std::string& embree_config, int threads) {
+  const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, windshield::parameters()}}};
+  const scene::Config config = scene::parse("effect = 'windshield'\nvariant = 'corrected'\nseed = 1\n", "bench",
+                                            {"vehicle.speed=0", "wipers.count=0", "rain.rate=90", "rain.smallest_drop=0.8", "windshield.corner_2=[1.386, 0.7, 1.613]",
+                                             "windshield.height_size=[2048, 1168]", "camera.position=[0.6, 0, 1.32]", "camera.target=[10, 0, 1.5]",
+                                             "camera.vertical_fov_deg=24", "run.size=[640, 360]", "run.fps=30", "scene.size=[8, 8]"},
+                                            table);
+  const parallel::Executor executor(threads);
+  const windshield::Settings settings = windshield::settings_from(config);
+  static const auto rendered = [&] {
+    static const parallel::Executor own;
+    auto w = std::make_unique<windshield::Windshield>(config, windshield::Surroundings{}, own);
+    for (int frame = 0; frame < 100; ++frame) w->simulate();
+    w->render();
+    return w;
+  }();
+  const WindshieldView view(settings, {5e-3, radius}, {embree_config}, executor);
+  const int width = settings.picture.width, height = settings.picture.height;
+  double best = 1e9, best_update = 1e9, best_street = 1e9;
+  std::string hash;
+  for (auto _ : state) {
+    std::unique_ptr<Scene> scene;
+    const double update = bench::seconds_of([&] { scene = view.scene(rendered->height(), 0); });
+    Picture traced;
+    const double seconds = bench::seconds_of([&] { traced = trace_picture(*scene, view.camera(), width, height, {}, executor); });
+    const PrimaryRays primary(view.camera(), width, height);
+    const double street = bench::seconds_of([&] {
+      executor.for_tiles(width, height, 64, 16, [&](const parallel::Tile& tile) {
+        std::vector<Sight> sights;
+        for (int y = tile.y0; y < tile.y1; ++y) {
+          for (int x = tile.x0; x < tile.x1; ++x) {
+            const Ray ray = primary.through(x + 0.5, y + 0.5);
+            const double length = __builtin_sqrt(dot(ray.direction, ray.direction));
+            sights.push_back({view.camera().position + 2.0 * ray.direction, ray.direction / length});
+          }
+        }
+        std::vector<Vec> radiance(sights.size());
+        scene->environment().radiance(sights, radiance);
+        benchmark::DoNotOptimize(radiance.data());
+      });
+    });
+    best = std::min(best, update + seconds);
+    best_update = std::min(best_update, update);
+    best_street = std::min(best_street, street);
+    state.SetIterationTime(update + seconds);
+    if (hash.empty()) hash = capture::hash_of(traced.beauty).text().substr(0, 16);
+  }
+  state.counters["best_ms"] = 1e3 * best;
+  state.counters["update_ms"] = 1e3 * best_update;
+  state.counters["street_ms"] = 1e3 * best_street;
+  state.counters["over_street"] = best / best_street;
+  state.counters["Mpix/s"] = 1e-6 * width * height / best;
+  state.SetLabel(hash);
+}
+
+const bool registered = [] {
+  for (const double radius : {0.0, 3.0}) {
+    for (const int threads : {1, 2}) {
+      for (const std::string config : {"", "isa=sse2"}) {
+        if (threads > 1 && !config.empty()) continue;
+        benchmark::RegisterBenchmark(fmt::format("traced_windshield/640x360/{}/threads:{}{}", radius > 0 ? "bent" : "flat", threads, config.empty() ? "" : "/" + config).c_str(),
+                                     [=](benchmark::State& state) { picture(state, radius, config, threads); })
+            ->UseManualTime()
+            ->Iterations(3)
+            ->Unit(benchmark::kMillisecond);
+      }
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace rainref::compositor

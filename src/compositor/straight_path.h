@@ -1,0 +1,21 @@
+// The one path of light that interfaces bend and do not mirror: what a drop shows, as a direction.
+#pragma once
+
+#include "compositor/scene.h"
+
+namespace rainref::compositor {
+
+struct StraightPath {
+  enum class End : std::uint8_t {
+    out,       ///< left everything behind
+    mirrored,  ///< met an interface beyond the critical angle
+    stopped,   ///< met an opaque surface, or more than `most` interfaces
+  } end = End::stopped;
+  Vec origin{0, 0, 0}, direction{0, 0, 0};  ///< of the last ray; the direction is unit
+  int interfaces = 0;                       ///< passed
+};
+
+/// Follows the ray as `shade` follows its refracted rays.
+StraightPath straight_path(const Scene& scene, const Ray& ray, int most = 16);
+
+}  // namespace rainref::compositor

@@ -1,0 +1,94 @@
+// The windshield's traced pictures and its composite against them, as a user meets them.
+#include "cli/support.h"
+#include "image_io/read.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::HasSubstr;
+
+class WindshieldTruth : public CommandLine {
+ protected:
+  WindshieldTruth() {
+    for (const char* variant : {"corrected", "as-published"}) {
+      put(folder / (std::string(variant) + ".toml"), std::string("effect = \"windshield\"\nvariant = \"") + variant + R"("
+[run]
+frames = 12
+fps = 4
+size = [48, 27]
+[vehicle]
+speed = 0
+[wipers]
+count = 0
+[windshield]
+height_size = [160, 93]
+[scene]
+size = [64, 36]
+moves = false
+[camera]
+vertical_fov_deg = 8
+)");
+    }
+    put(folder / "corrected.toml", contents(folder / "corrected.toml") + "[rain]\nrate = 150\nsmallest_drop = 1.5\n");
+    before = folder.names();
+  }
+  nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
+};
+
+TEST_F(WindshieldTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
+  const auto run = [&](const std::string& to, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"run", "corrected.toml", "-o", to, "--image", "none", "--set", "compositor.picture=traced"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome o = rainref(arguments);
+    EXPECT_EQ(o.code, 0) << o.err;
+    std::map<std::string, std::string> out;
+    const nlohmann::json all = summary(to);
+    for (const auto& line : all["last_frame"]) {
+      if (line["pass"] == "compositor") out[line["buffer"]] = line["xxh3"];
+    }
+    return out;
+  };
+  const auto first = run("a", {});
+  EXPECT_EQ(first.size(), 6u);
+  EXPECT_EQ(run("b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "1"}), first);
+  EXPECT_EQ(run("c", {"--set", "compositor.embree_config=isa=avx2", "--threads", "3", "--simd", "scalar"}), first);
+  EXPECT_NE(run("d", {"--set", "compositor.glass_radius=3"}), first);
+  EXPECT_NE(run("e", {"--set", "compositor.glass_thickness=0.02"}), first);
+}
+
+TEST_F(WindshieldTruth, CompositeIsComparedInBothVariants) {
+  for (const std::string variant : {"corrected", "as-published"}) {
+    const Outcome o = rainref({"run", variant + ".toml", "-o", variant, "--compare-truth"});
+    ASSERT_EQ(o.code, 0) << o.err;
+    const nlohmann::json truth = summary(variant)["truth"].at(0);
+    EXPECT_EQ(truth["glass_pixels"], 48 * 27);
+    EXPECT_GT(truth["drop_pixels"], 10) << variant;
+    for (const char* name : {"refraction", "refraction_film", "colour", "colour_film", "display"}) {
+      const nlohmann::json d = truth["differences"][name];
+      EXPECT_GT(d["pixels"], 0) << name;
+      EXPECT_LE(d["p50"], d["p90"]);
+      EXPECT_LE(d["p99"], d["max"]);
+      EXPECT_TRUE(std::filesystem::exists(folder / variant / d["picture"].get<std::string>()));
+    }
+  }
+}
+
+// Without water and with hardly any glass there is nothing to refract: both see the street where it is.
+TEST_F(WindshieldTruth, AgreeWhereThereIsNothingToRefract) {
+  const Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--frames", "1", "--set", "rain.rate=0", "--set", "compositor.glass_thickness=1e-5", "--compare-truth"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const nlohmann::json truth = summary("o")["truth"].at(0);
+  EXPECT_EQ(truth["drop_pixels"], 0);
+  const nlohmann::json film = truth["differences"]["refraction_film"];
+  EXPECT_EQ(film["pixels"], 48 * 27);
+  EXPECT_LT(film["max"], 1e-3);  // float uniforms on one side, 10 um of glass 1 m from the eye on the other
+}
+
+TEST_F(WindshieldTruth, WhatCannotBeTracedIsRefused) {
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "scene.image=sky.png", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.picture: expected \"passes\""));
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "scene.image=sky.png", "--compare-truth"}, 2, HasSubstr("has no traced truth"));
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=traced", "--set", "compositor.glass_radius=0.1"}, 2, HasSubstr("pane: expected a radius"));
+}
+
+}  // namespace
+}  // namespace rainref::cli
