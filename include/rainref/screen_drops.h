@@ -35,8 +35,8 @@ struct Settings {
   int noise_size = 256;      ///< texels a side of the noise made here
 
   // corrected
-  double pane_height = 0.15;      ///< of glass in the picture's height [m]
-  double largest_radius = 3;      ///< of a drop's base [mm]
+  double pane_height = 0.12;      ///< of glass in the picture's height [m]
+  double largest_radius = 4;      ///< of a drop's base [mm]
   double share = 0.6;             ///< of cells that hold a drop
   double contact_angle_deg = 50;  ///< of the drops' caps
   double shortest_cycle = 8, longest_cycle = 30;  ///< of a cell [s]

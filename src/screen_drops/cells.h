@@ -13,9 +13,19 @@ struct CellState {
   std::uint32_t phase;       ///< of 65536: how far it has come
   std::uint32_t size, x, y;  ///< of 65536
 };
-/// Of the texel (column, row) of the buffer of cells; none where no layer has a cell there.
-/// A cell has a cycle of its own length, and starts within it; each cycle draws place and size anew.
-CellState cell_state(const CellsUniforms& uniforms, int column, int row);
+/// A row of the buffer of cells. A cell has a cycle of its own length, and starts within it; each cycle draws place and size
+/// anew.
+class CellLine {
+ public:
+  CellLine(const CellsUniforms& uniforms, int row);
+  /// Of the texel in this column; none where the row's layer has no cell.
+  CellState at(int column) const;
+
+ private:
+  const CellsUniforms& u_;
+  std::uint32_t layer_ = 0, line_ = 0;
+  std::int32_t columns_ = 0;
+};
 
 /// The pass, for rows [begin, end) of the buffer: rgba32f, centre x, y, radius [cell]; phase. The same on every target: one
 /// number at a time.

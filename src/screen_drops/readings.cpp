@@ -77,7 +77,7 @@ struct Cells {
 
   template <class N>
   void operator()(int x, int y, N* out) const {
-    const CellState s = cell_state(uniforms, x, y);
+    const CellState s = CellLine(uniforms, y).at(x);
     const auto share = [](std::uint32_t of_65536) { return N(static_cast<float>(of_65536) * 0x1p-16f); };
     const N none(0.0f);
     const auto d = s.holds_drop ? scalar::cell_drop<N>(uniforms, share(s.size), share(s.x), share(s.y), share(s.phase)) : scalar::CellDrop<N>{none, none, none, none};
