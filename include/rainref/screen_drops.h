@@ -52,11 +52,14 @@ struct Inputs {
   Image noise;   ///< as-published: four channels, any size, a tile; empty: made from the seed
 };
 
+struct FlowSettings;  ///< of drops that slide and merge: src/screen_drops/flow.h
+
 /// A wet window before a still scene. Every buffer has the same bits whatever the executor's threads and the SIMD target.
 class ScreenDrops {
  public:
   /// Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
-  ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor);
+  /// flow: corrected only; null: no water flows. Its pane is pane_height high and as wide as the picture.
+  ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow = nullptr);
   ~ScreenDrops();
   ScreenDrops(ScreenDrops&&) noexcept;
 
@@ -68,6 +71,7 @@ class ScreenDrops {
 
   const Image& background() const;  ///< rgba16f: the scene out of focus
   const Image& cells() const;       ///< corrected: rgba32f, see docs/effects/screen_drops.md
+  const Image& height() const;      ///< corrected: r16f, flowing water [mm]; 1 x 1 without flow
   const Image& water() const;       ///< r8: as-published layer / 4 of the drop that the pixel shows, corrected its coverage
   const Image& colour() const;      ///< rgba16f: linear radiance
   const Image& picture() const;     ///< rgba8: display code; row 0 = bottom

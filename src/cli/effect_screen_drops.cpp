@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "cli/effects.h"
 #include "cli/inputs.h"
 #include "cli/pictures.h"
@@ -55,7 +57,10 @@ class ScreenDropsSimulation : public Simulation {
 
  private:
   ScreenDropsSimulation(const Settings& settings, const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& files)
-      : effect_(settings, images(config, settings, executor, files), executor) {}
+      : effect_(make(settings, screen_drops::flow_from(config, settings), images(config, settings, executor, files), executor)) {}
+  static screen_drops::ScreenDrops make(const Settings& settings, const std::optional<screen_drops::FlowSettings>& flow, const screen_drops::Inputs& in, const parallel::Executor& executor) {
+    return {settings, in, executor, flow ? &*flow : nullptr};
+  }
 
   screen_drops::ScreenDrops effect_;
 };

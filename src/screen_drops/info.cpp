@@ -1,5 +1,6 @@
 #include "screen_drops/info.h"
 
+#include "screen_drops/flow_info.h"
 #include "screen_drops/uniforms.h"
 
 namespace rainref::screen_drops {
@@ -49,29 +50,35 @@ EffectInfo make() {
   constexpr auto envelope = Judge::envelope;
   EffectInfo info;
   info.name = "screen_drops";
-  info.passes = {
+  info.passes = flow_passes();
+  for (const PassInfo& pass : std::vector<PassInfo>{
       {"background", "The scene out of focus, without water. Once, before frame 0.", {{published, 1, envelope, "BackgroundUniforms"}, {correct, 1, envelope, "BackgroundUniforms"}},
        {{"scene"}, {"taps", "", false, correct}}, {"background"}, {background}},
       {"cells", "The drop that each cell of four grids holds now.", {{correct, 1, envelope, "CellsUniforms"}}, {}, {"cells"}, {cells}},
       {"drops", "The scene through the drops on the window: linear radiance, and where water is.", {{published, 1, envelope, "PublishedDropsUniforms"}, {correct, 1, envelope, "DropsUniforms"}},
-       {{"background", "background"}, {"scene"}, {"noise", "", false, published}, {"cells", "cells", false, correct}, {"height", "", false, correct}}, {"water", "colour"}, {printed, drops},
+       {{"background", "background"}, {"scene"}, {"noise", "", false, published}, {"cells", "cells", false, correct}, {"height", "splat", false, correct}}, {"water", "colour"}, {printed, drops},
        "gather", {"dot", "length", "normalize"}},
       {"display", "Display code.", {{published, 1, envelope, "DisplayUniforms"}, {correct, 1, envelope, "DisplayUniforms"}}, {{"colour", "drops"}}, {"picture"}, {display}},
-  };
+       }) {
+    info.passes.push_back(pass);
+  }
   const std::array<double, 2> one{0, 1};
-  info.buffers = {
+  info.buffers = flow_buffers();
+  for (const BufferInfo& buffer : std::vector<BufferInfo>{
       {"scene", "rgba16f", "The scene without the glass and without blur, linear radiance, with mips.", "1", one, "none", "linear Rec. 709", "unused"},
       {"taps", "records", "Places that the background is the mean of.", "1", one, "none", "none", "none", "", "Tap", correct},
       {"background", "rgba16f", "The scene out of focus: linear radiance, alpha 1.", "1", one, "none", "linear Rec. 709", "1"},
       {"noise", "rgba8", "Noise, a tile: x and y displace the grid; x keeps a cell's drop, y is its time offset, z its rate.", "1", one, "none", "none", "none", "", "", published},
       {"cells", "rgba32f", "Of a cell's drop: centre x, y and radius, in cells; how far its cycle has come. Radius 0: none. Layers above each other, coarsest first.", "cell, cell, cell, 1", one, "none", "none", "none", "", "", correct},
-      {"height", "r16f", "Flowing water over the whole picture; one texel of 0 where nothing flows.", "mm", {0, 4}, "none", "none", "none", "", "", correct},
       {"water", "r8", "A quarter of the layer whose drop shows; 0: none.", "1", one, "none", "none", "none", "", "", published},
       {"water", "r8", "Share of the pixel that water covers.", "1", one, "none", "none", "none", "", "", correct},
       {"colour", "rgba16f", "Linear radiance, alpha 1.", "1", one, "none", "linear Rec. 709", "1"},
       {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"},
-  };
-  info.records = {tap};
+       }) {
+    info.buffers.push_back(buffer);
+  }
+  info.records = flow_records();
+  info.records.push_back(tap);
   return info;
 }
 

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "screen_drops/flow_info.h"
+
 namespace rainref::screen_drops {
 namespace {
 
@@ -12,7 +14,8 @@ constexpr const char *published = "as-published", *correct = "corrected";
 }  // namespace
 
 std::span<const scene::Parameter> parameters() {
-  static const std::vector<scene::Parameter> table{
+  static const std::vector<scene::Parameter> table = [] {
+    std::vector<scene::Parameter> all{
       // The origin's constants.
       real("drops.grid", "cell/pixel", 1e-4, 1, 0.015, "Cells of the coarsest layer in a pixel; layer r has r times as many.").only(published),
       real("drops.keep", "1", 0, 1, 0.08, "A cell of layer r holds a drop where its noise is below 5 - r times this.").only(published),
@@ -40,7 +43,11 @@ std::span<const scene::Parameter> parameters() {
       real3("camera.target", "m", -1e5, 1e5, {0.6, 1.9, -20}, "Point that the camera looks at, through glass that stands across the view."),
       real3("camera.up", "1", -1, 1, {0, 1, 0}, "Direction that is up in the picture."),
       real("camera.vertical_fov_deg", "deg", 1, 150, 30, "Vertical field of view; of a picture from a file, too."),
-  };
+      boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
+    };
+    for (const scene::Parameter& p : flow_parameters("flow")) all.push_back(p);
+    return all;
+  }();
   return table;
 }
 
@@ -79,6 +86,11 @@ Settings settings_from(const scene::Config& c) {
     s.noise_size = static_cast<int>(c.integer("noise.size"));
   }
   return s;
+}
+
+std::optional<FlowSettings> flow_from(const scene::Config& config, const Settings& s) {
+  if (s.variant != Variant::corrected || !config.boolean("flow.on")) return {};
+  return flow_settings(config, "flow", {s.pane_height * s.width / s.height, s.pane_height}, s.rounding);
 }
 
 }  // namespace rainref::screen_drops

@@ -5,6 +5,7 @@
 #include "capture/bound_texture.h"
 #include "rainref/error.h"
 #include "screen_drops/cells.h"
+#include "screen_drops/flow_info.h"
 #include "screen_drops/plain.h"
 
 namespace rainref::screen_drops {
@@ -149,7 +150,11 @@ std::unique_ptr<PassModel> bind_display(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
-  static const std::vector<capture::PassReadings> all{{"background", bind_background}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", bind_display}};
+  static const std::vector<capture::PassReadings> all = [] {
+    std::vector<capture::PassReadings> passes = flow_readings();
+    for (const capture::PassReadings& own : {capture::PassReadings{"background", bind_background}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", bind_display}}) passes.push_back(own);
+    return passes;
+  }();
   return all;
 }
 

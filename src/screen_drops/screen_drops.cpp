@@ -7,7 +7,10 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
+#include "math/half_array.h"
+#include "rainref/error.h"
 #include "screen_drops/cells.h"
+#include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/kernels.h"
 
@@ -30,10 +33,11 @@ struct ScreenDrops::State {
   std::optional<blur_pyramid::DecodedLevels> scene;
   std::vector<Tap> taps;
   std::array<Layer, layers> grids{};
-  Image noise_image, height, background, cells, water, colour, picture;
+  std::optional<Flow> flow;
+  Image noise_image, no_height, background, cells, water, colour, picture;
   TextureData noise, height_texture, cells_texture;
 
-  State(const Settings& s, const Inputs& in, const parallel::Executor& e) : settings(s), executor(e), corrected(s.variant == Variant::corrected) {
+  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected) {
     const std::vector<Image> levels = scene_levels(in.colour);
     scene.emplace(levels);
     scene->refresh(executor, levels);
@@ -43,8 +47,9 @@ struct ScreenDrops::State {
       const std::array<int, 2> size = cells_size(grids);
       cells = Image(Format::rgba32f, size[0], size[1]);
       cells_texture = TextureData(cells, Address::clamp, Address::clamp);
-      height = Image(Format::r16f, 1, 1);
-      height_texture = TextureData(height, Address::clamp, Address::clamp);
+      no_height = Image(Format::r16f, 1, 1);
+      if (flowing != nullptr) flow.emplace(*flowing, e);
+      height_texture = TextureData(height(), Address::clamp, Address::clamp);
     } else {
       noise_image = in.noise.empty() ? make_noise(s.seed, s.noise_size) : stored_noise(in.noise);
       noise = TextureData(noise_image, Address::repeat, Address::repeat);
@@ -54,6 +59,8 @@ struct ScreenDrops::State {
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
   }
+
+  const Image& height() const { return flow ? flow->height() : no_height; }
 
   template <class Uniforms>
   void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, const std::vector<PassInput>& inputs) const {
@@ -65,6 +72,13 @@ struct ScreenDrops::State {
   }
   PassInput scene_input(bool with_mips) const { return {"scene", &scene->view(), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
 
+  void run_water(Recorder* recorder) {
+    flow->simulate(recorder);
+    const Image& h = flow->height();
+    executor.for_range(h.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
+      for (auto y = static_cast<int>(begin); y < end; ++y) to_float_array(h.row<Half>(y), height_texture.texels() + static_cast<std::ptrdiff_t>(h.width()) * y, static_cast<std::size_t>(h.width()));
+    });
+  }
   void blur(Recorder* recorder) {
     const BackgroundUniforms u = background_uniforms(settings);
     std::vector<PassInput> inputs{scene_input(true)};
@@ -88,20 +102,22 @@ struct ScreenDrops::State {
   }
 };
 
-ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor) {
+ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow) {
   check(settings);
   check(settings, inputs);
-  state_ = std::make_unique<State>(settings, inputs, executor);
+  if (flow != nullptr && settings.variant != Variant::corrected) throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
+  state_ = std::make_unique<State>(settings, inputs, executor, flow);
 }
 ScreenDrops::~ScreenDrops() = default;
 ScreenDrops::ScreenDrops(ScreenDrops&&) noexcept = default;
 
 void ScreenDrops::render(Recorder* recorder) {
   State& s = *state_;
+  if (s.flow) s.run_water(recorder);
   if (s.frame == 0) s.blur(recorder);
   if (s.corrected) s.fill_cells(recorder);
   const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
-  const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, {0, 0});
+  const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
   const DisplayUniforms shown = display_uniforms(s.settings);
   const DropsInputs in{&s.scene->view(), &s.noise.view(), &s.cells_texture.view(), &s.height_texture.view(), &s.background};
   const Rounding rounding = s.settings.rounding;
@@ -113,7 +129,7 @@ void ScreenDrops::render(Recorder* recorder) {
   });
   // What these passes read, neither of them overwrites: they may be announced after both have run.
   if (s.corrected) {
-    s.announce(recorder, "drops", corrected, {{"background", s.background}, s.scene_input(true), {"cells", s.cells}, {"height", s.height, Filter::linear}});
+    s.announce(recorder, "drops", corrected, {{"background", s.background}, s.scene_input(true), {"cells", s.cells}, {"height", s.height(), Filter::linear}});
   } else {
     s.announce(recorder, "drops", published, {{"background", s.background}, s.scene_input(false), {"noise", s.noise_image, Filter::linear, Filter::none, Address::repeat}});
   }
@@ -127,6 +143,7 @@ void ScreenDrops::render(Recorder* recorder) {
 int ScreenDrops::frame() const { return state_->frame; }
 const Image& ScreenDrops::background() const { return state_->background; }
 const Image& ScreenDrops::cells() const { return state_->cells; }
+const Image& ScreenDrops::height() const { return state_->height(); }
 const Image& ScreenDrops::water() const { return state_->water; }
 const Image& ScreenDrops::colour() const { return state_->colour; }
 const Image& ScreenDrops::picture() const { return state_->picture; }
