@@ -32,9 +32,11 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
     const N px = N(6.28f) * u * columns + shift_x, py = N(6.28f) * v * rows + shift_y;
     const N cell_x = floor((u * columns - quarter) + half), cell_y = floor((v * rows - quarter) + half);
     const auto s = sample_bilinear<0, 3, N>(noise, cell_x / columns, cell_y / rows);
+    const auto is_kept = s[0] < N(static_cast<float>(5 - r)) * N(d.keep);
+    if (!any(is_kept)) continue;
     const N fade = max(zero, one - fract(N(d.time) * (s[2] + N(0.1f)) + s[1]) * two);
     const N t = (sin(px) + sin(py)) * fade;
-    const auto is_drop = (s[0] < N(static_cast<float>(5 - r)) * N(d.keep)) & (t > half);
+    const auto is_drop = is_kept & (t > half);
     if (!any(is_drop)) continue;
     const N x = cos(px), y = cos(py), z = mix(N(0.2f), two, t - half);
     const N inverse = one / sqrt(sum_any_order(square(x), square(y), square(z)));
