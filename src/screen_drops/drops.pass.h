@@ -86,9 +86,11 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
 template <class N, class H>
 RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const Surface<N>& s, int column, int row) {
   const N one(1.0f);
-  const auto h = sample_neighbours<0, N>(height, (N::index(column) + N(0.5f)) * N(u.flow_pixel[0]), N(static_cast<float>(row) + 0.5f) * N(u.flow_pixel[1]));
-  const N cover = smoothstep(u.visible_from, u.visible_to, N(0.25f) * sum_any_order(h.left, h.right, h.down, h.up));
-  const N gx = (h.right - h.left) * N(u.flow_slope[0]), gy = (h.up - h.down) * N(u.flow_slope[1]);
+  const N x = (N::index(column) + N(0.5f)) * N(u.flow_pixel[0]), y = N(static_cast<float>(row) + 0.5f) * N(u.flow_pixel[1]), dx(u.flow_texel[0]), dy(u.flow_texel[1]);
+  const N left = sample_bilinear<0, 1, N>(height, x - dx, y)[0], right = sample_bilinear<0, 1, N>(height, x + dx, y)[0];
+  const N down = sample_bilinear<0, 1, N>(height, x, y - dy)[0], up = sample_bilinear<0, 1, N>(height, x, y + dy)[0];
+  const N cover = smoothstep(u.visible_from, u.visible_to, N(0.25f) * sum_any_order(left, right, down, up));
+  const N gx = (right - left) * N(u.flow_slope[0]), gy = (up - down) * N(u.flow_slope[1]);
   const N inverse = one / sqrt(sum_any_order(one, square(gx), square(gy)));
   return {mix(s.x, -gx * inverse, cover), mix(s.y, -gy * inverse, cover), mix(s.cover, one, cover), mix(s.level, N(u.flow_level), cover)};
 }

@@ -194,6 +194,8 @@ DropsUniforms drops_uniforms(const Settings& s, const std::array<Layer, layers>&
   if (u.has_flow != 0) {
     u.flow_slope[0] = static_cast<float>(flow[0] / (2 * s.width * millimetres(s)));
     u.flow_slope[1] = static_cast<float>(flow[1] / (2 * s.height * millimetres(s)));
+    u.flow_texel[0] = static_cast<float>(1.0 / flow[0]);
+    u.flow_texel[1] = static_cast<float>(1.0 / flow[1]);
   }
   u.flow_pixel[0] = static_cast<float>(1.0 / s.width);
   u.flow_pixel[1] = static_cast<float>(1.0 / s.height);

@@ -43,7 +43,8 @@ EffectInfo make() {
                         member<&D::flow_slope>("flow_slope", "1/mm", "Slope per difference of heights two texels apart."),
                         member<&D::flow_pixel>("flow_pixel", "1", "1 over the picture's columns and rows."),
                         member<&D::visible_from>("visible_from", "mm", "Height at which flowing water begins to show."), member<&D::visible_to>("visible_to", "mm", "Height from which it shows fully."),
-                        member<&D::flow_level>("flow_level", "1", "Mip level at which flowing water sees the scene.")});
+                        member<&D::flow_level>("flow_level", "1", "Mip level at which flowing water sees the scene."),
+                        member<&D::flow_texel>("flow_texel", "1", "1 over the columns and rows of height.")});
   const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
   const UniformBlock tap = record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."), member<&Tap::y>("y", "1", "See x.")});
 

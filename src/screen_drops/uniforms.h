@@ -68,7 +68,8 @@ struct DropsUniforms {
   float flow_pixel[2];        ///< 1 / columns and rows of the picture
   float visible_from, visible_to;  ///< height at which flowing water begins to show, and shows fully [mm]
   float flow_level;           ///< mip level at which flowing water sees the scene
-  float padding0, padding1, padding2;
+  float padding0;
+  float flow_texel[2];        ///< 1 / columns and rows of height
 };
 
 struct DisplayUniforms {
