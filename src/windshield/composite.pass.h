@@ -102,8 +102,8 @@ RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, con
   const Vec3<N> inside = refract(ray, N(-1.0f) * outward, 1.0f / ior);
   return refract(inside, N(-1.0f) * surface, ior);
 }
-template <class N, class Colours, class Values>
-RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Values& depth, const Values& height, const Colours& normal, const Values& mask,
+template <class N, class Colours, class Depths, class Values>
+RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Depths& depth, const Values& height, const Colours& normal, const Values& mask,
                                        const Glint* glints, int column, int row) {
   const N one(1.0f), zero(0.0f);
   const GlassPoint<N> g = glass_point<N>(c, column, row);

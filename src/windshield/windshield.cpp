@@ -6,6 +6,7 @@
 
 #include "capture/pass_clock.h"
 #include "drops/wet_glass.h"
+#include "image/code_table.h"
 #include "rainref/error.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
@@ -40,12 +41,12 @@ struct Windshield::State {
   std::vector<Wiper> wipers;  // of the frame
 
   Image height, mask, wiped, normal, colour, picture;
+  CodeTable display;
   SceneView scene;
   bool own_scene;
   std::optional<StreetDrive> street;
   std::vector<Image> levels;
-  std::optional<blur_pyramid::DecodedLevels> pyramid;
-  TextureData depth_texture, height_texture, normal_texture, mask_texture;
+  std::optional<blur_pyramid::LevelTexture> pyramid;
   std::vector<Glint> lights;
 
   State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
@@ -61,12 +62,13 @@ struct Windshield::State {
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
+    display = CodeTable([&](const Image& in, Image& out) { display_rows(display_uniforms(settings.picture), settings.surface.rounding, in, out, {0, 0, in.width(), in.height()}); });
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
-      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.seed, executor);
+      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.street_start, settings.seed, executor);
     } else {
       scene.colour = std::move(surroundings.colour);
       scene.depth = std::move(surroundings.depth);
@@ -147,7 +149,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
 bool Windshield::State::look() {
   if (!own_scene) return levels.empty();
   const bool moves = settings.scene_moves;
-  return street->look(settings.street_start + (moves ? vehicle.at(frame * frame_time()).distance : 0), moves, scene);
+  return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
 }
 
 Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor)
@@ -201,10 +203,6 @@ void Windshield::render(Recorder* recorder) {
   if (s.levels.empty()) {
     s.levels = blur_pyramid::make_levels(settings.blur, width, height);
     s.pyramid.emplace(s.levels);
-    s.depth_texture = TextureData(s.scene.depth, Address::clamp, Address::clamp);
-    s.height_texture = TextureData(s.height, Address::clamp, Address::clamp);
-    s.normal_texture = TextureData(s.normal, Address::clamp, Address::clamp);
-    s.mask_texture = TextureData(s.mask, Address::clamp, Address::clamp);
   }
   for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
     const std::size_t l = static_cast<std::size_t>(level);
@@ -220,16 +218,10 @@ void Windshield::render(Recorder* recorder) {
     s.report(recorder, last_step, "blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
   }
   Stopwatch composite_clock;
-  if (anew) {
-    s.pyramid->refresh(executor, s.levels);
-    decode(executor, s.scene.depth, s.depth_texture);
-  }
-  decode(executor, s.height, s.height_texture);
-  decode(executor, s.normal, s.normal_texture);
-  decode(executor, s.mask, s.mask_texture);
+  if (anew) s.pyramid->refresh(executor, s.levels);
   const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners);
-  const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.height_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
-  const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
+  const CompositeInputs in{s.pyramid->view(), stored_texture<float>(s.scene.depth), stored_texture<Half>(s.height), stored_texture<Half>(s.normal), stored_texture<Half>(s.mask), s.lights};
+  const PassInput pyramid{"blurred", std::span<const Image>(s.levels), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
       lights{"glints", records(s.lights)};
   if (s.corrected) {
     s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, water, normal, mask, lights});
@@ -245,7 +237,7 @@ void Windshield::render(Recorder* recorder) {
   const DisplayUniforms display = display_uniforms(settings.picture);
   s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
   Stopwatch display_clock;
-  tiles([&](const parallel::Tile& tile) { display_rows(display, rounding, s.colour, s.picture, tile); });
+  tiles([&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
   s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_clock.seconds());
   s.frame = recorded_frame;
 }

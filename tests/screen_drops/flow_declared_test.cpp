@@ -120,6 +120,7 @@ TEST(FlowDeclared, RecordersSeeThePassesAndWhatTheyTakeAsDeclared) {
       while (j > 0 && cases[j - 1].pass != read.from) --j;
       if (j == 0) continue;  // before the first frame
       EXPECT_EQ(cases[j - 1].step != c.step || cases[j - 1].frame != c.frame, read.previous || c.pass == "splat") << c.folder();
+      ASSERT_NE(cases[j - 1].output(read.buffer), nullptr) << c.folder() << ' ' << read.buffer;
       EXPECT_EQ(cases[j - 1].output(read.buffer)->array.levels, c.inputs[k].array.levels) << c.folder() << ' ' << read.buffer;
     }
   }
