@@ -150,7 +150,7 @@ class Layout : public testing::TestWithParam<const char*> {
   std::vector<std::pair<std::filesystem::path, ordered_json>> packs;
 };
 
-INSTANTIATE_TEST_SUITE_P(Effects, Layout, testing::Values("puddle", "windshield", "edge_splash", "rainy_glass"), [](const auto& effect) { return std::string(effect.param); });
+INSTANTIATE_TEST_SUITE_P(Effects, Layout, testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"), [](const auto& effect) { return std::string(effect.param); });
 
 TEST_P(Layout, C) {
   put(folder / "a.c", printing_program(described("c")));
