@@ -4,7 +4,6 @@
 #include <array>
 #include <cstring>
 #include <limits>
-#include <regex>
 
 #include <fmt/format.h>
 
@@ -136,9 +135,8 @@ void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> 
 /// Embree takes an instruction set that it does not know for its default, without a word.
 void check_isa(const std::string& config) {
   static const std::vector<std::string> known{"sse", "sse2", "sse3", "ssse3", "sse4.1", "sse4.2", "avx", "avxi", "avx2", "avx512", "neon"};
-  const std::regex pattern("\\b(max_)?isa\\s*=\\s*([^,\\s]*)");
-  for (std::sregex_iterator i(config.begin(), config.end(), pattern), end; i != end; ++i) {
-    const std::string name = (*i)[2];
+  for (std::size_t at = config.find("isa="); at != std::string::npos; at = config.find("isa=", at + 4)) {
+    const std::string name = config.substr(at + 4, config.find_first_of(", ", at) - at - 4);
     if (std::find(known.begin(), known.end(), name) == known.end()) refuse(config, fmt::format("no instruction set is called \"{}\"{}", name, did_you_mean(name, known)));
   }
 }
