@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
 #include "math/half_array.h"
 #include "rainref/error.h"
@@ -30,17 +29,14 @@ struct ScreenDrops::State {
   const parallel::Executor& executor;
   bool corrected;
   int frame = 0;
-  std::optional<blur_pyramid::DecodedLevels> scene;
+  DecodedScene scene;
   std::vector<Tap> taps;
   std::array<Layer, layers> grids{};
   std::optional<Flow> flow;
   Image noise_image, no_height, background, cells, water, colour, picture;
   TextureData noise, height_texture, cells_texture;
 
-  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected) {
-    const std::vector<Image> levels = scene_levels(in.colour);
-    scene.emplace(levels);
-    scene->refresh(executor, levels);
+  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected), scene(scene_levels(in.colour)) {
     if (corrected) {
       taps = make_taps(s);
       grids = make_layers(s);
@@ -70,7 +66,7 @@ struct ScreenDrops::State {
   void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
     if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
   }
-  PassInput scene_input(bool with_mips) const { return {"scene", &scene->view(), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
+  PassInput scene_input(bool with_mips) const { return {"scene", &scene.view(), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
 
   void run_water(Recorder* recorder) {
     flow->simulate(recorder);
@@ -85,7 +81,7 @@ struct ScreenDrops::State {
     if (corrected) inputs.push_back({"taps", records(taps)});
     announce(recorder, "background", u, inputs);
     const Stopwatch watch;
-    executor.for_tiles(settings.width, settings.height, settings.width, tile_rows, [&](const parallel::Tile& t) { background_rows(u, corrected, settings.rounding, scene->view(), taps, background, t); });
+    executor.for_tiles(settings.width, settings.height, settings.width, tile_rows, [&](const parallel::Tile& t) { background_rows(u, corrected, settings.rounding, scene.view(), taps, background, t); });
     report(recorder, "background", {{"background", background}}, watch.seconds());
   }
   void fill_cells(Recorder* recorder) {
@@ -119,7 +115,7 @@ void ScreenDrops::render(Recorder* recorder) {
   const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
   const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
   const DisplayUniforms shown = display_uniforms(s.settings);
-  const DropsInputs in{&s.scene->view(), &s.noise.view(), &s.cells_texture.view(), &s.height_texture.view(), &s.background};
+  const DropsInputs in{&s.scene.view(), &s.noise.view(), &s.cells_texture.view(), &s.height_texture.view(), &s.background};
   const Rounding rounding = s.settings.rounding;
   // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.
   PassClock drops_time, display_time;
