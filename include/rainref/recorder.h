@@ -27,10 +27,10 @@ constexpr const char* name(Filter filter) {
   return names[static_cast<int>(filter)];
 }
 
-/// One input of a pass. A texture brings its own address rules and border.
+/// One input of a pass: an image, records, a texture, which brings its own address rules and border, or the mip levels of one image.
 struct PassInput {
   std::string_view name;
-  std::variant<BufferView, RecordView, const Texture*> content;
+  std::variant<BufferView, RecordView, const Texture*, std::span<const Image>> content;
   Filter filter = Filter::none;
   Filter mip_filter = Filter::none;  ///< `none`: level 0 only
   Address address = Address::clamp;  ///< of a BufferView, in u and v

@@ -81,28 +81,27 @@ void halve_level(const parallel::Executor& executor, const BlurUniforms& uniform
                      [&](const parallel::Tile& tile) { halve_rows(uniforms, corrected, rounding, above, out, tile); });
 }
 
-DecodedLevels::DecodedLevels(const std::vector<Image>& levels) {
+LevelTexture::LevelTexture(const std::vector<Image>& levels) {
   std::size_t count = 0;
   view_.channels = 4;
   view_.levels = static_cast<int>(levels.size());
-  view_.precision = TexelPrecision::float16;
   for (std::size_t l = 0; l < levels.size(); ++l) {
-    view_.width[l] = levels[l].width();
+    view_.width[l] = view_.pitch[l] = levels[l].width();
     view_.height[l] = levels[l].height();
     view_.offset[l] = static_cast<std::int32_t>(count);
     count += static_cast<std::size_t>(levels[l].width()) * levels[l].height();
   }
-  if (count > 0x7fffffffu / 4) throw Error(ExitCode::usage, "the blurred scene has more texels than a texture may have");
-  texels_.resize(4 * count);
+  if (count > 0x7fffffffu / 8) throw Error(ExitCode::usage, "the blurred scene has more texels than a texture may have");
+  texels_.resize(4 * count + 2);
   view_.texels = texels_.data();
 }
-void DecodedLevels::refresh(const parallel::Executor& executor, const std::vector<Image>& levels) {
+void LevelTexture::refresh(const parallel::Executor& executor, const std::vector<Image>& levels) {
   for (std::size_t l = 0; l < levels.size(); ++l) {
     const Image& level = levels[l];
     executor.for_range(level.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t y = begin; y < end; ++y) {
-        float* to = texels_.data() + 4 * (static_cast<std::size_t>(view_.offset[l]) + static_cast<std::size_t>(level.width()) * static_cast<std::size_t>(y));
-        to_float_array(level.row<Half>(static_cast<int>(y)), to, static_cast<std::size_t>(4) * level.width());
+        Half* to = texels_.data() + 4 * (static_cast<std::size_t>(view_.offset[l]) + static_cast<std::size_t>(level.width()) * static_cast<std::size_t>(y));
+        std::copy_n(level.row<Half>(static_cast<int>(y)), static_cast<std::size_t>(4) * level.width(), to);
       }
     });
   }

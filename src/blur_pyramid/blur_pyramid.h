@@ -9,6 +9,7 @@
 #include "capture/pass_info.h"
 #include "image/texture.h"
 #include "rainref/executor.h"
+#include "image/stored_texture.h"
 #include "rainref/image.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
@@ -41,19 +42,19 @@ void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms,
 /// The pass for a further level, from the one above.
 void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out);
 
-/// The levels decoded as one texture with mips, for passes that sample them (clamped).
-class DecodedLevels {
+/// The levels as one texture with mips, for passes that sample them (clamped).
+class LevelTexture {
  public:
   /// Of these levels' sizes; refresh fills it.
-  explicit DecodedLevels(const std::vector<Image>& levels);
+  explicit LevelTexture(const std::vector<Image>& levels);
   void refresh(const parallel::Executor& executor, const std::vector<Image>& levels);
-  const Texture& view() const { return view_; }
-  DecodedLevels(const DecodedLevels&) = delete;
-  DecodedLevels& operator=(const DecodedLevels&) = delete;
+  const StoredTexture<Half>& view() const { return view_; }
+  LevelTexture(const LevelTexture&) = delete;
+  LevelTexture& operator=(const LevelTexture&) = delete;
 
  private:
-  std::vector<float> texels_;
-  Texture view_;
+  std::vector<Half> texels_;
+  StoredTexture<Half> view_;
 };
 
 /// The pass, one run a level, and the buffers that it reads and writes.

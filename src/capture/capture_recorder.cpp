@@ -122,6 +122,12 @@ void CaptureRecorder::before(const PassStart& start) {
     }
     to.address_u = to.address_v = from.address;
     to.border = from.border;
+    if (const auto* levels = std::get_if<std::span<const Image>>(&from.content)) {
+      to.array = image_array(levels->front());
+      for (const Image& level : levels->subspan(1)) to.array.levels.push_back(image_array(level).levels.front());
+      to.address_u = to.address_v = from.address;
+      continue;
+    }
     const auto* buffer = std::get_if<BufferView>(&from.content);
     const scene::UniformBlock& record = record_of(from.name, !buffer);
     to.array = buffer ? array_of(*buffer, record) : array_of(std::get<RecordView>(from.content), record);

@@ -9,5 +9,6 @@ EffectEntry puddle_entry();
 EffectEntry windshield_entry();
 EffectEntry rainy_glass_entry();
 EffectEntry edge_splash_entry();
+EffectEntry screen_drops_entry();
 
 }  // namespace rainref::cli

@@ -7,7 +7,7 @@
 namespace rainref::cli {
 
 const std::vector<EffectEntry>& effects() {
-  static const std::vector<EffectEntry> all{puddle_entry(), windshield_entry(), edge_splash_entry(), rainy_glass_entry()};
+  static const std::vector<EffectEntry> all{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};
   return all;
 }
 

@@ -1,5 +1,7 @@
 // `rainref selftest`: determinism proven where it runs.
 #include <bit>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -64,38 +66,65 @@ bool half_conversion() {
   return report(good, fmt::format("binary16: every half and {} floats, both roundings, on {}", samples.size(), fmt::join(simd_targets(), " ")));
 }
 
-Hash128 scene_hash(const std::string& variant, int threads, std::uint64_t shuffle) {
-  const scene::Config config = scene::parse(fmt::format("effect = \"puddle\"\nvariant = \"{}\"\n[run]\nframes = 3\nsize = [93, 61]\n", variant), "selftest",
-                                            variant == "corrected" ? std::vector<std::string>{"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"} : std::vector<std::string>{},
-                                            effect_table());
+/// Few texels and many drops, so that the whole test takes seconds.
+std::vector<std::string> overrides_of(const std::string& effect, bool corrected) {
+  if (effect == "puddle") return corrected ? std::vector<std::string>{"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"} : std::vector<std::string>{};
+  if (effect == "windshield") return {"windshield.height_size=[128, 72]", "scene.size=[64, 36]", "windshield.capacity=5000", corrected ? "rain.rate=100" : "windshield.spawn_rate=20000"};
+  if (effect == "rainy_glass") return {"maps.size=64"};
+  return {};
+}
+
+Hash128 scene_hash(const std::string& name, const std::string& variant, int threads, std::uint64_t shuffle) {
+  const scene::Config config = scene::parse(fmt::format("effect = \"{}\"\nvariant = \"{}\"\n[run]\nframes = 3\nsize = [93, 61]\n", name, variant), "selftest",
+                                            overrides_of(name, variant == "corrected"), effect_table());
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
-  puddle::Surroundings around;
-  around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);  // the default's size costs a second
-  puddle::Puddle puddle(puddle::settings_from(config), around, executor);
   capture::HashRecorder recorder;
-  for (int frame = 0; frame < 3; ++frame) {
-    puddle.simulate(&recorder);
-    puddle.render(&recorder);
-    recorder.take_lines();
+  const auto frames = [&recorder](const auto& frame) {
+    for (int i = 0; i < 3; ++i) {
+      frame();
+      recorder.take_lines();
+    }
+    return recorder.scene_hash();
+  };
+  if (name == "puddle") {
+    puddle::Surroundings around;
+    around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);  // the default's size costs a second
+    puddle::Puddle puddle(puddle::settings_from(config), around, executor);
+    return frames([&] {
+      puddle.simulate(&recorder);
+      puddle.render(&recorder);
+    });
   }
-  return recorder.scene_hash();
+  std::vector<InputFile> inputs;
+  const std::unique_ptr<Simulation> simulation = effect(name).make(config, executor, inputs);
+  return frames([&] { simulation->frame(&recorder); });
+}
+
+std::string golden_of(const std::string& effect, const std::string& variant) {
+  for (const SelftestGolden& golden : selftest_goldens) {
+    if (effect == golden.effect && variant == golden.variant) return golden.hash;
+  }
+  return "none";
 }
 
 bool scenes() {
   bool good = true;
-  for (const SelftestGolden& golden : selftest_goldens) {
-    bool same = true;
-    std::string found;
-    for (const std::string& target : simd_targets()) {
-      select_simd_target(target);
-      for (const int threads : {1, 2, 3}) {
-        found = scene_hash(golden.variant, threads, static_cast<std::uint64_t>(threads - 1)).text();
-        same = same && found == golden.hash;
+  for (const EffectEntry& entry : effects()) {
+    for (const std::string& variant : entry.variants) {
+      const std::string golden = golden_of(entry.name, variant);
+      bool same = true;
+      std::string found;
+      for (const std::string& target : simd_targets()) {
+        select_simd_target(target);
+        for (const int threads : {1, 2, 3}) {
+          found = scene_hash(entry.name, variant, threads, static_cast<std::uint64_t>(threads - 1)).text();
+          same = same && found == golden;
+        }
       }
+      good &= report(same, fmt::format("{} {}: {} on {} with 1, 2 and 3 threads{}", entry.name, variant, golden, fmt::join(simd_targets(), " "),
+                                       same ? "" : fmt::format("; found {}", found)));
     }
-    good &= report(same, fmt::format("puddle {}: {} on {} with 1, 2 and 3 threads{}", golden.variant, golden.hash, fmt::join(simd_targets(), " "),
-                                     same ? "" : fmt::format("; found {}", found)));
   }
   return good;
 }

@@ -55,7 +55,7 @@ WindshieldTruth compare(const windshield::Windshield& rendered, const Windshield
   const windshield::ShownScene composite(settings, rendered);
   const PrimaryRays primary(camera, width, height);
   const scene::Camera::Basis basis = camera.basis();
-  const Vec place = windshield::place_in_street(view.odometer(rendered));
+  const Vec place = windshield::place_in_street(view.settings().street_start, view.distance(rendered));
 
   WindshieldTruth truth;
   truth.differences = {{"refraction", "deg", width, height}, {"refraction_film", "deg", width, height}, {"colour", "", width, height},

@@ -20,7 +20,7 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
 /// The street outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
 class Outside : public Environment {
  public:
-  Outside(const WindshieldView& view, double odometer) : view_(view), place_(windshield::place_in_street(odometer)), outward_(view.pane().normal(0.5)) {}
+  Outside(const WindshieldView& view, double distance) : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)), outward_(view.pane().normal(0.5)) {}
 
   void radiance(std::span<const Sight> sights, std::span<Vec> out) const override {
     const windshield::Settings& s = view_.settings();
@@ -50,20 +50,20 @@ class Outside : public Environment {
 WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer, const parallel::Executor& executor)
     : settings_(settings), tracer_(tracer), executor_(executor), pane_(shape_of(settings.corners, glass)), vehicle_(settings.vehicle), street_({settings.seed}) {}
 
-double WindshieldView::odometer(const windshield::Windshield& rendered) const {
+double WindshieldView::distance(const windshield::Windshield& rendered) const {
   const double time = std::max(0, rendered.frame() - 1) / settings_.fps;
-  return settings_.street_start + (settings_.scene_moves ? vehicle_.at(time).distance : 0);
+  return settings_.scene_moves ? vehicle_.at(time).distance : 0;
 }
 
-std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rendered) const { return scene(rendered.height(), odometer(rendered)); }
+std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rendered) const { return scene(rendered.height(), distance(rendered)); }
 
-std::unique_ptr<Scene> WindshieldView::scene(const Image& height, double odometer) const {
+std::unique_ptr<Scene> WindshieldView::scene(const Image& height, double distance) const {
   auto scene = std::make_unique<Scene>(tracer_);
   PaneMedia media;
   media.water = water(settings_.picture.water_ior);
   add_pane(*scene, pane_, std::make_shared<const WaterLayer>(height), pane_.is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)),
            executor_, media);
-  scene->set_environment(std::make_shared<Outside>(*this, odometer));
+  scene->set_environment(std::make_shared<Outside>(*this, distance));
   scene->commit();
   return scene;
 }

@@ -24,10 +24,10 @@ class WindshieldView {
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
   /// and the executor the view.
   std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
-  /// The same with this height texture [mm], the car `odometer` metres along the street.
-  std::unique_ptr<Scene> scene(const Image& height, double odometer) const;
+  /// The same with this height texture [mm], the car `distance` metres on from where it began.
+  std::unique_ptr<Scene> scene(const Image& height, double distance) const;
   /// Where the car of that frame is along the street [m].
-  double odometer(const windshield::Windshield& rendered) const;
+  double distance(const windshield::Windshield& rendered) const;
 
   const Pane& pane() const { return pane_; }
   const night_street::Street& street() const { return street_; }

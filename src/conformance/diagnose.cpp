@@ -1,6 +1,7 @@
 // Hypothesis replay: which single deviation stores the bits that a port stored where it fails.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "conformance/judge.h"
 #include "conformance/validate.h"
@@ -13,18 +14,34 @@ namespace {
 
 using capture::Array;
 
-/// Failing texels, spread evenly when there are many.
-std::vector<Texel> failing_texels(const CaseJudgement& j, std::size_t most) {
+std::vector<Texel> failing_texels(const CaseJudgement& j) {
   std::vector<Texel> all;
   for (const OutputJudgement& o : j.outputs)
     for (std::size_t i = 0; i < o.map.size(); ++i)
       if (o.map[i] == 3) all.push_back({static_cast<int>(i) % o.width, static_cast<int>(i) / o.width});
   std::sort(all.begin(), all.end(), [](Texel a, Texel b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   all.erase(std::unique(all.begin(), all.end(), [](Texel a, Texel b) { return a.x == b.x && a.y == b.y; }), all.end());
+  return all;
+}
+/// At most so many, spread evenly.
+std::vector<Texel> spread(const std::vector<Texel>& all, std::size_t most) {
   if (all.size() <= most) return all;
   std::vector<Texel> some;
   for (std::size_t k = 0; k < most; ++k) some.push_back(all[k * all.size() / most]);
   return some;
+}
+/// Texels where the port stored the reference's bits.
+std::vector<Texel> equal_texels(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& port, const std::vector<Array>& reference) {
+  std::vector<Texel> out;
+  for (int y = 0; y < model.height(); ++y)
+    for (int x = 0; x < model.width(); ++x) {
+      const bool same = std::all_of(slots.begin(), slots.end(), [&](const Slot& s) {
+        const std::size_t o = static_cast<std::size_t>(s.output);
+        return std::memcmp(s.at(port[o], x, y), s.at(reference[o], x, y), static_cast<std::size_t>(s.channel_bytes)) == 0;
+      });
+      if (same) out.push_back({x, y});
+    }
+  return out;
 }
 
 /// How a deviation's texel compares with the port's.
@@ -88,17 +105,34 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
   return m;
 }
 
+/// Share of the texels where the port has the reference's bits and the deviation would store clearly other ones.
+double contradicted(const std::vector<Slot>& slots, const DeviatedPass& deviated, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& equal) {
+  std::vector<Array> stored = reference;
+  std::int64_t against = 0;
+  for (const Texel t : equal) {
+    deviated.store(t, stored);
+    against += std::any_of(slots.begin(), slots.end(), [&](const Slot& s) {
+      const std::size_t o = static_cast<std::size_t>(s.output), v = static_cast<std::size_t>(&s - slots.data());
+      const auto code = [&](const std::vector<Array>& a) { return enclosed::ordered_code(s.kind, s.at(a[o], t.x, t.y)); };
+      return gap(code(stored), code(reference)) > 2 * leeway.codes[v];
+    });
+  }
+  return equal.empty() ? 0 : static_cast<double>(against) / static_cast<double>(equal.size());
+}
+
 }  // namespace
 
 std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, Bind bind,
                             const capture::PassModel& model, const std::vector<Array>& port, const CaseJudgement& judgement,
                             const enclosed::Profile& profile, HalfMode mode, const parallel::Executor& executor) {
-  const std::vector<Texel> failing = failing_texels(judgement, 400);
+  const std::vector<Texel> all_failing = failing_texels(judgement), failing = spread(all_failing, 400);
   if (failing.empty()) return {};
   const std::vector<Slot> slots = slots_of(c);
   const std::vector<Deviation> all = deviations_of(pass, c, model, before);
   const std::vector<Array> reference = reference_outputs(c, model, executor, mode);
   const Leeway leeway = leeway_of(slots, c, model, reference, judgement, profile, failing);
+  const std::vector<Texel> equal = equal_texels(slots, model, port, reference), few_equal = spread(equal, 400), many_equal = spread(equal, 20000);
+  const double equal_per_failing = static_cast<double>(equal.size()) / static_cast<double>(all_failing.size());
   std::vector<Cause> causes(all.size());
 
   executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -118,6 +152,10 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
           cause.explained += m.exact;
           cause.inside += m.near;
         }
+        // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
+        // break about as many texels as it explains.
+        const double broken = contradicted(slots, deviated, reference, leeway, d.is_evaluated() ? few_equal : many_equal) * equal_per_failing;
+        if (broken * 4 > 1) cause.explained = cause.inside = 0;
       } catch (const Error&) {
         cause.explained = cause.inside = 0;  // the altered case is none that the pass can run
       }

@@ -14,6 +14,7 @@
 #include "puddle/readings.h"
 #include "rainref/error.h"
 #include "rainy_glass/readings.h"
+#include "screen_drops/readings.h"
 #include "windshield/readings.h"
 
 namespace rainref::conformance {
@@ -27,7 +28,7 @@ using capture::PassCase;
 
 const std::vector<capture::PassReadings>& readings_of(const std::string& effect) {
   static const std::map<std::string, const std::vector<capture::PassReadings>*> all{
-      {"puddle", &puddle::readings()}, {"windshield", &windshield::readings()}, {"edge_splash", &edge_splash::readings()}, {"rainy_glass", &rainy_glass::readings()}};
+      {"puddle", &puddle::readings()}, {"windshield", &windshield::readings()}, {"edge_splash", &edge_splash::readings()}, {"screen_drops", &screen_drops::readings()}, {"rainy_glass", &rainy_glass::readings()}};
   const auto found = all.find(effect);
   if (found != all.end()) return *found->second;
   std::vector<std::string> names;

@@ -78,7 +78,19 @@ PassInfo integrate_info(const std::string& before, const std::string& glass_fram
 }
 PassInfo merge_info(const std::string& before, const std::string& film_from) {
   return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::keyed, "MergeUniforms"}},
-          {{"drops", before, false, correct}, {"film", film_from, false, correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
+          {{"drops", before, false, correct}, {"film", film_from, film_from == "merge", correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
+}
+
+PassInfo corrected_only(PassInfo pass) {
+  std::erase_if(pass.variants, [](const PassVariant& v) { return v.name != correct; });
+  std::erase_if(pass.reads, [](const ReadInfo& r) { return r.variant == published; });
+  for (ReadInfo& r : pass.reads) r.variant = correct;
+  return pass;
+}
+std::vector<BufferInfo> corrected_only(std::vector<BufferInfo> buffers) {
+  std::erase_if(buffers, [](const BufferInfo& b) { return b.variant == published; });
+  for (BufferInfo& b : buffers) b.variant = correct;
+  return buffers;
 }
 
 }  // namespace rainref::drops

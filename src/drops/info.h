@@ -18,7 +18,11 @@ std::vector<capture::BufferInfo> buffers();
 /// last writer of as-published and of corrected.
 capture::PassInfo spawn_info(const std::array<std::string, 2>& last_writers);
 capture::PassInfo integrate_info(const std::string& before, const std::string& glass_frame_pass);
-/// film_from: the pass that wrote the film before this one, in the same step.
+/// film_from: the pass that wrote the film before this one, in the same step, or "merge": that of the step before.
 capture::PassInfo merge_info(const std::string& before, const std::string& film_from);
+
+/// What corrected has of these, for an effect whose as-published has no such drops.
+capture::PassInfo corrected_only(capture::PassInfo pass);
+std::vector<capture::BufferInfo> corrected_only(std::vector<capture::BufferInfo> buffers);
 
 }  // namespace rainref::drops

@@ -5,10 +5,14 @@
 #include "rainref/error.h"
 
 namespace rainref::drops {
+namespace {
+
+constexpr const char *published = "as-published", *correct = "corrected";
+
+}  // namespace
 
 std::vector<scene::Parameter> parameters(const std::string& prefix) {
   using namespace rainref::scene;
-  constexpr const char *published = "as-published", *correct = "corrected";
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
       integer(key("capacity"), "1", 1, static_cast<double>(DropArrays::most_slots), 100000, "Most drops at a time; an arrival that finds none free is lost."),
@@ -33,7 +37,25 @@ std::vector<scene::Parameter> parameters(const std::string& prefix) {
   };
 }
 
-Settings settings_from(const scene::Config& config, const std::string& prefix) {
+std::vector<scene::Parameter> corrected_only(std::vector<scene::Parameter> parameters) {
+  std::erase_if(parameters, [](const scene::Parameter& p) { return !p.used_by(correct); });
+  for (scene::Parameter& p : parameters) {
+    p.default_value = scene::Value(p.default_in(correct));
+    p.variant_defaults.clear();
+    p.variants = {correct};
+  }
+  return parameters;
+}
+
+std::vector<scene::Parameter> still_parameters(const std::string& prefix) {
+  std::vector<scene::Parameter> all = corrected_only(parameters(prefix));
+  std::erase_if(all, [&](const scene::Parameter& p) { return p.key == prefix + ".wind_exposure" || p.key == prefix + ".wind_drag"; });
+  return all;
+}
+
+namespace {
+
+Settings read(const scene::Config& config, const std::string& prefix, bool still) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   const auto real = [&](const char* name) { return config.real(key(name)); };
   Settings s;
@@ -46,8 +68,8 @@ Settings settings_from(const scene::Config& config, const std::string& prefix) {
     s.smallest_drop = config.real("rain.smallest_drop");
     s.advancing_deg = real("advancing_angle");
     s.receding_deg = real("receding_angle");
-    s.wind_exposure = real("wind_exposure");
-    s.wind_drag = real("wind_drag");
+    s.wind_exposure = still ? 0 : real("wind_exposure");
+    s.wind_drag = still ? 0 : real("wind_drag");
     s.mobility = real("mobility");
     s.humidity = real("humidity");
     s.margin = real("margin");
@@ -73,5 +95,10 @@ Settings settings_from(const scene::Config& config, const std::string& prefix) {
   }
   return s;
 }
+
+}  // namespace
+
+Settings settings_from(const scene::Config& config, const std::string& prefix) { return read(config, prefix, false); }
+Settings still_settings_from(const scene::Config& config, const std::string& prefix) { return read(config, prefix, true); }
 
 }  // namespace rainref::drops

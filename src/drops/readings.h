@@ -1,4 +1,4 @@
-// Passes that take and give lists of drops, as conformance takes them.
+// Passes that take lists of drops, as conformance takes them.
 #pragma once
 
 #include <cstring>
@@ -62,6 +62,7 @@ const enclosed::Profile& loosest_profile();
 
 std::unique_ptr<capture::PassModel> bind_merge(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_integrate(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c);
 /// spawn: the drops of before and the arrivals.
 std::vector<capture::Array> recompute_spawn(const capture::PassCase& c);
 

@@ -34,8 +34,14 @@ struct Settings {
 
 /// The parameters: keys prefix.capacity, prefix.lifetime, …, and for corrected rain.rate and rain.smallest_drop.
 std::vector<scene::Parameter> parameters(const std::string& prefix);
+/// Those of a glass along which no wind blows, in an effect whose as-published has no such drops: of corrected alone.
+std::vector<scene::Parameter> still_parameters(const std::string& prefix);
+/// What corrected has of these, and nothing else.
+std::vector<scene::Parameter> corrected_only(std::vector<scene::Parameter> parameters);
 /// The settings of a scene whose effect has these parameters. Throws Error(usage), naming keys, where two of them
 /// contradict each other or the step is unstable.
 Settings settings_from(const scene::Config& config, const std::string& prefix);
+/// The same with still_parameters, of a scene whose variant is corrected.
+Settings still_settings_from(const scene::Config& config, const std::string& prefix);
 
 }  // namespace rainref::drops

@@ -32,7 +32,7 @@ std::vector<scene::Parameter> splat_parameters(const std::string& prefix) {
   };
 }
 
-SplatKeys splat_keys(const scene::Config& config, const std::string& prefix) {
+SplatKeys splat_keys(const scene::Config& config, const std::string& prefix, std::optional<Rounding> rounding) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   SplatKeys k;
   k.width = static_cast<int>(config.integer2(key("height_size"))[0]);
@@ -40,7 +40,7 @@ SplatKeys splat_keys(const scene::Config& config, const std::string& prefix) {
   const auto kernel = std::find(kernel_names.begin(), kernel_names.end(), config.text(key("kernel")));
   k.kernel = static_cast<SplatKernel>(kernel - kernel_names.begin());
   k.blend = config.text(key("blend")) == "max" ? SplatBlend::max : SplatBlend::add;
-  k.rounding = config.text(key("rounding")) == "rtz" ? Rounding::rtz : Rounding::rne;
+  k.rounding = rounding ? *rounding : config.text(key("rounding")) == "rtz" ? Rounding::rtz : Rounding::rne;
   if (config.variant() == correct) {
     k.half_accumulation = false;
     k.smallest_radius = config.real(key("smallest_radius"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +29,8 @@ struct SplatKeys {
 };
 /// The scene keys of SplatKeys, behind "prefix.".
 std::vector<scene::Parameter> splat_parameters(const std::string& prefix);
-SplatKeys splat_keys(const scene::Config& config, const std::string& prefix);
+/// rounding: of an effect that says it under another key, and has no prefix.rounding.
+SplatKeys splat_keys(const scene::Config& config, const std::string& prefix, std::optional<Rounding> rounding = {});
 
 struct SplatSettings {
   bool corrected = false;

@@ -4,6 +4,7 @@
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/kernels.h"
+#include "image/code_table.h"
 #include "rainref/error.h"
 
 namespace rainref::edge_splash {
@@ -30,6 +31,7 @@ struct EdgeSplash::State {
   Image scene, depth_image, layer, noise_image;
   TextureData depth, noise_map;
   Image edge, angle, noise, colour, picture;
+  CodeTable display;
   std::vector<std::string> warnings;
 
   State(const Settings& s, const Inputs& in, const parallel::Executor& e)
@@ -41,6 +43,7 @@ struct EdgeSplash::State {
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
+    display = CodeTable([&](const Image& linear, Image& codes) { display_rows(display_uniforms(settings), settings.rounding, linear, codes, {0, 0, linear.width(), linear.height()}); });
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
   }
@@ -76,7 +79,7 @@ void EdgeSplash::render(Recorder* recorder) {
   PassClock splash_time, display_time;
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& tile) {
     splash_time.add([&] { s.corrected ? splash_rows(corrected, rounding, in, out, tile) : splash_rows(published, rounding, in, out, tile); });
-    display_time.add([&] { display_rows(shown, rounding, s.colour, s.picture, tile); });
+    display_time.add([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
   });
   // What these passes read, none of them overwrites: they may be announced after both have run.
   const int threads = s.executor.threads();

@@ -27,10 +27,13 @@ struct Channels {
 /// One mip level, its size as numbers and as integers.
 template <class N>
 struct Level {
-  typename N::Int width, height, offset;
+  typename N::Int width, height, offset, pitch;  ///< pitch: texels from row to row
   N width_number, height_number;
   RAINREF_FN Level() {}
 };
+/// Where a texture's rows have texels between them.
+template <class T>
+concept Pitched = requires(const T& t) { t.pitch[0]; };
 /// The same level for every element.
 template <class N, class T>
 RAINREF_FN Level<N> uniform_level(const T& t, int level) {
@@ -38,6 +41,8 @@ RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   l.width = N::uniform_int(t.width[level]);
   l.height = N::uniform_int(t.height[level]);
   l.offset = N::uniform_int(t.offset[level]);
+  l.pitch = l.width;
+  if constexpr (Pitched<T>) l.pitch = N::uniform_int(t.pitch[level]);
   l.width_number = N(static_cast<float>(t.width[level]));
   l.height_number = N(static_cast<float>(t.height[level]));
   return l;
@@ -52,6 +57,8 @@ RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
   l.width = max_index(shift_right(N::uniform_int(t.width[0]), level), one);
   l.height = max_index(shift_right(N::uniform_int(t.height[0]), level), one);
   l.offset = lookup(t.offset, level);
+  l.pitch = l.width;
+  if constexpr (Pitched<T>) l.pitch = lookup(t.pitch, level);
   l.width_number = to_number(l.width);
   l.height_number = to_number(l.height);
   return l;
@@ -104,7 +111,7 @@ template <class N, class T>
 RAINREF_FN auto texel_row(const T& t, const Level<N>& l, typename N::Int y) {
   const auto index = texel_index(t.address_v, y, l.height);
   const auto in = inside(t.address_v == Address::border ? y : index, l.height);
-  const auto place = index * l.width + l.offset;
+  const auto place = index * l.pitch + l.offset;
   return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? place : place * t.channels, in};
 }
 /// Channels First ... First + Count - 1 of the texel where a column meets a row.
@@ -113,9 +120,11 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
   const auto place = row.place + column.place;
   Channels<N, Count> out;
   RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
-  if (t.address_u == Address::border || t.address_v == Address::border) {
-    const auto in = column.in & row.in;
-    RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = select(in, out[c], N(t.border[First + c]));
+  if constexpr (requires { t.border; }) {
+    if (t.address_u == Address::border || t.address_v == Address::border) {
+      const auto in = column.in & row.in;
+      RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = select(in, out[c], N(t.border[First + c]));
+    }
   }
   return out;
 }

@@ -12,6 +12,7 @@ RAINREF_FN Level<plain::Plain<float>> plain_level(const Level<T>& l) {
   out.width = {l.width.i};
   out.height = {l.height.i};
   out.offset = {l.offset.i};
+  out.pitch = {l.pitch.i};
   out.width_number = plain::Plain<float>(l.width_number.lo);
   out.height_number = plain::Plain<float>(l.height_number.lo);
   return out;

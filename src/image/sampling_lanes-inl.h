@@ -1,21 +1,81 @@
-// The texel loads of sampling-inl.h for lanes and textures of four channels: channels are gathered in pairs, because a gather
-// costs by the element. The same values. Text only: include it right after sampling-inl.h.
+// Lookups of sampling-inl.h that lanes make sooner, because a gather costs by the element: the channels of a texel, and the two
+// texels of a row that a bilinear lookup takes, are gathered as one word. The same values. Text only: include it right after
+// sampling-inl.h.
 #if HWY_TARGET <= HWY_AVX2
-template <int First, int Count, class N, class T, class Line>
-  requires(std::same_as<N, Lanes> && T::channels == 4 && T::address_u != Address::border && T::address_v != Address::border && First % 2 == 0 && Count > 1)
-RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+/// 32-bit words a and b (low and high half of the lanes) of 64-bit elements, apart again.
+struct WordPair {
+  hn::Vec<Lanes::DI> first, second;
+};
+/// Two neighbouring 32-bit words from each byte offset on.
+RAINREF_FN WordPair gather_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   const Lanes::DI d;
   const hn::RepartitionToWide<Lanes::DI> wide;
-  const auto bytes = hn::ShiftLeft<2>((row.place + column.place).i);
   const hn::Half<Lanes::DI> half;
-  const auto low = hn::PromoteTo(wide, hn::LowerHalf(half, bytes)), high = hn::PromoteTo(wide, hn::UpperHalf(half, bytes));
+  const auto* base = static_cast<const std::int64_t*>(from);
+  const auto low = hn::BitCast(d, hn::GatherOffset(wide, base, hn::PromoteTo(wide, hn::LowerHalf(half, bytes))));
+  const auto high = hn::BitCast(d, hn::GatherOffset(wide, base, hn::PromoteTo(wide, hn::UpperHalf(half, bytes))));
+  return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
+}
+/// The halves in the low and in the high 16 bits of each word.
+RAINREF_FN Lanes widen_low(hn::Vec<Lanes::DI> words) {
+  const hn::Rebind<hwy::float16_t, Lanes::D> d16;
+  return hn::PromoteTo(Lanes::D(), hn::BitCast(d16, hn::TruncateTo(Lanes::DH(), hn::BitCast(Lanes::DU(), words))));
+}
+RAINREF_FN Lanes widen_high(hn::Vec<Lanes::DI> words) { return widen_low(hn::BitCast(Lanes::DI(), hn::ShiftRight<16>(hn::BitCast(Lanes::DU(), words)))); }
+
+template <int First, int Count, class N, class T, class Line>
+  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, float> && T::channels == 4 && T::address_u != Address::border && T::address_v != Address::border &&
+           First % 2 == 0 && Count > 1)
+RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+  const auto bytes = hn::ShiftLeft<2>((row.place + column.place).i);
   Channels<N, Count> out;
   RAINREF_UNROLL for (int k = 0; k < Count; k += 2) {
-    const auto* base = reinterpret_cast<const std::int64_t*>(t.texels + First + k);
-    const auto a = hn::BitCast(d, hn::GatherOffset(wide, base, low)), b = hn::BitCast(d, hn::GatherOffset(wide, base, high));
-    out[k] = hn::BitCast(Lanes::D(), hn::ConcatEven(d, b, a));
-    if (k + 1 < Count) out[k + 1] = hn::BitCast(Lanes::D(), hn::ConcatOdd(d, b, a));
+    const WordPair pair = gather_words(t.texels + First + k, bytes);
+    out[k] = hn::BitCast(Lanes::D(), pair.first);
+    if (k + 1 < Count) out[k + 1] = hn::BitCast(Lanes::D(), pair.second);
   }
+  return out;
+}
+template <int First, int Count, class N, class T, class Line>
+  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, Half> && T::channels == 4 && First == 0)
+RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+  const WordPair pair = gather_words(t.texels, hn::ShiftLeft<1>((row.place + column.place).i));
+  Channels<N, Count> out;
+  out[0] = widen_low(pair.first);
+  if constexpr (Count > 1) out[1] = widen_high(pair.first);
+  if constexpr (Count > 2) out[2] = widen_low(pair.second);
+  if constexpr (Count > 3) out[3] = widen_high(pair.second);
+  return out;
+}
+
+/// The two texels of a row: the one at `left`, and the one at `right`, which is that one's neighbour or at an edge the same.
+struct TexelPair {
+  Lanes left, right;
+};
+template <class T, class Line>
+RAINREF_FN TexelPair load_pair(const T& t, const Line& left, const Line& right, const Line& row) {
+  const auto place = (row.place + left.place).i;
+  const Lanes::Mask same{hn::RebindMask(Lanes::D(), hn::Eq(left.place.i, right.place.i))};
+  if constexpr (std::same_as<typename T::Stored, Half>) {
+    const auto words = hn::GatherOffset(Lanes::DI(), reinterpret_cast<const std::int32_t*>(t.texels), hn::ShiftLeft<1>(place));
+    const Lanes first = widen_low(words);
+    return {first, select(same, first, widen_high(words))};
+  } else {
+    const WordPair pair = gather_words(t.texels, hn::ShiftLeft<2>(place));
+    const Lanes first = hn::BitCast(Lanes::D(), pair.first);
+    return {first, select(same, first, Lanes(hn::BitCast(Lanes::D(), pair.second)))};
+  }
+}
+template <int First, int Count, class N, class T>
+  requires(std::same_as<N, Lanes> && Pitched<T> && T::channels == 1 && T::address_u == Address::clamp && Count == 1 && First == 0)
+RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
+  const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
+  const N x0 = floor(x), y0 = floor(y);
+  const auto xi = to_int(x0), yi = to_int(y0);
+  const auto left = texel_column<N>(t, l, xi), right = texel_column<N>(t, l, xi + 1);
+  const TexelPair low = load_pair(t, left, right, texel_row<N>(t, l, yi)), high = load_pair(t, left, right, texel_row<N>(t, l, yi + 1));
+  Channels<N, Count> out;
+  out[0] = blend(t.precision, low.left, low.right, high.left, high.right, x - x0, y - y0);
   return out;
 }
 #endif

@@ -12,6 +12,7 @@ namespace rainref {
 /// A view of a Texture whose address rules and channels are fixed when compiling.
 template <Address U, Address V, int Count>
 struct FixedTexture {
+  using Stored = float;
   static constexpr Address address_u = U, address_v = V;
   static constexpr int channels = Count;
   const float* texels;

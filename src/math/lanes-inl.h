@@ -130,6 +130,14 @@ struct Lanes {
 
   friend HWY_INLINE HWY_ATTR Lanes fetch(const float* texels, Int offset, Lanes) { return hn::GatherIndex(D(), texels, offset.i); }
 
+  friend HWY_INLINE HWY_ATTR Lanes fetch(const Half* texels, Int offset, Lanes) {
+    HWY_ALIGN std::int32_t places[HWY_MAX_BYTES / sizeof(std::int32_t)];
+    Half halves[HWY_MAX_BYTES / sizeof(std::int32_t)];
+    hn::Store(offset.i, DI(), places);
+    for (int k = 0; k < size(); ++k) halves[k] = texels[places[k]];
+    return load(halves);
+  }
+
   /// Half codes in 16-bit lanes.
   HWY_INLINE HWY_ATTR hn::Vec<DH> half_codes(Rounding rounding) const {
     const V x = hn::Add(v, hn::Zero(D()));

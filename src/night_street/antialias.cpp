@@ -47,7 +47,7 @@ bool differs(const Centres& centres, int x, int y, Edge edge) {
 
 }  // namespace
 
-Image antialiased(const City& city, int width, int height, Edge edge, const RayOfPart& ray_of,
+Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of,
                   const AtCentre& at_centre, const parallel::Executor& executor) {
   Image image(Format::rgba32f, width, height);
   const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -78,10 +78,11 @@ Image antialiased(const City& city, int width, int height, Edge edge, const RayO
         Vec radiance = centres.radiance[centres.index(x, y)];
         if (differs(centres, x, y, edge)) {
           Vec sum = radiance;
-          for (int part = 0; part < 9; ++part) {
+          const bool five = parts == Parts::five;
+          for (int part = 0; part < 9; part += five ? 2 : 1) {
             if (part != 4) sum = sum + look(city, ray_of(3 * x + part % 3, 3 * y + part / 3)).radiance;
           }
-          radiance = (1.0 / 9) * sum;
+          radiance = (five ? 1.0 / 5 : 1.0 / 9) * sum;
         }
         out[0] = static_cast<float>(radiance.x);
         out[1] = static_cast<float>(radiance.y);

@@ -10,6 +10,18 @@ namespace rainref::night_street {
 
 struct Source;
 
+/// Structure of arrays in float. Every sum runs over fixed lanes, so that vectors of any width return the same bits. Both
+/// effects are exactly zero beyond a reach, so whole groups can be passed over.
+struct LightGroup {
+  static constexpr std::size_t lanes = 8;
+  float x[lanes], y[lanes], z[lanes], red[lanes], green[lanes], blue[lanes];
+  float radius[lanes];
+  float facing[lanes];  ///< z of the axis of a source that shines along the street, 0 for one that shines all round
+  float aside[lanes];   ///< share of its light that such a source sends off its axis; 1 for all round
+  Box bounds;
+  float largest_radius;
+};
+
 class CompactLights {
  public:
   CompactLights() = default;
@@ -24,18 +36,7 @@ class CompactLights {
   Vec highlight(const Vec& point, const Vec& view, const Vec& normal, double roughness) const;
 
  private:
-  // Structure of arrays in float. Every sum runs over fixed lanes, so that a compiler may use vectors of any width and
-  // still return the same bits. Both effects are exactly zero beyond a reach, so whole groups can be passed over.
-  static constexpr int lanes = 8;
-  struct Group {
-    float x[lanes], y[lanes], z[lanes], red[lanes], green[lanes], blue[lanes];
-    float radius[lanes];
-    float facing[lanes];  ///< z of the axis of a source that shines along the street, 0 for one that shines all round
-    float aside[lanes];   ///< share of its light that such a source sends off its axis; 1 for all round
-    Box bounds;
-    float largest_radius;
-  };
-  std::vector<Group> groups_;
+  std::vector<LightGroup> groups_;
 };
 
 }  // namespace rainref::night_street

@@ -10,7 +10,8 @@ namespace rainref::night_street {
 class Hierarchy {
  public:
   Hierarchy() = default;
-  /// Splits at the median of the centres along the longest side, ties by index: a fixed tree for a list of solids.
+  /// Splits where the surface area heuristic is least, ties by axis and index: a fixed tree for a list of solids
+  /// (Goldsmith and Salmon 1987; MacDonald and Booth 1990).
   explicit Hierarchy(const std::vector<Solid>& solids);
 
   /// Calls visit(solid index, farthest) for every solid whose box the ray crosses before `farthest`; visit may lower
@@ -43,7 +44,7 @@ class Hierarchy {
     int axis = 0;
   };
   static double axis_of(const Vec& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-  int build(std::vector<Box>& boxes, int begin, int end);
+  int build(std::vector<Box>& boxes, int begin, int end, int depth);
   std::vector<Node> nodes_;
   std::vector<int> order_;
 };

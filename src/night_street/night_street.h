@@ -30,6 +30,9 @@ struct Lamp {
 
 struct City;
 
+/// Rays of a texel where its neighbours differ.
+enum class Parts : std::uint8_t { nine, five };
+
 /// One street. Immutable; its members may be called from several threads at once.
 class Street {
  public:
@@ -56,7 +59,7 @@ class Street {
     Image normal;  ///< rgba32f, world normal at the texel centre, alpha 1 on surfaces; 0 0 0 0 where depth is `far`
   };
   /// The street seen by a camera; row 0 = bottom (v = 0). Throws Error(usage) when `far` is not positive and finite.
-  View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor) const;
+  View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor, Parts parts = Parts::nine) const;
 
   /// What one ray sees. `direction` is unit. From several threads at once, each with a FloatingPointGuard.
   struct Sight {

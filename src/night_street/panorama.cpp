@@ -34,7 +34,7 @@ Image Street::panorama(int width, int height, const scene::Vector3& eye, const p
     return Ray(origin, unit(direction));
   };
   return antialiased(
-      *city_, width, height, Edge::wrap, ray_of, [](int, int, const Ray&, const Seen&) {}, executor);
+      *city_, width, height, Edge::wrap, Parts::nine, ray_of, [](int, int, const Ray&, const Seen&) {}, executor);
 }
 
 }  // namespace rainref::night_street

@@ -84,14 +84,17 @@ Hit trace(const City& city, const Ray& ray, bool with_lamps) {
   for (const int side : {0, 1}) trace_buildings(city, ray, side, hit);
   trace_skyline(city, ray, hit);
   double farthest = hit.t;
+  int first = 0;  // of solids at the same distance the one with the lowest index, whatever the order of the walk
   city.hierarchy.walk(ray, farthest, [&](int index, double& limit) {
     const Solid& solid = city.solids[static_cast<std::size_t>(index)];
     if (!with_lamps && solid.shape == Solid::sphere &&
         city.materials[static_cast<std::size_t>(solid.material)].emission.x > 0)
       return;
     SolidHit met;
-    if (!intersect(solid, city.planes, ray, 1e-9, limit, met)) return;
+    if (!intersect(solid, city.planes, ray, 1e-9, nothing, met) || met.t > limit) return;
+    if (met.t == limit && index >= first) return;
     limit = met.t;
+    first = index;
     hit = {Hit::solid, met.t, met.normal, 0, index};
   });
   if (hit.kind == Hit::sky) hit.t = 0;

@@ -7,7 +7,7 @@
 namespace rainref::night_street {
 
 Street::View Street::view(const scene::Camera& camera, int width, int height, double far,
-                          const parallel::Executor& executor) const {
+                          const parallel::Executor& executor, Parts parts) const {
   if (!(far > 0 && far < 1e300))
     throw Error(ExitCode::usage, fmt::format("far: expected a positive distance in metres, found {}", far));
   const scene::Camera::Basis basis = camera.basis();
@@ -33,7 +33,7 @@ Street::View Street::view(const scene::Camera& camera, int width, int height, do
     normal[2] = static_cast<float>(seen.hit.normal.z);
     normal[3] = 1;
   };
-  result.colour = antialiased(*city_, width, height, Edge::clamp, ray_of, at_centre, executor);
+  result.colour = antialiased(*city_, width, height, Edge::clamp, parts, ray_of, at_centre, executor);
   return result;
 }
 

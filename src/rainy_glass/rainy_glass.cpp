@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/pass_clock.h"
+#include "image/code_table.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
@@ -33,6 +34,7 @@ struct RainyGlass::State {
   std::vector<Trail> trails;
   TextureData lattice, raindrop_texture, rivulet_texture, scene_texture, near_texture, probe;
   Image raindrops, rivulets, scene, depth, surface, orientation, colour, picture;
+  CodeTable display;
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
       : settings(s), executor(e), corrected(s.variant == Variant::corrected), bakes_raindrops(around.raindrops.empty()), bakes_rivulets(around.rivulets.empty()) {
@@ -65,6 +67,7 @@ struct RainyGlass::State {
     make_surface(s, around.normals, surface, orientation);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
+    display = CodeTable([&](const Image& in, Image& out) { display_rows(display_uniforms(s), s.rounding, in, out, {0, 0, in.width(), in.height()}); });
   }
 
   template <class Uniforms>
@@ -130,7 +133,7 @@ void RainyGlass::frame(Recorder* recorder) {
   PassClock rain, shown;
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& t) {
     rain.add([&] { rain_on_glass_rows(u, s.corrected, rounding, in, s.colour, t); });
-    shown.add([&] { display_rows(d, rounding, s.colour, s.picture, t); });
+    shown.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
   // What these passes read, neither of them overwrites: they may be announced after both have run.
   s.announce(recorder, "rain_on_glass", u, inputs);

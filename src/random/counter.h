@@ -28,7 +28,8 @@ constexpr Block pcg4d(Block v) {
 enum class Purpose : std::uint32_t {
   puddle_drop_count = 1, puddle_drop = 2, puddle_bed = 3, puddle_ground = 4,
   drop_count = 5, drop_arrival = 6,
-  glass_drop = 50, glass_trail = 51, glass_flow = 52
+  glass_drop = 50, glass_trail = 51, glass_flow = 52,
+  screen_noise = 60, screen_layer = 61, screen_cell = 62, screen_drop = 63
 };
 
 /// The block of (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.

@@ -112,15 +112,15 @@ RAINREF_FN Vec3<N> through_water(const Vec3<N>& ray, const Vec3<N>& outward, con
   const Vec3<N> inside = refract(ray, N(-1.0f) * outward, 1.0f / ior);
   return refract(inside, N(-1.0f) * surface, ior);
 }
-template <class N, class Values>
-RAINREF_FN ScenePoint<N> shown_corrected(const CompositeUniforms& c, const Values& depth, const GlassPoint<N>& g, const Vec3<N>& bent) {
+template <class N, class Depths>
+RAINREF_FN ScenePoint<N> shown_corrected(const CompositeUniforms& c, const Depths& depth, const GlassPoint<N>& g, const Vec3<N>& bent) {
   const N far = max(sample_bilinear<0, 1, N>(depth, scene_u(c, g.x), scene_v(c, g.y))[0] - g.distance, N(0.0f));
   const N ahead = max(bent.z, N(0.05f)), share = g.distance / max(g.distance + far, N(1e-3f));
   const N x = mix(bent.x / ahead, g.x, share), y = mix(bent.y / ahead, g.y, share);
   return {scene_u(c, x), scene_v(c, y)};
 }
-template <class N, class Colours, class Values>
-RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Values& depth, const Values& height, const Colours& normal, const Values& mask,
+template <class N, class Colours, class Depths, class Values>
+RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Depths& depth, const Values& height, const Colours& normal, const Values& mask,
                                        const Glint* glints, int column, int row) {
   const N one(1.0f), zero(0.0f);
   const GlassPoint<N> g = glass_point<N>(c, column, row);

@@ -12,17 +12,19 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_lanes-inl.h"
 #include "windshield/composite.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
 void CompositeRows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile) {
   constexpr Address edge = Address::clamp;
-  const auto pyramid = fixed_texture<edge, edge, 4>(*in.pyramid), normal = fixed_texture<edge, edge, 4>(*in.normal);
-  const auto height = fixed_texture<edge, edge, 1>(*in.height), mask = fixed_texture<edge, edge, 1>(*in.mask);
+  const auto pyramid = fixed_texture<edge, edge, 4>(in.pyramid), normal = fixed_texture<edge, edge, 4>(in.normal);
+  const auto height = fixed_texture<edge, edge, 1>(in.height), mask = fixed_texture<edge, edge, 1>(in.mask);
+  const auto depth = fixed_texture<edge, edge, 1>(in.depth);
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      const Vec3<Lanes> c = corrected ? composite_corrected<Lanes>(uniforms, pyramid, fixed_texture<edge, edge, 1>(*in.depth), height, normal, mask, in.glints.data(), x, y)
+      const Vec3<Lanes> c = corrected ? composite_corrected<Lanes>(uniforms, pyramid, depth, height, normal, mask, in.glints.data(), x, y)
                                       : composite_as_published<Lanes>(uniforms, pyramid, height, normal, mask, in.glints.data(), x, y);
       const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
       store4(colour.row<Half>(y) + 4 * x, rgba, rounding);
@@ -41,19 +43,6 @@ void DisplayRows(const DisplayUniforms& uniforms, Rounding rounding, const Image
     }
   }
 }
-template <class Storage>
-void decode_rows(const Image& image, float* out, const parallel::Tile& tile) {
-  const int n = image.width() * image.channels();
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const Storage* row = image.row<Storage>(y);
-    float* to = out + static_cast<std::size_t>(y) * n;
-    for (int x = 0; x < n; x += Lanes::size()) store(to + x, Lanes::load(row + x), Rounding::rne, std::min(Lanes::size(), n - x));
-  }
-}
-void DecodeRows(const Image& image, float* out, const parallel::Tile& tile) {
-  if (info(image.format()).kind == FormatInfo::float16) return decode_rows<Half>(image, out, tile);
-  decode_rows<float>(image, out, tile);
-}
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
@@ -61,18 +50,12 @@ namespace rainref::windshield {
 
 RAINREF_EXPORT(CompositeRows);
 RAINREF_EXPORT(DisplayRows);
-RAINREF_EXPORT(DecodeRows);
 
 void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile) {
   RAINREF_DISPATCH(CompositeRows)(uniforms, corrected, rounding, in, colour, tile);
 }
 void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
   RAINREF_DISPATCH(DisplayRows)(uniforms, rounding, colour, picture, tile);
-}
-
-void decode(const parallel::Executor& executor, const Image& image, TextureData& texture) {
-  float* out = texture.texels();
-  executor.for_tiles(image.width(), image.height(), image.width(), 32, [&](const parallel::Tile& tile) { RAINREF_DISPATCH(DecodeRows)(image, out, tile); });
 }
 
 }  // namespace rainref::windshield

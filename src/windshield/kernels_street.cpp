@@ -11,15 +11,19 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "image/sampling-inl.h"
+#include "image/sampling_lanes-inl.h"
 #include "windshield/reproject.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile) {
+void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile) {
+  constexpr Address edge = Address::clamp;
+  const StoredTexture<Half> colours[2] = {stored_texture<Half>(behind.colour), stored_texture<Half>(ahead.colour)};
+  const StoredTexture<float> depths[2] = {stored_texture<float>(behind.depth), stored_texture<float>(ahead.depth)};
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
       const SeenFrom<Lanes> s =
-          reprojected<Lanes>(uniforms, newer.colour.view(), newer.depth.view(), older.colour.view(), older.depth.view(), x, y);
+          reprojected<Lanes>(uniforms, fixed_texture<edge, edge, 4>(colours[0]), fixed_texture<edge, edge, 1>(depths[0]), fixed_texture<edge, edge, 4>(colours[1]), fixed_texture<edge, edge, 1>(depths[1]), x, y);
       const Lanes rgba[4] = {s.colour.x, s.colour.y, s.colour.z, Lanes(1.0f)};
       store4(view.colour.row<Half>(y) + 4 * x, rgba, Rounding::rne);
       store(view.depth.row<float>(y) + x, s.depth, Rounding::rne, std::min(Lanes::size(), tile.x1 - x));
@@ -33,8 +37,8 @@ namespace rainref::windshield {
 
 RAINREF_EXPORT(ReprojectRows);
 
-void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(ReprojectRows)(uniforms, newer, older, view, tile);
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile) {
+  RAINREF_DISPATCH(ReprojectRows)(uniforms, behind, ahead, view, tile);
 }
 
 }  // namespace rainref::windshield

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "image/texture.h"
+#include "image/stored_texture.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/storage.h"
@@ -45,13 +45,13 @@ scene::Camera camera(const PictureSettings& settings);
 double widened_fov(const PictureSettings& settings);
 
 struct CompositeInputs {
-  const Texture *pyramid, *depth, *height, *normal, *mask;  ///< depth: as-published does not look at it
+  StoredTexture<Half> pyramid;
+  StoredTexture<float> depth;  ///< as-published does not look at it
+  StoredTexture<Half> height, normal, mask;
   std::span<const Glint> glints;
 };
 /// colour: rgba16f, alpha 1.
 void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile);
-/// The image's values into a texture of its size and channels; r16f, rgba16f or r32f.
-void decode(const parallel::Executor& executor, const Image& image, TextureData& texture);
 /// picture: rgba8, alpha 1.
 void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
 

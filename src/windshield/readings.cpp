@@ -10,7 +10,7 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"integrate", drops::bind_integrate},
                                                       {"wipe_drops", bind_wipe_drops},
                                                       {"merge", drops::bind_merge},
-                                                      {"splat", bind_splat},
+                                                      {"splat", drops::bind_splat},
                                                       {"wipe_texture", bind_wipe_texture},
                                                       {"normals", bind_normals},
                                                       {"blur_pyramid", bind_blur_pyramid},

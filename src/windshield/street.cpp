@@ -26,51 +26,56 @@ Image as_half(const Image& from) {
 
 // x forward, y left, z up becomes the street's x right, y up, z backward.
 Vector3 in_street(const Vector3& car) { return {-car.y, car.z, -car.x}; }
-Vector3 place_in_street(double odometer) {
-  const double length = StreetDrive::street_length;
-  return {lane, 0, start_z - (odometer - length * std::floor(odometer / length))};
+// The street begins again between two keyframes, so that no view lies between its end and its beginning.
+Vector3 place_in_street(double start, double distance) {
+  constexpr double length = StreetDrive::street_length, spacing = StreetDrive::spacing;
+  const double taken = spacing * std::floor(distance / spacing), way = start + taken;
+  return {lane, 0, start_z - (way - length * std::floor(way / length) + (distance - taken))};
 }
 
 struct StreetDrive::State {
   scene::Camera camera;
   int width, height;
+  double first;
   night_street::Street street;
   const parallel::Executor& executor;
   std::map<int, Keyframe> keyframes;
   bool stands = false;  // the view of look() is rendered and stays
 
-  State(const scene::Camera& c, int w, int h, std::uint64_t seed, const parallel::Executor& e) : camera(c), width(w), height(h), street({seed}), executor(e) {}
+  State(const scene::Camera& c, int w, int h, double start, std::uint64_t seed, const parallel::Executor& e)
+      : camera(c), width(w), height(h), first(start), street({seed}), executor(e) {}
 
-  night_street::Street::View render(double odometer) const {
-    const Vector3 start = place_in_street(odometer);
+  /// Where keyframe k is taken.
+  Vector3 place(int k) const { return place_in_street(first, k * spacing); }
+  night_street::Street::View render(int k, night_street::Parts parts) const {
+    const Vector3 start = place(k);
     scene::Camera c = camera;
     c.position = start + in_street(camera.position);
     c.target = start + in_street(camera.target);
     c.up = in_street(camera.up);
-    return street.view(c, width, height, street_far, executor);
+    return street.view(c, width, height, street_far, executor, parts);
   }
   const Keyframe& keyframe(int k) {
     const auto found = keyframes.find(k);
     if (found != keyframes.end()) return found->second;
-    const night_street::Street::View v = render(k * spacing);
-    return keyframes.emplace(k, Keyframe{TextureData(as_half(v.colour), Address::clamp, Address::clamp), TextureData(v.depth, Address::clamp, Address::clamp)}).first->second;
+    // A car that stands may look at its first view for long.
+    night_street::Street::View v = render(k, keyframes.empty() ? night_street::Parts::nine : night_street::Parts::five);
+    return keyframes.emplace(k, Keyframe{as_half(v.colour), std::move(v.depth)}).first->second;
   }
 };
 
-StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, std::uint64_t seed, const parallel::Executor& executor)
-    : state_(std::make_unique<State>(camera, width, height, seed, executor)) {}
+StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, double start, std::uint64_t seed, const parallel::Executor& executor)
+    : state_(std::make_unique<State>(camera, width, height, start, seed, executor)) {}
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
 
-bool StreetDrive::look(double odometer, bool moves, SceneView& view) {
+bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   State& s = *state_;
-  const double place = odometer - street_length * std::floor(odometer / street_length);
   if (!moves) {
     if (s.stands) return false;
-    const night_street::Street::View v = s.render(place);
+    night_street::Street::View v = s.render(0, night_street::Parts::nine);
     view.colour = as_half(v.colour);
-    view.depth = Image(Format::r32f, s.width, s.height);
-    for (int y = 0; y < s.height; ++y) std::copy_n(v.depth.row<float>(y), s.width, view.depth.row<float>(y));
+    view.depth = std::move(v.depth);
     s.stands = true;
     return true;
   }
@@ -78,10 +83,12 @@ bool StreetDrive::look(double odometer, bool moves, SceneView& view) {
     view.colour = Image(Format::rgba16f, s.width, s.height);
     view.depth = Image(Format::r32f, s.width, s.height);
   }
-  const int k = static_cast<int>(place / spacing);
-  const Keyframe &older = s.keyframe(std::max(k - 1, 0)), &newer = s.keyframe(k);
-  s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k - 1));
-  const double gone = place - k * spacing;
+  const int k = static_cast<int>(distance / spacing);
+  const double gone = distance - k * spacing;
+  const bool stands = distance == k * spacing, starts_anew = s.place(k + 1).z > s.place(k).z;
+  // At a keyframe, and where the street ends, there is no need to look ahead.
+  const Keyframe &behind = s.keyframe(k), &ahead = stands || starts_anew ? behind : s.keyframe(k + 1);
+  s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k));
   const scene::Camera::Basis basis = s.camera.basis();
   const Vector3 way(1, 0, 0);
   ReprojectUniforms u{};
@@ -93,11 +100,10 @@ bool StreetDrive::look(double odometer, bool moves, SceneView& view) {
   u.forward[0] = static_cast<float>(glm::dot(way, basis.right));
   u.forward[1] = static_cast<float>(glm::dot(way, basis.up));
   u.forward[2] = static_cast<float>(glm::dot(way, basis.forward));
-  u.newer_by = static_cast<float>(gone);
-  u.older_by = static_cast<float>(k == 0 ? gone : gone + spacing);
-  // The older picture fades out after a new one was taken; before the first there is none.
-  u.weight = k == 0 ? 1.0f : static_cast<float>(std::min(1.0, gone / 3));
-  s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, newer, older, view, tile); });
+  u.behind_by = static_cast<float>(gone);
+  u.ahead_by = static_cast<float>(&ahead == &behind ? gone : gone - spacing);
+  u.share = &ahead == &behind ? 0.0f : static_cast<float>(gone / spacing);
+  s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, behind, ahead, view, tile); });
   return true;
 }
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "image/texture.h"
+#include "image/stored_texture.h"
 #include "night_street/night_street.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
@@ -23,24 +23,25 @@ constexpr double street_far = 1000;
 
 /// A vector of car axes in the axes of the street, for a car that drives straight along it in the right lane.
 scene::Vector3 in_street(const scene::Vector3& car);
-/// Where the car's origin is in the street after `odometer` metres, street_length as good as none.
-scene::Vector3 place_in_street(double odometer);
+/// Where the car's origin is in the street that StreetDrive shows, `distance` metres after it began at `start`.
+scene::Vector3 place_in_street(double start, double distance);
 
-/// Views of the street for a car that has gone `odometer` metres along it, straight on; after street_length metres it
-/// starts again. The street is rendered every `spacing` metres; between, each view is made from the last one by its depth, which
-/// fades in over the one before. The same bits on every machine.
+/// Views of the street for a car that goes along it, straight on; after street_length metres it starts again. The street is
+/// rendered every `spacing` metres; between, each view is made from the one behind and the one ahead, by their depths. The same
+/// bits on every machine.
 class StreetDrive {
  public:
-  static constexpr double street_length = 400, spacing = 8;
+  static constexpr double street_length = 400, spacing = 12;
 
   /// camera: car axes (x forward, y left, z up, origin on the road under the driver's seat), with the field of view of the
-  /// views, which have width x height texels. The executor must outlive this.
-  StreetDrive(const scene::Camera& camera, int width, int height, std::uint64_t seed, const parallel::Executor& executor);
+  /// views, which have width x height texels. start: where on the street the car begins [m]. The executor must outlive this.
+  StreetDrive(const scene::Camera& camera, int width, int height, double start, std::uint64_t seed, const parallel::Executor& executor);
   ~StreetDrive();
   StreetDrive(StreetDrive&&) noexcept;
 
-  /// Whether the view changed. `moves` is the same in every call; where it is false, the first view stays.
-  bool look(double odometer, bool moves, SceneView& view);
+  /// What is seen after `distance` metres, which never get fewer; whether the view changed. `moves` is the same in every
+  /// call; where it is false, the first view stays.
+  bool look(double distance, bool moves, SceneView& view);
 
  private:
   struct State;
@@ -51,13 +52,14 @@ struct ReprojectUniforms {
   float half_size[2];  ///< of the image plane at distance 1
   float pixel[2];      ///< extent of a pixel there
   float forward[3];    ///< the car's way, camera axes: right, up, forward
-  float newer_by, older_by;  ///< way gone since each picture was taken [m]
-  float weight;        ///< of the newer picture
+  float behind_by, ahead_by;  ///< way gone since each picture was taken [m]; ahead: not above 0
+  float share;                ///< of the way between them that is gone, [0, 1]: the weight of the one ahead
 };
 struct Keyframe {
-  TextureData colour, depth;
+  Image colour;  ///< rgba16f
+  Image depth;   ///< r32f
 };
 /// Rows of the view between two keyframes.
-void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& newer, const Keyframe& older, SceneView& view, const parallel::Tile& tile);
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile);
 
 }  // namespace rainref::windshield

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "capture/pass_clock.h"
-#include "drops/host.h"
-#include "drops/passes.h"
+#include "drops/wet_glass.h"
+#include "image/code_table.h"
 #include "rainref/error.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
@@ -37,44 +37,38 @@ struct Windshield::State {
   int frame = 0;
   std::int64_t steps = 0;
 
-  drops::DropArrays drops;
-  drops::Arrivals arrivals;
-  drops::Merger merger;
-  drops::Ledger ledger;
-  drops::SplatScratch splat_scratch;
-  std::vector<drops::Drop> listed;  // the live drops, for recorders and splat
-  std::vector<Wiper> wipers;        // of the frame
+  drops::WetGlass water;
+  std::vector<Wiper> wipers;  // of the frame
 
-  Image film, height, mask, wiped, normal, colour, picture;
+  Image height, mask, wiped, normal, colour, picture;
+  CodeTable display;
   SceneView scene;
   bool own_scene;
   std::optional<StreetDrive> street;
   std::vector<Image> levels;
-  std::optional<blur_pyramid::DecodedLevels> pyramid;
-  TextureData depth_texture, height_texture, normal_texture, mask_texture;
+  std::optional<blur_pyramid::LevelTexture> pyramid;
   std::vector<Glint> lights;
 
   State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
       : settings(settings_from(config)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
-        plane(corrected ? glass.plane() : glass.axes()), vehicle(settings.vehicle), drops(settings.drops.capacity), arrivals(settings.drops) {
+        plane(corrected ? glass.plane() : glass.axes()), vehicle(settings.vehicle),
+        water(settings.drops, plane.frame, glass.area, settings.fps * settings.substeps, settings.surface.width, settings.surface.height, e) {
     check(settings.wipers, glass);
     static_cast<void>(composite_uniforms(settings.picture, settings.corners));  // refuses an eye in the glass
     const int w = settings.surface.width, h = settings.surface.height;
     height = Image(Format::r16f, w, h);
     mask = make_mask(settings.surface);
-    if (corrected) {
-      film = Image(Format::r32f, w, h);
-      wiped = make_wiped(settings.surface);
-    }
+    if (corrected) wiped = make_wiped(settings.surface);
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
+    display = CodeTable([&](const Image& in, Image& out) { display_rows(display_uniforms(settings.picture), settings.surface.rounding, in, out, {0, 0, in.width(), in.height()}); });
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
-      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.seed, executor);
+      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.street_start, settings.seed, executor);
     } else {
       scene.colour = std::move(surroundings.colour);
       scene.depth = std::move(surroundings.depth);
@@ -84,11 +78,7 @@ struct Windshield::State {
   double step_time() const { return 1 / (settings.fps * settings.substeps); }
   double frame_time() const { return 1 / settings.fps; }
 
-  /// The live drops as records, where someone looks at them.
-  RecordView list_drops() {
-    drops.gather(listed, executor);
-    return records(listed);
-  }
+  drops::Run run(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding}; }
   template <class Uniforms>
   void announce(Recorder* recorder, int step, std::string_view pass, double dt, const Uniforms& uniforms, std::initializer_list<PassInput> inputs, int level = -1) const {
     if (!recorder) return;
@@ -117,66 +107,41 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
   const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
   const drops::Exposure exposure{glass.area, glass.normal[2], dot(in_car, glass.normal)};
-  const drops::SpawnPlan& plan = arrivals.plan(exposure, steps, settings.fps * settings.substeps, drops.next_id(), drops.capacity() - drops.live());
-  if (recorder) {
-    const RecordView before = list_drops();
-    if (corrected) {
-      announce(recorder, substep, "spawn", dt, plan.uniforms, {{"drops", before}, {"count_thresholds", records(plan.thresholds)}, {"spawn_masses", records(plan.masses)}});
-    } else {
-      announce(recorder, substep, "spawn", dt, plan.uniforms, {{"drops", before}, {"spawn_masses", records(plan.masses)}});
-    }
-  }
-  Stopwatch spawn_clock;
-  ledger += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, corrected);
-  const double spawned = spawn_clock.seconds();
-  if (recorder) report(recorder, substep, "spawn", {{"drops", list_drops()}}, spawned);
-
-  const drops::IntegrateUniforms integrate = drops::integrate_uniforms(settings.drops, plane.frame, dt);
-  if (recorder) announce(recorder, substep, "integrate", dt, integrate, {{"drops", list_drops()}, {"glass_frame", record(moving)}});
-  Stopwatch integrate_clock;
-  ledger += corrected ? drops::integrate_corrected(executor, drops, integrate, moving) : drops::integrate_as_published(executor, drops, integrate, moving);
-  const double integrated = integrate_clock.seconds();
-  if (recorder) report(recorder, substep, "integrate", {{"drops", list_drops()}}, integrated);
+  const drops::Run told = run(recorder, substep, dt);
+  water.spawn(told, exposure, steps);
+  water.integrate(told, moving);
 
   // As published the first frame has no frame before it: the blades stand.
   const std::vector<Wiper> swept = steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
   wipers.insert(wipers.end(), swept.begin(), swept.end());
   const WipeDropsUniforms wipe = wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_quantum(settings.drops),
-                                                     corrected ? film.width() : 0, corrected ? film.height() : 0);
+                                                     corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
   if (recorder) {
     if (corrected) {
-      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", list_drops()}, {"wipers", records(swept)}, {"film", film}});
+      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list()}, {"wipers", records(swept)}, {"film", water.film}});
     } else {
-      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", list_drops()}, {"wipers", records(swept)}});
+      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list()}, {"wipers", records(swept)}});
     }
   }
   Stopwatch wipe_clock;
+  drops::DropArrays& drops = water.drops;
   const std::int64_t drops_before = corrected ? drops.water() : 0;
   const std::int64_t gone =
       static_cast<std::int64_t>(wipe_drops(wipe, corrected, swept, {drops.u(), drops.v(), drops.velocity_u(), drops.velocity_v(), drops.mass(), drops.life(), drops.id()},
-                                           corrected ? &film : nullptr, executor));
+                                           corrected ? &water.film : nullptr, executor));
   // What the drops gained, or lost less than what is gone, came from the film.
-  ledger.removed += gone;
-  if (corrected) ledger.to_film -= drops.water() - drops_before + gone;
+  water.ledger.removed += gone;
+  if (corrected) water.ledger.to_film -= drops.water() - drops_before + gone;
   const double wiped_time = wipe_clock.seconds();
   if (recorder) {
     if (corrected) {
-      report(recorder, substep, "wipe_drops", {{"drops", list_drops()}, {"film", film}}, wiped_time);
+      report(recorder, substep, "wipe_drops", {{"drops", water.list()}, {"film", water.film}}, wiped_time);
     } else {
-      report(recorder, substep, "wipe_drops", {{"drops", list_drops()}}, wiped_time);
+      report(recorder, substep, "wipe_drops", {{"drops", water.list()}}, wiped_time);
     }
   }
 
-  if (corrected) {
-    const double texel_area = glass.area / (static_cast<double>(film.width()) * film.height());
-    const std::int64_t drying = drops::film_loss(settings.drops, texel_area, steps, settings.fps * settings.substeps);
-    const drops::MergeUniforms merge = drops::merge_uniforms(settings.drops, plane.frame, dt, film.width(), film.height(), drying);
-    if (recorder) announce(recorder, substep, "merge", dt, merge, {{"drops", list_drops()}, {"film", film}});
-    Stopwatch merge_clock;
-    ledger += merger.run(executor, drops, merge, film);
-    const double merged = merge_clock.seconds();
-    if (recorder) report(recorder, substep, "merge", {{"drops", list_drops()}, {"film", film}}, merged);
-  }
+  if (corrected) water.merge(told, steps);
   ++steps;
 }
 
@@ -184,7 +149,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
 bool Windshield::State::look() {
   if (!own_scene) return levels.empty();
   const bool moves = settings.scene_moves;
-  return street->look(settings.street_start + (moves ? vehicle.at(frame * frame_time()).distance : 0), moves, scene);
+  return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
 }
 
 Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor)
@@ -209,17 +174,7 @@ void Windshield::render(Recorder* recorder) {
   constexpr int last_step = 0;
   const Rounding rounding = settings.surface.rounding;
 
-  s.list_drops();
-  drops::SplatUniforms splat = drops::splat_uniforms(settings.splat);
-  splat.drop_count = static_cast<std::int32_t>(s.listed.size());
-  if (s.corrected) {
-    s.announce(recorder, last_step, "splat", dt, splat, {{"drops", records(s.listed)}, {"film", s.film}});
-  } else {
-    s.announce(recorder, last_step, "splat", dt, splat, {{"drops", records(s.listed)}});
-  }
-  Stopwatch splat_clock;
-  drops::splat(executor, splat, settings.splat.keys.half_accumulation, rounding, s.listed, s.corrected ? &s.film : nullptr, s.height, s.splat_scratch);
-  s.report(recorder, last_step, "splat", {{"height", s.height}}, splat_clock.seconds());
+  s.water.splat(s.run(recorder, last_step, dt), settings.splat, s.height);
 
   WipeTextureUniforms wipe = wipe_texture_uniforms(settings.surface, s.frame);
   wipe.wiper_count = static_cast<std::int32_t>(s.wipers.size());
@@ -248,10 +203,6 @@ void Windshield::render(Recorder* recorder) {
   if (s.levels.empty()) {
     s.levels = blur_pyramid::make_levels(settings.blur, width, height);
     s.pyramid.emplace(s.levels);
-    s.depth_texture = TextureData(s.scene.depth, Address::clamp, Address::clamp);
-    s.height_texture = TextureData(s.height, Address::clamp, Address::clamp);
-    s.normal_texture = TextureData(s.normal, Address::clamp, Address::clamp);
-    s.mask_texture = TextureData(s.mask, Address::clamp, Address::clamp);
   }
   for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
     const std::size_t l = static_cast<std::size_t>(level);
@@ -267,16 +218,10 @@ void Windshield::render(Recorder* recorder) {
     s.report(recorder, last_step, "blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
   }
   Stopwatch composite_clock;
-  if (anew) {
-    s.pyramid->refresh(executor, s.levels);
-    decode(executor, s.scene.depth, s.depth_texture);
-  }
-  decode(executor, s.height, s.height_texture);
-  decode(executor, s.normal, s.normal_texture);
-  decode(executor, s.mask, s.mask_texture);
+  if (anew) s.pyramid->refresh(executor, s.levels);
   const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners);
-  const CompositeInputs in{&s.pyramid->view(), &s.depth_texture.view(), &s.height_texture.view(), &s.normal_texture.view(), &s.mask_texture.view(), s.lights};
-  const PassInput pyramid{"blurred", &s.pyramid->view(), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
+  const CompositeInputs in{s.pyramid->view(), stored_texture<float>(s.scene.depth), stored_texture<Half>(s.height), stored_texture<Half>(s.normal), stored_texture<Half>(s.mask), s.lights};
+  const PassInput pyramid{"blurred", std::span<const Image>(s.levels), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
       lights{"glints", records(s.lights)};
   if (s.corrected) {
     s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, water, normal, mask, lights});
@@ -292,7 +237,7 @@ void Windshield::render(Recorder* recorder) {
   const DisplayUniforms display = display_uniforms(settings.picture);
   s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
   Stopwatch display_clock;
-  tiles([&](const parallel::Tile& tile) { display_rows(display, rounding, s.colour, s.picture, tile); });
+  tiles([&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
   s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_clock.seconds());
   s.frame = recorded_frame;
 }
@@ -300,18 +245,19 @@ void Windshield::render(Recorder* recorder) {
 int Windshield::frame() const { return state_->frame; }
 std::vector<DropView> Windshield::drops() const {
   std::vector<drops::Drop> all;
-  state_->drops.gather(all, state_->executor);
+  state_->water.drops.gather(all, state_->executor);
   std::vector<DropView> out;
   for (const drops::Drop& d : all) out.push_back({d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life, d.id});
   return out;
 }
 WaterLedger Windshield::ledger() const {
   const State& s = *state_;
-  return {s.ledger.spawned, s.ledger.evaporated, s.ledger.removed, s.corrected ? drops::film_water(s.film) : 0, s.corrected ? s.drops.water() : s.drops.live()};
+  const drops::WetGlass& w = s.water;
+  return {w.ledger.spawned, w.ledger.evaporated, w.ledger.removed, s.corrected ? drops::film_water(w.film) : 0, s.corrected ? w.drops.water() : w.drops.live()};
 }
 const Image& Windshield::height() const { return state_->height; }
 const Image& Windshield::mask() const { return state_->mask; }
-const Image& Windshield::film() const { return state_->film; }
+const Image& Windshield::film() const { return state_->water.film; }
 const Image& Windshield::normal() const { return state_->normal; }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
 const Image& Windshield::colour() const { return state_->colour; }

@@ -1,14 +1,26 @@
 // The blurred pyramid: means, spreads, odd sizes, fog (physics: W17), and its bits on every target.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "blur_pyramid/plain.h"
+#include "image/texture.h"
 #include "math/half.h"
+#include "math/half_array.h"
 #include "math/simd_target.h"
+
+namespace rainref::blur_pyramid::sampled {
+using namespace rainref::plain;
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "image/sampling-inl.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+}  // namespace rainref::blur_pyramid::sampled
 
 namespace rainref::blur_pyramid {
 namespace {
@@ -157,6 +169,42 @@ TEST(BlurPyramid, NoiseAndSpread) {
   }
 }
 
+// White noise of variance 1 has variance sum w^2, w the answer to an impulse in each texel of level 0: an exact figure, with no
+// noise drawn. At the centre of a texel of level L, trilinear at L + f takes that texel (variance V_L = 4^-L) and of level L + 1
+// a bilinear mix whose weights are 9, 3, 3, 1 / 16, of which the first is the texel's own parent (covariance V_{L+1}):
+//   (1 - f)^2 V_L + 2 f (1 - f) 9/16 V_{L+1} + f^2 100/256 V_{L+1}.
+// Where the coarse level is read at its own texel's centre the fine one is a bilinear mix of its four: both equal their mean, V_{L+1}.
+TEST(BlurPyramid, NoiseBetweenTwoLevels) {
+  constexpr int side = 32;
+  const auto variance = [](double u, double v, double lod) {
+    double sum = 0;
+    for (int i = 0; i < side * side; ++i) {
+      const std::vector<Image> levels = pyramid(settings(true), image_of(side, side, [&](int x, int y) { return y * side + x == i ? 1 : 0; }));
+      LevelTexture texture(levels);
+      texture.refresh(two_threads(), levels);
+      StoredTexture<float> t{nullptr, 4, texture.view().levels};
+      std::copy_n(texture.view().width, t.levels, t.width);
+      std::copy_n(texture.view().height, t.levels, t.height);
+      std::copy_n(texture.view().pitch, t.levels, t.pitch);
+      std::copy_n(texture.view().offset, t.levels, t.offset);
+      std::vector<float> texels(4 * static_cast<std::size_t>(t.offset[t.levels - 1] + 1));
+      to_float_array(texture.view().texels, texels.data(), texels.size());
+      t.texels = texels.data();
+      const double w = sampled::sample_trilinear<0, 1, D>(fixed_texture<Address::clamp, Address::clamp, 4>(t), D(u), D(v), D(lod))[0].v;
+      sum += w * w;
+    }
+    return sum;
+  };
+  for (const int level : {0, 1, 2}) {
+    const double fine = std::pow(0.25, level), coarse = fine / 4, texel = std::exp2(level) / side;
+    for (const double f : {0.0, 0.25, 0.5, 1.0}) {
+      const double expected = (1 - f) * (1 - f) * fine + 2 * f * (1 - f) * 9 / 16 * coarse + f * f * 100 / 256 * coarse;
+      EXPECT_NEAR(variance(2.5 * texel, 3.5 * texel, level + f), expected, 1e-14) << level << " " << f;
+    }
+    EXPECT_NEAR(variance(2 * texel * 1.5, 2 * texel * 1.5, level + 0.4), coarse, 1e-14) << level;
+  }
+}
+
 TEST(BlurPyramid, CorrectedKeepsTheCentreOfGravityOfOddSizes) {
   // A ramp: with dropped columns its middle moves.
   const auto ramp = [](int x, int) { return x; };
@@ -191,16 +239,16 @@ TEST(BlurPyramid, Fog) {
   }
 }
 
-TEST(BlurPyramid, DecodedLevelsAreTheLevels) {
+TEST(BlurPyramid, TheTextureHoldsTheLevels) {
   const std::vector<Image> levels = pyramid(settings(true), image_of(37, 21, [](int x, int y) { return x + 0.25 * y; }));
-  DecodedLevels decoded(levels);
-  decoded.refresh(two_threads(), levels);
-  const Texture& t = decoded.view();
+  LevelTexture texture(levels);
+  texture.refresh(two_threads(), levels);
+  const StoredTexture<Half>& t = texture.view();
   ASSERT_EQ(t.levels, static_cast<int>(levels.size()));
   for (int l = 0; l < t.levels; ++l) {
     for (int y = 0; y < t.height[l]; ++y) {
       for (int i = 0; i < 4 * t.width[l]; ++i) {
-        ASSERT_EQ(t.texels[4 * (t.offset[l] + t.width[l] * y) + i], to_float(levels[static_cast<std::size_t>(l)].row<Half>(y)[i]));
+        ASSERT_EQ(t.texels[4 * (t.offset[l] + t.pitch[l] * y) + i].bits, levels[static_cast<std::size_t>(l)].row<Half>(y)[i].bits);
       }
     }
   }

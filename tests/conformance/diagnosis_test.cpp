@@ -231,6 +231,22 @@ TEST(HalfStores, OtherThanTheProfileAsksForWarns) {
   EXPECT_EQ(pass_of(j, "wave_step").status, Status::fail);
 }
 
+// Water lost in a buffer that is nearly dry. Mirrored or moved it would have zeros there, too, but water where there is none.
+TEST(Diagnosis, ABufferThatLostALittleIsNotCalledMirrored) {
+  MiniPort port("windshield-corrected");
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.pass != "splat") return;
+    Array& height = out[0];
+    for (int y = 0; y < height.height; y += 3)
+      std::memset(height.levels[0].data() + static_cast<std::size_t>(y * height.width) * height.element_bytes(), 0, height.element_bytes() * static_cast<std::size_t>(height.width));
+  };
+  TemporaryFolder folder;
+  port.run(folder.path());
+  const PortJudgement j = judge(port.pack, folder.path(), "vulkan", true);
+  ASSERT_EQ(pass_of(j, "splat").status, Status::fail);
+  for (const Cause& cause : pass_of(j, "splat").causes) ADD_FAILURE() << cause.name << ": " << cause.explained << ", " << cause.inside << " of " << cause.of;
+}
+
 // What no single mistake explains has no cause.
 TEST(Diagnosis, NoiseHasNoCause) {
   MiniPort port(corrected);

@@ -84,7 +84,8 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   fmt::print("{}: {} of {} deviations that change something are caught\n", GetParam(), count.caught, count.bugs);
   // Masks of 8 bits hide what moves them by less than a code.
   const std::map<std::string, int> least{{"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},
-                                         {"rainy_glass-corrected", 80}, {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75}};
+                                         {"rainy_glass-corrected", 80}, {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75},
+                                         {"screen_drops-as-published", 70}, {"screen_drops-corrected", 70}};
   EXPECT_GE(count.caught, count.bugs * least.at(GetParam()) / 100);
 
   const capture::Pack pack(pack_folder(GetParam()));
@@ -104,6 +105,8 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
       if (d.legal || far * 50 < invocations) continue;
       // The angle of a level gradient is a tie of (0 + pi) / 2 pi with 1/2, which a conforming quotient decides either way.
       if (pass.pack == "edge_splash-as-published" && d.name.starts_with("constant 3.1415927")) continue;
+      // It moves the grid by less than the profile allows a sine beyond pi.
+      if (pass.pack == "screen_drops-as-published" && d.name.starts_with("constant 0.5 off by 1 %")) continue;
       ++large;
       const auto found = std::find_if(report.mutants.begin(), report.mutants.end(), [&](const MutantJudgement& m) {
         return m.pass == pass.pass && m.name == d.name;

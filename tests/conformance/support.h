@@ -16,7 +16,8 @@
 namespace rainref::conformance::test {
 
 inline const std::vector<std::string> packs{"puddle-as-published",      "puddle-corrected",      "rainy_glass-as-published",
-                                            "rainy_glass-corrected", "edge_splash-as-published", "edge_splash-corrected"};
+                                            "rainy_glass-corrected", "edge_splash-as-published", "edge_splash-corrected",
+                                            "screen_drops-as-published", "screen_drops-corrected"};
 /// Every profile under which results may differ.
 inline std::vector<std::string> inexact_profiles() {
   std::vector<std::string> names = profile_names();

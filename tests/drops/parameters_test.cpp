@@ -60,6 +60,21 @@ TEST(DropsParameters, DefaultsAreThoseOfTheSettings) {
   EXPECT_EQ(p.drag, d.drag);
 }
 
+TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {
+  const std::vector<scene::Parameter> all = still_parameters("pane");
+  scene::validate(all, variants);
+  for (const scene::Parameter& p : all) {
+    EXPECT_FALSE(p.used_by("as-published")) << p.key;
+    EXPECT_EQ(p.key.find("wind"), std::string::npos) << p.key;
+  }
+  const scene::EffectTable table{{{"pane", variants, all}}};
+  const Settings s = still_settings_from(scene::parse("effect = 'pane'\nvariant = 'corrected'\nseed = 5\n", "scene", {"pane.mobility=0.5"}, table), "pane"), d;
+  EXPECT_EQ(s.lifetime, d.lifetime);  // that of corrected
+  EXPECT_EQ(s.mobility, 0.5);
+  EXPECT_EQ(s.wind_drag, 0);
+  EXPECT_EQ(s.wind_exposure, 0);
+}
+
 TEST(DropsParameters, RefuseWhatContradictsItself) {
   EXPECT_EQ(refusal("corrected", {"windshield.receding_angle=60"}), "windshield.receding_angle is 60 degrees: expected at most windshield.advancing_angle = 50");
   EXPECT_EQ(refusal("as-published", {"windshield.mass_min=2"}), "windshield.mass_min is 2: expected at most windshield.mass_max = 1.6");

@@ -5,6 +5,7 @@
 #include "edge_splash/golden_scenes.h"
 #include "puddle/golden_scenes.h"
 #include "rainy_glass/golden_scenes.h"
+#include "screen_drops/golden_scenes.h"
 #include "windshield/golden_scenes.h"
 
 int main() {
@@ -15,6 +16,7 @@ int main() {
   for (const auto& scene : rainref::puddle::golden_scenes()) print(rainref::puddle::golden_lines(scene, executor));
   for (const auto& scene : rainref::windshield::golden_scenes()) print(rainref::windshield::golden_lines(scene, executor));
   for (const auto& scene : rainref::edge_splash::golden_scenes()) print(rainref::edge_splash::golden_lines(scene, executor));
+  for (const auto& scene : rainref::screen_drops::golden_scenes()) print(rainref::screen_drops::golden_lines(scene, executor));
   for (const auto& scene : rainref::rainy_glass::golden_scenes()) print(rainref::rainy_glass::golden_lines(scene, executor));
   for (const auto& scene : rainref::compositor::golden_scenes()) print(rainref::compositor::golden_lines(scene, executor));
 }

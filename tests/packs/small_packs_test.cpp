@@ -25,8 +25,8 @@ TEST_P(SmallPack, IsWhatThisBuildWrites) {
   const std::string scene = (here / (GetParam() + ".toml")).string();
   Circumstances c;
   c.is_copy = true;
-  // As scripts/accept_packs: the bakes of rainy glass run before frame 0.
-  const std::string at = GetParam().starts_with("rainy_glass") ? "0,12" : "11,12";
+  // As scripts/accept_packs: the bakes of rainy glass and the background of screen drops run before frame 0.
+  const std::string at = GetParam().starts_with("rainy_glass") || GetParam().starts_with("screen_drops") ? "0,12" : "11,12";
   const Outcome o = run_rainref(folder.path(), {"pack", scene, "--at", at, "-o", "fresh"}, c);
   ASSERT_EQ(o.code, 0) << o.err;
   const auto expected = files_of(here / GetParam()), found = files_of(folder / "fresh");
@@ -71,7 +71,7 @@ std::string name_of(const testing::TestParamInfo<std::string>& tested) {
 }
 INSTANTIATE_TEST_SUITE_P(Packs, SmallPack,
                          testing::Values("puddle-as-published", "puddle-corrected", "windshield-as-published", "windshield-corrected", "edge_splash-as-published", "edge_splash-corrected",
-                                         "rainy_glass-as-published", "rainy_glass-corrected"),
+                                         "rainy_glass-as-published", "rainy_glass-corrected", "screen_drops-as-published", "screen_drops-corrected"),
                          name_of);
 
 }  // namespace

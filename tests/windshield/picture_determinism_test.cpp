@@ -2,8 +2,12 @@
 // of one plain float after another.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <optional>
+#include <type_traits>
 
+#include "blur_pyramid/blur_pyramid.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "math/unorm.h"
@@ -16,14 +20,45 @@ namespace {
 
 using F = plain::Plain<float>;
 
-/// Values in [0, 1] with structure.
-TextureData pattern(int channels, int width, int height, int levels = 1, float scale = 1) {
-  std::vector<float> texels(static_cast<std::size_t>(channels) * width * height);
-  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = scale * static_cast<float>((i * 7919 + 31 * (i / 5)) % 257) / 256;
-  TextureData t(std::move(texels), channels, width, height, Address::clamp, Address::clamp);
-  t.build_mips(levels);
-  return t;
+/// Values in [0, 1] with structure, as they are stored and as the plain reading takes them.
+template <class Stored>
+Image pattern(Format format, int width, int height, float scale = 1) {
+  Image image(format, width, height);
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width * image.channels(); ++x, ++i) {
+      const float value = scale * static_cast<float>((i * 7919 + 31 * (i / 5)) % 257) / 256;
+      if constexpr (std::is_same_v<Stored, Half>) image.row<Half>(y)[x] = to_half(value);
+      else image.row<float>(y)[x] = value;
+    }
+  }
+  return image;
 }
+TextureData decoded(const Image& image) { return {image, Address::clamp, Address::clamp}; }
+
+/// Four levels whose sizes halve.
+struct Pyramid {
+  std::vector<Image> levels;
+  std::vector<float> texels;
+  Texture plain;
+  std::optional<blur_pyramid::LevelTexture> stored;
+
+  Pyramid(int width, int height) {
+    for (int l = 0; l < 4; ++l) levels.push_back(pattern<Half>(Format::rgba16f, width >> l, height >> l, 1.0f - 0.125f * static_cast<float>(l)));
+    stored.emplace(levels);
+    stored->refresh(parallel::Executor(1), levels);
+    const StoredTexture<Half>& view = stored->view();
+    plain.channels = 4;
+    plain.levels = view.levels;
+    std::copy_n(view.width, 4, plain.width);
+    std::copy_n(view.height, 4, plain.height);
+    std::copy_n(view.offset, 4, plain.offset);
+    const int last = view.levels - 1;
+    for (int i = 0; i < 4 * (view.offset[last] + view.width[last] * view.height[last]); ++i) texels.push_back(to_float(view.texels[i]));
+    plain.texels = texels.data();
+  }
+};
+
 const Corners raked{{{1.0, 0.7, 0.95}, {1.0, -0.7, 0.95}, {0.2872, 0.7, 1.3132}}};
 
 struct View {
@@ -33,12 +68,15 @@ struct View {
 constexpr int height = 11;
 
 struct Scene {
-  TextureData pyramid = pattern(4, 37, 23, 4), depth = pattern(1, 37, 23, 1, 60), water = pattern(1, 29, 17), normal = pattern(4, 29, 17), mask = pattern(1, 29, 17);
-  Keyframe newer{pattern(4, 19, 13), pattern(1, 19, 13, 1, 40)}, older{pattern(4, 19, 13, 1, 0.5f), pattern(1, 19, 13, 1, 50)};
+  Pyramid pyramid{37, 23};
+  Image depth = pattern<float>(Format::r32f, 37, 23, 60), water = pattern<Half>(Format::r16f, 29, 17), normal = pattern<Half>(Format::rgba16f, 29, 17), mask = pattern<Half>(Format::r16f, 29, 17);
+  TextureData plain_depth = decoded(depth), plain_water = decoded(water), plain_normal = decoded(normal), plain_mask = decoded(mask);
+  Keyframe behind{pattern<Half>(Format::rgba16f, 19, 13), pattern<float>(Format::r32f, 19, 13, 40)},
+      ahead{pattern<Half>(Format::rgba16f, 19, 13, 0.5f), pattern<float>(Format::r32f, 19, 13, 50)};
   PictureSettings settings;
   CompositeUniforms composite;
   DisplayUniforms display;
-  ReprojectUniforms reproject{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, 10.5f, 0.4f};
+  ReprojectUniforms reproject{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, -5.5f, 0.4f};
   std::vector<Glint> lights;
 
   explicit Scene(int width) {
@@ -57,11 +95,11 @@ struct Scene {
   }
   View by_lanes(bool corrected, const parallel::Executor& executor) const {
     View v = make();
-    const CompositeInputs in{&pyramid.view(), &depth.view(), &water.view(), &normal.view(), &mask.view(), lights};
+    const CompositeInputs in{pyramid.stored->view(), stored_texture<float>(depth), stored_texture<Half>(water), stored_texture<Half>(normal), stored_texture<Half>(mask), lights};
     executor.for_tiles(settings.width, height, settings.width, 2, [&](const parallel::Tile& tile) {
       composite_rows(composite, corrected, Rounding::rne, in, v.colour, tile);
       display_rows(display, Rounding::rne, v.colour, v.picture, tile);
-      reproject_rows(reproject, newer, older, v.street, tile);
+      reproject_rows(reproject, behind, ahead, v.street, tile);
     });
     return v;
   }
@@ -94,8 +132,8 @@ TEST_P(PictureDeterminism, LanesEqualThePlainReading) {
     View plain = s.make();
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const plain::Vec3<F> c = GetParam() ? scalar::composite_corrected<F>(s.composite, s.pyramid.view(), s.depth.view(), s.water.view(), s.normal.view(), s.mask.view(), s.lights.data(), x, y)
-                                            : scalar::composite_as_published<F>(s.composite, s.pyramid.view(), s.water.view(), s.normal.view(), s.mask.view(), s.lights.data(), x, y);
+        const plain::Vec3<F> c = GetParam() ? scalar::composite_corrected<F>(s.composite, s.pyramid.plain, s.plain_depth.view(), s.plain_water.view(), s.plain_normal.view(), s.plain_mask.view(), s.lights.data(), x, y)
+                                            : scalar::composite_as_published<F>(s.composite, s.pyramid.plain, s.plain_water.view(), s.plain_normal.view(), s.plain_mask.view(), s.lights.data(), x, y);
         Half* colour = plain.colour.row<Half>(y) + 4 * x;
         const float rgba[4] = {c.x.v, c.y.v, c.z.v, 1};
         for (int k = 0; k < 4; ++k) colour[k] = to_half(rgba[k] + 0.0f);

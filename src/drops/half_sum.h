@@ -7,7 +7,7 @@
 #include "math/half.h"
 #include "math/plain.h"
 
-namespace rainref::windshield {
+namespace rainref::drops {
 
 /// The value of the half that a number is stored as. `own`: how the reference rounds.
 template <class T>
@@ -42,4 +42,4 @@ inline deviant::Deviant half_of(deviant::Deviant x, Rounding own) {
   return deviant::Deviant::of(to_float(Half{static_cast<std::uint16_t>(bits + 1)}));
 }
 
-}  // namespace rainref::windshield
+}  // namespace rainref::drops

@@ -1,0 +1,87 @@
+// Rain drops on a window, per pixel: after "Rain drops on screen" by Élie Michel, as published and corrected. Mathematics,
+// choices and the list of what is corrected: docs/effects/screen_drops.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "rainref/executor.h"
+#include "rainref/image.h"
+#include "rainref/recorder.h"
+
+namespace rainref::screen_drops {
+
+enum class Variant : std::uint8_t { as_published, corrected };
+
+/// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe screen_drops`.
+struct Settings {
+  Variant variant = Variant::corrected;
+  std::uint64_t seed = 1;
+  double fps = 60;
+  int width = 1280, height = 720;
+  Rounding rounding = Rounding::rne;
+  double exposure = 0;  ///< [EV]
+
+  std::array<double, 3> camera_position{0, 1.6, 0}, camera_target{0, 1.6, -1}, camera_up{0, 1, 0};  ///< world, y up [m]
+  double vertical_fov_deg = 40;
+
+  // as-published
+  double grid = 0.015;       ///< cells of the coarsest layer in a pixel
+  double keep = 0.08;        ///< share of the finest layer's cells that hold a drop, for noise that is uniform
+  double refraction = 0.3;   ///< pictures that a unit normal across the view moves the lookup
+  double blur_level = 2.5;   ///< mip level behind the drops
+  bool printed_misprint = false;  ///< the displacement as the report prints it
+  int noise_size = 256;      ///< texels a side of the noise made here
+
+  // corrected
+  double pane_height = 0.12;      ///< of glass in the picture's height [m]
+  double largest_radius = 4;      ///< of a drop's base [mm]
+  double share = 0.6;             ///< of cells that hold a drop
+  double contact_angle_deg = 50;  ///< of the drops' caps
+  double shortest_cycle = 8, longest_cycle = 30;  ///< of a cell [s]
+  double impact = 0.02;           ///< share of its cycle in which a drop spreads
+  double water_ior = 1.333, inner = 0.3;
+  double defocus = 0.02;          ///< radius of a far point's disc [picture heights]
+  double scene_margin = 2.2;      ///< field of view of the scene's picture over the picture's, as tangents
+};
+
+/// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
+struct Inputs {
+  Image colour;  ///< width x height, four channels; corrected: of scene_margin times the picture's field of view
+  Image noise;   ///< as-published: four channels, any size, a tile; empty: made from the seed
+};
+
+struct FlowSettings;  ///< of drops that slide and merge: src/screen_drops/flow.h
+
+/// A wet window before a still scene. Every buffer has the same bits whatever the executor's threads and the SIMD target.
+class ScreenDrops {
+ public:
+  /// Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
+  /// flow: corrected only; null: no water flows. Its pane is pane_height high and as wide as the picture.
+  ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow = nullptr);
+  ~ScreenDrops();
+  ScreenDrops(ScreenDrops&&) noexcept;
+
+  /// Renders time frame / fps; frames are 0, 1, 2 ... in this order. The background, which is still, runs before frame 0 and
+  /// is reported with it.
+  void render(Recorder* recorder = nullptr);
+  /// Frames rendered so far.
+  int frame() const;
+
+  const Image& background() const;  ///< rgba16f: the scene out of focus
+  const Image& cells() const;       ///< corrected: rgba32f, see docs/effects/screen_drops.md
+  const Image& height() const;      ///< corrected: r16f, flowing water [mm]; 1 x 1 without flow
+  const Image& water() const;       ///< r8: as-published layer / 4 of the drop that the pixel shows, corrected its coverage
+  const Image& colour() const;      ///< rgba16f: linear radiance
+  const Image& picture() const;     ///< rgba8: display code; row 0 = bottom
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Bytes of memory that settings need, images aside.
+std::size_t memory_bytes(const Settings& settings);
+
+}  // namespace rainref::screen_drops

@@ -1,0 +1,68 @@
+// The water on one glass and the passes that move it, each told to a recorder: what the effects with drops share. An effect
+// sets the order of the passes and puts its own between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "drops/host.h"
+#include "drops/passes.h"
+#include "drops/splat.h"
+#include "rainref/recorder.h"
+
+namespace rainref::drops {
+
+/// A run of a pass as recorders are told of it. time and dt [s] as in PassStart.
+struct Run {
+  Recorder* recorder;  ///< or null
+  int frame, step;
+  double time, dt;
+  Rounding rounding;
+
+  template <class Uniforms>
+  void before(std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {
+    if (!recorder) return;
+    recorder->before({frame, step, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(time), static_cast<float>(dt), rounding, -1});
+  }
+  void after(std::string_view pass, std::span<const PassOutput> outputs, double seconds) const {
+    if (recorder) recorder->pass({frame, step, pass, outputs, seconds, -1});
+  }
+};
+
+class WetGlass {
+ public:
+  /// frame and area [m^2] of the glass; columns and rows of the film, which corrected has. The executor must outlive it.
+  WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows, const parallel::Executor& executor);
+
+  // The passes of one step; n counts the steps before it.
+  void spawn(const Run& run, const Exposure& exposure, std::int64_t n);
+  void integrate(const Run& run, const GlassFrame& glass);
+  /// corrected.
+  void merge(const Run& run, std::int64_t n);
+  /// The pass of a frame. height: r16f, of the film's size.
+  void splat(const Run& run, const SplatSettings& splat, Image& height);
+
+  /// The live drops as records, in slot order; valid until the next call or pass.
+  RecordView list();
+  /// Quanta (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
+  std::int64_t balance() const;
+
+  DropArrays drops;
+  Image film;     ///< corrected: r32f, whole quanta in a texel
+  Ledger ledger;  ///< since the start
+
+ private:
+  Settings settings_;
+  PlaneFrame frame_;
+  double area_, steps_per_second_;
+  const parallel::Executor& executor_;
+  Arrivals arrivals_;
+  Merger merger_;
+  SplatScratch scratch_;
+  std::vector<Drop> listed_;
+};
+
+}  // namespace rainref::drops

@@ -1,0 +1,34 @@
+// What the cells of the corrected window hold: whole numbers, from (seed, layer, cell, cycle) alone.
+#pragma once
+
+#include "rainref/image.h"
+#include "screen_drops/uniforms.h"
+
+namespace rainref::screen_drops {
+
+/// A cell at a time, in whole numbers of 16 bits: so every GPU draws the same.
+struct CellState {
+  bool holds_drop;
+  std::uint32_t cycle;       ///< which one this is
+  std::uint32_t phase;       ///< of 65536: how far it has come
+  std::uint32_t size, x, y;  ///< of 65536
+};
+/// A row of the buffer of cells. A cell has a cycle of its own length, and starts within it; each cycle draws place and size
+/// anew.
+class CellLine {
+ public:
+  CellLine(const CellsUniforms& uniforms, int row);
+  /// Of the texel in this column; none where the row's layer has no cell.
+  CellState at(int column) const;
+
+ private:
+  const CellsUniforms& u_;
+  std::uint32_t layer_ = 0, line_ = 0;
+  std::int32_t columns_ = 0;
+};
+
+/// The pass, for rows [begin, end) of the buffer: rgba32f, centre x, y, radius [cell]; phase. The same on every target: one
+/// number at a time.
+void cells_rows(const CellsUniforms& uniforms, Image& cells, int begin, int end);
+
+}  // namespace rainref::screen_drops

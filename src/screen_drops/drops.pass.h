@@ -1,0 +1,116 @@
+// Pass drops: the scene refracted by the water on the window. Needs background.pass.h.
+
+/// What a pixel shows, and how much of it is water.
+template <class N>
+struct Window {
+  Vec3<N> colour;
+  N water;
+};
+
+// ---- as published --------------------------------------------------------------------------------------------------
+// For layers r = 4, 3, 2, 1, a later one over an earlier, with u = pixel / resolution:
+//   x = resolution r grid,  p = 6.28 u x + (n - .5) 2,  n = noise(u / 10).rg
+//   d = noise(round(u x - .25) / x),  t = (sin p.x + sin p.y) max(0, 1 - 2 fract(time (d.b + .1) + d.g))
+//   a drop where d.r < (5 - r) keep and t > .5:  scene(u - refraction v.xy),  v = normalize(-(cos p, mix(.2, 2, t - .5)))
+// round(a) is floor(a + 1/2). The report prints (1 - c2) c3 where (n - .5) 2 stands; with its own names c2 = .5, c3 = 2.
+template <class N>
+struct PublishedDrop {
+  N layer;  ///< 0: none
+  N u, v;   ///< where the scene is looked up
+};
+template <class N, class T>
+RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, const T& noise, int column, int row) {
+  const N half(0.5f), one(1.0f), two(2.0f), quarter(0.25f), zero(0.0f);
+  const N width(d.resolution[0]), height(d.resolution[1]);
+  const N u = (N::index(column) + half) / width, v = N(static_cast<float>(row) + 0.5f) / height;
+  PublishedDrop<N> out{zero, u, v};
+  const auto n = sample_bilinear<0, 2, N>(noise, u * N(0.1f), v * N(0.1f));
+  const bool misprint = d.printed_misprint != 0;
+  const N shift_x = misprint ? (one - half) * two : (n[0] - half) * two, shift_y = misprint ? (one - half) * two : (n[1] - half) * two;
+  for (int r = layers; r > 0; --r) {
+    const N layer(static_cast<float>(r)), columns = width * layer * N(d.grid), rows = height * layer * N(d.grid);
+    const N px = N(6.28f) * u * columns + shift_x, py = N(6.28f) * v * rows + shift_y;
+    const N cell_x = floor((u * columns - quarter) + half), cell_y = floor((v * rows - quarter) + half);
+    const auto s = sample_bilinear<0, 3, N>(noise, cell_x / columns, cell_y / rows);
+    const auto is_kept = s[0] < N(static_cast<float>(5 - r)) * N(d.keep);
+    if (!any(is_kept)) continue;
+    const N fade = max(zero, one - fract(N(d.time) * (s[2] + N(0.1f)) + s[1]) * two);
+    const N t = (sin(px) + sin(py)) * fade;
+    const auto is_drop = is_kept & (t > half);
+    if (!any(is_drop)) continue;
+    const N x = cos(px), y = cos(py), z = mix(N(0.2f), two, t - half);
+    const N inverse = one / sqrt(sum_any_order(square(x), square(y), square(z)));
+    out.layer = select(is_drop, layer, out.layer);
+    out.u = select(is_drop, u + x * inverse * N(d.refraction), out.u);
+    out.v = select(is_drop, v + y * inverse * N(d.refraction), out.v);
+  }
+  return out;
+}
+template <class N, class S, class T>
+RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S& scene, const T& noise, const Vec3<N>& background, int column, int row) {
+  const PublishedDrop<N> drop = published_drop<N>(d, noise, column, row);
+  const auto is_drop = drop.layer > N(0.0f);
+  if (!any(is_drop)) return {background, drop.layer};
+  const auto s = sample_bilinear<0, 3, N>(scene, drop.u, drop.v);
+  return {select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), drop.layer * N(0.25f)};
+}
+
+// ---- corrected -----------------------------------------------------------------------------------------------------
+/// Water at a pixel: normal across the view (a unit where nothing is mixed), coverage, mip level of what is seen through it.
+template <class N>
+struct Surface {
+  N x, y, cover, level;
+};
+/// The drops of the cells, finer layers below coarser ones. A cap of base radius R and contact angle a is part of a sphere of
+/// radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
+template <class N, class C>
+RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int column, int row) {
+  const N half(0.5f), one(1.0f), zero(0.0f);
+  const N px = N::index(column) + half, py = N(static_cast<float>(row) + 0.5f);
+  const Level<N> whole = uniform_level<N>(cells, 0);
+  Surface<N> s{zero, zero, zero, zero};
+  for (int l = layers - 1; l >= 0; --l) {
+    const N qx = px * N(u.cells_per_pixel[l]) + N(u.offset_x[l]), qy = py * N(u.cells_per_pixel[l]) + N(u.offset_y[l]);
+    const N cx = floor(qx), cy = floor(qy), pixels(u.pixels_per_cell[l]);
+    const auto drop = load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
+    const N dx = (qx - cx) - drop[0], dy = (qy - cy) - drop[1], radius = drop[2];
+    // The share of the pixel that the base covers; less for a base smaller than a pixel.
+    const N cover = saturate((radius - length(dx, dy)) * pixels + half) * min(N(2.0f) * radius * pixels, one);
+    if (!any(cover > zero)) continue;
+    const N lean = N(u.sine) / max(radius, N(1e-3f));
+    s = {mix(s.x, dx * lean, cover), mix(s.y, dy * lean, cover), mix(s.cover, one, cover), mix(s.level, N(u.level[l]), cover)};
+  }
+  return s;
+}
+/// Flowing water over them: its slope, up along (x, y), by central differences of the height.
+template <class N, class H>
+RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const Surface<N>& s, int column, int row) {
+  const N one(1.0f);
+  const N x = (N::index(column) + N(0.5f)) * N(u.flow_pixel[0]), y = N(static_cast<float>(row) + 0.5f) * N(u.flow_pixel[1]), dx(u.flow_texel[0]), dy(u.flow_texel[1]);
+  const N left = sample_bilinear<0, 1, N>(height, x - dx, y)[0], right = sample_bilinear<0, 1, N>(height, x + dx, y)[0];
+  const N down = sample_bilinear<0, 1, N>(height, x, y - dy)[0], up = sample_bilinear<0, 1, N>(height, x, y + dy)[0];
+  const N cover = smoothstep(u.visible_from, u.visible_to, N(0.25f) * sum_any_order(left, right, down, up));
+  const N gx = (right - left) * N(u.flow_slope[0]), gy = (up - down) * N(u.flow_slope[1]);
+  const N inverse = one / sqrt(sum_any_order(one, square(gx), square(gy)));
+  return {mix(s.x, -gx * inverse, cover), mix(s.y, -gy * inverse, cover), mix(s.cover, one, cover), mix(s.level, N(u.flow_level), cover)};
+}
+// The view ray is bent into the water at the glass, which stands across the view, and out of it at the water's surface, by
+// Snell's law at both; the scene is far, so the direction alone says what is seen. Fresnel's reflectance of the surface, 1 beyond
+// the critical angle, mirrors the background, dimmed.
+template <class N, class S, class C, class H>
+RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background, int column, int row) {
+  const N half(0.5f), one(1.0f), zero(0.0f);
+  Surface<N> s = still_drops<N>(u, cells, column, row);
+  if (u.has_flow != 0) s = with_flow(u, height, s, column, row);
+  const auto wet = s.cover > zero;
+  if (!any(wet)) return {background, zero};
+  const Vec3<N> ray = normalize(Vec3<N>((N::index(column) + half) * N(u.pixel[0]) - N(u.half_size[0]), N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) - N(u.half_size[1]), one));
+  const Vec3<N> normal = normalize(Vec3<N>(s.x, s.y, sqrt(max(one - square(s.x) - square(s.y), N(0.04f)))));
+  const Vec3<N> inside = refract(ray, Vec3<N>(zero, zero, N(-1.0f)), 1.0f / u.water_ior);
+  const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
+  const N reflected = fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior);
+  const N ahead = one / max(bent.z, N(0.05f));
+  const Vec3<N> seen = scene_at<N>(scene, half + bent.x * ahead * N(u.scene_scale[0]), half + bent.y * ahead * N(u.scene_scale[1]), s.level);
+  const Vec3<N> water = mix(seen, N(u.inner) * background, reflected);
+  return {select(wet, mix(background, water, s.cover), background), s.cover};
+}

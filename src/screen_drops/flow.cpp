@@ -1,0 +1,75 @@
+#include "screen_drops/flow.h"
+
+namespace rainref::screen_drops {
+namespace {
+
+drops::SplatSettings splat_of(const FlowSettings& s) {
+  drops::SplatSettings splat{true, s.splat, {s.pane[0], 0, s.pane[1]}, 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * (0x1.921fb54442d18p+1 / 180)};
+  splat.keys.half_accumulation = false;
+  return splat;
+}
+
+}  // namespace
+
+struct Flow::State {
+  FlowSettings settings;
+  drops::SplatSettings splat;
+  const parallel::Executor& executor;
+  drops::WetGlass water;
+  drops::GlassFrame forces{};
+  drops::Exposure exposure;
+  Image height;
+  int frame = 0;
+  std::int64_t steps = 0;
+
+  State(const FlowSettings& s, const parallel::Executor& e)
+      : settings(s), splat(splat_of(s)), executor(e),
+        water(s.drops, {s.pane[0], 0, s.pane[1]}, s.pane[0] * s.pane[1], s.fps * s.substeps, s.splat.width, s.splat.height, e),
+        exposure{s.pane[0] * s.pane[1], 0, -s.wind}, height(Format::r16f, s.splat.width, s.splat.height) {
+    // Where the wind meets the pane it stands still: nothing blows along it.
+    forces.gravity[1] = static_cast<float>(-s.gravity / s.pane[1]);
+    const auto warm_up = static_cast<std::int64_t>(s.warm_up * s.fps * s.substeps + 0.5);
+    while (steps < warm_up) step(run(nullptr, 0, 0));
+  }
+  drops::Run run(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding}; }
+  void step(const drops::Run& told) {
+    water.spawn(told, exposure, steps);
+    water.integrate(told, forces);
+    water.merge(told, steps);
+    ++steps;
+  }
+};
+
+Flow::Flow(const FlowSettings& settings, const parallel::Executor& executor) : state_(std::make_unique<State>(settings, executor)) {}
+Flow::~Flow() = default;
+Flow::Flow(Flow&&) noexcept = default;
+
+void Flow::simulate(Recorder* recorder) {
+  State& s = *state_;
+  const double fps = s.settings.fps;
+  const int substeps = s.settings.substeps;
+  for (int substep = 0; substep < substeps; ++substep) s.step(s.run(recorder, substep, 1 / (fps * substeps)));
+  s.water.splat(s.run(recorder, 0, 1 / fps), s.splat, s.height);
+  ++s.frame;
+}
+
+int Flow::frame() const { return state_->frame; }
+const Image& Flow::height() const { return state_->height; }
+const Image& Flow::film() const { return state_->water.film; }
+std::vector<drops::Drop> Flow::drops() const {
+  std::vector<drops::Drop> all;
+  state_->water.drops.gather(all, state_->executor);
+  return all;
+}
+const drops::Ledger& Flow::ledger() const { return state_->water.ledger; }
+std::int64_t Flow::balance() const { return state_->water.balance(); }
+
+void Flow::set_drops(std::span<const drops::Drop> records) {
+  drops::WetGlass& water = state_->water;
+  const std::int64_t before = water.drops.water();
+  water.drops.assign(records);
+  water.ledger.removed += before;
+  water.ledger.spawned += water.drops.water();
+}
+
+}  // namespace rainref::screen_drops

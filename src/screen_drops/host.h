@@ -1,0 +1,63 @@
+// What the host computes: uniforms, taps, noise and the layers' layout, in double, each rounded once.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rainref/screen_drops.h"
+#include "rainref/texture.h"
+#include "scene/camera.h"
+#include "screen_drops/uniforms.h"
+
+namespace rainref::screen_drops {
+
+/// Throws Error(usage) for settings that cannot run; the first problem only.
+void check(const Settings& settings);
+/// The same for images.
+void check(const Settings& settings, const Inputs& inputs);
+
+scene::Camera camera(const Settings& settings);
+/// The camera of the scene's picture: corrected, wider than the picture's by scene_margin.
+scene::Camera scene_camera(const Settings& settings);
+
+/// The grids of the corrected window. Layer l has cells of side cell_over_radius largest_radius / 2^l.
+constexpr double cell_over_radius = 2.5;
+struct Layer {
+  double cells_per_pixel;
+  std::array<float, 2> offset;  ///< of the picture's corner [cell]; multiples of 2^-16, from the seed
+  int columns, rows, first_row;
+};
+std::array<Layer, layers> make_layers(const Settings& settings);
+/// Columns and rows of the buffer of cells.
+std::array<int, 2> cells_size(const std::array<Layer, layers>& all);
+
+/// Points of a disc, spread evenly: tap k at radius sqrt((k + 1/2) / count), turned by the golden angle from one to the next
+/// (H. Vogel, "A better way to construct the sunflower head", 1979).
+std::vector<Tap> make_taps(const Settings& settings);
+BackgroundUniforms background_uniforms(const Settings& settings);
+PublishedDropsUniforms published_drops_uniforms(const Settings& settings, int frame);
+CellsUniforms cells_uniforms(const Settings& settings, const std::array<Layer, layers>& all, int frame);
+/// flow: columns and rows of the height of flowing water over the whole picture; 0: none.
+DropsUniforms drops_uniforms(const Settings& settings, const std::array<Layer, layers>& all, const std::array<int, 2>& flow);
+DisplayUniforms display_uniforms(const Settings& settings);
+
+/// White noise, rgba8, each byte drawn from the seed.
+Image make_noise(std::uint64_t seed, int side);
+/// The noise as the passes read it: rgba8.
+Image stored_noise(const Image& noise);
+/// The scene and its mip levels, halves of halves, as rgba16f; negative colours become 0, those beyond the halves 65504.
+std::vector<Image> scene_levels(const Image& colour);
+/// Levels decoded as one texture with mips, clamped.
+class DecodedScene {
+ public:
+  explicit DecodedScene(const std::vector<Image>& levels);
+  const Texture& view() const { return view_; }
+  DecodedScene(const DecodedScene&) = delete;
+  DecodedScene& operator=(const DecodedScene&) = delete;
+
+ private:
+  std::vector<float> texels_;
+  Texture view_;
+};
+
+}  // namespace rainref::screen_drops

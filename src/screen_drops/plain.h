@@ -1,0 +1,27 @@
+// The scalar readings of the passes of screen_drops: Plain, Enclosure and Deviant. A namespace of their own, so that argument
+// types of this room do not pull them into the lanes.
+#pragma once
+
+#include "image/footprint.h"
+#include "image/texture.h"
+#include "math/deviant.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "screen_drops/uniforms.h"
+
+namespace rainref::screen_drops::scalar {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling_deviant-inl.h"
+#include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
+#include "screen_drops/background.pass.h"
+#include "screen_drops/cells.pass.h"
+#include "screen_drops/drops.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::screen_drops::scalar

@@ -1,0 +1,147 @@
+// The order of the passes. No arithmetic.
+#include "rainref/screen_drops.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "capture/pass_clock.h"
+#include "math/half_array.h"
+#include "rainref/error.h"
+#include "screen_drops/cells.h"
+#include "screen_drops/flow.h"
+#include "screen_drops/host.h"
+#include "screen_drops/kernels.h"
+
+namespace rainref::screen_drops {
+namespace {
+
+using capture::PassClock;
+using capture::records;
+using capture::Stopwatch;
+
+constexpr int tile_rows = 8, cell_rows = 4;
+
+}  // namespace
+
+struct ScreenDrops::State {
+  Settings settings;
+  const parallel::Executor& executor;
+  bool corrected;
+  int frame = 0;
+  DecodedScene scene;
+  std::vector<Tap> taps;
+  std::array<Layer, layers> grids{};
+  std::optional<Flow> flow;
+  Image noise_image, no_height, background, cells, water, colour, picture;
+  TextureData noise, height_texture, cells_texture;
+
+  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected), scene(scene_levels(in.colour)) {
+    if (corrected) {
+      taps = make_taps(s);
+      grids = make_layers(s);
+      const std::array<int, 2> size = cells_size(grids);
+      cells = Image(Format::rgba32f, size[0], size[1]);
+      cells_texture = TextureData(cells, Address::clamp, Address::clamp);
+      no_height = Image(Format::r16f, 1, 1);
+      if (flowing != nullptr) flow.emplace(*flowing, e);
+      height_texture = TextureData(height(), Address::clamp, Address::clamp);
+    } else {
+      noise_image = in.noise.empty() ? make_noise(s.seed, s.noise_size) : stored_noise(in.noise);
+      noise = TextureData(noise_image, Address::repeat, Address::repeat);
+    }
+    background = Image(Format::rgba16f, s.width, s.height);
+    water = Image(Format::r8, s.width, s.height);
+    colour = Image(Format::rgba16f, s.width, s.height);
+    picture = Image(Format::rgba8, s.width, s.height);
+  }
+
+  const Image& height() const { return flow ? flow->height() : no_height; }
+
+  template <class Uniforms>
+  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, const std::vector<PassInput>& inputs) const {
+    if (!recorder) return;
+    recorder->before({frame, 0, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps), static_cast<float>(1 / settings.fps), settings.rounding});
+  }
+  void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
+    if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
+  }
+  PassInput scene_input(bool with_mips) const { return {"scene", &scene.view(), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
+
+  void run_water(Recorder* recorder) {
+    flow->simulate(recorder);
+    const Image& h = flow->height();
+    executor.for_range(h.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
+      for (auto y = static_cast<int>(begin); y < end; ++y) to_float_array(h.row<Half>(y), height_texture.texels() + static_cast<std::ptrdiff_t>(h.width()) * y, static_cast<std::size_t>(h.width()));
+    });
+  }
+  void blur(Recorder* recorder) {
+    const BackgroundUniforms u = background_uniforms(settings);
+    std::vector<PassInput> inputs{scene_input(true)};
+    if (corrected) inputs.push_back({"taps", records(taps)});
+    announce(recorder, "background", u, inputs);
+    const Stopwatch watch;
+    executor.for_tiles(settings.width, settings.height, settings.width, tile_rows, [&](const parallel::Tile& t) { background_rows(u, corrected, settings.rounding, scene.view(), taps, background, t); });
+    report(recorder, "background", {{"background", background}}, watch.seconds());
+  }
+  void fill_cells(Recorder* recorder) {
+    const CellsUniforms u = cells_uniforms(settings, grids, frame);
+    announce(recorder, "cells", u, {});
+    const Stopwatch watch;
+    executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
+      cells_rows(u, cells, static_cast<int>(begin), static_cast<int>(end));
+      for (auto y = static_cast<int>(begin); y < end; ++y) {
+        std::copy_n(cells.row<float>(y), 4 * cells.width(), cells_texture.texels() + static_cast<std::ptrdiff_t>(4) * cells.width() * y);
+      }
+    });
+    report(recorder, "cells", {{"cells", cells}}, watch.seconds());
+  }
+};
+
+ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow) {
+  check(settings);
+  check(settings, inputs);
+  if (flow != nullptr && settings.variant != Variant::corrected) throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
+  state_ = std::make_unique<State>(settings, inputs, executor, flow);
+}
+ScreenDrops::~ScreenDrops() = default;
+ScreenDrops::ScreenDrops(ScreenDrops&&) noexcept = default;
+
+void ScreenDrops::render(Recorder* recorder) {
+  State& s = *state_;
+  if (s.flow) s.run_water(recorder);
+  if (s.frame == 0) s.blur(recorder);
+  if (s.corrected) s.fill_cells(recorder);
+  const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
+  const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
+  const DisplayUniforms shown = display_uniforms(s.settings);
+  const DropsInputs in{&s.scene.view(), &s.noise.view(), &s.cells_texture.view(), &s.height_texture.view(), &s.background};
+  const Rounding rounding = s.settings.rounding;
+  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.
+  PassClock drops_time, display_time;
+  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& t) {
+    drops_time.add([&] { s.corrected ? drops_rows(corrected, rounding, in, s.water, s.colour, t) : drops_rows(published, rounding, in, s.water, s.colour, t); });
+    display_time.add([&] { display_rows(shown, rounding, s.colour, s.picture, t); });
+  });
+  // What these passes read, neither of them overwrites: they may be announced after both have run.
+  if (s.corrected) {
+    s.announce(recorder, "drops", corrected, {{"background", s.background}, s.scene_input(true), {"cells", s.cells}, {"height", s.height(), Filter::linear}});
+  } else {
+    s.announce(recorder, "drops", published, {{"background", s.background}, s.scene_input(false), {"noise", s.noise_image, Filter::linear, Filter::none, Address::repeat}});
+  }
+  const int threads = s.executor.threads();
+  s.report(recorder, "drops", {{"water", s.water}, {"colour", s.colour}}, drops_time.seconds(threads));
+  s.announce(recorder, "display", shown, {{"colour", s.colour}});
+  s.report(recorder, "display", {{"picture", s.picture}}, display_time.seconds(threads));
+  ++s.frame;
+}
+
+int ScreenDrops::frame() const { return state_->frame; }
+const Image& ScreenDrops::background() const { return state_->background; }
+const Image& ScreenDrops::cells() const { return state_->cells; }
+const Image& ScreenDrops::height() const { return state_->height(); }
+const Image& ScreenDrops::water() const { return state_->water; }
+const Image& ScreenDrops::colour() const { return state_->colour; }
+const Image& ScreenDrops::picture() const { return state_->picture; }
+
+}  // namespace rainref::screen_drops

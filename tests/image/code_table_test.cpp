@@ -1,0 +1,45 @@
+#include "image/code_table.h"
+
+#include <gtest/gtest.h>
+
+#include "math/half.h"
+#include "math/unorm.h"
+
+namespace rainref {
+namespace {
+
+Unorm8 code_of(Half h) { return to_unorm8(to_float(h) * 0.75f, Rounding::rne); }
+
+// Every finite half, in each channel and at more than one place of a picture.
+TEST(CodeTable, GivesThePassesCodes) {
+  const CodeTable table([](const Image& colour, Image& picture) {
+    for (int y = 0; y < colour.height(); ++y) {
+      for (int x = 0; x < 4 * colour.width(); ++x) {
+        const Half h = colour.row<Half>(y)[x];
+        picture.row<Unorm8>(y)[x] = (h.bits & 0x7c00u) == 0x7c00u ? Unorm8{7} : code_of(h);
+      }
+    }
+  });
+  Image colour(Format::rgba16f, 97, 676), picture(Format::rgba8, 97, 676);
+  for (int y = 0; y < colour.height(); ++y) {
+    for (int x = 0; x < colour.width(); ++x) {
+      const std::uint32_t i = static_cast<std::uint32_t>(y) * 97u + static_cast<std::uint32_t>(x);
+      for (std::uint32_t c = 0; c < 4; ++c) colour.row<Half>(y)[4 * x + static_cast<int>(c)].bits = static_cast<std::uint16_t>(i + c * 9973);
+    }
+  }
+  table.rows(colour, picture, 1, colour.height());
+  for (int y = 0; y < colour.height(); ++y) {
+    for (int x = 0; x < colour.width(); ++x) {
+      const Half* in = colour.row<Half>(y) + 4 * x;
+      const Unorm8* out = picture.row<Unorm8>(y) + 4 * x;
+      for (int c = 0; c < 3; ++c) {
+        const int expected = y == 0 ? 0 : (in[c].bits & 0x7c00u) == 0x7c00u ? 7 : code_of(in[c]).code;
+        ASSERT_EQ(out[c].code, expected) << in[c].bits;
+      }
+      ASSERT_EQ(out[3].code, y == 0 ? 0 : 255);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rainref

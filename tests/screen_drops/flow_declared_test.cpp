@@ -1,0 +1,181 @@
+// What the flowing layer declares: scene keys; passes that recorders see as declared and conformance computes anew.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "capture/capture_recorder.h"
+#include "math/half.h"
+#include "rainref/error.h"
+#include "scene/effect_table.h"
+#include "scene/toml.h"
+#include "screen_drops/flow_info.h"
+#include "screen_drops/flow_support.h"
+
+namespace rainref::screen_drops {
+namespace {
+
+using namespace test;
+using capture::PassCase;
+
+const std::vector<std::string> variants{"as-published", "corrected"};
+
+FlowSettings settings_of(const std::vector<std::string>& values, const std::string& variant = "corrected") {
+  const std::vector<scene::Parameter> all = flow_parameters("flow");
+  const scene::EffectTable table{{{"screen_drops", variants, all}}};
+  return flow_settings(scene::parse("effect = 'screen_drops'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), "flow", {0.5, 0.25}, Rounding::rtz);
+}
+std::string refusal(const std::vector<std::string>& values, const std::string& variant = "corrected") {
+  try {
+    settings_of(values, variant);
+  } catch (const Error& e) {
+    return e.code() == ExitCode::usage ? e.what() : "wrong code";
+  }
+  return "";
+}
+
+TEST(FlowDeclared, KeysAreSoundAndOfCorrectedAlone) {
+  const std::vector<scene::Parameter> all = flow_parameters("flow");
+  scene::validate(all, variants);
+  for (const scene::Parameter& p : all) EXPECT_FALSE(p.used_by("as-published")) << p.key;
+  EXPECT_NE(refusal({"flow.capacity=9"}, "as-published"), "");
+}
+
+TEST(FlowDeclared, DefaultsAreThoseOfTheSettings) {
+  const FlowSettings s = settings_of({}), d;
+  EXPECT_EQ(s.fps, d.fps);
+  EXPECT_EQ(s.substeps, d.substeps);
+  EXPECT_EQ(s.gravity, d.gravity);
+  EXPECT_EQ(s.wind, d.wind);
+  EXPECT_EQ(s.warm_up, d.warm_up);
+  EXPECT_EQ(s.pane, (std::array{0.5, 0.25}));
+  EXPECT_EQ(s.drops.seed, 5u);
+  EXPECT_TRUE(s.drops.corrected);
+  EXPECT_EQ(s.drops.lifetime, d.drops.lifetime);
+  EXPECT_EQ(s.splat.rounding, Rounding::rtz);
+  EXPECT_EQ(s.splat.width, 1024);
+  EXPECT_EQ(s.splat.height, 576);
+}
+
+TEST(FlowDeclared, ScenesSetEveryKey) {
+  const FlowSettings s = settings_of({"flow.capacity=77", "flow.substeps=4", "flow.warm_up=2.5", "rain.wind=7", "world.gravity=1.62", "flow.height_size=[64, 32]", "flow.kernel=quartic",
+                                      "flow.receding_angle=30", "rain.rate=44", "run.fps=30"});
+  EXPECT_EQ(s.drops.capacity, 77);
+  EXPECT_EQ(s.substeps, 4);
+  EXPECT_EQ(s.warm_up, 2.5);
+  EXPECT_EQ(s.wind, 7);
+  EXPECT_EQ(s.gravity, 1.62);
+  EXPECT_EQ(s.splat.width, 64);
+  EXPECT_EQ(s.splat.height, 32);
+  EXPECT_EQ(s.splat.kernel, drops::SplatKernel::quartic);
+  EXPECT_EQ(s.drops.receding_deg, 30);
+  EXPECT_EQ(s.drops.rain_rate, 44);
+  EXPECT_EQ(s.fps, 30);
+}
+
+TEST(FlowDeclared, RefusesWhatCannotBe) {
+  EXPECT_NE(refusal({"rain.wind=-1"}).find("rain.wind"), std::string::npos);
+  EXPECT_NE(refusal({"flow.substeps=0"}).find("flow.substeps"), std::string::npos);
+  EXPECT_NE(refusal({"flow.wind_drag=1"}).find("flow.wind_drag"), std::string::npos);  // nothing blows along the pane
+  EXPECT_EQ(refusal({"flow.receding_angle=60"}), "flow.receding_angle is 60 degrees: expected at most flow.advancing_angle = 50");
+}
+
+const capture::EffectInfo& flow_effect() {
+  static const capture::EffectInfo info = [] {
+    capture::EffectInfo i;
+    i.name = "screen_drops";
+    i.passes = flow_passes();
+    i.buffers = flow_buffers();
+    i.records = flow_records();
+    return i;
+  }();
+  return info;
+}
+std::vector<PassCase> captured() {
+  FlowSettings s = wet_pane();
+  s.substeps = 2;
+  s.warm_up = 3;
+  const parallel::Executor executor(2);
+  std::vector<PassCase> cases;
+  capture::CaptureRecorder recorder(flow_effect(), "corrected", true, [](int, std::string_view) { return true; }, [&](PassCase c) { cases.push_back(std::move(c)); });
+  Flow flow(s, executor);
+  for (int n = 0; n < 3; ++n) flow.simulate(&recorder);
+  return cases;
+}
+
+TEST(FlowDeclared, RecordersSeeThePassesAndWhatTheyTakeAsDeclared) {
+  const std::vector<PassCase> cases = captured();
+  std::string order;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const PassCase& c = cases[i];
+    if (c.frame == 1) order += c.pass + std::to_string(c.step) + ' ';
+    const capture::PassInfo& info = flow_effect().pass(c.pass);
+    EXPECT_EQ(c.uniforms.size(), info.block("corrected").size);
+    ASSERT_EQ(c.inputs.size(), info.reads.size()) << c.pass;
+    for (std::size_t k = 0; k < info.reads.size(); ++k) {
+      const capture::ReadInfo& read = info.reads[k];
+      EXPECT_EQ(c.inputs[k].name, read.buffer);
+      if (read.from.empty()) continue;
+      // The run that is said to have written it did.
+      std::size_t j = i;
+      while (j > 0 && cases[j - 1].pass != read.from) --j;
+      if (j == 0) continue;  // before the first frame
+      EXPECT_EQ(cases[j - 1].step != c.step || cases[j - 1].frame != c.frame, read.previous || c.pass == "splat") << c.folder();
+      ASSERT_NE(cases[j - 1].output(read.buffer), nullptr) << c.folder() << ' ' << read.buffer;
+      EXPECT_EQ(cases[j - 1].output(read.buffer)->array.levels, c.inputs[k].array.levels) << c.folder() << ' ' << read.buffer;
+    }
+  }
+  EXPECT_EQ(order, "spawn0 integrate0 merge0 spawn1 integrate1 merge1 splat0 ");
+}
+
+std::string by_id(std::vector<std::byte> bytes) {
+  std::vector<Drop> all(bytes.size() / sizeof(Drop));
+  if (!all.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+  std::sort(all.begin(), all.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
+  return bytes_of(all);
+}
+TEST(FlowDeclared, ReadingsGiveWhatThePassesGave) {
+  int lists = 0, images = 0;
+  for (const PassCase& c : captured()) {
+    const std::vector<capture::PassReadings> all = flow_readings();
+    const auto reading = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.pass == c.pass; });
+    ASSERT_NE(reading, all.end()) << c.pass;
+    const auto model = reading->bind ? reading->bind(c) : nullptr;
+    for (const capture::CaseOutput& o : c.outputs) {
+      const auto& stored = o.array.levels.at(0);
+      if (o.name == "drops") {
+        ASSERT_GT(o.array.width, 50);
+        const std::vector<std::byte> again = model ? *model->keyed("drops")->reference() : reading->recompute(c).at(0).levels.at(0);
+        EXPECT_EQ(by_id(again), by_id(stored)) << c.folder();
+        ++lists;
+        continue;
+      }
+      ASSERT_EQ(model->width(), o.array.width);
+      double sum = 0;
+      for (int y = 0; y < o.array.height; ++y) {
+        for (int x = 0; x < o.array.width; ++x) {
+          plain::Plain<float> value;
+          model->evaluate(x, y, &value);
+          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(o.array.width) + static_cast<std::size_t>(x);
+          float found = 0;
+          if (o.name == "film") {
+            std::memcpy(&found, stored.data() + 4 * at, 4);
+          } else {
+            Half half;
+            std::memcpy(&half, stored.data() + 2 * at, 2);
+            found = to_float(half);
+            value.v = to_float(to_half(value.v, Rounding::rne));
+          }
+          ASSERT_EQ(found, value.v) << c.folder() << ' ' << o.name << ' ' << x << ' ' << y;
+          sum += found;
+        }
+      }
+      EXPECT_GT(sum, 0) << o.name;
+      ++images;
+    }
+  }
+  EXPECT_EQ(lists, 3 * 2 * 3);
+  EXPECT_EQ(images, 3 * (2 + 1));
+}
+
+}  // namespace
+}  // namespace rainref::screen_drops

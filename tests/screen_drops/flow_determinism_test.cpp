@@ -1,0 +1,54 @@
+// Every SIMD target, 1, 2, 3 and 8 threads and shuffled work give the same bits.
+#include <gtest/gtest.h>
+
+#include "math/simd_target.h"
+#include "screen_drops/flow_support.h"
+
+namespace rainref::screen_drops {
+namespace {
+
+using namespace test;
+
+std::string run(const FlowSettings& settings, const parallel::Executor& executor) {
+  Flow flow(settings, executor);
+  std::string all;
+  for (int n = 0; n < 12; ++n) {
+    flow.simulate();
+    all += bytes_of(flow.height(), 2) + bytes_of(flow.film(), 4) + bytes_of(flow.drops());
+  }
+  const drops::Ledger& ledger = flow.ledger();
+  return all + std::string(reinterpret_cast<const char*>(&ledger), sizeof ledger);
+}
+
+class FlowDeterminism : public testing::Test {
+ protected:
+  ~FlowDeterminism() override { select_simd_target(""); }
+};
+
+TEST_F(FlowDeterminism, EveryTargetAndThreadCount) {
+  for (const auto& [width, height] : {std::array{1, 1}, std::array{33, 17}, std::array{89, 67}}) {
+    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+      FlowSettings s = wet_pane();
+      s.warm_up = 1;
+      s.substeps = rounding == Rounding::rtz ? 3 : 1;
+      s.splat.width = width;
+      s.splat.height = height;
+      s.splat.rounding = rounding;
+      select_simd_target("scalar");
+      const std::string expected = run(s, parallel::Executor(1));
+      for (const std::string& target : simd_targets()) {
+        select_simd_target(target);
+        for (const int threads : {1, 2, 3, 8}) {
+          parallel::Executor executor(threads);
+          executor.shuffle_tiles(static_cast<std::uint64_t>(threads));
+          ASSERT_EQ(run(s, executor), expected) << target << ", " << threads << " threads, width " << width;
+        }
+      }
+      ++s.drops.seed;
+      EXPECT_NE(run(s, parallel::Executor(1)), expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rainref::screen_drops
