@@ -195,3 +195,6 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   }
   return out;
 }
+/// One LOD for all elements: a uniform.
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) { return sample_trilinear<First, Count, N>(t, u, v, N(lod)); }

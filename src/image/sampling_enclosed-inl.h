@@ -112,3 +112,6 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   }
   return out;
 }
+template <int First, int Count, class N, class T>
+  requires std::same_as<N, enclosed::Enclosure>
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) { return sample_trilinear<First, Count, N>(t, u, v, N(lod)); }

@@ -248,22 +248,6 @@ std::vector<Image> scene_levels(const Image& colour) {
   return levels;
 }
 
-DecodedScene::DecodedScene(const std::vector<Image>& levels) {
-  view_.channels = 4;
-  view_.levels = static_cast<int>(levels.size());
-  view_.precision = TexelPrecision::float16;
-  for (std::size_t l = 0; l < levels.size(); ++l) {
-    const Image& level = levels[l];
-    view_.width[l] = level.width();
-    view_.height[l] = level.height();
-    view_.offset[l] = static_cast<std::int32_t>(texels_.size() / 4);
-    for (int y = 0; y < level.height(); ++y) {
-      for (int i = 0; i < 4 * level.width(); ++i) texels_.push_back(to_float(level.row<Half>(y)[i]));
-    }
-  }
-  view_.texels = texels_.data();
-}
-
 std::size_t memory_bytes(const Settings& s) {
   const std::size_t pixels = static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
   std::size_t bytes = pixels * (8 + 8 + 1 + 4 + (8 + 16) * 4 / 3);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "rainref/screen_drops.h"
-#include "rainref/texture.h"
 #include "scene/camera.h"
 #include "screen_drops/uniforms.h"
 
@@ -47,17 +46,5 @@ Image make_noise(std::uint64_t seed, int side);
 Image stored_noise(const Image& noise);
 /// The scene and its mip levels, halves of halves, as rgba16f; negative colours become 0, those beyond the halves 65504.
 std::vector<Image> scene_levels(const Image& colour);
-/// Levels decoded as one texture with mips, clamped.
-class DecodedScene {
- public:
-  explicit DecodedScene(const std::vector<Image>& levels);
-  const Texture& view() const { return view_; }
-  DecodedScene(const DecodedScene&) = delete;
-  DecodedScene& operator=(const DecodedScene&) = delete;
-
- private:
-  std::vector<float> texels_;
-  Texture view_;
-};
 
 }  // namespace rainref::screen_drops

@@ -30,7 +30,7 @@ HWY_INLINE HWY_ATTR Vec3<Lanes> load_colour(const Half* from) {
   return Vec3<Lanes>(c[0], c[1], c[2]);
 }
 
-void BackgroundRows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const Texture& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile) {
+void BackgroundRows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const StoredTexture<Half>& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile) {
   const auto pyramid = fixed_texture<Address::clamp, Address::clamp, 4>(scene);
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
@@ -51,14 +51,15 @@ HWY_INLINE HWY_ATTR void window_rows(Rounding rounding, const Image& background,
   }
 }
 void PublishedDropsRows(const PublishedDropsUniforms& uniforms, Rounding rounding, const DropsInputs& in, Image& water, Image& colour, const parallel::Tile& tile) {
-  const auto scene = fixed_texture<Address::clamp, Address::clamp, 4>(*in.scene);
+  const auto scene = fixed_texture<Address::clamp, Address::clamp, 4>(in.scene);
   const auto noise = fixed_texture<Address::repeat, Address::repeat, 4>(*in.noise);
   window_rows(rounding, *in.background, water, colour, tile,
               [&](const Vec3<Lanes>& below, int x, int y) HWY_ATTR __attribute__((always_inline)) { return drops_as_published<Lanes>(uniforms, scene, noise, below, x, y); });
 }
 void DropsRows(const DropsUniforms& uniforms, Rounding rounding, const DropsInputs& in, Image& water, Image& colour, const parallel::Tile& tile) {
-  const auto scene = fixed_texture<Address::clamp, Address::clamp, 4>(*in.scene), cells = fixed_texture<Address::clamp, Address::clamp, 4>(*in.cells);
-  const auto height = fixed_texture<Address::clamp, Address::clamp, 1>(*in.height);
+  const auto scene = fixed_texture<Address::clamp, Address::clamp, 4>(in.scene);
+  const auto cells = fixed_texture<Address::clamp, Address::clamp, 4>(in.cells);
+  const auto height = fixed_texture<Address::clamp, Address::clamp, 1>(in.height);
   window_rows(rounding, *in.background, water, colour, tile,
               [&](const Vec3<Lanes>& below, int x, int y) HWY_ATTR __attribute__((always_inline)) { return drops_corrected<Lanes>(uniforms, scene, cells, height, below, x, y); });
 }
@@ -82,7 +83,7 @@ RAINREF_EXPORT(PublishedDropsRows);
 RAINREF_EXPORT(DropsRows);
 RAINREF_EXPORT(DisplayRows);
 
-void background_rows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const Texture& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile) {
+void background_rows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const StoredTexture<Half>& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile) {
   RAINREF_DISPATCH(BackgroundRows)(uniforms, corrected, rounding, scene, taps, background, tile);
 }
 void drops_rows(const PublishedDropsUniforms& uniforms, Rounding rounding, const DropsInputs& in, Image& water, Image& colour, const parallel::Tile& tile) {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "image/texture.h"
+#include "image/stored_texture.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "screen_drops/uniforms.h"
@@ -12,10 +12,13 @@
 namespace rainref::screen_drops {
 
 /// background: rgba16f, alpha 1. scene: four channels with mips, clamped.
-void background_rows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const Texture& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile);
+void background_rows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const StoredTexture<Half>& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile);
 
 struct DropsInputs {
-  const Texture *scene, *noise, *cells, *height;  ///< noise: as-published, repeats; cells, height: corrected, clamped
+  StoredTexture<Half> scene;
+  const Texture* noise;         ///< as-published, repeats
+  StoredTexture<float> cells;   ///< corrected
+  StoredTexture<Half> height;   ///< corrected
   const Image* background;
 };
 /// water: r8; colour: rgba16f, alpha 1.

@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
-#include "math/half_array.h"
+#include "image/code_table.h"
 #include "rainref/error.h"
 #include "screen_drops/cells.h"
 #include "screen_drops/flow.h"
@@ -29,23 +30,24 @@ struct ScreenDrops::State {
   const parallel::Executor& executor;
   bool corrected;
   int frame = 0;
-  DecodedScene scene;
+  std::vector<Image> levels;
+  blur_pyramid::LevelTexture scene;
   std::vector<Tap> taps;
   std::array<Layer, layers> grids{};
   std::optional<Flow> flow;
   Image noise_image, no_height, background, cells, water, colour, picture;
-  TextureData noise, height_texture, cells_texture;
+  TextureData noise;
+  CodeTable display;
 
-  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected), scene(scene_levels(in.colour)) {
+  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected), levels(scene_levels(in.colour)), scene(levels) {
+    scene.refresh(executor, levels);
     if (corrected) {
       taps = make_taps(s);
       grids = make_layers(s);
       const std::array<int, 2> size = cells_size(grids);
       cells = Image(Format::rgba32f, size[0], size[1]);
-      cells_texture = TextureData(cells, Address::clamp, Address::clamp);
       no_height = Image(Format::r16f, 1, 1);
       if (flowing != nullptr) flow.emplace(*flowing, e);
-      height_texture = TextureData(height(), Address::clamp, Address::clamp);
     } else {
       noise_image = in.noise.empty() ? make_noise(s.seed, s.noise_size) : stored_noise(in.noise);
       noise = TextureData(noise_image, Address::repeat, Address::repeat);
@@ -54,6 +56,7 @@ struct ScreenDrops::State {
     water = Image(Format::r8, s.width, s.height);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
+    display = CodeTable([&](const Image& linear, Image& codes) { display_rows(display_uniforms(s), s.rounding, linear, codes, {0, 0, linear.width(), linear.height()}); });
   }
 
   const Image& height() const { return flow ? flow->height() : no_height; }
@@ -66,15 +69,8 @@ struct ScreenDrops::State {
   void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
     if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
   }
-  PassInput scene_input(bool with_mips) const { return {"scene", &scene.view(), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
+  PassInput scene_input(bool with_mips) const { return {"scene", std::span<const Image>(levels), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
 
-  void run_water(Recorder* recorder) {
-    flow->simulate(recorder);
-    const Image& h = flow->height();
-    executor.for_range(h.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
-      for (auto y = static_cast<int>(begin); y < end; ++y) to_float_array(h.row<Half>(y), height_texture.texels() + static_cast<std::ptrdiff_t>(h.width()) * y, static_cast<std::size_t>(h.width()));
-    });
-  }
   void blur(Recorder* recorder) {
     const BackgroundUniforms u = background_uniforms(settings);
     std::vector<PassInput> inputs{scene_input(true)};
@@ -90,9 +86,6 @@ struct ScreenDrops::State {
     const Stopwatch watch;
     executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
       cells_rows(u, cells, static_cast<int>(begin), static_cast<int>(end));
-      for (auto y = static_cast<int>(begin); y < end; ++y) {
-        std::copy_n(cells.row<float>(y), 4 * cells.width(), cells_texture.texels() + static_cast<std::ptrdiff_t>(4) * cells.width() * y);
-      }
     });
     report(recorder, "cells", {{"cells", cells}}, watch.seconds());
   }
@@ -109,19 +102,19 @@ ScreenDrops::ScreenDrops(ScreenDrops&&) noexcept = default;
 
 void ScreenDrops::render(Recorder* recorder) {
   State& s = *state_;
-  if (s.flow) s.run_water(recorder);
+  if (s.flow) s.flow->simulate(recorder);
   if (s.frame == 0) s.blur(recorder);
   if (s.corrected) s.fill_cells(recorder);
   const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
   const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
   const DisplayUniforms shown = display_uniforms(s.settings);
-  const DropsInputs in{&s.scene.view(), &s.noise.view(), &s.cells_texture.view(), &s.height_texture.view(), &s.background};
+  const DropsInputs in{s.scene.view(), &s.noise.view(), s.corrected ? stored_texture<float>(s.cells) : StoredTexture<float>(), s.corrected ? stored_texture<Half>(s.height()) : StoredTexture<Half>(), &s.background};
   const Rounding rounding = s.settings.rounding;
   // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.
   PassClock drops_time, display_time;
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& t) {
     drops_time.add([&] { s.corrected ? drops_rows(corrected, rounding, in, s.water, s.colour, t) : drops_rows(published, rounding, in, s.water, s.colour, t); });
-    display_time.add([&] { display_rows(shown, rounding, s.colour, s.picture, t); });
+    display_time.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
   // What these passes read, neither of them overwrites: they may be announced after both have run.
   if (s.corrected) {

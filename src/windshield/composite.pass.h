@@ -56,7 +56,7 @@ RAINREF_FN Vec3<N> sharp_at(const Colours& pyramid, N u, N v) {
   return Vec3<N>(s[0], s[1], s[2]);
 }
 template <class N, class Colours>
-RAINREF_FN Vec3<N> blurred_at(const Colours& pyramid, N u, N v, N lod) {
+RAINREF_FN Vec3<N> blurred_at(const Colours& pyramid, N u, N v, float lod) {
   const auto s = sample_trilinear<0, 3, N>(pyramid, u, v, lod);
   return Vec3<N>(s[0], s[1], s[2]);
 }
@@ -87,7 +87,7 @@ RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colo
   const N visibility = smoothstep(c.visible_from, c.visible_to, w.height) * wet;
   const N su = scene_u(c, g.x), sv = scene_v(c, g.y);
   const ScenePoint<N> shown = shown_as_published(c, g, w, visibility);
-  const Vec3<N> behind = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
+  const Vec3<N> behind = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, c.blur_lod);
   const Vec3<N> sharp = sharp_at<N>(pyramid, shown.u, shown.v);
   Vec3<N> colour = mix(mix(behind, blur, N(c.wetness) * wet), sharp, visibility);
   const N eye_inverse = N(1.0f) / length(Vec3<N>(g.x, g.y, N(1.0f)));
@@ -136,7 +136,7 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   const ScenePoint<N> shown = shown_corrected(c, depth, g, bent);
   const N su = shown.u, sv = shown.v;
 
-  const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, N(c.blur_lod));
+  const Vec3<N> sharp = sharp_at<N>(pyramid, su, sv), blur = blurred_at<N>(pyramid, su, sv, c.blur_lod);
   Vec3<N> colour = mix(sharp, blur, N(c.wetness) * wet * (one - visibility));
   colour = mix(colour, N(c.inner) * blur, reflected);
   const Vec3<N> to_eye = N(-1.0f) * ray, facing = N(-1.0f) * surface;

@@ -31,7 +31,7 @@ scene::Vector3 place_in_street(double start, double distance);
 /// bits on every machine.
 class StreetDrive {
  public:
-  static constexpr double street_length = 400, spacing = 12;
+  static constexpr double street_length = 396, spacing = 12;
 
   /// camera: car axes (x forward, y left, z up, origin on the road under the driver's seat), with the field of view of the
   /// views, which have width x height texels. start: where on the street the car begins [m]. The executor must outlive this.
