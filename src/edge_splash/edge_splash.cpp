@@ -43,7 +43,7 @@ struct EdgeSplash::State {
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
-    display = CodeTable([&](const Image& linear, Image& codes) { display_rows(display_uniforms(settings), settings.rounding, linear, codes, {0, 0, linear.width(), linear.height()}); });
+    display = CodeTable(settings.width, settings.height, [u = display_uniforms(settings), rounding = settings.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
   }

@@ -1,5 +1,7 @@
 #include "image/code_table.h"
 
+#include <utility>
+
 namespace rainref {
 namespace {
 
@@ -16,14 +18,17 @@ void for_every_half(const Each& each) {
 
 }  // namespace
 
-CodeTable::CodeTable(const Pass& pass) {
+CodeTable::CodeTable(int width, int height, Pass pass) : pass_(std::move(pass)) {
+  if (static_cast<std::int64_t>(width) * height < texels_for_all) return;
+  code_.resize(65536);
   Image colour(Format::rgba16f, side, lines), picture(Format::rgba8, side, lines);
   for_every_half([&](std::uint32_t bits, int x, int y, int channel) { colour.row<Half>(y)[4 * x + channel] = {static_cast<std::uint16_t>(bits)}; });
-  pass(colour, picture);
+  pass_(colour, picture, 0, lines);
   for_every_half([&](std::uint32_t bits, int x, int y, int channel) { code_[bits] = picture.row<Unorm8>(y)[4 * x + channel].code; });
 }
 
 void CodeTable::rows(const Image& colour, Image& picture, int y0, int y1) const {
+  if (code_.empty()) return pass_(colour, picture, y0, y1);
   for (int y = y0; y < y1; ++y) {
     const Half* in = colour.row<Half>(y);
     Unorm8* out = picture.row<Unorm8>(y);

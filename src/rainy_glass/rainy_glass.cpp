@@ -67,7 +67,7 @@ struct RainyGlass::State {
     make_surface(s, around.normals, surface, orientation);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = CodeTable([&](const Image& in, Image& out) { display_rows(display_uniforms(s), s.rounding, in, out, {0, 0, in.width(), in.height()}); });
+    display = CodeTable(s.width, s.height, [u = display_uniforms(s), rounding = s.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
   }
 
   template <class Uniforms>

@@ -56,7 +56,7 @@ struct ScreenDrops::State {
     water = Image(Format::r8, s.width, s.height);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = CodeTable([&](const Image& linear, Image& codes) { display_rows(display_uniforms(s), s.rounding, linear, codes, {0, 0, linear.width(), linear.height()}); });
+    display = CodeTable(s.width, s.height, [u = display_uniforms(s), rounding = s.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
   }
 
   const Image& height() const { return flow ? flow->height() : no_height; }

@@ -62,7 +62,7 @@ struct Windshield::State {
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
-    display = CodeTable([&](const Image& in, Image& out) { display_rows(display_uniforms(settings.picture), settings.surface.rounding, in, out, {0, 0, in.width(), in.height()}); });
+    display = CodeTable(settings.picture.width, settings.picture.height, [u = display_uniforms(settings.picture), rounding = settings.surface.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     if (own_scene) {

@@ -12,14 +12,16 @@ Unorm8 code_of(Half h) { return to_unorm8(to_float(h) * 0.75f, Rounding::rne); }
 
 // Every finite half, in each channel and at more than one place of a picture.
 TEST(CodeTable, GivesThePassesCodes) {
-  const CodeTable table([](const Image& colour, Image& picture) {
-    for (int y = 0; y < colour.height(); ++y) {
+  const auto pass = [](const Image& colour, Image& picture, int y0, int y1) {
+    for (int y = y0; y < y1; ++y) {
       for (int x = 0; x < 4 * colour.width(); ++x) {
         const Half h = colour.row<Half>(y)[x];
-        picture.row<Unorm8>(y)[x] = (h.bits & 0x7c00u) == 0x7c00u ? Unorm8{7} : code_of(h);
+        picture.row<Unorm8>(y)[x] = x % 4 == 3 ? Unorm8{255} : (h.bits & 0x7c00u) == 0x7c00u ? Unorm8{7} : code_of(h);
       }
     }
-  });
+  };
+  int runs = 0;
+  const CodeTable table(97, 676, [&](const Image& c, Image& p, int y0, int y1) { ++runs; pass(c, p, y0, y1); });
   Image colour(Format::rgba16f, 97, 676), picture(Format::rgba8, 97, 676);
   for (int y = 0; y < colour.height(); ++y) {
     for (int x = 0; x < colour.width(); ++x) {
@@ -27,7 +29,9 @@ TEST(CodeTable, GivesThePassesCodes) {
       for (std::uint32_t c = 0; c < 4; ++c) colour.row<Half>(y)[4 * x + static_cast<int>(c)].bits = static_cast<std::uint16_t>(i + c * 9973);
     }
   }
-  table.rows(colour, picture, 1, colour.height());
+  table.rows(colour, picture, 1, 300);
+  table.rows(colour, picture, 300, colour.height());
+  EXPECT_EQ(runs, 1);
   for (int y = 0; y < colour.height(); ++y) {
     for (int x = 0; x < colour.width(); ++x) {
       const Half* in = colour.row<Half>(y) + 4 * x;
@@ -39,6 +43,19 @@ TEST(CodeTable, GivesThePassesCodes) {
       ASSERT_EQ(out[3].code, y == 0 ? 0 : 255);
     }
   }
+}
+
+// A picture of fewer values than there are halves is no reason to evaluate them all.
+TEST(CodeTable, SmallPicturesGoThroughThePass) {
+  int rows = 0;
+  const CodeTable table(97, 10, [&](const Image&, Image& picture, int y0, int y1) {
+    rows += y1 - y0;
+    picture.row<Unorm8>(y0)[5].code = 42;
+  });
+  Image colour(Format::rgba16f, 97, 10), picture(Format::rgba8, 97, 10);
+  table.rows(colour, picture, 3, 7);
+  EXPECT_EQ(rows, 4);
+  EXPECT_EQ(picture.row<Unorm8>(3)[5].code, 42);
 }
 
 }  // namespace
