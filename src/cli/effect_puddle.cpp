@@ -29,17 +29,10 @@ class PuddleTracing {
     scene_.update(puddle, executor);
     picture_ = compositor::trace_picture(scene_.scene(), scene_.camera(), settings_.width, settings_.height, choice_.picture, executor);
     shown_ = compositor::display(settings_, picture_.beauty, executor);
-    if (!recorder) return;
-    const std::vector<PassOutput> outputs{{"beauty", picture_.beauty}, {"normal", picture_.normal}, {"depth", picture_.depth},
-                                          {"film", picture_.film},     {"mask", picture_.mask},     {"picture", shown_}};
-    recorder->pass({puddle.frame() - 1, 0, traced_pass, outputs, time.seconds()});
+    report_traced(recorder, puddle.frame() - 1, picture_, shown_, time.seconds());
   }
   const Image& shown() const { return shown_; }
-  void write_exr(const std::filesystem::path& path) const {
-    const Image beauty = flipped(picture_.beauty), normal = flipped(picture_.normal), depth = flipped(picture_.depth), film = flipped(picture_.film),
-                mask = flipped(picture_.mask);
-    image_io::write_exr(path, {{"", {"R", "G", "B"}, &beauty}, {"normal", {"X", "Y", "Z"}, &normal}, {"depth", {"Z"}, &depth}, {"", {"film"}, &film}, {"", {"mask"}, &mask}});
-  }
+  void write_exr(const std::filesystem::path& path) const { write_traced_exr(path, picture_); }
   nlohmann::ordered_json compare(const puddle::Puddle& puddle, const parallel::Executor& executor, const std::filesystem::path& stem) {
     scene_.update(puddle, executor);
     const compositor::PuddleTruth truth = compositor::compare(puddle, settings_, scene_, choice_.picture.shading, executor);

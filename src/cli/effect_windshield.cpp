@@ -38,10 +38,7 @@ class WindshieldTracing {
     const windshield::Settings& s = view_.settings();
     picture_ = compositor::trace_picture(*view_.scene(windshield), view_.camera(), s.picture.width, s.picture.height, choice_.picture, executor_);
     shown_ = compositor::display(s, picture_.beauty, executor_);
-    if (!recorder) return;
-    const std::vector<PassOutput> outputs{{"beauty", picture_.beauty}, {"normal", picture_.normal}, {"depth", picture_.depth},
-                                          {"film", picture_.film},     {"mask", picture_.mask},     {"picture", shown_}};
-    recorder->pass({windshield.frame() - 1, 0, traced_pass, outputs, time.seconds()});
+    report_traced(recorder, windshield.frame() - 1, picture_, shown_, time.seconds());
   }
   const Image& shown() const { return shown_; }
   void write_exr(const std::filesystem::path& path) const { write_traced_exr(path, picture_); }

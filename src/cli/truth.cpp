@@ -1,6 +1,7 @@
 #include "cli/truth.h"
 
 #include "cli/pictures.h"
+#include "cli/registry.h"
 #include "image_io/write.h"
 
 namespace rainref::cli {
@@ -16,6 +17,12 @@ nlohmann::ordered_json write_differences(const std::filesystem::path& stem, std:
                      {"mean", d.mean()}, {"scale", d.scale()}, {"picture", path.filename().string()}};
   }
   return out;
+}
+
+void report_traced(Recorder* recorder, int frame, const compositor::Picture& picture, const Image& shown, double seconds) {
+  if (!recorder) return;
+  const std::vector<PassOutput> outputs{{"beauty", picture.beauty}, {"normal", picture.normal}, {"depth", picture.depth}, {"film", picture.film}, {"mask", picture.mask}, {"picture", shown}};
+  recorder->pass({frame, 0, traced_pass, outputs, seconds});
 }
 
 void write_traced_exr(const std::filesystem::path& path, const compositor::Picture& picture) {

@@ -8,6 +8,7 @@
 
 #include "compositor/picture.h"
 #include "compositor/truth.h"
+#include "rainref/recorder.h"
 
 namespace rainref::cli {
 
@@ -15,6 +16,8 @@ namespace rainref::cli {
 /// scale, picture}}.
 nlohmann::ordered_json write_differences(const std::filesystem::path& stem, std::span<const compositor::Difference> differences);
 
+/// Tells a recorder, if there is one, of a picture that was traced.
+void report_traced(Recorder* recorder, int frame, const compositor::Picture& picture, const Image& shown, double seconds);
 /// All that was traced, as named channels: R G B, normal.X .Y .Z, depth.Z, film, mask.
 void write_traced_exr(const std::filesystem::path& path, const compositor::Picture& picture);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compositor/optics.h"
+#include "compositor/scene.h"
 
 namespace rainref::compositor {
 
@@ -20,6 +21,26 @@ inline Split split(const Vec& direction, const Vec& normal, double ior_from, dou
   // Fresnel's equations are the same both ways; the text wants them seen from the thinner medium.
   out.reflectance = ior_from <= ior_to ? fresnel_dielectric(-dot(n, d), ior_to / ior_from).v : fresnel_dielectric(-dot(n, bent), ior_from / ior_to).v;
   return out;
+}
+
+/// What a material that is an interface does to the ray that met it, and the normal that decided, against the ray.
+struct Crossing {
+  Split rays;
+  Vec normal;
+};
+/// is_outside: the ray comes from the side of at.normal. Where the smooth normal would send a ray through the facet, the
+/// geometric one decides.
+inline Crossing cross_interface(const Material& material, const Place& at, bool is_outside) {
+  const double here = (is_outside ? material.outside : material.inside).ior, beyond = (is_outside ? material.inside : material.outside).ior;
+  const Vec facing = is_outside ? at.normal : -at.normal;
+  if (material.smooth_normal) {
+    const Vec outward = material.smooth_normal(at), smooth = is_outside ? outward : -outward;
+    if (dot(at.direction, smooth) < 0) {
+      const Split rays = split(at.direction, smooth, here, beyond);
+      if (dot(rays.reflected, facing) > 0 && !(dot(rays.refracted, facing) > 0)) return {rays, smooth};
+    }
+  }
+  return {split(at.direction, facing, here, beyond), facing};
 }
 
 }  // namespace rainref::compositor

@@ -237,20 +237,8 @@ class Generations {
     } else {
       const Medium& here = is_outside ? material.outside : material.inside;
       const Medium& beyond = is_outside ? material.inside : material.outside;
-      Split rays;
-      bool is_smooth = false;
-      if (material.smooth_normal) {
-        shaded = material.smooth_normal(at);
-        if (!is_outside) shaded = -shaded;
-        if (dot(at.direction, shaded) < 0) {
-          rays = split(at.direction, shaded, here.ior, beyond.ior);
-          is_smooth = dot(rays.reflected, facing) > 0 && !(dot(rays.refracted, facing) > 0);
-        }
-      }
-      if (!is_smooth) {
-        shaded = facing;
-        rays = split(at.direction, facing, here.ior, beyond.ior);
-      }
+      const auto [rays, normal] = cross_interface(material, at, is_outside);
+      shaded = normal;
       go_on(i, depth, at, rays.reflected, rays.reflectance * weight, is_outside, here, p.blur, false);
       if (rays.reflectance < 1) go_on(i, depth, at, rays.refracted, (1 - rays.reflectance) * weight, !is_outside, beyond, p.blur, p.is_straight);
     }

@@ -33,17 +33,7 @@ StraightPath straight_path(const Scene& scene, const Ray& ray, int most) {
     }
     const Material& material = scene.material(hit.surface);
     if (material.opaque || path.interfaces == most) return path;
-    const Vec facing = from_outside ? normal : -normal;
-    const double here = (from_outside ? material.outside : material.inside).ior, beyond = (from_outside ? material.inside : material.outside).ior;
-    Split rays = split(now.direction, facing, here, beyond);
-    if (material.smooth_normal) {
-      Vec smooth = material.smooth_normal({now.at(hit.t), now.direction, normal, 0, hit});
-      if (!from_outside) smooth = -smooth;
-      if (dot(now.direction, smooth) < 0) {
-        const Split bent = split(now.direction, smooth, here, beyond);
-        if (dot(bent.reflected, facing) > 0 && !(dot(bent.refracted, facing) > 0)) rays = bent;
-      }
-    }
+    const Split rays = cross_interface(material, {now.at(hit.t), now.direction, normal, 0, hit}, from_outside).rays;
     path.origin = now.at(hit.t);
     if (rays.refracted == Vec(0, 0, 0)) {
       path.end = StraightPath::End::mirrored;

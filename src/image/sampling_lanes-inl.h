@@ -1,20 +1,6 @@
 // Lookups of sampling-inl.h that lanes make sooner, because a gather costs by the element: the channels of a texel, and the two
 // texels of a row that a bilinear lookup takes, are gathered as one word. The same values. Text only: include it right after
 // sampling-inl.h.
-/// One LOD for all elements.
-template <int First, int Count, class N, class T>
-  requires std::same_as<N, Lanes>
-RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) {
-  const float last = static_cast<float>(t.levels - 1), l = lod < 0 ? 0 : lod < last ? lod : last;
-  const int fine = static_cast<int>(l), coarse = fine + 1 < t.levels ? fine + 1 : fine;
-  const float between = l - static_cast<float>(fine);
-  Channels<N, Count> out = sample_level<First, Count, N>(t, uniform_level<N>(t, fine), u, v);
-  if (between == 0) return out;
-  const auto other = sample_level<First, Count, N>(t, uniform_level<N>(t, coarse), u, v);
-  RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = mix(out[k], other[k], N(between));
-  return out;
-}
-
 #if HWY_TARGET <= HWY_AVX2
 /// 32-bit words a and b (low and high half of the lanes) of 64-bit elements, apart again.
 struct WordPair {

@@ -22,7 +22,7 @@ void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, co
   const StoredTexture<float> depths[2] = {stored_texture<float>(behind.depth), stored_texture<float>(ahead.depth)};
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      const SeenFrom<Lanes> s =
+      const Between<Lanes> s =
           reprojected<Lanes>(uniforms, fixed_texture<edge, edge, 4>(colours[0]), fixed_texture<edge, edge, 1>(depths[0]), fixed_texture<edge, edge, 4>(colours[1]), fixed_texture<edge, edge, 1>(depths[1]), x, y);
       const Lanes rgba[4] = {s.colour.x, s.colour.y, s.colour.z, Lanes(1.0f)};
       store4(view.colour.row<Half>(y) + 4 * x, rgba, Rounding::rne);

@@ -26,15 +26,20 @@ RAINREF_FN SeenFrom<N> seen_from(const ReprojectUniforms& r, const Colours& colo
   const auto c = sample_bilinear<0, 3, N>(colour, u, v);
   return {Vec3<N>(c[0], c[1], c[2]), d, saturate(N(2.0f) - N(50.0f) * off) * saturate(N(50.0f) * border)};
 }
+template <class N>
+struct Between {
+  Vec3<N> colour;
+  N depth;
+};
 template <class N, class Colours, class Depths>
-RAINREF_FN SeenFrom<N> reprojected(const ReprojectUniforms& r, const Colours& behind, const Depths& behind_depth, const Colours& ahead, const Depths& ahead_depth, int column, int row) {
+RAINREF_FN Between<N> reprojected(const ReprojectUniforms& r, const Colours& behind, const Depths& behind_depth, const Colours& ahead, const Depths& ahead_depth, int column, int row) {
   const N x = (N::index(column) + N(0.5f)) * N(r.pixel[0]) - N(r.half_size[0]), y = (N(static_cast<float>(row) + 0.5f)) * N(r.pixel[1]) - N(r.half_size[1]);
   // What the picture behind finds is where the search in the one ahead begins.
   const N half(0.5f), here = sample_nearest<0, 1, N>(behind_depth, half + x * uniform_quotient(0.5f, r.half_size[0], N()), half + y * uniform_quotient(0.5f, r.half_size[1], N()))[0];
   const SeenFrom<N> a = seen_from<N>(r, behind, behind_depth, x, y, r.behind_by, here - N(r.behind_by * r.forward[2]), 4);
-  if (r.share == 0.0f) return a;
+  if (r.share == 0.0f) return {a.colour, a.depth};
   const SeenFrom<N> b = seen_from<N>(r, ahead, ahead_depth, x, y, r.ahead_by, a.depth, 3);
   const N least(0.02f), weight_a = N(1.0f - r.share) * (a.fits + least), weight_b = N(r.share) * (b.fits + least);
   const N share = weight_b / (weight_a + weight_b);
-  return {mix(a.colour, b.colour, share), select(share < N(0.5f), a.depth, b.depth), max(a.fits, b.fits)};
+  return {mix(a.colour, b.colour, share), select(share < N(0.5f), a.depth, b.depth)};
 }
