@@ -115,11 +115,12 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
         EXPECT_LE(at(m.widths, 0.9), 0x1p13) << pass.name() << ' ' << name;
         continue;
       }
-      if (pass.pass == "merge") continue;  // whole quanta: nothing spreads
+      if (pass.is_of_quanta()) continue;
       EXPECT_TRUE(pass.is_of_masks() || m.ratios.size() > 10) << pass.name() << ' ' << name;
-      if (is_known_loose(pass.pass, name)) continue;
+      // Most of its elements have no bound there: sines of hundreds.
+      if (pass.name() == "screen_drops-as-published drops" && is_known_loose(pass.pass, name)) continue;
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number.
-      EXPECT_LE(at(m.ratios, 0.5), pass.pass == "background" ? 5 : 4) << pass.name() << ' ' << name;
+      EXPECT_LE(at(m.ratios, 0.5), pass.name() == "screen_drops-corrected background" ? 5 : 4) << pass.name() << ' ' << name;
     }
   }
 }

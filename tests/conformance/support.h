@@ -44,6 +44,8 @@ struct BoundCase {
 struct BoundPass {
   /// Of masks of 0 and 1, which hide most of what devices do: nearly every value is one number.
   bool is_of_masks() const { return name() == "edge_splash-as-published splash"; }
+  /// Of whole quanta, and the pack has no place where a device could tip one: nothing spreads.
+  bool is_of_quanta() const { return name() == "screen_drops-corrected merge"; }
   std::string pack, pass;
   std::vector<BoundCase> cases;
   std::string name() const { return pack + " " + pass; }
