@@ -78,11 +78,11 @@ Image antialiased(const City& city, int width, int height, Edge edge, Parts part
         Vec radiance = centres.radiance[centres.index(x, y)];
         if (differs(centres, x, y, edge)) {
           Vec sum = radiance;
-          const bool five = parts == Parts::five;
-          for (int part = 0; part < 9; part += five ? 2 : 1) {
+          const bool three = parts == Parts::three;
+          for (int part = 0; part < 9; part += three ? 4 : 1) {
             if (part != 4) sum = sum + look(city, ray_of(3 * x + part % 3, 3 * y + part / 3)).radiance;
           }
-          radiance = (five ? 1.0 / 5 : 1.0 / 9) * sum;
+          radiance = (three ? 1.0 / 3 : 1.0 / 9) * sum;
         }
         out[0] = static_cast<float>(radiance.x);
         out[1] = static_cast<float>(radiance.y);

@@ -1,4 +1,4 @@
-// Pictures of the street: one ray for each texel, nine or five where neighbours differ.
+// Pictures of the street: one ray for each texel, nine or three where neighbours differ.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ using AtCentre = std::function<void(int x, int y, const Ray& ray, const Seen& se
 /// How a picture is addressed at its left and right edge.
 enum class Edge : std::uint8_t { clamp, wrap };
 
-/// An rgba32f image of linear radiance, alpha 1. A texel is the mean of its 9 parts, or of the middle one and those at the
-/// corners, where it differs from a neighbour in object or in brightness, and its centre alone elsewhere. Nothing is clamped.
+/// An rgba32f image of linear radiance, alpha 1. A texel is the mean of its 9 parts, or of the three on a diagonal, where
+/// it differs from a neighbour in object or in brightness, and its centre alone elsewhere. Nothing is clamped.
 Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of,
                   const AtCentre& at_centre, const parallel::Executor& executor);
 

@@ -31,7 +31,7 @@ struct Lamp {
 struct City;
 
 /// Rays of a texel where its neighbours differ.
-enum class Parts : std::uint8_t { nine, five };
+enum class Parts : std::uint8_t { nine, three };
 
 /// One street. Immutable; its members may be called from several threads at once.
 class Street {

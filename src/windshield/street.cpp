@@ -37,13 +37,14 @@ struct StreetDrive::State {
   scene::Camera camera;
   int width, height;
   double first;
+  bool at_rest;
   night_street::Street street;
   const parallel::Executor& executor;
   std::map<int, Keyframe> keyframes;
   bool stands = false;  // the view of look() is rendered and stays
 
-  State(const scene::Camera& c, int w, int h, double start, std::uint64_t seed, const parallel::Executor& e)
-      : camera(c), width(w), height(h), first(start), street({seed}), executor(e) {}
+  State(const scene::Camera& c, int w, int h, double start, bool rest, std::uint64_t seed, const parallel::Executor& e)
+      : camera(c), width(w), height(h), first(start), at_rest(rest), street({seed}), executor(e) {}
 
   /// Where keyframe k is taken.
   Vector3 place(int k) const { return place_in_street(first, k * spacing); }
@@ -58,14 +59,14 @@ struct StreetDrive::State {
   const Keyframe& keyframe(int k) {
     const auto found = keyframes.find(k);
     if (found != keyframes.end()) return found->second;
-    // A car that stands may look at its first view for long.
-    night_street::Street::View v = render(k, keyframes.empty() ? night_street::Parts::nine : night_street::Parts::five);
+    // A car at rest may look at its first view for long; those of one that moves pass, two blended.
+    night_street::Street::View v = render(k, at_rest && k == 0 ? night_street::Parts::nine : night_street::Parts::three);
     return keyframes.emplace(k, Keyframe{as_half(v.colour), std::move(v.depth)}).first->second;
   }
 };
 
-StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, double start, std::uint64_t seed, const parallel::Executor& executor)
-    : state_(std::make_unique<State>(camera, width, height, start, seed, executor)) {}
+StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, double start, bool at_rest, std::uint64_t seed, const parallel::Executor& executor)
+    : state_(std::make_unique<State>(camera, width, height, start, at_rest, seed, executor)) {}
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
 

@@ -34,8 +34,9 @@ class StreetDrive {
   static constexpr double street_length = 396, spacing = 12;
 
   /// camera: car axes (x forward, y left, z up, origin on the road under the driver's seat), with the field of view of the
-  /// views, which have width x height texels. start: where on the street the car begins [m]. The executor must outlive this.
-  StreetDrive(const scene::Camera& camera, int width, int height, double start, std::uint64_t seed, const parallel::Executor& executor);
+  /// views, which have width x height texels. start: where on the street the car begins [m]. at_rest: whether it stands there,
+  /// so that its first view is worth more rays. The executor must outlive this.
+  StreetDrive(const scene::Camera& camera, int width, int height, double start, bool at_rest, std::uint64_t seed, const parallel::Executor& executor);
   ~StreetDrive();
   StreetDrive(StreetDrive&&) noexcept;
 
