@@ -69,11 +69,19 @@ Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t
   return out;
 }
 
+double magnitude(double x) { return x < 0 ? -x : x; }
+
 // How far rounding the four weights of a cell may move its value. Rows and columns keep their sums, so that the error of
 // one weight enters the others with alternating signs; an H100 rounds by half a step, twice that is allowed.
 double weight_slack(double a, double b, double c, double d) {
-  const double twist = a - b - c + d;
-  return power_of_two(-profile().subtexel_bits) * (twist < 0 ? -twist : twist);
+  return power_of_two(-profile().subtexel_bits) * magnitude(a - b - c + d);
+}
+// The same where the level's share is in the weights. With s the share, X = s f_x + e and the weights X f_y + e' and
+// (s - X) f_y + e'' of the second row, the value is off by e ((b - a)(1 - f_y) + (d - c) f_y) + e' (d - b) + e'' (c - a).
+double joint_slack(double a, double b, double c, double d) {
+  const double right = magnitude(b - a), right_above = magnitude(d - c), up = magnitude(c - a), up_beside = magnitude(d - b);
+  const double x_first = std::max(right, right_above) + up + up_beside, y_first = std::max(up, up_beside) + right + right_above;
+  return 0.5 * power_of_two(-profile().subtexel_bits) * std::max(x_first, y_first);
 }
 // One step of the texels' own precision at this magnitude.
 double storage_step(TexelPrecision precision, double magnitude) {
@@ -102,6 +110,10 @@ Span nearest_span(Address address, Enclosure u, int size) {
 }
 
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
+  JointRounding unused;
+  return filtered(t, x, y, channel, unused);
+}
+Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, JointRounding& joint) {
   if (x.vacuous || y.vacuous) return Enclosure::vacuous();
   // Coordinates so large that their integers do not matter any more.
   if (std::max({-x.lo, x.hi, -y.lo, y.hi}) > 0x1p40) return Enclosure::vacuous();
@@ -124,7 +136,10 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
         const double c = texel_of(t, column, next_row, channel), d = texel_of(t, next_column, next_row, channel);
         least = std::min({least, a, b, c, d});
         greatest = std::max({greatest, a, b, c, d});
-        if (sampler) slack = std::max(slack, weight_slack(a, b, c, d));
+        if (sampler) {
+          slack = std::max(slack, weight_slack(a, b, c, d));
+          joint.slack = std::max(joint.slack, joint_slack(a, b, c, d));
+        }
         // Linear in each weight: the extrema are at the corners.
         for (const double f : {std::max(x.lo - i, 0.0), std::min(x.hi - i, 1.0)}) {
           const double bottom = a * (1 - f) + b * f, top = c * (1 - f) + d * f;
@@ -137,13 +152,18 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
       }
     }
   }
+  joint.precision = t.precision;
+  joint.least = least;
+  joint.greatest = greatest;
   const double size = std::max(-least, greatest), gap = greatest - least;
   if (size == 0) return {0.0f, 0.0f};
   if (sampler) {
     // At the value's own magnitude, which may be far below that of a texel beside it.
     slack += storage_step(t.precision, std::max(slack - low, high + slack));
-    low = std::max(low - slack, least);
-    high = std::min(high + slack, greatest);
+    joint.below = low - std::max(low - slack, least);
+    joint.above = std::min(high + slack, greatest) - high;
+    low -= joint.below;
+    high += joint.above;
   }
   // Two mixes after each other, each three roundings of a (1 - t) + b t or of a + (b - a) t, and the rounding of the
   // two weights x - floor(x), which is none but below 0.
@@ -153,6 +173,21 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel) {
   if (least >= 0) out.lo = std::max(out.lo, 0.0f);
   if (greatest <= 0) out.hi = std::min(out.hi, 0.0f);
   return Enclosure::checked(out.lo, out.hi);
+}
+
+Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enclosure coarse, const JointRounding& coarse_rounding, float low, float high) {
+  const Enclosure out = mix(fine, coarse, Enclosure(low, high));
+  if (out.is_vacuous() || profile().subtexel_bits == 0) return out;
+  const double fine_most = 1.0 - static_cast<double>(low), fine_least = 1.0 - static_cast<double>(high), coarse_most = high, coarse_least = low;
+  // A level adds no more than its share of it; what its own hull has already counts.
+  const auto of_level = [](const JointRounding& r, double most_share) { return std::min(r.slack, most_share * (r.greatest - r.least)); };
+  const double weights = of_level(fine_rounding, fine_most) + of_level(coarse_rounding, coarse_most);
+  const double slack = weights + storage_step(fine_rounding.precision, std::max(weights - out.lo, out.hi + weights));
+  const double below = slack - fine_least * fine_rounding.below - coarse_least * coarse_rounding.below;
+  const double above = slack - fine_least * fine_rounding.above - coarse_least * coarse_rounding.above;
+  // The weights are not negative and sum to 1: beyond all texels lies nothing that the mix itself does not allow.
+  const double least = std::min(fine_rounding.least, coarse_rounding.least), greatest = std::max(fine_rounding.greatest, coarse_rounding.greatest);
+  return Enclosure::checked(std::min(out.lo, float_below(std::max(out.lo - below, least))), std::max(out.hi, float_above(std::min(out.hi + above, greatest))));
 }
 
 Pick pick(const Span& x, const Span& y) {

@@ -34,14 +34,45 @@ RAINREF_FN deviant::Deviant nearest_coordinate(Address address, deviant::Deviant
 RAINREF_FN deviant::Deviant level_of_detail(deviant::Deviant lod) { return deviant::Deviant::of(deviant::Sampler().level(lod.v)); }
 template <class N>
 RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy);
+RAINREF_FN int filtered_bits(TexelPrecision precision) { return precision == TexelPrecision::float32 ? 24 : precision == TexelPrecision::unorm8 ? 0 : 11; }
 RAINREF_FN deviant::Deviant blend(TexelPrecision precision, deviant::Deviant a, deviant::Deviant b, deviant::Deviant c, deviant::Deviant d,
                                   deviant::Deviant fx, deviant::Deviant fy) {
+  const deviant::Sampler sampler;
+  if (const deviant::Share& s = deviant::share(); s.of_level > 0) return deviant::Deviant::of(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, s.of_level, s.x_first));
   const deviant::Deviant in_float = blend<deviant::Deviant>(precision, a, b, c, d, fx, fy);
-  const int bits = precision == TexelPrecision::float32 ? 24 : precision == TexelPrecision::unorm8 ? 0 : 11;
-  return deviant::Deviant::of(deviant::Sampler().blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, bits));
+  return deviant::Deviant::of(sampler.blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, filtered_bits(precision)));
 }
 /// Any integer has a texel, whatever a slip has done to it.
 RAINREF_FN plain::Index<deviant::Deviant> texel_index(Address address, plain::Index<deviant::Deviant> i, plain::Index<deviant::Deviant> size) {
   if (slipped(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};
   return clamp_index(i, size);
+}
+
+template <class N, int Count>
+struct Channels;
+template <class N>
+struct Level;
+template <class N, class T>
+RAINREF_FN Level<N> uniform_level(const T& t, int level);
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v);
+
+/// Between two levels a sampler may round all eight weights together.
+template <int First, int Count, class N, class T>
+  requires std::same_as<N, deviant::Deviant>
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
+  const N last(static_cast<float>(t.levels - 1)), l = clamp(level_of_detail(lod), N(0.0f), last), l0 = floor(l), g = l - l0;
+  const int level = static_cast<int>(l0.v);
+  if (!(g.v > 0)) return sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+  const deviant::Sampler sampler;
+  const bool jointly = sampler.rounds_jointly();
+  deviant::Share& share = deviant::share();
+  if (jointly) share = {1 - g.v, sampler.takes_x_first()};
+  const auto fine = sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+  if (jointly) share.of_level = g.v;
+  const auto coarse = sample_level<First, Count, N>(t, uniform_level<N>(t, level + 1), u, v);
+  share = {};
+  Channels<N, Count> out;
+  for (int k = 0; k < Count; ++k) out[k] = jointly ? N::of(sampler.stored(fine[k].v + coarse[k].v, filtered_bits(t.precision))) : mix(fine[k], coarse[k], g);
+  return out;
 }

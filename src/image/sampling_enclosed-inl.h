@@ -88,6 +88,25 @@ RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
   return out;
 }
 
+/// One of the two levels of a lookup between them.
+template <int Count>
+struct JointLevel {
+  Channels<enclosed::Enclosure, Count> value;
+  enclosed::JointRounding rounding[Count];
+};
+template <int First, int Count, class T>
+RAINREF_FN JointLevel<Count> sample_level_jointly(const T& t, int level, enclosed::Enclosure u, enclosed::Enclosure v) {
+  using N = enclosed::Enclosure;
+  JointLevel<Count> out;
+  if (as_reference(u, v)) {
+    out.value = sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+    return out;
+  }
+  const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, level));
+  const enclosed::Span x = filtered_span(t.address_u, u, texels.width), y = filtered_span(t.address_v, v, texels.height);
+  for (int k = 0; k < Count; ++k) out.value[k] = filtered(texels, x, y, First + k, out.rounding[k]);
+  return out;
+}
 template <int First, int Count, class N, class T>
   requires std::same_as<N, enclosed::Enclosure>
 RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
@@ -97,15 +116,15 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   }
   const N range = level_range(lod, t.levels);
   const int first = static_cast<int>(range.lo), last = static_cast<int>(range.hi);
-  auto fine = sample_level<First, Count, N>(t, uniform_level<N>(t, first), u, v);
-  Channels<N, Count> out = fine;
+  auto fine = sample_level_jointly<First, Count>(t, first, u, v);
+  Channels<N, Count> out = fine.value;
   for (int l = first; l <= last; ++l) {
     const float low = range.lo > static_cast<float>(l) ? range.lo - static_cast<float>(l) : 0.0f;
     const float high = range.hi < static_cast<float>(l + 1) ? range.hi - static_cast<float>(l) : 1.0f;
     if (high == 0.0f) break;  // a whole level counts alone
-    const auto coarse = sample_level<First, Count, N>(t, uniform_level<N>(t, l + 1 < t.levels ? l + 1 : l), u, v);
+    const auto coarse = sample_level_jointly<First, Count>(t, l + 1 < t.levels ? l + 1 : l, u, v);
     for (int k = 0; k < Count; ++k) {
-      const N between = mix(fine[k], coarse[k], N(low, high));
+      const N between = enclosed::between_levels(fine.value[k], fine.rounding[k], coarse.value[k], coarse.rounding[k], low, high);
       out[k] = l == first && low > 0.0f ? between : hull(out[k], between);
     }
     fine = coarse;

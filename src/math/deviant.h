@@ -200,6 +200,13 @@ plain::Vec3<Deviant> refract(const plain::Vec3<Deviant>& v, const plain::Vec3<De
 Deviant nearest_octave(Deviant x);
 Deviant uniform_quotient(float a, float b, Deviant);
 
+/// While a lookup between two levels is made whose weights are rounded together: the share of the level at hand.
+struct Share {
+  float of_level = 0;  ///< 0: no such lookup
+  bool x_first = true;
+};
+Share& share();
+
 /// One lookup by a sampler or by arithmetic, as the liberties have it: what it takes for a normalized coordinate, for
 /// one in texels, and for a level of detail.
 struct Sampler {
@@ -211,6 +218,13 @@ struct Sampler {
   /// The filtered value of texels a, b, c, d, `in_float` by arithmetic: the four weights rounded so that rows and columns
   /// keep their sums, the result to numbers of so many bits (24: floats, 11: halves, 0: codes of 8 bits).
   float blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const;
+
+  /// Whether this lookup between two levels rounds all eight weights together, the level's share in them: each level is then
+  /// weighted(), with x or y first, and their sum stored().
+  bool rounds_jointly() const;
+  bool takes_x_first() const;
+  float weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const;
+  float stored(float value, int bits) const;
 };
 
 }  // namespace rainref::deviant

@@ -119,8 +119,10 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       EXPECT_TRUE(pass.is_of_masks() || m.ratios.size() > 10) << pass.name() << ' ' << name;
       // Most of its elements have no bound there: sines of hundreds.
       if (pass.name() == "screen_drops-as-published drops" && is_known_loose(pass.pass, name)) continue;
-      // What a sum of many taps spreads by grows as a root of their number, its envelope as the number.
-      EXPECT_LE(at(m.ratios, 0.5), pass.name() == "screen_drops-corrected background" ? 5 : 4) << pass.name() << ' ' << name;
+      // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
+      // the weights of a lookup between two levels.
+      const int most = pass.name() == "screen_drops-corrected background" ? 7 : pass.name() == "screen_drops-corrected drops" ? 5 : 4;
+      EXPECT_LE(at(m.ratios, 0.5), most) << pass.name() << ' ' << name;
     }
   }
 }

@@ -1,6 +1,8 @@
 // A filter as an NVIDIA H100 was seen to make it (CUDA texture objects, 1D, one-hot 2D, half and float texels, driver 580.159):
 // x rounded to 1/256, half up; of the four weights the product fx fy rounded to 1/256 and the others such that rows,
-// columns and the whole keep their sums; texels of half give a half. Every such result must lie in the hull.
+// columns and the whole keep their sums; texels of half give a half. Between two levels (32000 lookups, one-hot and random
+// texels) all eight weights are multiples of 1/256: the coarse level's share S is cut, S f_x is rounded half up to X, X f_y half up
+// and (S - X) f_y half down. Every such result must lie in the hull.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,6 +40,27 @@ double filtered_by_h100(const std::vector<float>& texels, double x, double y, bo
   return half ? static_cast<double>(to_float(to_half(static_cast<float>(value)))) : value;
 }
 
+struct TwoLevels {
+  int side;                   ///< of the fine level; the coarse one has half of it
+  std::vector<float> texels;  ///< both, one channel
+};
+double between_by_h100(const TwoLevels& t, double u, double v, double lod, bool half) {
+  const auto snapped = [](double c) { return std::floor(c * 256 + 0.5) / 256; };
+  const double coarse_share = std::floor(lod * 256);
+  double value = 0;
+  for (int level = 0; level < 2; ++level) {
+    const int s = t.side >> level;
+    const float* texels = t.texels.data() + (level == 0 ? 0 : t.side * t.side);
+    const double x = snapped(u * s - 0.5), y = snapped(v * s - 0.5), share = level == 0 ? 256 - coarse_share : coarse_share;
+    const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+    const double right = std::floor(share * (x - i) + 0.5), left = share - right;
+    const double right_above = std::floor(right * (y - j) + 0.5), left_above = std::ceil(left * (y - j) - 0.5);
+    const auto texel = [&](int a, int b) { return static_cast<double>(texels[std::min(b, s - 1) * s + std::min(a, s - 1)]); };
+    value += ((left - left_above) * texel(i, j) + (right - right_above) * texel(i + 1, j) + left_above * texel(i, j + 1) + right_above * texel(i + 1, j + 1)) / 256;
+  }
+  return half ? static_cast<double>(to_float(to_half(static_cast<float>(value)))) : value;
+}
+
 class H100Filter : public testing::TestWithParam<TexelPrecision> {};
 
 TEST_P(H100Filter, LiesInTheHull) {
@@ -63,6 +86,42 @@ TEST_P(H100Filter, LiesInTheHull) {
     beyond_exact += std::abs(got - filtered_by_h100(texels, x, y, false)) > 0;
   }
   EXPECT_EQ(beyond_exact > 0, half);
+}
+TEST_P(H100Filter, BetweenTwoLevelsLiesInTheHull) {
+  std::mt19937 words{12};
+  const auto random = [&](double low, double high) { return low + (high - low) * (words() * 0x1p-32); };
+  const enclosed::ProfileScope scope(profile_named("vulkan"));
+  const bool half = GetParam() == TexelPrecision::float16;
+  const auto one = [](const Texture& t, Enclosure u, Enclosure v, Enclosure lod) { return h100::sample_trilinear<0, 1, Enclosure>(t, u, v, lod)[0]; };
+  int beyond_each_alone = 0;
+  double widest = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    TwoLevels levels{8, std::vector<float>(64 + 16)};
+    // Strong edges: most of what rounding moves.
+    for (float& t : levels.texels) t = words() % 2 == 0 ? to_float(to_half(static_cast<float>(random(0, 0.1)))) : to_float(to_half(static_cast<float>(random(0.9, 1))));
+    TextureData data(std::vector<float>(levels.texels.begin(), levels.texels.begin() + 64), 1, 8, 8, Address::clamp, Address::clamp);
+    data.build_mips(2);
+    std::copy(levels.texels.begin() + 64, levels.texels.end(), data.texels() + 64);
+    Texture t = data.view();
+    t.precision = GetParam();
+    const float u = static_cast<float>(random(0.2, 0.8)), v = static_cast<float>(random(0.2, 0.8)), lod = trial % 2 == 0 ? 0.5f : static_cast<float>(random(0, 1));
+    const Enclosure hull = one(t, Enclosure(u), Enclosure(v), Enclosure(lod));
+    const double got = between_by_h100(levels, u, v, lod, half);
+    EXPECT_LE(hull.lo, got) << u << ' ' << v << ' ' << lod;
+    EXPECT_GE(hull.hi, got) << u << ' ' << v << ' ' << lod;
+    widest = std::max(widest, static_cast<double>(hull.hi) - hull.lo);
+    // Each level rounded alone would not do: the test would have failed before the weights were modelled together.
+    Texture fine = t, coarse = t;
+    fine.levels = 1;
+    coarse.levels = 1;
+    coarse.offset[0] = t.offset[1];
+    coarse.width[0] = coarse.height[0] = 4;
+    const auto level = [&](const Texture& l) { return h100::sample_bilinear<0, 1, Enclosure>(l, Enclosure(u), Enclosure(v))[0]; };
+    const Enclosure alone = mix(level(fine), level(coarse), Enclosure(std::max(0.0f, lod - 0x1p-8f), std::min(1.0f, lod + 0x1p-8f)));
+    beyond_each_alone += got < alone.lo || got > alone.hi;
+  }
+  EXPECT_GT(beyond_each_alone, 0);
+  EXPECT_LT(widest, 0.06);  // of texels from 0 to 1: two coordinates of either level off by 1/256, six roundings by 1/512, the LOD
 }
 INSTANTIATE_TEST_SUITE_P(Every, H100Filter, testing::Values(TexelPrecision::float32, TexelPrecision::float16));
 
