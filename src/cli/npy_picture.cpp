@@ -45,6 +45,8 @@ Image four_channels(const std::byte* from, int width, int height, std::size_t ch
 }  // namespace
 
 bool is_npy(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe would wait
   std::array<char, 6> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   return std::memcmp(start.data(), "\x93NUMPY", start.size()) == 0;

@@ -1,4 +1,6 @@
 // screen_drops from the command line: both variants run, pack, hash and differ; scenes from files; what is refused.
+#include <sys/stat.h>
+
 #include "capture/pack_read.h"
 #include "cli/picture_files.h"
 #include "image_io/read.h"
@@ -122,6 +124,8 @@ TEST_F(ScreenDropsFiles, NoiseThatDoesNotTileIsAWarning) {
 TEST_F(ScreenDropsFiles, WhatIsWrongIsNamed) {
   expect_refused("drops.toml", {"scene.image=small.npy"}, HasSubstr("scene.image: expected 24x16 like the picture, found 8x8"));
   expect_refused("drops.toml", {"scene.image=holed.npy"}, HasSubstr("scene.image: 'holed.npy': NaN at x 3, y 2 (from the top)"));
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  expect_refused("drops.toml", {"scene.image=pipe"}, HasSubstr("--set scene.image: cannot read 'pipe'"), 4);  // and does not wait
   expect_refused("drops.toml", {"glass.height=0"}, HasSubstr("glass.height"));
   expect_refused("drops.toml", {"drops.largest_radius=0"}, HasSubstr("drops.largest_radius"));
   expect_refused("drops.toml", {"drops.shortest_cycle=40"}, HasSubstr("drops.shortest_cycle: expected at most drops.longest_cycle = 30 s, found 40"));

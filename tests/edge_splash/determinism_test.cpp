@@ -2,7 +2,7 @@
 // of one plain float after another; and how far those are from doubles.
 #include <bit>
 
-#include "capture/hashing.h"
+#include "capture/hash_of_frames.h"
 #include "edge_splash/shapes.h"
 #include "edge_splash/support.h"
 #include "math/simd_target.h"
@@ -34,12 +34,7 @@ std::string hash_of_run(const Settings& s, const Inputs& in, int threads, std::u
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   EdgeSplash effect(s, in, executor);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    effect.render(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { effect.render(recorder); });
 }
 
 class Determinism : public testing::TestWithParam<Variant> {

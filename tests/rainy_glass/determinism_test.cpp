@@ -2,7 +2,7 @@
 // float after another.
 #include <bit>
 
-#include "capture/hashing.h"
+#include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "rainy_glass/support.h"
 #include "scene/display_every_reading.h"
@@ -16,12 +16,7 @@ std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, i
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   RainyGlass glass(s, test::surroundings(s), executor);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    glass.frame(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { glass.frame(recorder); });
 }
 
 class RainyGlassDeterminism : public testing::TestWithParam<Variant> {

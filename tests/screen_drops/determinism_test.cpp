@@ -1,6 +1,6 @@
 // The determinism proof: every SIMD target, 1, 2, 3 and 8 threads, shuffled tiles, widths 1 to 33 give the bits of one plain
 // float after another; and how far those are from doubles.
-#include "capture/hashing.h"
+#include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "scene/display_every_reading.h"
 #include "screen_drops/support.h"
@@ -19,12 +19,7 @@ std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, i
   flow.wind = 100;
   flow.warm_up = 0.2;
   ScreenDrops window(s, test::inputs(s), executor, flows && s.variant == Variant::corrected ? &flow : nullptr);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    window.render(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { window.render(recorder); });
 }
 
 class ScreenDropsDeterminism : public testing::TestWithParam<Variant> {
