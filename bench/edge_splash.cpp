@@ -1,30 +1,17 @@
 // Speed of the passes of edge_splash through the shells that users run. What a row says: README.md.
-#include <benchmark/benchmark.h>
-
-#include <algorithm>
-#include <map>
 #include <string>
 
-#include <fmt/format.h>
-
-#include "capture/hashing.h"
 #include "edge_splash/host.h"
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
+#include "pass_row.h"
 #include "rainref/edge_splash.h"
 #include "scene/toml.h"
-#include "stream.h"
 
 namespace rainref::edge_splash {
 namespace {
 
 constexpr int tile_rows = 8;  // as edge_splash.cpp cuts its work
-
-class PassTimes : public Recorder {
- public:
-  void pass(const PassCall& call) override { seconds[std::string(call.pass)] = call.seconds; }
-  std::map<std::string, double> seconds;
-};
 
 void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int threads) {
   const parallel::Executor executor(threads);
@@ -36,23 +23,7 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
   in.depth = std::move(view.depth);
   in.depth_is_distance = true;
   EdgeSplash effect(s, in, executor);
-  capture::HashRecorder recorder;
-  effect.render(&recorder);
-  std::string hashes;
-  for (const capture::HashLine& line : recorder.take_lines()) {
-    if (line.pass == pass) hashes += fmt::format("{}{:.16}", hashes.empty() ? "" : " ", line.hash.text());
-  }
-  const double bound = bench::stream_seconds(executor, s.width, s.height, tile_rows, traffic);
-  double best = 1e9;
-  for (auto _ : state) {
-    PassTimes times;
-    effect.render(&times);
-    best = std::min(best, times.seconds.at(pass));
-    state.SetIterationTime(times.seconds.at(pass));
-  }
-  state.counters["Mpix/s"] = 1e-6 * s.width * s.height / best;
-  state.counters["stream_%"] = 100 * bound / best;
-  state.SetLabel(hashes);
+  bench::pass_row(state, executor, s.width, s.height, tile_rows, pass, traffic, [&](Recorder* recorder) { effect.render(recorder); });
 }
 
 const bool registered = [] {

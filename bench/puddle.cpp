@@ -2,12 +2,12 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <map>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
+#include "pass_row.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"
@@ -103,45 +103,14 @@ void wave_step(benchmark::State& state, const std::string& variant, const std::s
   report(state, best, bound, static_cast<double>(side) * side, "Gcell/s", hash);
 }
 
-// A sky of integers, so that no change of the street at night changes a hash here.
-Image sky() {
-  Image image(Format::rgba32f, 1024, 512);
-  for (int y = 0; y < 512; ++y) {
-    for (int i = 0; i < 4096; ++i) {
-      image.row<float>(y)[i] = static_cast<float>((static_cast<std::uint32_t>(i) * 37u + static_cast<std::uint32_t>(y * y) * 11u) >> 3 & 255u) / 128.0f;
-    }
-  }
-  return image;
-}
-
-class PassTimes : public Recorder {
- public:
-  void pass(const PassCall& call) override { seconds[std::string(call.pass)] = call.seconds; }
-  std::map<std::string, double> seconds;
-};
-
 void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int threads) {
   const parallel::Executor executor(threads);
   const Settings s = settings(variant, {"run.size=[1280, 720]"});
   Surroundings around;
-  around.environment = sky();
+  around.environment = bench::integers(1024, 512);
   Puddle puddle(s, around, executor);
   for (int frame = 0; frame < 8; ++frame) puddle.simulate();
-  capture::HashRecorder recorder;
-  puddle.render(&recorder);
-  std::string hashes;
-  for (const capture::HashLine& line : recorder.take_lines()) {
-    if (line.pass == pass) hashes += fmt::format("{}{:.16}", hashes.empty() ? "" : " ", line.hash.text());
-  }
-  const double bound = bench::stream_seconds(executor, s.width, s.height, picture_tile_rows, traffic);
-  double best = 1e9;
-  for (auto _ : state) {
-    PassTimes times;
-    puddle.render(&times);
-    best = std::min(best, times.seconds.at(pass));
-    state.SetIterationTime(times.seconds.at(pass));
-  }
-  report(state, best, bound, 1e3 * s.width * s.height, "Mpix/s", hashes);
+  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic, [&](Recorder* recorder) { puddle.render(recorder); });
 }
 
 const bool registered = [] {

@@ -1,17 +1,10 @@
 // Speed of the passes of rainy_glass through the shells that users run. What a row says: README.md.
-#include <benchmark/benchmark.h>
-
-#include <algorithm>
-#include <map>
 #include <string>
 
-#include <fmt/format.h>
-
-#include "capture/hashing.h"
+#include "pass_row.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/parameters.h"
 #include "scene/toml.h"
-#include "stream.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -24,47 +17,21 @@ Settings settings(const std::string& variant, const std::string& shape, int widt
                                     {"glass.shape=" + shape, fmt::format("run.size=[{}, {}]", width, height), "maps.droplets=600"}, table));
 }
 
-// A scene of integers, so that no change of the street at night changes a hash here.
 Surroundings surroundings(const Settings& s) {
   Surroundings around;
-  around.colour = Image(Format::rgba32f, s.width, s.height);
+  around.colour = bench::integers(s.width, s.height);
   around.depth = Image(Format::r32f, s.width, s.height);
   for (int y = 0; y < s.height; ++y) {
-    for (int i = 0; i < 4 * s.width; ++i) {
-      around.colour.row<float>(y)[i] = static_cast<float>((static_cast<std::uint32_t>(i) * 37u + static_cast<std::uint32_t>(y * y) * 11u) >> 3 & 255u) / 128.0f;
-    }
     for (int x = 0; x < s.width; ++x) around.depth.row<float>(y)[x] = static_cast<float>(2 + (x / 64 + y / 48) % 9);
   }
   return around;
 }
 
-class PassTimes : public Recorder {
- public:
-  void pass(const PassCall& call) override { seconds[std::string(call.pass)] = call.seconds; }
-  std::map<std::string, double> seconds;
-};
-
 void picture(benchmark::State& state, const std::string& variant, const std::string& shape, const std::string& pass, bench::Traffic traffic, int height, int threads) {
   const parallel::Executor executor(threads);
   const Settings s = settings(variant, shape, height * 16 / 9, height);
   RainyGlass glass(s, surroundings(s), executor);
-  capture::HashRecorder recorder;
-  glass.frame(&recorder);
-  std::string hash;
-  for (const capture::HashLine& line : recorder.take_lines()) {
-    if (line.pass == pass) hash = fmt::format("{:.16}", line.hash.text());
-  }
-  const double bound = bench::stream_seconds(executor, s.width, s.height, picture_tile_rows, traffic);
-  double best = 1e9;
-  for (auto _ : state) {
-    PassTimes times;
-    glass.frame(&times);
-    best = std::min(best, times.seconds.at(pass));
-    state.SetIterationTime(times.seconds.at(pass));
-  }
-  state.counters["Mpix/s"] = 1e-6 * s.width * s.height / best;
-  state.counters["stream_%"] = 100 * bound / best;
-  state.SetLabel(hash);
+  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic, [&](Recorder* recorder) { glass.frame(recorder); });
 }
 
 const bool registered = [] {

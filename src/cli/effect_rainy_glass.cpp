@@ -1,13 +1,6 @@
-#include <algorithm>
-#include <cctype>
-
-#include <fmt/format.h>
-
 #include "cli/effects.h"
-#include "cli/inputs.h"
 #include "cli/pictures.h"
-#include "image/colour.h"
-#include "image/texture.h"
+#include "cli/scene_pictures.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
 #include "rainref/rainy_glass.h"
@@ -20,73 +13,33 @@ namespace {
 
 using rainy_glass::Settings, rainy_glass::Surroundings;
 
-/// Row 0 = bottom, four float channels, by value(channel value, channel).
-template <class Value>
-Image floats_of(const Image& top_first, const Value& value) {
-  const Image image = flipped(top_first);
-  const TextureData decoded(image, Address::clamp, Address::clamp);
-  Image out(Format::rgba32f, image.width(), image.height());
-  const float* in = decoded.view().texels;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int i = 0; i < 4 * image.width(); ++i) out.row<float>(y)[i] = value(*in++, i % 4);
-  }
-  return out;
-}
-Image linear(const image_io::Picture& p) {
-  return floats_of(p.image, [&](float x, int c) { return c < 3 && p.srgb_encoded ? static_cast<float>(decode_srgb(x)) : x; });
-}
-
-Image read_map(const scene::Config& config, const std::string& key, std::vector<InputFile>& inputs) {
-  const image_io::Picture p = read_input(config, key, inputs);
-  const auto is_alpha = [](const std::string& name) { return name == "A" || name == "a"; };
-  if (std::none_of(p.channel_names.begin(), p.channel_names.end(), is_alpha)) {
-    throw Error(ExitCode::usage, fmt::format("{}: expected four channels, with an alpha, found {}", key, fmt::join(p.channel_names, " ")));
-  }
-  Image map = flipped(p.image);
-  const double seam = rainy_glass::seam(map);
-  if (seam > rainy_glass::worst_seam) {
-    fmt::print(stderr, "rainref: warning: {}: {} does not tile: the step across its edges is {:.1f} times the one between its texels\n", key, config.text(key), seam);
-  }
-  return map;
-}
-/// r32f metres.
-Image read_depth(const scene::Config& config, std::vector<InputFile>& inputs) {
-  const image_io::Picture p = read_input(config, "scene.depth_image", inputs);
-  const Image four = floats_of(p.image, [](float x, int) { return x; });
-  const auto scale = static_cast<float>(config.real("scene.depth_scale"));
-  Image depth(Format::r32f, four.width(), four.height());
-  for (int y = 0; y < depth.height(); ++y) {
-    for (int x = 0; x < depth.width(); ++x) depth.row<float>(y)[x] = four.row<float>(y)[4 * x] * scale;
-  }
-  return depth;
-}
-
 Surroundings surroundings(const scene::Config& config, const Settings& settings, const parallel::Executor& executor, std::vector<InputFile>& inputs) {
   const bool corrected = settings.variant == rainy_glass::Variant::corrected;
   const bool own_scene = !config.text("scene.image").empty();
   if (!own_scene && corrected && !config.text("scene.depth_image").empty()) throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
   if (own_scene && corrected && config.text("scene.depth_image").empty()) throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
+  const Image panorama = read_panorama(config, inputs);
   Surroundings s;
   if (own_scene) {
-    s.colour = linear(read_input(config, "scene.image", inputs));
-    if (corrected) s.depth = read_depth(config, inputs);
+    s.colour = read_linear(config, "scene.image", inputs);
+    if (corrected) s.depth = read_depth(config, s.colour, inputs);
   } else {
     Settings street = settings;
     street.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
-    s = rainy_glass::make_backdrop(street, rainy_glass::backdrop_from(config), executor);
+    s = rainy_glass::make_backdrop(street, rainy_glass::backdrop_from(config), executor, panorama);
   }
   if (settings.use_probe && s.probe.empty()) {
     if (config.text("glass.probe_image").empty()) throw Error(ExitCode::usage, "glass.probe_image: expected a panorama beside scene.image, found none");
-    s.probe = linear(read_input(config, "glass.probe_image", inputs));
+    s.probe = read_linear(config, "glass.probe_image", inputs);
   }
   if (settings.shape == rainy_glass::Shape::image) {
     if (config.text("glass.normal_image").empty()) throw Error(ExitCode::usage, "glass.normal_image: expected a picture for glass.shape = \"image\", found none");
     const image_io::Picture p = read_input(config, "glass.normal_image", inputs);
     const bool is_code = info(p.image.format()).kind == FormatInfo::unorm8 || p.srgb_encoded;
-    s.normals = floats_of(p.image, [&](float x, int c) { return c < 3 && is_code ? 2 * x - 1 : x; });
+    s.normals = floats_of(p, [&](float x, int c) { return c < 3 && is_code ? 2 * x - 1 : x; });
   }
-  if (!config.text("maps.raindrops_image").empty()) s.raindrops = read_map(config, "maps.raindrops_image", inputs);
-  if (!config.text("maps.rivulets_image").empty()) s.rivulets = read_map(config, "maps.rivulets_image", inputs);
+  if (!config.text("maps.raindrops_image").empty()) s.raindrops = read_tile(config, "maps.raindrops_image", true, inputs);
+  if (!config.text("maps.rivulets_image").empty()) s.rivulets = read_tile(config, "maps.rivulets_image", true, inputs);
   return s;
 }
 

@@ -1,13 +1,12 @@
 #include <optional>
 
 #include "cli/effects.h"
-#include "cli/inputs.h"
 #include "cli/pictures.h"
-#include "image/colour.h"
-#include "image/texture.h"
+#include "cli/scene_pictures.h"
 #include "image_io/write.h"
 #include "night_street/night_street.h"
 #include "rainref/screen_drops.h"
+#include "scene/panorama_view.h"
 #include "screen_drops/host.h"
 #include "screen_drops/info.h"
 #include "screen_drops/parameters.h"
@@ -19,27 +18,18 @@ using screen_drops::Settings;
 
 constexpr double street_far = 1000;  // depth of its sky [m]; nobody looks at it
 
-/// Row 0 = bottom, linear rgba32f.
-Image linear(const image_io::Picture& p) {
-  const Image image = flipped(p.image);
-  const TextureData decoded(image, Address::clamp, Address::clamp);
-  Image out(Format::rgba32f, image.width(), image.height());
-  const float* in = decoded.view().texels;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int i = 0; i < 4 * image.width(); ++i, ++in) out.row<float>(y)[i] = i % 4 < 3 && p.srgb_encoded ? static_cast<float>(decode_srgb(*in)) : *in;
-  }
-  return out;
-}
-
 screen_drops::Inputs images(const scene::Config& config, const Settings& settings, const parallel::Executor& executor, std::vector<InputFile>& files) {
   screen_drops::check(settings);
   screen_drops::Inputs in;
-  if (config.text("scene.image").empty()) {
+  const Image panorama = read_panorama(config, files);
+  if (!panorama.empty()) {
+    in.colour = scene::panorama_view(panorama, screen_drops::scene_camera(settings), settings.width, settings.height, executor);
+  } else if (config.text("scene.image").empty()) {
     in.colour = night_street::Street({settings.seed}).view(screen_drops::scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
   } else {
-    in.colour = linear(read_input(config, "scene.image", files));
+    in.colour = read_linear(config, "scene.image", files);
   }
-  if (settings.variant == screen_drops::Variant::as_published && !config.text("noise.image").empty()) in.noise = flipped(read_input(config, "noise.image", files).image);
+  if (settings.variant == screen_drops::Variant::as_published && !config.text("noise.image").empty()) in.noise = read_tile(config, "noise.image", false, files);
   return in;
 }
 

@@ -4,8 +4,8 @@
 
 #include "capture/pass_clock.h"
 #include "cli/effects.h"
-#include "cli/inputs.h"
 #include "cli/pictures.h"
+#include "cli/scene_pictures.h"
 #include "cli/truth.h"
 #include "compositor/parameters.h"
 #include "compositor/windshield_truth.h"
@@ -90,17 +90,9 @@ class WindshieldSimulation : public Simulation {
       if (has_depth) throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at, "scene.depth_image: expected scene.image beside it, found none");
       return s;
     }
-    const image_io::Picture picture = read_input(config, "scene.image", inputs);
-    s.colour = windshield::linear_half(flipped(picture.image), picture.srgb_encoded);
-    s.depth = windshield::far_depth(s.colour.width(), s.colour.height());
-    if (has_depth) {
-      const Image depth = flipped(read_input(config, "scene.depth_image", inputs).image);
-      if (depth.width() != s.colour.width() || depth.height() != s.colour.height()) {
-        throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at,
-                    fmt::format("scene.depth_image: expected {}x{} as scene.image, found {}x{}", s.colour.width(), s.colour.height(), depth.width(), depth.height()));
-      }
-      s.depth = windshield::depth_of(depth);
-    }
+    const Image colour = read_linear(config, "scene.image", inputs);
+    s.colour = windshield::opaque_half(colour);
+    s.depth = has_depth ? read_depth(config, colour, inputs) : windshield::far_depth(colour.width(), colour.height());
     return s;
   }
 

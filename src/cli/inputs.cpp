@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/npy_picture.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -12,7 +13,7 @@ image_io::Picture read_input(const scene::Config& config, const std::string& key
   if (path.is_relative() && origin.kind == scene::Origin::file) path = config.directory() / path;
   image_io::Picture picture;
   try {
-    picture = image_io::read(path);
+    picture = is_npy(path) ? read_npy(path) : image_io::read(path);
   } catch (const Error& e) {
     if (origin.kind == scene::Origin::file) throw Error(e.code(), origin.at, fmt::format("{}: {}", key, e.what()));
     throw Error(e.code(), fmt::format("--set {}: {}", key, e.what()));

@@ -9,7 +9,7 @@
 
 namespace rainref::cli {
 
-/// Reads the picture that `key` names and adds it to `inputs`. A file that the scene names lies beside the scene; one from
+/// Reads the picture that `key` names, NPY or what image_io::read takes, and adds it to `inputs`. A file that the scene names lies beside the scene; one from
 /// the command line where the user stands. Throws Error naming the key where it cannot be read.
 image_io::Picture read_input(const scene::Config& config, const std::string& key, std::vector<InputFile>& inputs);
 

@@ -4,8 +4,8 @@
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/kernels.h"
-#include "image/code_table.h"
 #include "rainref/error.h"
+#include "scene/display.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -43,7 +43,7 @@ struct EdgeSplash::State {
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
-    display = CodeTable(settings.width, settings.height, [u = display_uniforms(settings), rounding = settings.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
+    display = scene::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
   }
@@ -70,7 +70,7 @@ void EdgeSplash::render(Recorder* recorder) {
   State& s = *state_;
   const auto published = published_splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
   const auto corrected = splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
-  const DisplayUniforms shown = display_uniforms(s.settings);
+  const scene::DisplayUniforms shown = scene::display_uniforms(s.settings.exposure);
   const SplashInputs in{&s.scene, &s.depth.view(), &s.noise_map.view(), &s.layer};
   const SplashOutputs out{&s.edge, &s.angle, &s.noise, &s.colour};
   const Rounding rounding = s.settings.rounding;

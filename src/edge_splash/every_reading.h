@@ -19,7 +19,6 @@ using namespace rainref::plain;
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
 #include "edge_splash/splash.pass.h"
-#include "edge_splash/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

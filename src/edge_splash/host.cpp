@@ -124,12 +124,6 @@ SplashUniforms splash_uniforms(const Settings& s, int frame, int noise_width, in
   return u;
 }
 
-DisplayUniforms display_uniforms(const Settings& s) {
-  DisplayUniforms u{};
-  u.exposure = static_cast<float>(exp2_real(Real64(s.exposure)).v);
-  return u;
-}
-
 double scrolled(double velocity, int frame, double fps) {
   const double gone = velocity * frame / fps, rest = gone - std::floor(gone);
   return rest < 1 ? rest : 0.0;  // a small negative number

@@ -16,7 +16,6 @@ scene::Camera camera(const Settings& settings);
 
 PublishedSplashUniforms published_splash_uniforms(const Settings& settings, int frame, int noise_width, int noise_height);
 SplashUniforms splash_uniforms(const Settings& settings, int frame, int noise_width, int noise_height);
-DisplayUniforms display_uniforms(const Settings& settings);
 
 /// Where a scroll of `velocity` tiles a second stands at frame / fps: in [0, 1). A product and a quotient of doubles, then the
 /// exact fraction: off by no more than 2^-52 of the tiles gone.

@@ -1,5 +1,6 @@
 #include "edge_splash/info.h"
 
+#include "capture/display.h"
 #include "edge_splash/uniforms.h"
 
 namespace rainref::edge_splash {
@@ -44,7 +45,6 @@ EffectInfo make() {
                          member<&U::noise_high>("noise_high", "1", "Noise from which it is whole."),
                          member<&U::noise_scale>("noise_scale", "1", "Texture coordinates of the noise in a pixel."),
                          member<&U::noise_offset>("noise_offset", "1", "Texture coordinates that the noise has scrolled, in [0, 1).")});
-  const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
 
   constexpr auto envelope = Judge::envelope;
   EffectInfo info;
@@ -53,7 +53,7 @@ EffectInfo make() {
       {"splash", "Masks of edge, angle and noise, and the scene with drops blended over it.",
        {{published, 1, envelope, "PublishedSplashUniforms"}, {correct, 1, envelope, "SplashUniforms"}},
        {{"scene"}, {"depth"}, {"noise_map"}, {"layer", "", false, correct}}, {"edge", "angle", "noise", "colour"}, {printed, splash}, "gather", {"sobel", "length"}},
-      {"display", "Display code.", {{published, 1, envelope, "DisplayUniforms"}, {correct, 1, envelope, "DisplayUniforms"}}, {{"colour", "splash"}}, {"picture"}, {display}},
+      display_info("splash"),
   };
   const std::array<double, 2> one{0, 1};
   info.buffers = {

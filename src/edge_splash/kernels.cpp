@@ -1,4 +1,4 @@
-// Shells of splash and display; compiled once for each SIMD target.
+// Shells of splash; compiled once for each SIMD target.
 #include "edge_splash/kernels.h"
 
 #include <algorithm>
@@ -13,7 +13,6 @@ RAINREF_TARGET_BEGIN(edge_splash)
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
 #include "edge_splash/splash.pass.h"
-#include "edge_splash/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
@@ -49,35 +48,19 @@ void SplashRows(const SplashUniforms& uniforms, Rounding rounding, const SplashI
       store_splash(out, splash_corrected<Lanes>(uniforms, depth, noise, layer, load_scene(*in.scene, x, y), x, y), rounding, x, y, std::min(Lanes::size(), tile.x1 - x));
     }
   }
-}
-void DisplayRows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      Lanes in[4];
-      load4(colour.row<Half>(y) + 4 * x, in);
-      const Vec3<Lanes> c = display<Lanes>(uniforms, Vec3<Lanes>(in[0], in[1], in[2]));
-      const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
-      store4(picture.row<Unorm8>(y) + 4 * x, rgba, rounding);
-    }
-  }
-}
-RAINREF_TARGET_END(edge_splash)
+}RAINREF_TARGET_END(edge_splash)
 
 #if RAINREF_ONCE
 namespace rainref::edge_splash {
 
 RAINREF_EXPORT(PublishedSplashRows);
 RAINREF_EXPORT(SplashRows);
-RAINREF_EXPORT(DisplayRows);
 
 void splash_rows(const PublishedSplashUniforms& uniforms, Rounding rounding, const SplashInputs& in, const SplashOutputs& out, const parallel::Tile& tile) {
   RAINREF_DISPATCH(PublishedSplashRows)(uniforms, rounding, in, out, tile);
 }
 void splash_rows(const SplashUniforms& uniforms, Rounding rounding, const SplashInputs& in, const SplashOutputs& out, const parallel::Tile& tile) {
   RAINREF_DISPATCH(SplashRows)(uniforms, rounding, in, out, tile);
-}
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(DisplayRows)(uniforms, rounding, colour, picture, tile);
 }
 
 }  // namespace rainref::edge_splash

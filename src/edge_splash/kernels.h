@@ -20,7 +20,5 @@ struct SplashOutputs {
 };
 void splash_rows(const PublishedSplashUniforms& uniforms, Rounding rounding, const SplashInputs& in, const SplashOutputs& out, const parallel::Tile& tile);
 void splash_rows(const SplashUniforms& uniforms, Rounding rounding, const SplashInputs& in, const SplashOutputs& out, const parallel::Tile& tile);
-/// picture: rgba8, alpha 1.
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
 
 }  // namespace rainref::edge_splash

@@ -34,9 +34,10 @@ std::span<const scene::Parameter> parameters() {
       real2("edge_splash.drop_velocity", "picture height/s", -1000, 1000, {0.25, -1.0}, "Velocity of the noise.").only(correct),
       // The picture.
       choice("scene.source", {"shapes", "street", "files"}, "shapes", "A mine track in fog, the street at night, both made here, or the files below."),
-      text("scene.image", "", "Picture that rain falls on, EXR, HDR or PNG; needs scene.depth_image."),
-      text("scene.depth_image", "", "Its depth, EXR, 16-bit PNG or NPY (height x width, float)."),
+      text("scene.image", "", "Picture that rain falls on, EXR, HDR, PNG or NPY; needs scene.depth_image."),
+      text("scene.depth_image", "", "Its depth, EXR, 16-bit PNG or NPY."),
       choice("scene.depth_encoding", {"device", "metres"}, "device", "What the depth image holds: device depth in [0, 1], or metres along the view axis."),
+      real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image, where it holds metres (65.535 for 16-bit millimetres)."),
       text("scene.noise_image", "", "Noise map, a tile; empty: gradient noise made here."),
       text("scene.layer_image", "", "Where splashes may be, white; empty: everywhere.").only(correct),
       real("scene.near", "m", 1e-4, 1e5, 0.3, "Near plane of the device depth."),

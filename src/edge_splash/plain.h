@@ -13,7 +13,6 @@ using namespace rainref::plain;
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
 #include "edge_splash/splash.pass.h"
-#include "edge_splash/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

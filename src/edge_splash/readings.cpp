@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "capture/display.h"
 #include "edge_splash/every_reading.h"
 #include "rainref/error.h"
 
@@ -119,36 +120,10 @@ std::unique_ptr<PassModel> bind_splash(const PassCase& c) {
   return capture::model_of(std::move(m));
 }
 
-// ---- display -------------------------------------------------------------------------------------------------------
-struct Display {
-  int width, height, values = 4;
-  DisplayUniforms uniforms;
-  BoundTexture colour;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    const every::Channels<N, 4> in = four_channels<N>(colour, x, y);
-    const plain::Vec3<N> code = every::display<N>(uniforms, plain::Vec3<N>(in[0], in[1], in[2]));
-    out[0] = code.x;
-    out[1] = code.y;
-    out[2] = code.z;
-    out[3] = N(1.0f);
-  }
-};
-std::unique_ptr<PassModel> bind_display(const PassCase& c) {
-  const capture::Array& colour = capture::image_input(c, "colour").array;
-  Display m;
-  m.width = colour.width;
-  m.height = colour.height;
-  m.uniforms = capture::uniforms_of<DisplayUniforms>(c);
-  m.colour = image_of(c, "colour", m.width, m.height, 4);
-  return capture::model_of(std::move(m));
-}
-
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
-  static const std::vector<capture::PassReadings> all{{"splash", bind_splash}, {"display", bind_display}};
+  static const std::vector<capture::PassReadings> all{{"splash", bind_splash}, {"display", capture::bind_display}};
   return all;
 }
 

@@ -36,11 +36,6 @@ struct SplashUniforms {
   float noise_offset[2];  ///< scrolled so far, in [0, 1)
 };
 
-struct DisplayUniforms {
-  float exposure;  ///< factor of the radiance
-  float padding0, padding1, padding2;
-};
-
-static_assert(sizeof(PublishedSplashUniforms) == 64 && sizeof(SplashUniforms) == 112 && sizeof(DisplayUniforms) == 16);
+static_assert(sizeof(PublishedSplashUniforms) == 64 && sizeof(SplashUniforms) == 112);
 
 }  // namespace rainref::edge_splash

@@ -6,6 +6,8 @@
 
 #include "night_street/night_street.h"
 #include "rainy_glass/host.h"
+#include "rainy_glass/storage.h"
+#include "scene/panorama_view.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -76,14 +78,22 @@ Image defocused(const Image& image, double radius, const parallel::Executor& exe
   return out;
 }
 
-Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const parallel::Executor& executor) {
-  const night_street::Street street({s.seed});
-  night_street::Street::View view = street.view(camera(s), s.width, s.height, backdrop_far, executor);
+Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const parallel::Executor& executor, const Image& panorama) {
   Surroundings around;
-  around.colour = defocused(view.colour, options.defocus * s.height, executor);
-  around.depth = std::move(view.depth);
+  if (panorama.empty()) {
+    const night_street::Street street({s.seed});
+    night_street::Street::View view = street.view(camera(s), s.width, s.height, backdrop_far, executor);
+    around.colour = std::move(view.colour);
+    around.depth = std::move(view.depth);
+    if (s.use_probe) around.probe = street.panorama(1024, 512, camera(s).position, executor);
+  } else {
+    around.colour = scene::panorama_view(panorama, camera(s), s.width, s.height, executor);
+    around.depth = Image(Format::r32f, s.width, s.height);
+    for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
+    if (s.use_probe) around.probe = copy(panorama);
+  }
+  around.colour = defocused(around.colour, options.defocus * s.height, executor);
   if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around);
-  if (s.use_probe) around.probe = street.panorama(1024, 512, camera(s).position, executor);
   return around;
 }
 

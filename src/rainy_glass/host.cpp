@@ -140,12 +140,6 @@ RainOnGlassUniforms rain_on_glass_uniforms(const Settings& s, int frame, Code ra
   return u;
 }
 
-DisplayUniforms display_uniforms(const Settings& s) {
-  DisplayUniforms u{};
-  u.exposure = static_cast<float>(exp2_real(Real64(s.exposure)).v);
-  return u;
-}
-
 std::size_t memory_bytes(const Settings& s) {
   const std::size_t maps = 2 * (Image::memory_bytes(s.map_storage, s.map_size, s.map_size) + static_cast<std::size_t>(s.map_size) * s.map_size * 16);
   const std::size_t picture = Image::memory_bytes(Format::rgba32f, s.width, s.height) + 3 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +

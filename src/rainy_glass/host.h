@@ -38,7 +38,6 @@ BakeRaindropsUniforms bake_raindrops_uniforms(const Settings& settings, int drop
 BakeRivuletsUniforms bake_rivulets_uniforms(const Settings& settings, int trail_count);
 /// raindrops, rivulets: formats that the maps had before they were stored (8-bit files keep their own neutral code).
 RainOnGlassUniforms rain_on_glass_uniforms(const Settings& settings, int frame, Code raindrops, Code rivulets);
-DisplayUniforms display_uniforms(const Settings& settings);
 
 /// Those of `all`, in order, that may count in texels [x0, x1) x [y0, y1) of a map of `size` texels: that cover some of it, or
 /// are nearest to some of it. Leaving out the others changes no bit.

@@ -1,5 +1,6 @@
 #include "rainy_glass/info.h"
 
+#include "capture/display.h"
 #include "rainy_glass/uniforms.h"
 
 namespace rainref::rainy_glass {
@@ -58,7 +59,6 @@ EffectInfo make() {
        member<&G::up>("up", "1", "Unit vector to the top of the picture."),
        member<&G::half_height>("half_height", "1", "Half the height of the image plane at distance 1."),
        member<&G::forward>("forward", "1", "Unit vector into the picture.")});
-  const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
   const UniformBlock droplet = record<Droplet>(
       "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."), member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
                   member<&Droplet::height>("height", "1", "At the centre."), member<&Droplet::m00>("m00", "1", "q = M d is 1 long at the rim."),
@@ -81,7 +81,7 @@ EffectInfo make() {
       {"rain_on_glass", "The scene seen through the wet glass: linear radiance.", both("RainOnGlassUniforms"),
        {{"surface"}, {"orientation"}, {"raindrops", "bake_raindrops"}, {"rivulets", "bake_rivulets"}, {"scene"}, {"scene_depth", "", false, correct}, {"near_depth", "", false, correct}, {"probe"}},
        {"colour"}, {rain_on_glass}, "gather", {"dot", "1 - normal squared"}},
-      {"display", "Display code.", both("DisplayUniforms"), {{"colour", "rain_on_glass"}}, {"picture"}, {display}},
+      display_info("rain_on_glass"),
   };
   const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
   info.buffers = {

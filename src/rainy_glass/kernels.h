@@ -22,7 +22,5 @@ struct GlassInputs {
 };
 /// colour: rgba16f, alpha 1.
 void rain_on_glass_rows(const RainOnGlassUniforms& uniforms, bool corrected, Rounding rounding, const GlassInputs& in, Image& colour, const parallel::Tile& tile);
-/// picture: rgba8, alpha 1.
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
 
 }  // namespace rainref::rainy_glass

@@ -1,4 +1,4 @@
-// Shells of rain_on_glass and display; compiled once for each SIMD target.
+// Shell of rain_on_glass; compiled once for each SIMD target.
 #include <concepts>
 #include <cstdint>
 
@@ -35,31 +35,15 @@ void RainOnGlassRows(const RainOnGlassUniforms& uniforms, bool corrected, Roundi
     }
   }
 }
-
-void DisplayRows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      Lanes in[4];
-      load4(colour.row<Half>(y) + 4 * x, in);
-      const Vec3<Lanes> c = display<Lanes>(uniforms, Vec3<Lanes>(in[0], in[1], in[2]));
-      const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
-      store4(picture.row<Unorm8>(y) + 4 * x, rgba, rounding);
-    }
-  }
-}
 RAINREF_TARGET_END(rainy_glass)
 
 #if RAINREF_ONCE
 namespace rainref::rainy_glass {
 
 RAINREF_EXPORT(RainOnGlassRows);
-RAINREF_EXPORT(DisplayRows);
 
 void rain_on_glass_rows(const RainOnGlassUniforms& uniforms, bool corrected, Rounding rounding, const GlassInputs& in, Image& colour, const parallel::Tile& tile) {
   RAINREF_DISPATCH(RainOnGlassRows)(uniforms, corrected, rounding, in, colour, tile);
-}
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(DisplayRows)(uniforms, rounding, colour, picture, tile);
 }
 
 }  // namespace rainref::rainy_glass

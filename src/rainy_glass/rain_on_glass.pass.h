@@ -1,4 +1,4 @@
-// Pass rain_on_glass: the scene behind wet glass; and display: its code values.
+// Pass rain_on_glass: the scene behind wet glass.
 
 /// What a pixel sees of the glass and of the scene, as stored.
 template <class N>
@@ -128,7 +128,3 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const G
   const N nearest = sample_bilinear<0, 1, N>(fixed_texture<Address::clamp, Address::clamp, 1>(*m.near_depth), su, sv)[0];
   return select(seen & (nearest > p.distance), scene_at(m, su, sv), p.own);
 }
-
-// ---- display -------------------------------------------------------------------------------------------------------
-template <class N>
-RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) { return display_code(N(d.exposure) * colour); }

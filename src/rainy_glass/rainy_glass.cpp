@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "capture/pass_clock.h"
-#include "image/code_table.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
 #include "rainy_glass/storage.h"
+#include "scene/display.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -67,7 +67,7 @@ struct RainyGlass::State {
     make_surface(s, around.normals, surface, orientation);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = CodeTable(s.width, s.height, [u = display_uniforms(s), rounding = s.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
+    display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
   template <class Uniforms>
@@ -117,7 +117,7 @@ void RainyGlass::frame(Recorder* recorder) {
   State& s = *state_;
   if (s.frame == 0) s.bake(recorder);
   const RainOnGlassUniforms u = rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code);
-  const DisplayUniforms d = display_uniforms(s.settings);
+  const scene::DisplayUniforms d = scene::display_uniforms(s.settings.exposure);
   std::vector<PassInput> inputs{{"surface", s.surface}, {"orientation", s.orientation}};
   inputs.push_back({"raindrops", s.raindrops, Filter::linear, Filter::none, Address::repeat});
   inputs.push_back({"rivulets", s.rivulets, Filter::linear, Filter::none, Address::repeat});

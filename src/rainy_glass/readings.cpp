@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "capture/display.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/plain.h"
@@ -149,27 +150,6 @@ std::unique_ptr<PassModel> bind_rain_on_glass(const PassCase& c) {
   return capture::model_of(std::move(m));
 }
 
-// ---- display ---------------------------------------------------------------------------------------------------------
-struct Display {
-  int width, height, values = 4;
-  DisplayUniforms uniforms;
-  BoundTexture colour;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    const float* in = colour.view().texels + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
-    const plain::Vec3<N> c = scalar::display<N>(uniforms, plain::Vec3<N>(N::load(in), N::load(in + 1), N::load(in + 2)));
-    out[0] = c.x;
-    out[1] = c.y;
-    out[2] = c.z;
-    out[3] = N(1.0f);
-  }
-};
-std::unique_ptr<PassModel> bind_display(const PassCase& c) {
-  const capture::CaseInput& colour = capture::image_input(c, "colour");
-  return capture::model_of(Display{colour.array.width, colour.array.height, 4, capture::uniforms_of<DisplayUniforms>(c), BoundTexture(colour)});
-}
-
 /// near_depth is made from scene_depth: whether it is this one's.
 std::string doubt_near_depth(const PassCase& c) {
   if (!c.corrected()) return "";
@@ -192,7 +172,7 @@ std::string doubt_near_depth(const PassCase& c) {
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all{
-      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", bind_display}};
+      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", capture::bind_display}};
   return all;
 }
 

@@ -75,12 +75,7 @@ struct RainOnGlassUniforms {
   float padding1;
 };
 
-struct DisplayUniforms {
-  float exposure;  ///< factor of the radiance
-  float padding0, padding1, padding2;
-};
-
 static_assert(sizeof(Droplet) == 32 && sizeof(Trail) == 32 && sizeof(BakeRaindropsUniforms) == 32 && sizeof(BakeRivuletsUniforms) == 32);
-static_assert(sizeof(RainOnGlassUniforms) == 160 && sizeof(DisplayUniforms) == 16);
+static_assert(sizeof(RainOnGlassUniforms) == 160);
 
 }  // namespace rainref::rainy_glass

@@ -1,4 +1,4 @@
-// Pass background: the scene out of focus, without water; and display: code values.
+// Pass background: the scene out of focus, without water.
 
 template <class N, class T>
 RAINREF_FN Vec3<N> scene_at(const T& scene, N u, N v, N level) {
@@ -20,6 +20,3 @@ RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& sc
   for (int k = 0; k < b.tap_count; ++k) sum = sum + scene_at<N>(scene, u + N(taps[k].x), v + N(taps[k].y), N(b.level));
   return N(b.weight) * sum;
 }
-
-template <class N>
-RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) { return display_code(N(d.exposure) * colour); }

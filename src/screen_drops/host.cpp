@@ -205,12 +205,6 @@ DropsUniforms drops_uniforms(const Settings& s, const std::array<Layer, layers>&
   return u;
 }
 
-DisplayUniforms display_uniforms(const Settings& s) {
-  DisplayUniforms u{};
-  u.exposure = static_cast<float>(exp2_real(Real64(s.exposure)).v);
-  return u;
-}
-
 Image make_noise(std::uint64_t seed, int side) {
   Image noise(Format::rgba8, side, side);
   for (int y = 0; y < side; ++y) {

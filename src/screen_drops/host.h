@@ -38,7 +38,6 @@ PublishedDropsUniforms published_drops_uniforms(const Settings& settings, int fr
 CellsUniforms cells_uniforms(const Settings& settings, const std::array<Layer, layers>& all, int frame);
 /// flow: columns and rows of the height of flowing water over the whole picture; 0: none.
 DropsUniforms drops_uniforms(const Settings& settings, const std::array<Layer, layers>& all, const std::array<int, 2>& flow);
-DisplayUniforms display_uniforms(const Settings& settings);
 
 /// White noise, rgba8, each byte drawn from the seed.
 Image make_noise(std::uint64_t seed, int side);

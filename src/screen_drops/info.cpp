@@ -1,5 +1,6 @@
 #include "screen_drops/info.h"
 
+#include "capture/display.h"
 #include "screen_drops/flow_info.h"
 #include "screen_drops/uniforms.h"
 
@@ -45,7 +46,6 @@ EffectInfo make() {
                         member<&D::visible_from>("visible_from", "mm", "Height at which flowing water begins to show."), member<&D::visible_to>("visible_to", "mm", "Height from which it shows fully."),
                         member<&D::flow_level>("flow_level", "1", "Mip level at which flowing water sees the scene."),
                         member<&D::flow_texel>("flow_texel", "1", "1 over the columns and rows of height.")});
-  const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
   const UniformBlock tap = record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."), member<&Tap::y>("y", "1", "See x.")});
 
   constexpr auto envelope = Judge::envelope;
@@ -59,7 +59,7 @@ EffectInfo make() {
       {"drops", "The scene through the drops on the window: linear radiance, and where water is.", {{published, 1, envelope, "PublishedDropsUniforms"}, {correct, 1, envelope, "DropsUniforms"}},
        {{"background", "background"}, {"scene"}, {"noise", "", false, published}, {"cells", "cells", false, correct}, {"height", "splat", false, correct}}, {"water", "colour"}, {printed, drops},
        "gather", {"dot", "length", "normalize"}},
-      {"display", "Display code.", {{published, 1, envelope, "DisplayUniforms"}, {correct, 1, envelope, "DisplayUniforms"}}, {{"colour", "drops"}}, {"picture"}, {display}},
+      display_info("drops"),
        }) {
     info.passes.push_back(pass);
   }

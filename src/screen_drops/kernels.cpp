@@ -1,4 +1,4 @@
-// Shells of background, drops and display; compiled once for each SIMD target.
+// Shells of background and drops; compiled once for each SIMD target.
 #include "screen_drops/kernels.h"
 
 #include <algorithm>
@@ -63,16 +63,6 @@ void DropsRows(const DropsUniforms& uniforms, Rounding rounding, const DropsInpu
   window_rows(rounding, *in.background, water, colour, tile,
               [&](const Vec3<Lanes>& below, int x, int y) HWY_ATTR __attribute__((always_inline)) { return drops_corrected<Lanes>(uniforms, scene, cells, height, below, x, y); });
 }
-
-void DisplayRows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      const Vec3<Lanes> c = display<Lanes>(uniforms, load_colour(colour.row<Half>(y) + 4 * x));
-      const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
-      store4(picture.row<Unorm8>(y) + 4 * x, rgba, rounding);
-    }
-  }
-}
 RAINREF_TARGET_END(screen_drops)
 
 #if RAINREF_ONCE
@@ -81,7 +71,6 @@ namespace rainref::screen_drops {
 RAINREF_EXPORT(BackgroundRows);
 RAINREF_EXPORT(PublishedDropsRows);
 RAINREF_EXPORT(DropsRows);
-RAINREF_EXPORT(DisplayRows);
 
 void background_rows(const BackgroundUniforms& uniforms, bool corrected, Rounding rounding, const StoredTexture<Half>& scene, std::span<const Tap> taps, Image& background, const parallel::Tile& tile) {
   RAINREF_DISPATCH(BackgroundRows)(uniforms, corrected, rounding, scene, taps, background, tile);
@@ -91,9 +80,6 @@ void drops_rows(const PublishedDropsUniforms& uniforms, Rounding rounding, const
 }
 void drops_rows(const DropsUniforms& uniforms, Rounding rounding, const DropsInputs& in, Image& water, Image& colour, const parallel::Tile& tile) {
   RAINREF_DISPATCH(DropsRows)(uniforms, rounding, in, water, colour, tile);
-}
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(DisplayRows)(uniforms, rounding, colour, picture, tile);
 }
 
 }  // namespace rainref::screen_drops

@@ -24,7 +24,5 @@ struct DropsInputs {
 /// water: r8; colour: rgba16f, alpha 1.
 void drops_rows(const PublishedDropsUniforms& uniforms, Rounding rounding, const DropsInputs& in, Image& water, Image& colour, const parallel::Tile& tile);
 void drops_rows(const DropsUniforms& uniforms, Rounding rounding, const DropsInputs& in, Image& water, Image& colour, const parallel::Tile& tile);
-/// picture: rgba8, alpha 1.
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
 
 }  // namespace rainref::screen_drops

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "capture/display.h"
 #include "rainref/error.h"
 #include "screen_drops/cells.h"
 #include "screen_drops/flow_info.h"
@@ -133,26 +134,12 @@ std::unique_ptr<PassModel> bind_drops(const PassCase& c) {
   return capture::model_of(std::move(m));
 }
 
-// ---- display ---------------------------------------------------------------------------------------------------------
-struct Display {
-  int width, height, values = 4;
-  DisplayUniforms uniforms;
-  BoundTexture colour;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const { put(scalar::display<N>(uniforms, colour_at<N>(colour, x, y)), out); }
-};
-std::unique_ptr<PassModel> bind_display(const PassCase& c) {
-  const capture::Array& colour = capture::image_input(c, "colour").array;
-  return capture::model_of(Display{colour.width, colour.height, 4, capture::uniforms_of<DisplayUniforms>(c), image_of(c, "colour", 4)});
-}
-
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all = [] {
     std::vector<capture::PassReadings> passes = flow_readings();
-    for (const capture::PassReadings& own : {capture::PassReadings{"background", bind_background}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", bind_display}}) passes.push_back(own);
+    for (const capture::PassReadings& own : {capture::PassReadings{"background", bind_background}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", capture::bind_display}}) passes.push_back(own);
     return passes;
   }();
   return all;

@@ -7,8 +7,8 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
-#include "image/code_table.h"
 #include "rainref/error.h"
+#include "scene/display.h"
 #include "screen_drops/cells.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
@@ -56,7 +56,7 @@ struct ScreenDrops::State {
     water = Image(Format::r8, s.width, s.height);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = CodeTable(s.width, s.height, [u = display_uniforms(s), rounding = s.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
+    display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
   const Image& height() const { return flow ? flow->height() : no_height; }
@@ -107,7 +107,7 @@ void ScreenDrops::render(Recorder* recorder) {
   if (s.corrected) s.fill_cells(recorder);
   const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
   const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
-  const DisplayUniforms shown = display_uniforms(s.settings);
+  const scene::DisplayUniforms shown = scene::display_uniforms(s.settings.exposure);
   const DropsInputs in{s.scene.view(), &s.noise.view(), s.corrected ? stored_texture<float>(s.cells) : StoredTexture<float>(), s.corrected ? stored_texture<Half>(s.height()) : StoredTexture<Half>(), &s.background};
   const Rounding rounding = s.settings.rounding;
   // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.

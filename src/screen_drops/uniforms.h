@@ -72,12 +72,7 @@ struct DropsUniforms {
   float flow_texel[2];        ///< 1 / columns and rows of height
 };
 
-struct DisplayUniforms {
-  float exposure;  ///< factor of the radiance
-  float padding0, padding1, padding2;
-};
-
 static_assert(sizeof(Tap) == 16 && sizeof(BackgroundUniforms) == 48 && sizeof(PublishedDropsUniforms) == 32 && sizeof(CellsUniforms) == 80);
-static_assert(sizeof(DropsUniforms) == 176 && sizeof(DisplayUniforms) == 16);
+static_assert(sizeof(DropsUniforms) == 176);
 
 }  // namespace rainref::screen_drops

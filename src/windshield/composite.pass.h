@@ -1,4 +1,4 @@
-// Pass composite: what the eye sees through the wet glass; and display: its code values.
+// Pass composite: what the eye sees through the wet glass.
 
 /// The pixel's view ray and where it meets the glass. The ray is (x, y, 1) in camera axes: right, up, forward.
 template <class N>
@@ -148,7 +148,3 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   }
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }
-
-// ---- display -------------------------------------------------------------------------------------------------------
-template <class N>
-RAINREF_FN Vec3<N> display(const DisplayUniforms& d, const Vec3<N>& colour) { return display_code(N(d.exposure) * colour); }

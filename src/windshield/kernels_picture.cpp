@@ -1,4 +1,4 @@
-// Shells of composite and display; compiled once for each SIMD target.
+// Shell of composite; compiled once for each SIMD target.
 #include <algorithm>
 
 #include "windshield/picture.h"
@@ -31,31 +31,15 @@ void CompositeRows(const CompositeUniforms& uniforms, bool corrected, Rounding r
     }
   }
 }
-
-void DisplayRows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      Lanes in[4];
-      load4(colour.row<Half>(y) + 4 * x, in);
-      const Vec3<Lanes> c = display<Lanes>(uniforms, Vec3<Lanes>(in[0], in[1], in[2]));
-      const Lanes rgba[4] = {c.x, c.y, c.z, Lanes(1.0f)};
-      store4(picture.row<Unorm8>(y) + 4 * x, rgba, rounding);
-    }
-  }
-}
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 namespace rainref::windshield {
 
 RAINREF_EXPORT(CompositeRows);
-RAINREF_EXPORT(DisplayRows);
 
 void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile) {
   RAINREF_DISPATCH(CompositeRows)(uniforms, corrected, rounding, in, colour, tile);
-}
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(DisplayRows)(uniforms, rounding, colour, picture, tile);
 }
 
 }  // namespace rainref::windshield

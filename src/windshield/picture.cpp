@@ -101,10 +101,4 @@ std::vector<Glint> glints(const PictureSettings& s) {
   return out;
 }
 
-DisplayUniforms display_uniforms(const PictureSettings& s) {
-  DisplayUniforms d{};
-  d.exposure = static_cast<float>(exp2_real(Real64(s.exposure)).v);
-  return d;
-}
-
 }  // namespace rainref::windshield

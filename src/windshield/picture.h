@@ -1,4 +1,4 @@
-// The picture's passes: shells of composite and display, and the host's part of them.
+// The picture's passes: the shell of composite, and the host's part of it and of display.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "rainref/image.h"
 #include "rainref/storage.h"
 #include "scene/camera.h"
+#include "scene/display.h"
 #include "windshield/uniforms.h"
 
 namespace rainref::windshield {
@@ -38,7 +39,9 @@ using Corners = std::array<std::array<double, 3>, 3>;
 /// Everything that composite takes besides images. Throws Error(usage) when the eye lies in the plane of the glass.
 CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners);
 std::vector<Glint> glints(const PictureSettings& settings);
-DisplayUniforms display_uniforms(const PictureSettings& settings);
+using scene::display_rows;
+using scene::DisplayUniforms;
+inline DisplayUniforms display_uniforms(const PictureSettings& settings) { return scene::display_uniforms(settings.exposure); }
 /// The camera in car axes.
 scene::Camera camera(const PictureSettings& settings);
 /// Vertical field of view of the picture of the scene [deg].
@@ -52,7 +55,5 @@ struct CompositeInputs {
 };
 /// colour: rgba16f, alpha 1.
 void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile);
-/// picture: rgba8, alpha 1.
-void display_rows(const DisplayUniforms& uniforms, Rounding rounding, const Image& colour, Image& picture, const parallel::Tile& tile);
 
 }  // namespace rainref::windshield

@@ -1,5 +1,7 @@
 #include "windshield/picture_info.h"
 
+#include "capture/display.h"
+
 namespace rainref::windshield {
 namespace {
 
@@ -35,13 +37,12 @@ std::vector<PassInfo> picture_passes() {
        member<&U::glint_count>("glint_count", "1", "Lights in the list."),
        member<&U::water_ior>("water_ior", "1", "corrected: refractive index of the water."),
        member<&U::inner>("inner", "1", "corrected: share of the blurred scene that the water's surface mirrors.")});
-  const UniformBlock display = uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")});
   const std::vector<std::string> lengths{"dot", "length", "normalize"};
   constexpr auto envelope = Judge::envelope;
   return {
       {"composite", "The scene through film and drops, with glints: linear radiance.", {{published, 1, envelope, "CompositeUniforms"}, {correct, 1, envelope, "CompositeUniforms"}},
        {{"blurred", "blur_pyramid"}, {"scene_depth", "", false, correct}, {"height", "wipe_texture"}, {"normal", "normals"}, {"mask", "wipe_texture"}, {"glints"}}, {"colour"}, {composite}, "gather", lengths},
-      {"display", "Display code.", {{published, 1, envelope, "DisplayUniforms"}, {correct, 1, envelope, "DisplayUniforms"}}, {{"colour", "composite"}}, {"picture"}, {display}},
+      display_info("composite"),
   };
 }
 

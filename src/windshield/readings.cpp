@@ -1,5 +1,6 @@
 #include "windshield/readings.h"
 
+#include "capture/display.h"
 #include "drops/readings.h"
 
 namespace rainref::windshield {
@@ -15,7 +16,7 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"normals", bind_normals},
                                                       {"blur_pyramid", bind_blur_pyramid},
                                                       {"composite", bind_composite},
-                                                      {"display", bind_display}};
+                                                      {"display", capture::bind_display}};
   return all;
 }
 

@@ -17,6 +17,5 @@ std::unique_ptr<capture::PassModel> bind_wipe_texture(const capture::PassCase& c
 std::unique_ptr<capture::PassModel> bind_normals(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_blur_pyramid(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_composite(const capture::PassCase& c);
-std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);
 
 }  // namespace rainref::windshield

@@ -1,4 +1,4 @@
-// composite and display bound to captured cases.
+// composite bound to captured cases.
 #include "capture/bound_texture.h"
 #include "windshield/every_reading.h"
 #include "windshield/readings.h"
@@ -28,22 +28,6 @@ struct Composite {
   }
 };
 
-struct Display {
-  int width, height, values = 4;
-  DisplayUniforms uniforms;
-  BoundTexture colour;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    const float* texel = colour.view().texels + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
-    const plain::Vec3<N> c = every::display<N>(uniforms, plain::Vec3<N>(N::load(texel), N::load(texel + 1), N::load(texel + 2)));
-    out[0] = c.x;
-    out[1] = c.y;
-    out[2] = c.z;
-    out[3] = N(1.0f);
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<PassModel> bind_composite(const PassCase& c) {
@@ -63,16 +47,6 @@ std::unique_ptr<PassModel> bind_composite(const PassCase& c) {
   // No more lights than there are.
   if (m.uniforms.glint_count < 0 || m.uniforms.glint_count > static_cast<std::int32_t>(m.glints.size()))
     m.uniforms.glint_count = static_cast<std::int32_t>(m.glints.size());
-  return capture::model_of(std::move(m));
-}
-
-std::unique_ptr<PassModel> bind_display(const PassCase& c) {
-  const capture::CaseInput& colour = capture::image_input(c, "colour");
-  Display m;
-  m.width = colour.array.width;
-  m.height = colour.array.height;
-  m.uniforms = capture::uniforms_of<DisplayUniforms>(c);
-  m.colour = BoundTexture(colour);
   return capture::model_of(std::move(m));
 }
 

@@ -20,8 +20,9 @@ std::vector<Parameter> make() {
   append(all, drops::splat_parameters("windshield"));
   append(all, surface_parameters("windshield"));
   append(all, blur_pyramid::blur_parameters("blur"));
-  append(all, {text("scene.image", "", "Picture of what lies before the car, EXR, HDR or PNG; empty: the street at night made here."),
-               text("scene.depth_image", "", "Its depth along the view axis in metres, EXR or another float format; empty: everything is far away."),
+  append(all, {text("scene.image", "", "Picture of what lies before the car, EXR, HDR, PNG or NPY; empty: the street at night made here."),
+               text("scene.depth_image", "", "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
+               real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
                integer2("scene.size", "texel", 8, 8192, {1280, 720}, "Columns and rows of the street's picture."),
                real("scene.margin", "1", 1, 4, 1.15, "Width of the scene's picture over that of the view."),
                real("scene.start", "m", 0, 1e6, 0, "Place on the street at time 0."),

@@ -52,11 +52,6 @@ struct CompositeUniforms {
   float padding0, padding1;
 };
 
-struct DisplayUniforms {
-  float exposure;  ///< factor of the radiance
-  float padding0, padding1, padding2;
-};
-
-static_assert(sizeof(Wiper) == 80 && sizeof(Glint) == 32 && sizeof(CompositeUniforms) == 160 && sizeof(DisplayUniforms) == 16);
+static_assert(sizeof(Wiper) == 80 && sizeof(Glint) == 32 && sizeof(CompositeUniforms) == 160);
 
 }  // namespace rainref::windshield

@@ -6,7 +6,6 @@
 
 #include "capture/pass_clock.h"
 #include "drops/wet_glass.h"
-#include "image/code_table.h"
 #include "rainref/error.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
@@ -62,7 +61,7 @@ struct Windshield::State {
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
-    display = CodeTable(settings.picture.width, settings.picture.height, [u = display_uniforms(settings.picture), rounding = settings.surface.rounding](const Image& linear, Image& codes, int y0, int y1) { display_rows(u, rounding, linear, codes, {0, y0, linear.width(), y1}); });
+    display = scene::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     if (own_scene) {

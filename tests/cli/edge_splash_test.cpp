@@ -1,7 +1,5 @@
 // edge_splash on files: what runs, what is doubted, what is refused.
-#include <cmath>
-
-#include "cli/support.h"
+#include "cli/picture_files.h"
 
 namespace rainref::cli {
 namespace {
@@ -9,44 +7,33 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr int width = 24, height = 16;
-
-class EdgeSplashFiles : public CommandLine {
+class EdgeSplashFiles : public SceneFiles {
  protected:
   EdgeSplashFiles() {
-    Image colour(Format::rgba8, width, height), noise(Format::rgba8, 8, 8), depth(Format::r32f, width, height);
-    for (int y = 0; y < height; ++y) {
-      for (int i = 0; i < 4 * width; ++i) colour.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : 60 + y);
-      for (int x = 0; x < width; ++x) depth.row<float>(y)[x] = y < height / 2 ? 40.0f : 2.0f;  // top row first: far above near
-    }
-    for (int y = 0; y < 8; ++y) {
-      for (int i = 0; i < 32; ++i) noise.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(y == 7 ? 250 : 10);  // a step at the seam
-    }
-    image_io::write_png(folder / "colour.png", colour);
-    image_io::write_png(folder / "noise.png", noise);
-    image_io::write_exr(folder / "depth.exr", {{"", {"Y"}, &depth}});
-    put_npy("depth.npy", depth);
+    // A step at the seam.
+    image_io::write_png(folder / "noise.png", image_of(Format::rgba8, 8, 8, [](int, int y, int) { return y == 7 ? 250.0f : 10.0f; }));
     put(folder / "files.toml", text("scene.depth_image = 'depth.exr'"));
     before = folder.names();
   }
   static std::string text(const std::string& line) {
     return "effect = 'edge_splash'\nvariant = 'corrected'\nrun.frames = 2\nscene.source = 'files'\nscene.image = 'colour.png'\nscene.depth_encoding = 'metres'\n" + line + "\n";
   }
-  void put_npy(const std::string& name, const Image& depth) const {
-    std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}), }}", depth.height(), depth.width());
-    header.resize(118 - 1, ' ');
-    header += '\n';
-    std::string bytes = std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header;
-    for (int y = 0; y < depth.height(); ++y) bytes.append(reinterpret_cast<const char*>(depth.row_bytes(y)), static_cast<std::size_t>(depth.width()) * 4);
-    put(folder / name, bytes);
-  }
 };
 
-TEST_F(EdgeSplashFiles, ExrAndNpyAreTheSameDepth) {
-  const auto exr = hash({"files.toml"});
-  EXPECT_EQ(exr.size(), 2u * 5 + 1);
-  EXPECT_EQ(hash({"files.toml", "--set", "scene.depth_image=depth.npy"}), exr);
-  EXPECT_NE(hash({"files.toml", "--set", "edge_splash.edge_step=50"}), exr);
+TEST_F(EdgeSplashFiles, EveryKindOfFileIsTheSameScene) {
+  const auto lines = hash({"files.toml"});
+  EXPECT_EQ(lines.size(), 2u * 5 + 1);
+  EXPECT_NE(hash({"files.toml", "--set", "edge_splash.edge_step=50"}), lines);
+  expect_colours_alike("files.toml");
+  expect_depths_alike("files.toml", "edge_splash.edge_step=25");
+}
+// Device depth is a number without a unit.
+TEST_F(EdgeSplashFiles, DeviceDepthsHaveNoScale) {
+  put_npy(folder / "device.npy", width, height, 1, [](int x, int y, int c) { return 1 / metres(x, y, c); });
+  const std::vector<std::string> device{"files.toml", "--set", "scene.depth_encoding=device", "--set", "scene.depth_image=device.npy"};
+  std::vector<std::string> scaled = device;
+  scaled.insert(scaled.end(), {"--set", "scene.depth_scale=3"});
+  EXPECT_EQ(hash(scaled), hash(device));
 }
 
 TEST_F(EdgeSplashFiles, ASplashIsSeenOnTheEdge) {
@@ -91,16 +78,11 @@ TEST_F(EdgeSplashFiles, WhatIsMissingOrDoesNotFitIsNamed) {
 }
 
 TEST_F(EdgeSplashFiles, DamagedNpyIsNamed) {
-  put(folder / "bad.npy", contents(folder / "depth.npy").substr(0, 200));
   put(folder / "text.npy", "not an array");
-  Image holed(Format::r32f, width, height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) holed.row<float>(y)[x] = x == 3 && y == 2 ? std::nanf("") : 5.0f;
-  }
-  put_npy("holed.npy", holed);
-  before = folder.names();
-  for (const auto& [file, message] : std::vector<std::pair<std::string, std::string>>{{"bad.npy", "bad.npy"}, {"text.npy", "text.npy"}, {"holed.npy", "expected finite numbers, found nan at column 3, row 2"}}) {
-    expect_refusal({"run", "files.toml", "-o", "new", "--set", "scene.depth_image=" + file}, 2, AllOf(HasSubstr("scene.depth_image: "), HasSubstr(message)));
+  for (const char* key : {"scene.depth_image", "scene.noise_image", "scene.layer_image"}) {
+    expect_refused("files.toml", {fmt::format("{}=cut.npy", key)}, AllOf(HasSubstr(fmt::format("{}: 'cut.npy'", key)), HasSubstr("cut.npy")));
+    expect_refused("files.toml", {fmt::format("{}=text.npy", key)}, HasSubstr(fmt::format("{}: 'text.npy': not an EXR, PNG, Radiance HDR or JPEG file", key)));
+    expect_refused("files.toml", {fmt::format("{}=holed.npy", key)}, HasSubstr("'holed.npy': NaN at x 3, y 2 (from the top), channel 0"));
   }
 }
 

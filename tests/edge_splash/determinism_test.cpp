@@ -2,10 +2,11 @@
 // of one plain float after another; and how far those are from doubles.
 #include <bit>
 
-#include "capture/hashing.h"
+#include "capture/hash_of_frames.h"
 #include "edge_splash/shapes.h"
 #include "edge_splash/support.h"
 #include "math/simd_target.h"
+#include "scene/display_every_reading.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -33,12 +34,7 @@ std::string hash_of_run(const Settings& s, const Inputs& in, int threads, std::u
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   EdgeSplash effect(s, in, executor);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    effect.render(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { effect.render(recorder); });
 }
 
 class Determinism : public testing::TestWithParam<Variant> {
@@ -137,7 +133,7 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
           ASSERT_EQ(effect.colour().row<Half>(y)[4 * x + k].bits, stored.bits) << target << " " << x << "," << y;
         }
         const Half* colour = effect.colour().row<Half>(y) + 4 * x;
-        const auto shown = scalar::display<F>(display_uniforms(reading.s), {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
+        const auto shown = scene::every::display<F>(scene::display_uniforms(reading.s.exposure), {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x].code, to_unorm8(shown.x.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 2].code, to_unorm8(shown.z.v).code);

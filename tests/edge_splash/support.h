@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "edge_splash/host.h"
 #include "edge_splash/kernels.h"
 #include "edge_splash/plain.h"
 #include "math/half.h"
 #include "math/unorm.h"
 #include "rainref/edge_splash.h"
-#include "rainref/error.h"
 
 namespace rainref::edge_splash {
 
@@ -115,16 +115,6 @@ scalar::Gradient<N> corrected_gradient(int reach, const Field& inverse, int x, i
   u.depth_scale = 1;
   u.reach_min = u.reach_max = static_cast<float>(reach);
   return scalar::sobel(scalar::taps_corrected<N>(u, inverse.view(), N(static_cast<float>(x)), N(static_cast<float>(y))));
-}
-
-/// The message of the Error that body throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return fmt::format("{} {}", static_cast<int>(e.code()), e.what());
-  }
-  return "none";
 }
 
 }  // namespace rainref::edge_splash

@@ -2,9 +2,10 @@
 // float after another.
 #include <bit>
 
-#include "capture/hashing.h"
+#include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "rainy_glass/support.h"
+#include "scene/display_every_reading.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -15,12 +16,7 @@ std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, i
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   RainyGlass glass(s, test::surroundings(s), executor);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    glass.frame(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { glass.frame(recorder); });
 }
 
 class RainyGlassDeterminism : public testing::TestWithParam<Variant> {
@@ -135,7 +131,7 @@ TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
         expect_same(stored[0], c.x, "colour.r", x, y);
         expect_same(stored[1], c.y, "colour.g", x, y);
         expect_same(stored[2], c.z, "colour.b", x, y);
-        const auto shown = scalar::display<Single>(display_uniforms(s), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+        const auto shown = scene::every::display<Single>(scene::display_uniforms(s.exposure), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         const Unorm8* code_value = glass.picture().row<Unorm8>(y) + 4 * x;
         ASSERT_EQ(code_value[0].code, to_unorm8(shown.x.v).code) << target << " " << x << "," << y;
         ASSERT_EQ(code_value[2].code, to_unorm8(shown.z.v).code) << target << " " << x << "," << y;

@@ -10,7 +10,6 @@
 namespace rainref::rainy_glass {
 namespace {
 
-using test::error_of;
 using test::settings;
 using testing::AllOf;
 using testing::HasSubstr;

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "image/texture.h"
-#include "rainref/error.h"
 #include "rainref/executor.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/host.h"
@@ -85,16 +85,6 @@ inline Image uniform_image(Format format, int width, int height, float r, float 
 inline std::vector<float> texels(const Image& map) {
   const TextureData t(map, Address::clamp, Address::clamp);
   return {t.view().texels, t.view().texels + static_cast<std::size_t>(map.width()) * map.height() * 4};
-}
-
-/// The error that `body` throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return std::to_string(static_cast<int>(e.code())) + " " + e.what();
-  }
-  return "none";
 }
 
 /// One pixel of corrected or published glass before chosen maps, in double, from the middle of a picture of 101 x 101.

@@ -1,7 +1,8 @@
 // The determinism proof: every SIMD target, 1, 2, 3 and 8 threads, shuffled tiles, widths 1 to 33 give the bits of one plain
 // float after another; and how far those are from doubles.
-#include "capture/hashing.h"
+#include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
+#include "scene/display_every_reading.h"
 #include "screen_drops/support.h"
 
 namespace rainref::screen_drops {
@@ -18,12 +19,7 @@ std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, i
   flow.wind = 100;
   flow.warm_up = 0.2;
   ScreenDrops window(s, test::inputs(s), executor, flows && s.variant == Variant::corrected ? &flow : nullptr);
-  capture::HashRecorder recorder;
-  for (int frame = 0; frame < frames; ++frame) {
-    window.render(&recorder);
-    recorder.take_lines();
-  }
-  return recorder.scene_hash().text();
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { window.render(recorder); });
 }
 
 class ScreenDropsDeterminism : public testing::TestWithParam<Variant> {
@@ -129,7 +125,7 @@ TEST_P(ScreenDropsDeterminism, LanesEqualThePlainReadingWhichIsNearDouble) {
         expect_same(stored[1], w.colour.y, "colour.g", x, y);
         expect_same(stored[2], w.colour.z, "colour.b", x, y);
         ASSERT_EQ(window.water().row<Unorm8>(y)[x].code, to_unorm8(w.water.v).code) << target << " " << x << "," << y;
-        const auto shown = scalar::display<Single>(display_uniforms(s), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+        const auto shown = scene::every::display<Single>(scene::display_uniforms(s.exposure), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         ASSERT_EQ(window.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code) << target << " " << x << "," << y;
         const auto exact = window_of(Double());
         wet += w.water.v > 0;

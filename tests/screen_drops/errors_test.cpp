@@ -9,7 +9,6 @@
 namespace rainref::screen_drops {
 namespace {
 
-using test::error_of;
 using test::settings;
 using testing::AllOf;
 using testing::HasSubstr;

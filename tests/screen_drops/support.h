@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_of.h"
 #include "image/texture.h"
-#include "rainref/error.h"
 #include "rainref/executor.h"
 #include "rainref/screen_drops.h"
 #include "screen_drops/cells.h"
@@ -77,16 +77,6 @@ class Published {
   scalar::PublishedDrop<Double> at(int x, int y) const { return scalar::published_drop<Double>(u, noise.view(), x, y); }
   bool wet(int x, int y) const { return at(x, y).layer.v > 0; }
 };
-
-/// The error that `body` throws, its exit code first; "none" when it throws nothing.
-inline std::string error_of(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const Error& e) {
-    return std::to_string(static_cast<int>(e.code())) + " " + e.what();
-  }
-  return "none";
-}
 
 /// One pixel of the corrected window, in double: a picture of odd size whose middle pixel looks straight ahead, before a ramp.
 struct Pixel {

@@ -11,6 +11,7 @@
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "math/unorm.h"
+#include "scene/display_every_reading.h"
 #include "windshield/picture.h"
 #include "windshield/plain.h"
 #include "windshield/street.h"
@@ -137,7 +138,7 @@ TEST_P(PictureDeterminism, LanesEqualThePlainReading) {
         Half* colour = plain.colour.row<Half>(y) + 4 * x;
         const float rgba[4] = {c.x.v, c.y.v, c.z.v, 1};
         for (int k = 0; k < 4; ++k) colour[k] = to_half(rgba[k] + 0.0f);
-        const plain::Vec3<F> code = scalar::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
+        const plain::Vec3<F> code = scene::every::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
         const float codes[4] = {code.x.v, code.y.v, code.z.v, 1};
         for (int k = 0; k < 4; ++k) plain.picture.row<Unorm8>(y)[4 * x + k] = to_unorm8(codes[k], Rounding::rne);
       }

@@ -1,0 +1,19 @@
+// The text of display with every number but lanes: Plain, Enclosure and Deviant; like puddle::every.
+#pragma once
+
+#include "math/deviant.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "scene/display.h"
+
+namespace rainref::scene::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "scene/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::scene::every

@@ -1,0 +1,92 @@
+// The display that four effects share: its curve, its lanes, its table, and how it is bound.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "capture/display.h"
+#include "math/half.h"
+#include "math/simd_target.h"
+#include "math/unorm.h"
+#include "rainref/error.h"
+#include "scene/display_every_reading.h"
+
+namespace rainref::scene {
+namespace {
+
+using F = plain::Plain<float>;
+using D = plain::Plain<double>;
+
+/// Every finite half that is not negative, somewhere, and some below 0; of any width.
+Image ramp(int width, int height) {
+  Image image(Format::rgba16f, width, height);
+  std::uint32_t i = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < 4 * width; ++x, ++i) image.row<Half>(y)[x].bits = static_cast<std::uint16_t>(i * 31 % 0x7c00u | (i % 97 == 0 ? 0x8000u : 0u));
+  }
+  return image;
+}
+
+// IEC 61966-2-1, 4.2: C = 12.92 c to 0.0031308, 1.055 c^(1/2.4) - 0.055 above; an exposure of 1 EV doubles the radiance.
+TEST(Display, IsTheStandardsCurve) {
+  for (const double exposure : {-3.0, 0.0, 1.0}) {
+    const DisplayUniforms u = display_uniforms(exposure);
+    for (const double c : {0.0, 0.001, 0.003, 0.01, 0.18, 0.4, 0.999}) {
+      const double shown = std::min(1.0, c * std::exp2(exposure));
+      const double code = shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
+      // The constants of the pass are floats: 3e-8 each.
+      EXPECT_NEAR(every::display(u, plain::Vec3<D>(D(0.0f), D{c}, D(1.0f))).y.v, code, 2e-7) << c << " at " << exposure;
+    }
+  }
+  const auto beyond = every::display(display_uniforms(0), plain::Vec3<D>(D{-1.0}, D{7.0}, D{65504.0}));
+  EXPECT_EQ(beyond.x.v, 0);
+  EXPECT_NEAR(beyond.y.v, 1, 2e-7);
+  EXPECT_EQ(beyond.y.v, beyond.z.v);
+}
+
+TEST(Display, LanesAndTableGiveThePlainCodes) {
+  const DisplayUniforms u = display_uniforms(0.7);
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+      // Widths that leave every remainder of lanes; the last is large enough for a table.
+      for (const int width : {1, 2, 3, 7, 16, 33, 256}) {
+        const int height = width == 256 ? 100 : 5;
+        const Image colour = ramp(width, height);
+        Image rows(Format::rgba8, width, height), table(Format::rgba8, width, height);
+        display_rows(u, rounding, colour, rows, {0, 0, width, height});
+        display_table(width, height, 0.7, rounding).rows(colour, table, 0, height);
+        for (int y = 0; y < height; ++y) {
+          for (int x = 0; x < width; ++x) {
+            const Half* in = colour.row<Half>(y) + 4 * x;
+            const auto c = every::display(u, plain::Vec3<F>(F::load(in), F::load(in + 1), F::load(in + 2)));
+            const int expected[4] = {to_unorm8(c.x.v, rounding).code, to_unorm8(c.y.v, rounding).code, to_unorm8(c.z.v, rounding).code, 255};
+            for (int k = 0; k < 4; ++k) {
+              ASSERT_EQ(rows.row<Unorm8>(y)[4 * x + k].code, expected[k]) << target << " " << width << ": " << x << "," << y;
+              ASSERT_EQ(table.row<Unorm8>(y)[4 * x + k].code, expected[k]) << target << " " << width << ": " << x << "," << y;
+            }
+          }
+        }
+      }
+    }
+  }
+  select_simd_target("");
+}
+
+TEST(Display, ACaseOfOtherChannelsIsRefused) {
+  capture::PassCase c;
+  capture::CaseInput colour;
+  colour.name = "colour";
+  colour.array.format = Format::r16f;
+  colour.array.width = colour.array.height = 1;
+  colour.array.levels = {std::vector<std::byte>(2)};
+  c.inputs.push_back(colour);
+  try {
+    static_cast<void>(capture::bind_display(c));
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("in.colour: expected 4 channels, found r16f"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace rainref::scene
