@@ -76,7 +76,7 @@ TEST(DriveCycle, TheNedcIsTheRegulationsOperations) {
       const auto [t0, v0] = all[i - 1];
       const auto [t1, v1] = all[i];
       metres += (v0 + v1) / 2 * (t1 - t0) * kmh;
-      for (double t = t0; t <= t1; ++t) ASSERT_NEAR(c.speed.value(from + t), (v0 + (v1 - v0) * (t - t0) / (t1 - t0)) * kmh, 1.01 * digits) << from + t;
+      for (double t = t0; t <= t1; ++t) EXPECT_NEAR(c.speed.value(from + t), (v0 + (v1 - v0) * (t - t0) / (t1 - t0)) * kmh, 1.01 * digits) << from + t;
     }
     const double last = all.back()[0];
     EXPECT_NEAR(c.speed.integral(from, from + last), metres, last * digits);
