@@ -218,7 +218,7 @@ TEST_F(Validate, TheReferencesOwnRunOfEachEffectPassesAsAShadow) {
 }
 
 TEST_F(Validate, ALostDropIsNamed) {
-  const std::string windshield = RAINREF_SOURCE_DIR "/tests/packs/windshield-corrected", list = "windshield.merge/0001.0/out.drops.npy";
+  const std::string windshield = RAINREF_SOURCE_DIR "/tests/packs/windshield-corrected", list = "windshield.merge/0012.0/out.drops.npy";
   copy_to("port", windshield);
   // The last record of 32 bytes; the header's length of the list stays as long as it is.
   std::string bytes = contents(folder / "port" / list);

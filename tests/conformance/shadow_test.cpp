@@ -308,13 +308,13 @@ TEST_F(EdgeSplashShadowTest, AFreeRunOfAConformingDevicePasses) {
 
 TEST_F(WindshieldShadowTest, ALostDropIsFoundWhereItIsLost) {
   port.after = [](const PassCase& c, std::vector<Array>& out) {
-    if (c.folder() != "windshield.merge/0001.0") return;
+    if (c.folder() != "windshield.merge/0012.0") return;
     out[0].levels[0].resize(out[0].levels[0].size() - out[0].element_bytes());
     --out[0].width;
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "merge") << why(j);
-  EXPECT_THAT(j.notes, Contains("the first bad run is windshield.merge/0001.0"));
+  EXPECT_THAT(j.notes, Contains("the first bad run is windshield.merge/0012.0"));
   EXPECT_THAT(pass_of(j, "merge").reason, HasSubstr("drops, missing: "));
   EXPECT_EQ(pass_of(j, "splat").status, Status::pass);  // it follows from the drops that are left
   EXPECT_FALSE(pass_of(j, "splat").inputs_are_good);
@@ -322,17 +322,17 @@ TEST_F(WindshieldShadowTest, ALostDropIsFoundWhereItIsLost) {
 
 TEST_F(WindshieldShadowTest, EachMipLevelMustBeTheOutputOfItsOwnRun) {
   port.before = [](PassCase& c) {
-    if (c.folder() == "windshield.composite/0001.0") std::memset(input_of(c, "blurred").array.levels[2].data(), 0, 64);
+    if (c.folder() == "windshield.composite/0012.0") std::memset(input_of(c, "blurred").array.levels[2].data(), 0, 64);
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "composite") << why(j);
   EXPECT_THAT(pass_of(j, "composite").reason,
-              HasSubstr("input windshield.composite/0001.0/in.blurred.L2 is not the previous output windshield.blur_pyramid/0001.0.L2/out.blurred"));
+              HasSubstr("input windshield.composite/0012.0/in.blurred.L2 is not the previous output windshield.blur_pyramid/0012.0.L2/out.blurred"));
 }
 
 TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
   port.before = [](PassCase& c) {
-    if (c.folder() == "windshield.blur_pyramid/0001.0.L2") {
+    if (c.folder() == "windshield.blur_pyramid/0012.0.L2") {
       Array& above = input_of(c, "blurred").array;
       above.levels[0][0] = std::byte{1};
     }
@@ -340,7 +340,7 @@ TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "blur_pyramid") << why(j);
   EXPECT_THAT(pass_of(j, "blur_pyramid").reason,
-              HasSubstr("input windshield.blur_pyramid/0001.0.L2/in.blurred is not the previous output windshield.blur_pyramid/0001.0.L1/out.blurred"));
+              HasSubstr("input windshield.blur_pyramid/0012.0.L2/in.blurred is not the previous output windshield.blur_pyramid/0012.0.L1/out.blurred"));
 }
 
 }  // namespace
