@@ -224,9 +224,9 @@ TEST_F(Validate, ALostDropIsNamed) {
   std::string bytes = contents(folder / "port" / list);
   const std::size_t shape = bytes.find("(", bytes.find("'shape'")) + 1;
   const int count = std::stoi(bytes.substr(shape));
-  const std::string before = std::to_string(count), after = std::to_string(count - 1);
-  ASSERT_EQ(before.size(), after.size());
-  bytes.replace(shape, before.size(), after);
+  const std::string was = std::to_string(count), is = std::to_string(count - 1);
+  ASSERT_EQ(was.size(), is.size());
+  bytes.replace(shape, was.size(), is);
   put(folder / "port" / list, bytes.substr(0, bytes.size() - 32));
   const Outcome o = validate({windshield, "--port", "port", "--only", "merge"});
   EXPECT_EQ(o.code, 1) << o.out;
