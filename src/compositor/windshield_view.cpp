@@ -48,7 +48,7 @@ class Outside : public Environment {
 }  // namespace
 
 WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer, const parallel::Executor& executor)
-    : settings_(settings), tracer_(tracer), executor_(executor), pane_(shape_of(settings.corners, glass)), vehicle_(settings.vehicle), street_({settings.seed}) {}
+    : settings_(settings), tracer_(tracer), executor_(executor), pane_(shape_of(settings.corners, glass)), vehicle_(settings.vehicle), street_({settings.seed, settings.clear_lane}) {}
 
 double WindshieldView::distance(const windshield::Windshield& rendered) const {
   const double time = std::max(0, rendered.frame() - 1) / settings_.fps;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/list_slips.h"
 #include "conformance/output_slips.h"
 #include "rainref/error.h"
 
@@ -52,11 +53,11 @@ void add_stores(std::vector<Deviation>& out, const PassCase& c) {
 
 /// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
 /// from their own index.
-void add_constants(std::vector<Deviation>& out, const capture::PassModel& model) {
+void add_constants(std::vector<Deviation>& out, const PassCase& c, const capture::PassModel& model) {
   std::map<float, int> values;
   std::vector<float> met;
   constexpr int probes = 8;
-  {
+  if (model.width() > 0) {
     deviant::Behaviour collecting;
     collecting.constants = &met;
     const deviant::Scope scope(collecting);
@@ -68,6 +69,7 @@ void add_constants(std::vector<Deviation>& out, const capture::PassModel& model)
         met.clear();
       }
   }
+  for (const float v : constants_of_lists(model, c)) values[v] = probes * probes;
   for (const auto& [v, places] : values) {
     if (places < probes * probes / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
     const auto add = [&, value = v](float replacement, const char* what, bool for_diagnosis) {
@@ -220,11 +222,12 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
 std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model, const PassCase* before) {
   std::vector<Deviation> all;
   add_output_slips(all, c, before);
+  add_list_slips(all, c, before);
   add_stores(all, c);
   add_slips(all);
   add_inputs(all, c, before);
   add_uniforms(all, pass, before);
-  add_constants(all, model);
+  add_constants(all, c, model);
   return all;
 }
 

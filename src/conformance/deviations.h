@@ -17,19 +17,30 @@ namespace rainref::conformance {
 
 using Bind = std::unique_ptr<capture::PassModel> (*)(const capture::PassCase&);
 
+/// The records of a keyed list, one by one.
+using Records = std::vector<std::vector<std::byte>>;
+/// What a mistake in a list works on.
+struct ListEdit {
+  Records records;                ///< as the reference gives them, in the order of slots
+  std::vector<std::uint32_t> at;  ///< ids that a mistake of few records happens to; empty: some that show it
+  const Records* port = nullptr;  ///< what a port stored, for a mistake that is fitted to it
+};
+
 struct Deviation {
   std::string name, sentence;
   deviant::Behaviour behaviour;                          ///< what the arithmetic does
   std::function<void(capture::PassCase&)> alter_case;    ///< what the pass takes; null: as captured
   std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)> alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
+  std::function<bool(const capture::PassCase&, ListEdit&)> alter_list;  ///< likewise from the finished list `list_output`
+  int list_output = -1;
   std::optional<HalfMode> stores;                        ///< how halves are stored, whatever was declared
   bool legal = false;  ///< a conforming GPU may do this: not a bug, but it explains differences
   bool for_diagnosis = false;  ///< asked by the diagnosis only: `mutate` has enough of its kind
 
-  bool is_evaluated() const { return !alter_outputs; }
+  bool is_evaluated() const { return !alter_outputs && !alter_list; }
 };
 
-/// All deviations of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of the finished buffer.
+/// All deviations of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of finished buffers and lists.
 /// `before` is the run of the same pass before this one, or null.
 std::vector<Deviation> deviations_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
                                      const capture::PassCase* before);

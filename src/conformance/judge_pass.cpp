@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/list_slips.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
 
@@ -87,13 +88,19 @@ std::vector<Cause> causes_of(const capture::PackPass& pass, Bind bind, const Pas
   if (worst == judged.cases.end() || worst->failing == 0) return {};
   const auto k = static_cast<std::size_t>(worst - judged.cases.begin());
   PortRun run = runs.load(k);
-  if (!is_enveloped(run.c)) return {};
+  const bool has_lists = !keyed_outputs(run.c).empty();
+  if (!is_enveloped(run.c) && !has_lists) return {};
   const std::unique_ptr<PassModel> model = prepare(pass, bind, runs, run);
   std::optional<PortRun> before;
   if (k > 0) {
     before = runs.load(k - 1);
     if (before->untested.empty()) prepare(pass, bind, runs, *before);
     else before.reset();
+  }
+  // A wrong list is behind what is wrong in an image that goes with it.
+  if (has_lists) {
+    std::vector<Cause> causes = diagnose_lists(pass, run.c, before ? &before->c : nullptr, model.get(), run.stored, *options.profile, *options.executor);
+    if (!causes.empty() || !bind || !is_enveloped(run.c)) return causes;
   }
   return diagnose(pass, run.c, before ? &before->c : nullptr, bind, *model, run.stored, *worst, *options.profile, judged.half_mode, *options.executor);
 }
@@ -134,7 +141,7 @@ PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRun
   }
   choose_mode(judged, cases, options);
   conclude_pass(judged);
-  if (runs.diagnose && judged.status == Status::fail && bind) judged.causes = causes_of(pass, bind, runs, judged, options);
+  if (runs.diagnose && judged.status == Status::fail) judged.causes = causes_of(pass, bind, runs, judged, options);
   return judged;
 }
 

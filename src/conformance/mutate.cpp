@@ -1,10 +1,13 @@
 // The power of a pack: which deviations of the reference it would catch.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "conformance/judge.h"
+#include "conformance/keyed.h"
+#include "conformance/list_slips.h"
 #include "conformance/profiles.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
@@ -50,6 +53,7 @@ std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCas
 void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
                   const enclosed::Profile& profile, const std::vector<Stores>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
+  if (slots.empty() || d.alter_list) return;
   std::int64_t fewest = -1, first_differing = 0;
   for (const Stores& stores : all_stores) {
     const DeviatedPass deviated(d, c, bind, model, stores.mode, stores.finished);
@@ -72,6 +76,34 @@ void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const captur
   out.outside += fewest;
 }
 
+/// Records by id.
+std::map<std::uint32_t, Records> by_id(const Array& list) {
+  std::map<std::uint32_t, Records> out;
+  for (std::vector<std::byte>& r : records_of(list)) out[id_of(r, list.record)].push_back(std::move(r));
+  return out;
+}
+/// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
+void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::PassReadings& readings, const capture::PassModel* model,
+                        const enclosed::Profile& profile, MutantJudgement& out) {
+  for (const std::size_t o : keyed_outputs(c)) {
+    const capture::CaseOutput& expected = c.outputs[o];
+    const std::optional<Array> stored = deviated_list(d, c, o, readings, model, expected.array);
+    if (!stored) continue;
+    const auto want = by_id(expected.array), have = by_id(*stored);
+    std::set<std::uint32_t> ids, outside;
+    for (const auto* list : {&want, &have})
+      for (const auto& [id, unused] : *list) ids.insert(id);
+    out.compared += static_cast<std::int64_t>(ids.size());
+    for (const std::uint32_t id : ids) {
+      const auto a = want.find(id), b = have.find(id);
+      out.differing += a == want.end() || b == have.end() || a->second != b->second;
+    }
+    const KeyedJudgement j = judge_keyed(expected, *stored, model ? model->keyed(expected.name) : nullptr, profile);
+    for (const auto* list : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside}) outside.insert(list->begin(), list->end());
+    out.outside += static_cast<std::int64_t>(outside.size());
+  }
+}
+
 }  // namespace
 
 MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations) {
@@ -82,6 +114,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
   int done = 0;
   for (const capture::PackPass& pass : pack.passes) {
     if (!options.only.empty() && pass.name != options.only) continue;
+    const capture::PassReadings* readings = readings_of(pack.effect, pass.name);
     const Bind bind = binder(pack.effect, pass.name);
     std::map<std::string, std::size_t> places;  // of a deviation among the mutants
     std::optional<PassCase> before;
@@ -89,9 +122,9 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
     for (const capture::PackCase& entry : pack.cases) {
       if (entry.pass != pass.name) continue;
       PassCase c = pack.read(entry);
-      if (slots_of(c).empty() || !bind) continue;
+      if (!readings || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
       judged = true;
-      const std::unique_ptr<capture::PassModel> model = bind(c);
+      const std::unique_ptr<capture::PassModel> model = bind ? bind(c) : std::make_unique<capture::ListPass>("", nullptr);
       const std::vector<Texel> texels = spread(*model, invocations);
       std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
       std::erase_if(all, [](const Deviation& d) { return d.for_diagnosis; });
@@ -105,6 +138,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
         for (std::int64_t k = begin; k < end; ++k) {
           const Deviation& d = all[static_cast<std::size_t>(k)];
           try {
+            judge_mutant_lists(d, c, *readings, model.get(), chosen, report.mutants[places[d.name]]);
             judge_mutant(d, c, bind, *model, texels, chosen, stores, report.mutants[places[d.name]]);
           } catch (const Error&) {
             // the altered case is none that the pass can run: nothing to compare
@@ -114,7 +148,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
       before = std::move(c);
       if (options.progress) options.progress(++done, static_cast<int>(pack.cases.size()));
     }
-    if (!judged) report.unjudged.push_back(fmt::format("{}: no output is judged by envelope", pass.name));
+    if (!judged) report.unjudged.push_back(fmt::format("{}: no output is judged by envelope or matched by id", pass.name));
   }
   return report;
 }

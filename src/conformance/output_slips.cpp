@@ -79,6 +79,7 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
   std::vector<int> images;
   for (const Slot& s : slots)
     if (images.empty() || images.back() != s.output) images.push_back(s.output);
+  if (images.empty()) return;
   const auto add = [&](std::string name, std::string sentence, std::function<bool(const PassCase&, std::vector<Array>&)> alter) {
     Deviation d;
     d.name = std::move(name);

@@ -59,6 +59,7 @@ std::string shape_text(const OutputJudgement& o) {
   return o.records ? fmt::format("{} record{}", o.elements, o.elements == 1 ? "" : "s") : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
 }
 const char* element_word(const OutputJudgement& o) { return o.records ? "records" : "elements"; }
+const char* element_word(const Cause& c) { return c.of_records ? "records" : "texels"; }
 std::string channel_name(int channel) { return std::string(1, "xyzw"[channel & 3]); }
 
 FailureText failure_text(const OutputJudgement& o, const Failure& f) {
@@ -74,7 +75,7 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
 }
 
 std::string cause_text(const Cause& c) {
-  return fmt::format("{}: {} (gives {} of {} failing texels bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of, c.inside);
+  return fmt::format("{}: {} (gives {} of {} failing {} bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of, element_word(c), c.inside);
 }
 
 bool is_broken(const PassJudgement& p) {

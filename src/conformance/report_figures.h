@@ -31,6 +31,8 @@ std::string width_text(double codes);
 std::string shape_text(const OutputJudgement& output);
 /// "elements" or "records": what its counts count.
 const char* element_word(const OutputJudgement& output);
+/// "records" or "texels": what a cause explains.
+const char* element_word(const Cause& cause);
 /// "x" to "w".
 std::string channel_name(int channel);
 

@@ -39,7 +39,7 @@ std::string summary_html(const PortJudgement& j) {
     if (!others.empty()) others += ".";
     if (bad->causes.empty()) return out + (has_unknown_cause(*bad) ? " The cause is unknown." : "") + others;
     const Cause& c = bad->causes[0];
-    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing texels bit for bit, comes near {}).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, c.inside, others);
+    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing {} bit for bit, comes near {}).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, others);
   }
   if (!j.reason.empty()) return marked_up(j.reason) + ".";
   const std::string equal = fmt::format("{} of the elements have the reference's own bits.", share_text(all.elements - all.differing, all.elements));

@@ -38,8 +38,8 @@ std::string causes_html(const PassJudgement& p) {
   if (p.causes.empty()) return "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   std::string out = "<h3>Likely causes</h3>\n<ol class=\"causes\">\n";
   for (const Cause& c : p.causes) {
-    out += fmt::format("<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing texels bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" value=\"{}\">{}</meter></li>\n", marked_up(c.name), marked_up(c.sentence),
-                       c.explained, c.of, c.inside, c.of, c.explained, share_text(c.explained, c.of));
+    out += fmt::format("<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" value=\"{}\">{}</meter></li>\n", marked_up(c.name), marked_up(c.sentence),
+                       c.explained, c.of, element_word(c), c.inside, c.of, c.explained, share_text(c.explained, c.of));
   }
   return out + "</ol>\n";
 }

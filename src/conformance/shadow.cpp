@@ -78,6 +78,8 @@ class Shadow {
   const capture::PackPass& pass_of(const Run& run) const {
     return *std::find_if(plan_.passes.begin(), plan_.passes.end(), [&](const capture::PackPass& p) { return p.name == run.pass; });
   }
+  /// The name of an input's mip level in DumpedContents.
+  static std::string input_level(const capture::CaseInput& input, std::size_t level) { return fmt::format("in.{}.L{}", input.name, level); }
   bool is_wanted(const std::string& pass) const { return options_.only.empty() || pass == options_.only; }
 
   const PlannedRun* like(const DumpedRun& d) const {
@@ -93,14 +95,21 @@ class Shadow {
   Array read_input(const Run& run, std::size_t i) {
     const capture::CaseInput& input = run.like->c.inputs[i];
     const std::string stem = "in." + input.name;
-    const std::string shared = run.plan ? run.plan->input_stems[i] : "";
-    if (!shared.empty() && shared != run.id + "/" + stem) {
+    const std::vector<std::string> shared = run.plan ? run.plan->input_stems[i] : std::vector<std::string>();
+    if (!shared.empty() && shared.front() != run.id + "/" + stem) {
       // A manifest names one file for equal arrays; a port that dumps its own comes first.
       try {
         static_cast<void>(port_dump::find_dump_file(files_.folder() / run.id, stem));
       } catch (const Error&) {
-        const fs::path path(shared);
-        return files_.read(path.parent_path(), path.filename().string(), input.array);
+        // Each level may be shared with another run.
+        Array all;
+        for (std::size_t level = 0; level < shared.size(); ++level) {
+          const fs::path path(shared[level]);
+          Array one = files_.read(path.parent_path(), path.filename().string(), level_of(input.array, static_cast<int>(level)));
+          if (level == 0) all = std::move(one);
+          else all.levels.push_back(std::move(one.levels.front()));
+        }
+        return all;
       }
     }
     return files_.read(run.id, stem, input.array);
@@ -124,8 +133,12 @@ class Shadow {
     const std::size_t slash = buffer.rfind('/');
     const std::string id = buffer.substr(0, slash), name = buffer.substr(slash + 1);
     const Run& run = *std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == id; });
-    for (std::size_t i = 0; i < run.like->c.inputs.size(); ++i)
-      if (name == "in." + run.like->c.inputs[i].name) return read_input(run, i);
+    for (std::size_t i = 0; i < run.like->c.inputs.size(); ++i) {
+      const capture::CaseInput& input = run.like->c.inputs[i];
+      if (name == "in." + input.name) return read_input(run, i);
+      for (std::size_t level = 0; level < input.array.levels.size(); ++level)
+        if (name == input_level(input, level)) return level_of(read_input(run, i), static_cast<int>(level));
+    }
     for (std::size_t o = 0; o < run.like->c.outputs.size(); ++o)
       if (name == "out." + run.like->c.outputs[o].name) return read_output(run, o);
     throw Error(ExitCode::internal, fmt::format("no buffer {}", buffer));
@@ -140,8 +153,15 @@ class Shadow {
       FileErrors unwanted;
       FileErrors& own = is_wanted(run.pass) ? errors : unwanted;
       own.attempt([&] { read_uniforms(run); });
-      for (std::size_t i = 0; i < run.like->c.inputs.size(); ++i)
-        own.attempt([&] { contents_.add(fmt::format("{}/in.{}", run.id, run.like->c.inputs[i].name), content_hash(read_input(run, i))); });
+      for (std::size_t i = 0; i < run.like->c.inputs.size(); ++i) {
+        own.attempt([&] {
+          const Array array = read_input(run, i);
+          const capture::CaseInput& input = run.like->c.inputs[i];
+          contents_.add(fmt::format("{}/in.{}", run.id, input.name), content_hash(array));
+          for (std::size_t level = 0; array.levels.size() > 1 && level < array.levels.size(); ++level)
+            contents_.add(fmt::format("{}/{}", run.id, input_level(input, level)), content_hash(level_of(array, static_cast<int>(level))));
+        });
+      }
       for (std::size_t o = 0; o < run.like->c.outputs.size(); ++o)
         own.attempt([&] { contents_.add(fmt::format("{}/out.{}", run.id, run.like->c.outputs[o].name), content_hash(read_output(run, o))); });
     }
@@ -217,10 +237,21 @@ class Shadow {
 
   /// Why an input is not what it should be, or "".
   std::string check_input(const Run& run, std::size_t i, bool is_first) {
+    const capture::CaseInput& input = run.plan->c.inputs[i];
+    const PlannedRun* source = plan_.source(*run.plan, input.name);
+    // Of a pass that runs once for each mip level each level is compared with its own run.
+    const std::size_t parts = source && source->c.level >= 0 ? input.array.levels.size() : 1;
+    for (std::size_t level = 0; level < parts; ++level) {
+      std::string broken = check_link(run, i, parts > 1 ? input_level(input, level) : "in." + input.name, plan_.source(*run.plan, input.name, static_cast<int>(level)), is_first);
+      if (!broken.empty()) return broken;
+    }
+    return "";
+  }
+  /// The same of an input or of one of its levels.
+  std::string check_link(const Run& run, std::size_t i, const std::string& part, const PlannedRun* source, bool is_first) {
     const std::string& name = run.plan->c.inputs[i].name;
-    const std::string buffer = fmt::format("{}/in.{}", run.id, name);
+    const std::string buffer = fmt::format("{}/{}", run.id, part);
     const capture::PackEdge* edge = plan_.edge(run.pass, name);
-    const PlannedRun* source = plan_.source(*run.plan, name);
     if (!edge || edge->from == "host" || (!source && plan_.frames.contains(run.frame) && run.frame == 0)) {
       if (is_first && contents_.hash(buffer) != run.plan->input_hashes[i])
         differing_.add(fmt::format("input {} of {} is not the {}", name, run.pass, plan_.from_scene ? "scene's" : "manifest's"), run.id);

@@ -59,6 +59,14 @@ std::string content_hash(const Array& array) {
   return hasher.finish().text();
 }
 
+Array level_of(const Array& array, int level) {
+  Array one = array;
+  one.width = array.level_width(level);
+  one.height = array.level_height(level);
+  one.levels = {array.levels[static_cast<std::size_t>(level)]};
+  return one;
+}
+
 ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files) {
   ShadowPlan plan;
   plan.effect = pack.effect;
@@ -86,7 +94,9 @@ ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files)
       Hasher hasher(0);
       for (const capture::PackFileEntry& level : input.levels) hasher.add(level.xxh3);
       run.input_hashes.push_back(hasher.finish().text());
-      run.input_stems.push_back(shares_files ? stem_of(input.levels.front().path) : "");
+      std::vector<std::string>& stems = run.input_stems.emplace_back();
+      for (const capture::PackFileEntry& level : input.levels)
+        if (shares_files) stems.push_back(stem_of(level.path));
     }
     for (const capture::PackOutput& output : from.outputs) {
       c.outputs.push_back(output.rules);
@@ -167,7 +177,7 @@ const capture::PackEdge* ShadowPlan::edge(std::string_view pass, std::string_vie
   return found == edges.end() ? nullptr : &*found;
 }
 
-const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view input) const {
+const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view input, int level) const {
   const capture::PackEdge* e = edge(run.c.pass, input);
   if (!e || e->from == "host") return nullptr;
   const auto place = [&](std::string_view pass) {
@@ -181,7 +191,14 @@ const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view inp
     for (; frame > r->c.frame; --frame)
       if (!frames.contains(frame)) return nullptr;
     if (!frames.contains(frame)) return nullptr;
-    if (r->c.pass == e->from && to_skip-- == 0) return r;
+    if (r->c.pass != e->from || to_skip-- > 0) continue;
+    // The last run of a pass by levels gave the smallest of them: the others are the runs before it.
+    const capture::CaseInput* taken = run.c.input(input);
+    for (const int wanted = taken && taken->array.levels.size() > 1 && r->c.level >= 0 ? level : r->c.level; r->c.level != wanted;) {
+      if (r == runs.data() || (r - 1)->c.pass != r->c.pass || (r - 1)->c.frame != r->c.frame || (r - 1)->c.level != r->c.level - 1) return nullptr;
+      --r;
+    }
+    return r;
   }
   return nullptr;
 }

@@ -17,13 +17,15 @@ struct PlannedRun {
   capture::PassCase c;                   ///< c.uniforms: the reference's
   std::vector<std::string> input_hashes;  ///< content_hash() of the reference's inputs
   /// Where a manifest says that inputs and uniforms lie, which may be shared with other runs: paths below the folder,
-  /// those of inputs without their extension; "" where none says.
-  std::vector<std::string> input_stems;
+  /// those of inputs without their extension, one for each mip level; none and "" where none says.
+  std::vector<std::vector<std::string>> input_stems;
   std::string uniform_file;
 };
 
 /// A hash of an array's shape and values.
 std::string content_hash(const capture::Array& array);
+/// One mip level as an image of its own.
+capture::Array level_of(const capture::Array& array, int level);
 
 struct ShadowPlan {
   std::string effect, variant, scene;
@@ -49,8 +51,9 @@ struct ShadowPlan {
   const PlannedRun* example(std::string_view pass) const;
   /// Where an input comes from; null for one that the graph does not name.
   const capture::PackEdge* edge(std::string_view pass, std::string_view input) const;
-  /// The run whose output an input is, or null: it is the host's, or the run lies in frames that are not known.
-  const PlannedRun* source(const PlannedRun& run, std::string_view input) const;
+  /// The run whose output an input is, or null: it is the host's, or the run lies in frames that are not known. A pass that
+  /// runs once for each mip level gives each level of its input by a run of its own; `level` asks for one.
+  const PlannedRun* source(const PlannedRun& run, std::string_view input, int level = 0) const;
 };
 
 /// A run of a pass that a port dumped: its folder is `id`.

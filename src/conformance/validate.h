@@ -41,7 +41,7 @@ std::optional<HalfMode> declared_mode(const port_dump::PortInfo& port);
 struct MutantJudgement {
   std::string pass, name, sentence;
   bool legal = false;
-  std::int64_t compared = 0;   ///< invocations
+  std::int64_t compared = 0;   ///< invocations, and ids of lists
   std::int64_t differing = 0;  ///< that store other bits than the reference
   std::int64_t outside = 0;    ///< that no alternative accepts
   bool caught() const { return outside > 0; }
@@ -52,13 +52,17 @@ struct MutationReport {
   std::vector<std::string> unjudged;  ///< passes that no envelope judges, and why
 };
 /// Which of the deviations the pack would catch under a profile. Compares at most `invocations` texels of each case,
-/// spread over the picture.
+/// spread over the picture, and every record of its lists.
 MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations = 4096);
 
 /// What explains the failing texels of a case, best first; empty when nothing explains any.
 std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, Bind bind,
                             const capture::PassModel& model, const std::vector<capture::Array>& port, const CaseJudgement& judgement,
                             const enclosed::Profile& profile, HalfMode mode, const parallel::Executor& executor);
+
+/// The same for the lists of a case that are matched by id: what explains the failing ids. `model` may be null.
+std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, const capture::PassModel* model,
+                                  const std::vector<capture::Array>& port, const enclosed::Profile& profile, const parallel::Executor& executor);
 
 /// The status of the whole from its passes.
 void conclude(PortJudgement& judgement);

@@ -81,6 +81,7 @@ struct Cause {
   std::int64_t explained = 0;  ///< failing texels whose stored bits it gives exactly
   std::int64_t of = 0;         ///< failing texels replayed
   std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
+  bool of_records = false;     ///< of a list: ids that are missing, too many, or wrong, in place of texels
 };
 
 struct PassJudgement {

@@ -52,7 +52,7 @@ bool near_crossing(double z, double room) {
 
 }  // namespace
 
-void build_cars(City& city) {
+void build_cars(City& city, bool clear_lane) {
   constexpr std::array<Vec, 6> paints{Vec{0.010, 0.011, 0.013}, Vec{0.22, 0.22, 0.23}, Vec{0.14, 0.008, 0.008},
                                       Vec{0.012, 0.025, 0.07},  Vec{0.35, 0.35, 0.34}, Vec{0.03, 0.035, 0.03}};
   const auto paint_of = [&](std::uint64_t id) {
@@ -63,7 +63,7 @@ void build_cars(City& city) {
   for (std::size_t i = 0; i < away.size(); ++i) {
     const double jitter_away = 3 * city.random(4000 + i, Purpose::car_place);
     const double jitter_oncoming = 5 * city.random(4100 + i, Purpose::car_place);
-    add_car(city, 1.95, away[i] - (away[i] < 0 ? jitter_away : -jitter_away), -1, paint_of(4000 + i), true);
+    if (!clear_lane) add_car(city, 1.95, away[i] - (away[i] < 0 ? jitter_away : -jitter_away), -1, paint_of(4000 + i), true);
     add_car(city, -1.95, oncoming[i] - (oncoming[i] < 0 ? jitter_oncoming : -jitter_oncoming), 1, paint_of(4100 + i),
             true);
   }

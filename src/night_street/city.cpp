@@ -2,7 +2,7 @@
 
 namespace rainref::night_street {
 
-City::City(std::uint64_t street_seed)
+City::City(std::uint64_t street_seed, bool clear_lane)
     : seed(street_seed),
       clouds(seed, Purpose::clouds),
       clouds_large(seed, Purpose::clouds_large),
@@ -13,7 +13,7 @@ City::City(std::uint64_t street_seed)
       skyline(seed, Purpose::skyline) {
   build_lamps(*this);  // first: lamps() lists street lamps first
   build_signals(*this);
-  build_cars(*this);
+  build_cars(*this, clear_lane);
   build_walkers(*this);
   build_lots(*this);
   hierarchy = Hierarchy(solids);

@@ -90,7 +90,7 @@ struct City {
   CompactLights lights;
   Noise clouds, clouds_large, puddles, asphalt, ripple, stain, skyline;
 
-  explicit City(std::uint64_t street_seed);
+  City(std::uint64_t street_seed, bool clear_lane);
   double random(std::uint64_t object, Purpose purpose) const { return random01(seed, object, purpose); }
   int add_material(const Material& material);
   /// Adds a solid whose planes are already in `planes`, from first_plane on, or that has none.
@@ -105,7 +105,7 @@ struct City {
 void build_lots(City& city);
 void build_lamps(City& city);
 void build_signals(City& city);
-void build_cars(City& city);
+void build_cars(City& city, bool clear_lane);
 void build_walkers(City& city);
 
 }  // namespace rainref::night_street

@@ -19,6 +19,7 @@ namespace rainref::night_street {
 
 struct Options {
   std::uint64_t seed = 1;
+  bool clear_lane = false;  ///< no car stands in the lane x > 0, for one that drives along it
 };
 
 /// An emissive sphere: street lamp, headlight, tail light or traffic signal. For glints.

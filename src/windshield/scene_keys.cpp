@@ -26,7 +26,9 @@ std::vector<Parameter> make() {
                integer2("scene.size", "texel", 8, 8192, {1280, 720}, "Columns and rows of the street's picture."),
                real("scene.margin", "1", 1, 4, 1.15, "Width of the scene's picture over that of the view."),
                real("scene.start", "m", 0, 1e6, 0, "Place on the street at time 0."),
-               boolean("scene.moves", true, "The street passes as the car drives; false: it stands still.")});
+               boolean("scene.moves", true, "The street passes as the car drives; false: it stands still."),
+               boolean("scene.clear_lane", false, "No car of the street stands in this one's lane: a drive would go through it."),
+               integer("scene.keyframes", "1", 1, 24, 1, "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by warp, and the longer it takes.")});
   append(all, picture_parameters());
   return all;
 }
@@ -74,6 +76,8 @@ Settings settings_from(const Config& config) {
   s.picture.scene_margin = config.real("scene.margin");
   s.scene_size = {static_cast<int>(config.integer2("scene.size")[0]), static_cast<int>(config.integer2("scene.size")[1])};
   s.street_start = config.real("scene.start");
+  s.clear_lane = config.boolean("scene.clear_lane");
+  s.keyframes = static_cast<int>(config.integer("scene.keyframes"));
   s.scene_moves = config.boolean("scene.moves");
   return s;
 }

@@ -34,6 +34,8 @@ struct Settings {
   PictureSettings picture;
   std::array<int, 2> scene_size{1280, 720};
   double street_start = 0;
+  bool clear_lane = false;
+  int keyframes = 1;
   bool scene_moves = true;
 };
 

@@ -38,16 +38,24 @@ struct StreetDrive::State {
   int width, height;
   double first;
   bool at_rest;
+  int keyframes_in_spacing;
   night_street::Street street;
   const parallel::Executor& executor;
-  std::map<int, Keyframe> keyframes;
+  std::map<int, Keyframe> keyframes;  ///< by number
   bool stands = false;  // the view of look() is rendered and stays
 
-  State(const scene::Camera& c, int w, int h, double start, bool rest, std::uint64_t seed, const parallel::Executor& e)
-      : camera(c), width(w), height(h), first(start), at_rest(rest), street({seed}), executor(e) {}
+  State(const scene::Camera& c, int w, int h, const StreetOptions& o, const parallel::Executor& e)
+      : camera(c), width(w), height(h), first(o.start), at_rest(o.at_rest), keyframes_in_spacing(o.keyframes), street({o.seed, o.clear_lane}), executor(e) {}
 
-  /// Where keyframe k is taken.
-  Vector3 place(int k) const { return place_in_street(first, k * spacing); }
+  double apart() const { return spacing / keyframes_in_spacing; }
+  /// The way to keyframe k. The street begins again at whole spacings: these are exact.
+  double way(int k) const { return spacing * (k / keyframes_in_spacing) + apart() * (k % keyframes_in_spacing); }
+  /// The last keyframe that is not ahead.
+  int last(double distance) const {
+    const int whole = static_cast<int>(distance / spacing);
+    return whole * keyframes_in_spacing + std::min(static_cast<int>((distance - whole * spacing) / apart()), keyframes_in_spacing - 1);
+  }
+  Vector3 place(int k) const { return place_in_street(first, way(k)); }
   night_street::Street::View render(int k, night_street::Parts parts) const {
     const Vector3 start = place(k);
     scene::Camera c = camera;
@@ -65,8 +73,8 @@ struct StreetDrive::State {
   }
 };
 
-StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, double start, bool at_rest, std::uint64_t seed, const parallel::Executor& executor)
-    : state_(std::make_unique<State>(camera, width, height, start, at_rest, seed, executor)) {}
+StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, const StreetOptions& options, const parallel::Executor& executor)
+    : state_(std::make_unique<State>(camera, width, height, options, executor)) {}
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
 
@@ -84,9 +92,9 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
     view.colour = Image(Format::rgba16f, s.width, s.height);
     view.depth = Image(Format::r32f, s.width, s.height);
   }
-  const int k = static_cast<int>(distance / spacing);
-  const double gone = distance - k * spacing;
-  const bool stands = distance == k * spacing, starts_anew = s.place(k + 1).z > s.place(k).z;
+  const int k = s.last(distance);
+  const double gone = std::max(distance - s.way(k), 0.0);
+  const bool stands = gone == 0, starts_anew = s.place(k + 1).z > s.place(k).z;
   // At a keyframe, and where the street ends, there is no need to look ahead.
   const Keyframe &behind = s.keyframe(k), &ahead = stands || starts_anew ? behind : s.keyframe(k + 1);
   s.keyframes.erase(s.keyframes.begin(), s.keyframes.lower_bound(k));
@@ -102,8 +110,8 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   u.forward[1] = static_cast<float>(glm::dot(way, basis.up));
   u.forward[2] = static_cast<float>(glm::dot(way, basis.forward));
   u.behind_by = static_cast<float>(gone);
-  u.ahead_by = static_cast<float>(&ahead == &behind ? gone : gone - spacing);
-  u.share = &ahead == &behind ? 0.0f : static_cast<float>(gone / spacing);
+  u.ahead_by = static_cast<float>(&ahead == &behind ? gone : gone - s.apart());
+  u.share = &ahead == &behind ? 0.0f : static_cast<float>(gone / s.apart());
   s.executor.for_tiles(s.width, s.height, s.width, 8, [&](const parallel::Tile& tile) { reproject_rows(u, behind, ahead, view, tile); });
   return true;
 }

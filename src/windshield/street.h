@@ -26,17 +26,24 @@ scene::Vector3 in_street(const scene::Vector3& car);
 /// Where the car's origin is in the street that StreetDrive shows, `distance` metres after it began at `start`.
 scene::Vector3 place_in_street(double start, double distance);
 
+struct StreetOptions {
+  double start = 0;         ///< where on the street the car begins [m]
+  std::uint64_t seed = 1;
+  bool clear_lane = false;  ///< no car stands in its way
+  int keyframes = 1;        ///< pictures in `spacing` metres of way
+  bool at_rest = false;     ///< it begins standing, so that its first view is worth more rays
+};
+
 /// Views of the street for a car that goes along it, straight on; after street_length metres it starts again. The street is
-/// rendered every `spacing` metres; between, each view is made from the one behind and the one ahead, by their depths. The same
+/// rendered `keyframes` times in `spacing` metres; between, each view is made from the one behind and the one ahead, by their depths. The same
 /// bits on every machine.
 class StreetDrive {
  public:
   static constexpr double street_length = 396, spacing = 12;
 
   /// camera: car axes (x forward, y left, z up, origin on the road under the driver's seat), with the field of view of the
-  /// views, which have width x height texels. start: where on the street the car begins [m]. at_rest: whether it stands there,
-  /// so that its first view is worth more rays. The executor must outlive this.
-  StreetDrive(const scene::Camera& camera, int width, int height, double start, bool at_rest, std::uint64_t seed, const parallel::Executor& executor);
+  /// views, which have width x height texels. The executor must outlive this.
+  StreetDrive(const scene::Camera& camera, int width, int height, const StreetOptions& options, const parallel::Executor& executor);
   ~StreetDrive();
   StreetDrive(StreetDrive&&) noexcept;
 

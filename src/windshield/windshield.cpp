@@ -67,7 +67,7 @@ struct Windshield::State {
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
-      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], settings.street_start, vehicle.at(0).speed == 0, settings.seed, executor);
+      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], StreetOptions{settings.street_start, settings.seed, settings.clear_lane, settings.keyframes, vehicle.at(0).speed == 0}, executor);
     } else {
       scene.colour = std::move(surroundings.colour);
       scene.depth = std::move(surroundings.depth);

@@ -199,6 +199,40 @@ TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
   EXPECT_THAT(o.out, HasSubstr("uniform exposure of display is not the scene's in 3 runs"));
 }
 
+// A whole run of each effect: lists of drops, and mip levels that are shared between the runs of a capture.
+TEST_F(Validate, TheReferencesOwnRunOfEachEffectPassesAsAShadow) {
+  const std::filesystem::path scenes = RAINREF_SOURCE_DIR "/tests/packs";
+  for (const std::string effect : {"windshield", "screen_drops", "rainy_glass", "edge_splash"}) {
+    for (const std::string variant : {"as-published", "corrected"}) {
+      const std::string name = effect + "-" + variant, scene = (scenes / (name + ".toml")).string();
+      ASSERT_EQ(rainref({"run", scene, "--frames", "3", "--every", "1", "--capture", "all", "--image", "none", "-o", name}).code, 0);
+      for (const bool with_scene : {false, true}) {
+        std::vector<std::string> arguments{"--shadow", name + "/capture"};
+        if (with_scene) arguments.push_back(scene);
+        const Outcome o = validate(arguments);
+        EXPECT_EQ(o.code, 0) << name << o.out << o.err;
+        EXPECT_THAT(o.out, AllOf(Not(HasSubstr("note:")), Not(HasSubstr("FAIL")))) << name;
+      }
+    }
+  }
+}
+
+TEST_F(Validate, ALostDropIsNamed) {
+  const std::string windshield = RAINREF_SOURCE_DIR "/tests/packs/windshield-corrected", list = "windshield.merge/0012.0/out.drops.npy";
+  copy_to("port", windshield);
+  // The last record of 32 bytes; the header's length of the list stays as long as it is.
+  std::string bytes = contents(folder / "port" / list);
+  const std::size_t shape = bytes.find("(", bytes.find("'shape'")) + 1;
+  const int count = std::stoi(bytes.substr(shape));
+  const std::string was = std::to_string(count), is = std::to_string(count - 1);
+  ASSERT_EQ(was.size(), is.size());
+  bytes.replace(shape, was.size(), is);
+  put(folder / "port" / list, bytes.substr(0, bytes.size() - 32));
+  const Outcome o = validate({windshield, "--port", "port", "--only", "merge"});
+  EXPECT_EQ(o.code, 1) << o.out;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("drops, missing: "), HasSubstr("likely cause: drops without"), HasSubstr("(gives 1 of 1 failing records bit for bit")));
+}
+
 TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   std::filesystem::create_directories(folder / "dump/puddle.shade/0000.0");
   std::filesystem::create_directories(folder / "empty");

@@ -55,10 +55,18 @@ struct MiniPort {
   std::vector<capture::Array> outputs(const capture::PassCase& c) const {
     std::vector<capture::Array> out;
     for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
-    if (!is_enveloped(c)) return out;
-    const std::unique_ptr<capture::PassModel> model = binder(pack.effect, c.pass)(c);
+    const capture::PassReadings* readings = readings_of(pack.effect, c.pass);
+    const bool has_lists = std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::keyed; });
+    if (!is_enveloped(c) && !has_lists) return out;
+    if (!readings->bind) return readings->recompute(c);
+    const std::unique_ptr<capture::PassModel> model = readings->bind(c);
     const std::vector<Slot> slots = slots_of(c);
     const deviant::Scope scope(only.empty() || only == c.pass ? behaviour : deviant::Behaviour());
+    for (std::size_t o = 0; o < out.size(); ++o) {
+      if (c.outputs[o].judge != capture::Judge::keyed) continue;
+      out[o].levels = {*model->keyed(c.outputs[o].name)->deviant()};
+      out[o].width = static_cast<int>(out[o].levels[0].size() / out[o].element_bytes());
+    }
     std::vector<deviant::Deviant> values(slots.size());
     for (int y = 0; y < model->height(); ++y) {
       for (int x = 0; x < model->width(); ++x) {
@@ -73,17 +81,23 @@ struct MiniPort {
   }
 
   void run(const std::filesystem::path& folder) const {
-    std::map<std::string, capture::Array> latest;  // of each buffer
+    std::map<std::string, capture::Array> latest;                 // of each buffer
+    std::map<std::string, std::map<int, capture::Array>> levels;  // of those that a pass gives level by level
     for (const capture::PackCase& entry : pack.cases) {
       capture::PassCase c = pack.read(entry);
       for (capture::CaseInput& input : c.inputs)
-        if (free_running && latest.contains(input.name)) input.array = latest[input.name];
+        if (free_running && latest.contains(input.name)) {
+          const std::size_t wanted = input.array.levels.size();
+          input.array = wanted > 1 ? levels[input.name][0] : latest[input.name];
+          for (std::size_t l = 1; l < wanted; ++l) input.array.levels.push_back(levels[input.name][static_cast<int>(l)].levels[0]);
+        }
       if (before) before(c);
       std::vector<capture::Array> gave = outputs(c);
       if (after) after(c, gave);
       for (std::size_t o = 0; o < gave.size(); ++o) {
         put_array(folder / c.folder(), "out." + c.outputs[o].name, gave[o]);
         latest[c.outputs[o].name] = gave[o];
+        if (c.level >= 0) levels[c.outputs[o].name][c.level] = gave[o];
       }
       if (!free_running) continue;
       if (dumped) dumped(c);

@@ -252,5 +252,96 @@ TEST_F(PublishedShadowTest, TheTimeOfAnotherFrameFails) {
   EXPECT_THAT(pass_of(j, "raindrops").reason, AllOf(HasSubstr("uniform time is 0.18333334"), HasSubstr("expected 0.2"), HasSubstr("it is that of puddle.raindrops/0011.0")));
 }
 
+// The other effects: lists of drops that are handed from pass to pass, and a picture whose mip levels come from a run each.
+class WindshieldShadowTest : public ShadowTest {
+ protected:
+  WindshieldShadowTest() : ShadowTest("windshield-corrected") {}
+};
+class PublishedWindshieldShadowTest : public ShadowTest {
+ protected:
+  PublishedWindshieldShadowTest() : ShadowTest("windshield-as-published") {}
+};
+class ScreenDropsShadowTest : public ShadowTest {
+ protected:
+  ScreenDropsShadowTest() : ShadowTest("screen_drops-corrected") {}
+};
+class RainyGlassShadowTest : public ShadowTest {
+ protected:
+  RainyGlassShadowTest() : ShadowTest("rainy_glass-corrected") {}
+};
+class EdgeSplashShadowTest : public ShadowTest {
+ protected:
+  EdgeSplashShadowTest() : ShadowTest("edge_splash-corrected") {}
+};
+
+/// Of a device that truncates and fuses; a port may be asked to warn of what real devices do not do.
+void expect_good(const PortJudgement& j) {
+  EXPECT_TRUE(j.status == Status::pass || j.status == Status::warn) << why(j);
+  for (const PassJudgement& p : j.passes) EXPECT_TRUE(p.status == Status::pass || p.status == Status::warn) << p.pass;
+}
+TEST_F(WindshieldShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.slip = deviant::Slip::fused;
+  expect_good(shadow_of());
+  // Its drops are not the pack's any more.
+  EXPECT_EQ(judge(port.pack, folder.path()).status, Status::fail);
+}
+TEST_F(PublishedWindshieldShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.behaviour.slip = deviant::Slip::fused;
+  expect_good(shadow_of());
+}
+TEST_F(ScreenDropsShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.slip = deviant::Slip::fused;
+  expect_good(shadow_of());
+}
+TEST_F(RainyGlassShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.slip = deviant::Slip::fused;
+  expect_good(shadow_of());
+}
+TEST_F(EdgeSplashShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.slip = deviant::Slip::fused;
+  expect_good(shadow_of());
+}
+
+TEST_F(WindshieldShadowTest, ALostDropIsFoundWhereItIsLost) {
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.folder() != "windshield.merge/0012.0") return;
+    out[0].levels[0].resize(out[0].levels[0].size() - out[0].element_bytes());
+    --out[0].width;
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "merge") << why(j);
+  EXPECT_THAT(j.notes, Contains("the first bad run is windshield.merge/0012.0"));
+  EXPECT_THAT(pass_of(j, "merge").reason, HasSubstr("drops, missing: "));
+  EXPECT_EQ(pass_of(j, "splat").status, Status::pass);  // it follows from the drops that are left
+  EXPECT_FALSE(pass_of(j, "splat").inputs_are_good);
+}
+
+TEST_F(WindshieldShadowTest, EachMipLevelMustBeTheOutputOfItsOwnRun) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "windshield.composite/0012.0") std::memset(input_of(c, "blurred").array.levels[2].data(), 0, 64);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "composite") << why(j);
+  EXPECT_THAT(pass_of(j, "composite").reason,
+              HasSubstr("input windshield.composite/0012.0/in.blurred.L2 is not the previous output windshield.blur_pyramid/0012.0.L2/out.blurred"));
+}
+
+TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "windshield.blur_pyramid/0012.0.L2") {
+      Array& above = input_of(c, "blurred").array;
+      above.levels[0][0] = std::byte{1};
+    }
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "blur_pyramid") << why(j);
+  EXPECT_THAT(pass_of(j, "blur_pyramid").reason,
+              HasSubstr("input windshield.blur_pyramid/0012.0.L2/in.blurred is not the previous output windshield.blur_pyramid/0012.0.L1/out.blurred"));
+}
+
 }  // namespace
 }  // namespace rainref::conformance

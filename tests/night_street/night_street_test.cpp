@@ -49,6 +49,14 @@ TEST(NightStreet, HasTheRecordedBits) {
   EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), "6d95f8095914344642c3e33e0b126e86");
 }
 
+TEST(NightStreet, AClearLaneHasNoCarAndNothingElseChanges) {
+  const Street clear({1, true});
+  const auto free_way = [](const Street& s, double x) { return s.look({x, 0.6, 190}, {0, 0, -1}).distance; };
+  EXPECT_LT(free_way(street(), 1.95), 130);
+  EXPECT_GT(free_way(clear, 1.95), 390);
+  for (const double x : {-1.95, -6.0, 3.5, 6.0}) EXPECT_EQ(free_way(clear, x), free_way(street(), x)) << x;
+}
+
 TEST(NightStreet, IsAnotherStreetForAnotherSeed) {
   const parallel::Executor executor(2);
   const Image a = street().panorama(64, 32, puddle_eye, executor),

@@ -1,6 +1,9 @@
 // Drive cycles: totals that regulations publish, smoothness of the curve, and every way in which a table may be wrong.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <vector>
+
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -9,37 +12,78 @@ namespace {
 const std::string cycles = RAINREF_SOURCE_DIR "/scenes/windshield/cycles/";
 using testing::HasSubstr;
 
-// Distances of the regulations; the samples are 1 s apart and begin and end at rest, where the cubic's integral is the
-// trapezoid's.
+/// What is published of a cycle, to the digits that were.
+struct Known {
+  const char* file;
+  double seconds, metres, published, tolerance, top;  ///< metres: sum of the samples; top: [m/s]
+};
+constexpr double mile = 1609.344, mph = 0.44704, kmh = 1 / 3.6;
+constexpr Known known_cycles[] = {{"wltc_3b.csv", 1800, 23266.3, 23266, 0.5, 131.3 * kmh},
+                                  {"us06.csv", 600, 12887.6, 8.01 * mile, 0.005 * mile, 80.3 * mph},
+                                  {"udds.csv", 1369, 11990.4, 7.45 * mile, 0.005 * mile, 56.7 * mph},
+                                  {"nedc.csv", 1180, 11013.2, 11000, 50, 120 * kmh}};
+
+// The samples are h = 1 s apart. Between two of them the cubic's integral is the trapezoid's and h^2 (m0 - m1) / 12 of the
+// slopes at its ends: the sum over the table telescopes, and a cycle begins and ends at rest, so nothing of it is left.
+// 0.05 m is the rounding of the sums above.
 TEST(DriveCycle, TotalsAreTheRegulations) {
-  struct Known {
-    const char* file;
-    double seconds, metres, published, tolerance;  // metres: sum of the samples; published: to the digits that were
-  };
-  for (const Known& k : {Known{"wltc_3b.csv", 1800, 23266.3, 23266, 0.5},
-                         Known{"us06.csv", 600, 12887.6, 8.01 * 1609.344, 0.005 * 1609.344}}) {
+  for (const Known& k : known_cycles) {
     const DriveCycle c = read_drive_cycle(cycles + k.file);
     const double distance = c.speed.integral(0, k.seconds);
+    double trapezoids = 0;
+    for (int t = 0; t < k.seconds; ++t) trapezoids += (c.speed.value(t) + c.speed.value(t + 1)) / 2;
+    EXPECT_NEAR(distance, trapezoids, 1e-8) << k.file;  // 1800 additions of at most 23 km, 3e-12 each
     EXPECT_NEAR(distance, k.metres, 0.05) << k.file;
     EXPECT_NEAR(distance, k.published, k.tolerance) << k.file;
-    EXPECT_EQ(c.speed.value(k.seconds), 0);
+    // It takes as long as it should: at rest at the end, and nothing beyond.
+    EXPECT_EQ(c.speed.value(k.seconds), 0) << k.file;
+    EXPECT_EQ(c.speed.integral(k.seconds, k.seconds + 100), 0) << k.file;
     EXPECT_EQ(c.yaw_rate.value(100), 0);
   }
 }
 
-// WLTC 3b: top speed 131.3 km/h; US06: 129.2 km/h, 80.3 mph. The curve passes through its samples and never beyond
-// them.
+// The curve passes through its samples and never beyond them, so its top speed is the table's: 0.02 m/s are half of the
+// last digit published.
 TEST(DriveCycle, PeaksAreTheRegulations) {
-  for (const auto& [file, top] : {std::pair{"wltc_3b.csv", 131.3 / 3.6}, std::pair{"us06.csv", 80.3 * 0.44704}}) {
-    const DriveCycle c = read_drive_cycle(cycles + file);
-    double most = 0, least = 0;
-    for (int i = 0; i <= 18000; ++i) {
-      most = std::max(most, c.speed.value(0.1 * i));
-      least = std::min(least, c.speed.value(0.1 * i));
+  for (const Known& k : known_cycles) {
+    const DriveCycle c = read_drive_cycle(cycles + k.file);
+    double most = 0, least = 0, most_sampled = 0;
+    for (int i = 0; i <= 10 * k.seconds; ++i) {
+      const double v = c.speed.value(0.1 * i);
+      most = std::max(most, v);
+      least = std::min(least, v);
+      if (i % 10 == 0) most_sampled = std::max(most_sampled, v);
     }
-    EXPECT_NEAR(most, top, 0.02) << file;
-    EXPECT_EQ(least, 0) << file;
+    EXPECT_NEAR(most, k.top, 0.025) << k.file;
+    EXPECT_EQ(most, most_sampled) << k.file;
+    EXPECT_EQ(least, 0) << k.file;
   }
+}
+
+// UN/ECE R83 gives the NEDC as operations, straight lines between these times [s] and speeds [km/h], all at whole seconds:
+// trapezoids of 1 s are then exact. The extra-urban part is published as 6.955 km.
+TEST(DriveCycle, TheNedcIsTheRegulationsOperations) {
+  using Operations = std::vector<std::array<double, 2>>;
+  const Operations urban{{0, 0}, {11, 0}, {15, 15}, {23, 15}, {25, 10}, {28, 0}, {49, 0}, {54, 15}, {56, 15}, {61, 32}, {85, 32}, {93, 10}, {96, 0}, {117, 0}, {122, 15}, {124, 15}, {133, 35},
+                         {135, 35}, {143, 50}, {155, 50}, {163, 35}, {176, 35}, {178, 32}, {185, 10}, {188, 0}, {195, 0}};
+  const Operations extra_urban{{0, 0}, {20, 0}, {25, 15}, {27, 15}, {36, 35}, {38, 35}, {46, 50}, {48, 50}, {61, 70}, {111, 70}, {119, 50}, {188, 50}, {201, 70}, {251, 70}, {286, 100},
+                               {316, 100}, {336, 120}, {346, 120}, {362, 80}, {370, 50}, {380, 0}, {400, 0}};
+  const DriveCycle c = read_drive_cycle(cycles + "nedc.csv");
+  constexpr double digits = 5e-6;  // the table has five
+  const auto expect_part = [&](const Operations& all, double from) {
+    double metres = 0;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const auto [t0, v0] = all[i - 1];
+      const auto [t1, v1] = all[i];
+      metres += (v0 + v1) / 2 * (t1 - t0) * kmh;
+      for (double t = t0; t <= t1; ++t) EXPECT_NEAR(c.speed.value(from + t), (v0 + (v1 - v0) * (t - t0) / (t1 - t0)) * kmh, 1.01 * digits) << from + t;
+    }
+    const double last = all.back()[0];
+    EXPECT_NEAR(c.speed.integral(from, from + last), metres, last * digits);
+    return metres;
+  };
+  for (int k = 0; k < 4; ++k) EXPECT_NEAR(expect_part(urban, 195 * k), 1014.6, 0.05);
+  EXPECT_NEAR(expect_part(extra_urban, 780), 6955, 0.5);
 }
 
 // The derivative is that of the value and the value that of the integral, by central differences; all three are
