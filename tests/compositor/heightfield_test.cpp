@@ -116,14 +116,15 @@ TEST(Heightfield, LanesGiveThePlainReadingsBits) {
         // Some know a nearer hit of another surface already.
         if ((i + static_cast<std::size_t>(k)) % 7 == 0) lanes_first[k] = plain_first[k] = {30, 5, 0, 0, 0};
       }
-      packet.rays = &rays[i];
+      PacketRoom room;
+      room.lend_to(packet);
       for (int k = 0; k < 16; ++k) {
         for (int c = 0; c < 3; ++c) {
-          packet.origin[c][k] = rays[i + k].origin[c];
-          packet.direction[c][k] = rays[i + k].direction[c];
+          room.component[c][k] = rays[i + k].origin[c];
+          room.component[3 + c][k] = rays[i + k].direction[c];
         }
-        packet.nearest[k] = rays[i + k].nearest;
-        packet.farthest[k] = rays[i + k].farthest;
+        room.component[6][k] = rays[i + k].nearest;
+        room.component[7][k] = rays[i + k].farthest;
       }
       for (std::uint32_t tile = 0; tile < world.water->primitives(); ++tile) {
         const std::uint32_t changed = world.water->meet_packet(0, tile, lanes, packet);
