@@ -49,13 +49,20 @@ void SpreadRays(const Ray* rays, int count, PacketRoom& out) {
   }
 }
 
-/// Gives the slots of rays that floats hold near enough.
-std::uint32_t RoundPacket(const Packet& packet, const SceneExtent& extent, FloatPacket& out) {
+/// Makes the hits none; gives the slots of rays that floats hold near enough.
+std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket& out) {
   const R::D d;
   const R zero(0.0), one(1.0), slack(extent.slack()), largest(largest_float);
   const auto smaller = [](R a, R b) HWY_ATTR { return select(b < a, b, a); };
   const auto larger = [](R a, R b) HWY_ATTR { return select(a < b, b, a); };
   std::uint32_t ordinary = 0;
+  // Two hits to a vector of 64 bytes; a narrower one holds a part of the pattern.
+  const Hit none[2];
+  static_assert(sizeof none % sizeof(zero.v) == 0);
+  for (std::size_t i = 0; i < sizeof packet.first; i += sizeof(zero.v)) {
+    const auto part = hn::LoadU(d, reinterpret_cast<const double*>(reinterpret_cast<const char*>(none) + i % sizeof none));
+    hn::StoreU(part, d, reinterpret_cast<double*>(reinterpret_cast<char*>(packet.first) + i));
+  }
   for (int slot = 0; slot < Packet::slots; slot += n) {
     const auto at = [&](const double* p) HWY_ATTR { return R(hn::LoadU(d, p + slot)); };
     const auto put = [&](R x, float* p) HWY_ATTR { hn::Store(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
@@ -102,7 +109,6 @@ void spread_rays(const Ray* rays, int count, PacketRoom& out) { RAINREF_DISPATCH
 void find_ends(const Packet& packet, const FloatPacket& floats, double slack, float* ends) { RAINREF_DISPATCH(FindEnds)(packet, floats, slack, ends); }
 
 void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
-  std::fill(packet.first, packet.first + count, Hit{});
   out.enters = (1u << count) - 1;
   for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
   // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.

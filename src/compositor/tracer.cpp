@@ -118,6 +118,8 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
   alignas(64) embree::RayHit<width> rays;
   prepare<width>(rays);
   alignas(64) int valid[width];
+  std::uint32_t traced = 0;  // the slots that `valid` names
+  std::fill(valid, valid + width, 0);
   for (std::size_t begin = 0; begin < hits.size(); begin += width) {
     const int count = static_cast<int>(std::min<std::size_t>(width, hits.size() - begin));
     Packet& packet = query.packet;
@@ -127,7 +129,10 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
       const auto same = [&](const double* component) { return component[0] == component[count - 1]; };
       query.set_coherent(same(packet.origin[0]) && same(packet.origin[1]) && same(packet.origin[2]));  // a pinhole's
       fill<width>(query.floats, rays);
-      for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
+      if (query.floats.enters != traced) {
+        traced = query.floats.enters;
+        for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(traced >> slot & 1);
+      }
       ask(valid, query, rays);
     }
     std::copy_n(packet.first, count, hits.data() + begin);
