@@ -18,9 +18,14 @@ HWY_INLINE LaneMask operator^(LaneMask a, LaneMask b) { return {hn::Xor(a.m, b.m
 /// a and not b.
 HWY_INLINE LaneMask without(LaneMask a, LaneMask b) { return {hn::AndNot(b.m, a.m)}; }
 
-/// By comparison, which every target answers alike.
+// b < a ? b : a and a < b ? b : a, which MINPD and MAXPD compute exactly, signed zeros included; see Lanes.
+#if HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86
+HWY_INLINE Real64Lanes minimum(Real64Lanes a, Real64Lanes b) { return hn::Min(b.v, a.v); }
+HWY_INLINE Real64Lanes maximum(Real64Lanes a, Real64Lanes b) { return hn::Max(b.v, a.v); }
+#else
 HWY_INLINE Real64Lanes minimum(Real64Lanes a, Real64Lanes b) { return select(b < a, b, a); }
 HWY_INLINE Real64Lanes maximum(Real64Lanes a, Real64Lanes b) { return select(a < b, b, a); }
+#endif
 
 constexpr int lane_width = static_cast<int>(hn::MaxLanes(Real64Lanes::D()));
 static_assert(Packet::slots % lane_width == 0 && lane_width <= 8);

@@ -1,5 +1,7 @@
 #include "compositor/puddle_ground.h"
 
+#include <vector>
+
 #include "compositor/shading_kernels.h"
 
 namespace rainref::compositor {
