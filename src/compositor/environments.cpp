@@ -1,6 +1,6 @@
 #include "compositor/environments.h"
 
-#include "compositor/optics.h"
+#include "compositor/shading_kernels.h"
 #include "math/real64.h"
 
 namespace rainref::compositor {
@@ -10,12 +10,7 @@ Rotation::Rotation(double angle) : cosine(cos_real(Real64(angle)).v), sine(sin_r
 PictureEnvironment::PictureEnvironment(const Texture& texture, bool is_cube, const Rotation& rotation)
     : texture_(&texture), is_cube_(is_cube), rotation_(rotation) {}
 
-void PictureEnvironment::radiance(std::span<const Sight> sights, std::span<Vec> out) const {
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    const auto direction = scalar::number(rotation_.apply(sights[i].direction));
-    out[i] = scalar::vec(scalar::sample_environment(*texture_, is_cube_, direction, scalar::Number(sights[i].blur)));
-  }
-}
+void PictureEnvironment::radiance(std::span<const Sight> sights, std::span<Vec> out) const { look_up(*texture_, is_cube_, rotation_, sights, out); }
 
 StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation)
     : street_(&street), offset_(offset), panorama_(panorama, false, Rotation()), rotation_(rotation) {}

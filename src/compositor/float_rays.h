@@ -27,8 +27,12 @@ struct FloatPacket {
   std::uint32_t enters;  ///< slots whose rays do not pass the whole scene by; the others end before they begin
 };
 
-/// Spreads the rays into `packet` and makes its hits none; gives them in floats. 1 <= count <= slots.
-void make_floats(const Ray* rays, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out);
+/// Component by component, what lies ray by ray; 1 <= count <= slots.
+void spread_rays(const Ray* rays, int count, PacketRoom& out);
+/// Makes the hits of the packet none, and gives its first `count` rays in floats.
+void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out);
+/// What Embree may take for the ends of the packet's rays by now, slot by slot; see float_farthest.
+void find_ends(const Packet& packet, const FloatPacket& floats, double slack, float* ends);
 
 inline constexpr double largest_float = 0x1.fffffep127;
 /// What Embree may take for the end of a ray that has a hit at parameter t': nothing that precedes or equals it is culled.

@@ -35,7 +35,7 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
       tiles_.push_back({double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows)), 0, 0, 1e-9 * cell_height_});
     }
   }
-  view_ = {heights_.data(), highest_.data() + first_cell_, double(columns), {frame.origin.x, frame.origin.y, frame.origin.z},
+  view_ = {heights_.data(), highest_.data() + first_cell_, double(columns), rows, {frame.origin.x, frame.origin.y, frame.origin.z},
            {{to_x.x, to_x.y, to_x.z}, {to_y.x, to_y.y, to_y.z}, {to_h.x, to_h.y, to_h.z}}};
 }
 

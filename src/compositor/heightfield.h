@@ -46,6 +46,8 @@ class Heightfield final : public Surface {
   Vec normal_of_slopes(double slope_x, double slope_y) const;
   /// Normals of the vertices by central differences, interpolated to the hit and made unit.
   Vec smooth_normal(const Hit& hit) const;
+  /// The same of several hits at once.
+  void smooth_normals(std::span<const Hit> hits, std::span<Vec> normals) const { compositor::smooth_normals(view_, hits, normals); }
 
   std::uint64_t revision() const override { return revision_; }
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(tiles_.size()); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "compositor/packet.h"
 
@@ -14,6 +15,7 @@ struct HeightfieldView {
   const float* heights;   ///< of the vertices, rows of columns + 1
   const float* highest;   ///< of the four corners of each cell, rows of columns; readable cells_ahead - 1 rows and cells outside
   double columns;
+  int rows;
   double origin[3];
   double to_grid[3][3];   ///< rows: of a direction in the world, its cells along u, its cells along v, its height
 };
@@ -29,6 +31,9 @@ struct HeightfieldTile {
 std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet);
 /// The same for one ray, by the plain reading.
 void meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, const Ray& ray, Hit& first);
+
+/// Heightfield::smooth_normal of each hit.
+void smooth_normals(const HeightfieldView& field, std::span<const Hit> hits, std::span<Vec> normals);
 
 /// Writes `highest` of the tile, and its low and high. bounds: x0, x1, y0, y1 given.
 void summarize_tile(const float* heights, int columns, float* highest, HeightfieldTile& tile);

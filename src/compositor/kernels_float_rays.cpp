@@ -7,12 +7,12 @@
 
 #define RAINREF_KERNELS "compositor/kernels_float_rays.cpp"
 #include "math/foreach_target.h"
-#include "math/real64_lanes-inl.h"
+#include "compositor/packet_lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(compositor)
 
 using R = Real64Lanes;
-constexpr int n = static_cast<int>(hn::MaxLanes(R::D()));
+constexpr int n = lane_width;
 
 /// Component by component, what lies ray by ray; as many as a vector has lanes.
 HWY_INLINE HWY_ATTR void transpose(const double* const* rays, double* const* components, int slot) {
@@ -38,9 +38,10 @@ HWY_INLINE HWY_ATTR void transpose(const double* const* rays, double* const* com
 #endif
 }
 
-void SpreadRays(const Ray* rays, int count, Packet& packet) {
+void SpreadRays(const Ray* rays, int count, PacketRoom& out) {
   static_assert(sizeof(Ray) == 8 * sizeof(double));
-  double* const components[8] = {packet.origin[0], packet.origin[1], packet.origin[2], packet.direction[0], packet.direction[1], packet.direction[2], packet.nearest, packet.farthest};
+  double* components[8];
+  for (int c = 0; c < 8; ++c) components[c] = out.component[c];
   for (int slot = 0; slot < Packet::slots; slot += n) {
     const double* from[n];
     for (int k = 0; k < n; ++k) from[k] = &rays[slot + k < count ? slot + k : count - 1].origin.x;
@@ -48,15 +49,22 @@ void SpreadRays(const Ray* rays, int count, Packet& packet) {
   }
 }
 
-/// Gives the slots of rays that floats hold near enough.
-std::uint32_t RoundPacket(const Packet& packet, const SceneExtent& extent, FloatPacket& out) {
+/// Makes the hits none; gives the slots of rays that floats hold near enough.
+std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket& out) {
   const R::D d;
   const R zero(0.0), one(1.0), slack(extent.slack()), largest(largest_float);
   const auto smaller = [](R a, R b) HWY_ATTR { return select(b < a, b, a); };
   const auto larger = [](R a, R b) HWY_ATTR { return select(a < b, b, a); };
   std::uint32_t ordinary = 0;
+  // Two hits to a vector of 64 bytes; a narrower one holds a part of the pattern.
+  const Hit none[2];
+  static_assert(sizeof none % sizeof(zero.v) == 0);
+  for (std::size_t i = 0; i < sizeof packet.first; i += sizeof(zero.v)) {
+    const auto part = hn::LoadU(d, reinterpret_cast<const double*>(reinterpret_cast<const char*>(none) + i % sizeof none));
+    hn::StoreU(part, d, reinterpret_cast<double*>(reinterpret_cast<char*>(packet.first) + i));
+  }
   for (int slot = 0; slot < Packet::slots; slot += n) {
-    const auto at = [&](const double* p) HWY_ATTR { return R(hn::Load(d, p + slot)); };
+    const auto at = [&](const double* p) HWY_ATTR { return R(hn::LoadU(d, p + slot)); };
     const auto put = [&](R x, float* p) HWY_ATTR { hn::Store(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
     R reach = zero, length = zero, sum = zero;  // sums keep a NaN
     for (int k = 0; k < 3; ++k) {
@@ -79,6 +87,15 @@ std::uint32_t RoundPacket(const Packet& packet, const SceneExtent& extent, Float
   return ordinary;
 }
 
+void FindEnds(const Packet& packet, const FloatPacket& floats, double slack, float* ends) {
+  const R largest(largest_float);
+  for (int slot = 0; slot < Packet::slots; slot += n) {
+    const R t = distances(packet.first + slot);
+    const R far = (t - load_slots(floats.start + slot)) * load_slots(floats.scale + slot) * R(1.0001) + R(slack);
+    hn::StoreU(hn::DemoteTo(NarrowTag(), select(largest < far, largest, far).v), NarrowTag(), ends + slot);
+  }
+}
+
 RAINREF_TARGET_END(compositor)
 
 #if RAINREF_ONCE
@@ -86,13 +103,14 @@ namespace rainref::compositor {
 
 RAINREF_EXPORT(SpreadRays);
 RAINREF_EXPORT(RoundPacket);
+RAINREF_EXPORT(FindEnds);
 
-void make_floats(const Ray* rays, int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
-  RAINREF_DISPATCH(SpreadRays)(rays, count, packet);
-  packet.rays = rays;
-  std::fill(packet.first, packet.first + count, Hit{});
+void spread_rays(const Ray* rays, int count, PacketRoom& out) { RAINREF_DISPATCH(SpreadRays)(rays, count, out); }
+void find_ends(const Packet& packet, const FloatPacket& floats, double slack, float* ends) { RAINREF_DISPATCH(FindEnds)(packet, floats, slack, ends); }
+
+void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
   out.enters = (1u << count) - 1;
-  for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(rays[slot], extent, static_cast<int>(slot), out); });
+  for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
   // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
   for_each_lane(~out.enters & ((1u << Packet::slots) - 1), [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });
 }

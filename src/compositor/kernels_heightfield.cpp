@@ -5,18 +5,11 @@
 
 #define RAINREF_KERNELS "compositor/kernels_heightfield.cpp"
 #include "math/foreach_target.h"
-#include "math/lanes-inl.h"
+#include "compositor/packet_lanes-inl.h"
+#include "math/double_lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(compositor)
 
-using LaneMask = Real64Lanes::Mask;
-HWY_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {hn::And(a.m, b.m)}; }
-HWY_INLINE LaneMask operator|(LaneMask a, LaneMask b) { return {hn::Or(a.m, b.m)}; }
-HWY_INLINE LaneMask operator^(LaneMask a, LaneMask b) { return {hn::Xor(a.m, b.m)}; }
-HWY_INLINE LaneMask without(LaneMask a, LaneMask b) { return {hn::AndNot(b.m, a.m)}; }
-
-HWY_INLINE Real64Lanes minimum(Real64Lanes a, Real64Lanes b) { return select(b < a, b, a); }
-HWY_INLINE Real64Lanes maximum(Real64Lanes a, Real64Lanes b) { return select(a < b, b, a); }
 /// + 0 makes the zero positive: targets disagree on the sign of floor(-0).
 HWY_INLINE Real64Lanes whole(Real64Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(Real64Lanes::D())); }
 HWY_INLINE Real64Lanes gather(const float* p, Real64Lanes index) {
@@ -61,57 +54,73 @@ HWY_INLINE void gather_two(const float* p, const Pair& index, Pair& a, Pair& b) 
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-constexpr int half_width = static_cast<int>(hn::MaxLanes(Real64Lanes::D()));
-HWY_INLINE HWY_ATTR Pair load(const double* p) { return {hn::Load(Real64Lanes::D(), p), hn::Load(Real64Lanes::D(), p + half_width)}; }
-HWY_INLINE HWY_ATTR void store(const Pair& x, double* p) {
-  hn::Store(x.lower.v, Real64Lanes::D(), p);
-  hn::Store(x.upper.v, Real64Lanes::D(), p + half_width);
-}
-HWY_INLINE HWY_ATTR LaneMask mask_of_bits(std::uint32_t bits) {
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-  return {hn::LoadMaskBits(Real64Lanes::D(), bytes)};
-}
-HWY_INLINE HWY_ATTR std::uint32_t bits_of(LaneMask mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Real64Lanes::D(), mask.m, bytes);
-  return bytes[0];
-}
-/// The distances of hits[0] and the next ones.
-HWY_INLINE HWY_ATTR Pair distances(const Hit* hits) {
-  static_assert(sizeof(Hit) == 4 * sizeof(double));
-  const auto index = hn::ShiftLeft<2>(hn::Iota(hn::RebindToSigned<Real64Lanes::D>(), 0));
-  return {hn::GatherIndex(Real64Lanes::D(), &hits[0].t, index), hn::GatherIndex(Real64Lanes::D(), &hits[half_width].t, index)};
-}
+HWY_INLINE HWY_ATTR Pair load_pair(const double* p) { return {load_slots(p), load_slots(p + lane_width)}; }
 
 std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
   using R = Pair;
-  constexpr int width = 2 * half_width;
-  static_assert(Packet::slots % width == 0 && half_width <= 8);
+  constexpr int width = 2 * lane_width;
+  static_assert(Packet::slots % width == 0);
   std::uint32_t changed = 0;
   for (int slot = 0; slot < Packet::slots; slot += width) {
     const std::uint32_t here = lanes >> slot & ((1u << width) - 1);
     if (here == 0) continue;
-    const R::Mask active{mask_of_bits(here & ((1u << half_width) - 1)), mask_of_bits(here >> half_width)};
-    const R origin[3] = {load(packet.origin[0] + slot), load(packet.origin[1] + slot), load(packet.origin[2] + slot)};
-    const R direction[3] = {load(packet.direction[0] + slot), load(packet.direction[1] + slot), load(packet.direction[2] + slot)};
-    const GridRay<R> ray = to_grid(field, origin, direction, load(packet.nearest + slot), load(packet.farthest + slot));
-    R hit_t(0.0), hit_part(0.0), hit_u(0.0), hit_v(0.0);
-    const R::Mask hit = meet_cells(field, tile, ray, distances(packet.first + slot), active, hit_t, hit_part, hit_u, hit_v);
+    const R::Mask active{mask_of_bits(here & ((1u << lane_width) - 1)), mask_of_bits(here >> lane_width)};
+    const auto load = [slot](const double* p) HWY_ATTR { return load_pair(p + slot); };
+    const R origin[3] = {load(packet.origin[0]), load(packet.origin[1]), load(packet.origin[2])};
+    const R direction[3] = {load(packet.direction[0]), load(packet.direction[1]), load(packet.direction[2])};
+    const GridRay<R> ray = to_grid(field, origin, direction, load(packet.nearest), load(packet.farthest));
+    const R known(distances(packet.first + slot), distances(packet.first + slot + lane_width));
+    R t(0.0), part(0.0), u(0.0), v(0.0);
+    const R::Mask hit = meet_cells(field, tile, ray, known, active, t, part, u, v);
     if (!R::any(hit)) continue;
-    HWY_ALIGN double t[width], part[width], u[width], v[width];
-    store(hit_t, t);
-    store(hit_part, part);
-    store(hit_u, u);
-    store(hit_v, v);
-    for_each_lane(bits_of(hit.lower) | bits_of(hit.upper) << half_width, [&](std::uint32_t k) {
-      const Hit found{t[k], self, static_cast<std::uint32_t>(part[k]), u[k], v[k]};
-      Hit& first = packet.first[slot + static_cast<int>(k)];
-      if (!precedes(found, first)) return;
-      first = found;
-      changed |= 1u << slot << k;
-    });
+    HWY_ALIGN double parts[width];
+    hn::Store(part.lower.v, Real64Lanes::D(), parts);
+    hn::Store(part.upper.v, Real64Lanes::D(), parts + lane_width);
+    changed |= take_hits(hit.lower, known.lower, t.lower, u.lower, v.lower, self, slot, [&](std::uint32_t k) { return static_cast<std::uint32_t>(parts[k]); }, packet);
+    changed |= take_hits(hit.upper, known.upper, t.upper, u.upper, v.upper, self, slot + lane_width, [&](std::uint32_t k) { return static_cast<std::uint32_t>(parts[k + lane_width]); }, packet);
   }
   return changed;
+}
+
+void SmoothNormals(const HeightfieldView& field, std::span<const Hit> hits, std::span<Vec> normals) {
+  using N = DoubleLanes;
+  constexpr std::size_t n = static_cast<std::size_t>(N::size());
+  const int columns = static_cast<int>(field.columns);
+  const N::Int across = N::uniform_int(columns + 1), along = N::uniform_int(field.rows + 1), none = N::uniform_int(0);
+  const auto& m = field.to_grid;
+  const auto row_of = [&](int k) HWY_ATTR { return Vec3<N>(m[k][0], m[k][1], m[k][2]); };
+  const Vec3<N> of_x = row_of(0), of_y = row_of(1), up = row_of(2);
+  const auto height = [&](N::Int i, N::Int j) HWY_ATTR { return fetch(field.heights, j * across + i, N()); };
+  const auto unit = [](const Vec3<N>& a) HWY_ATTR {
+    const N size = length(a);
+    return Vec3<N>(a.x / size, a.y / size, a.z / size);
+  };
+  const auto at_vertex = [&](N::Int i, N::Int j) HWY_ATTR {
+    const N::Int west = max_index(i + -1, none), east = clamp_index(i + 1, across), south = max_index(j + -1, none), north = clamp_index(j + 1, along);
+    const N slope_x = (height(east, j) - height(west, j)) / (to_number(east) - to_number(west));
+    const N slope_y = (height(i, north) - height(i, south)) / (to_number(north) - to_number(south));
+    return unit(up - slope_x * of_x - slope_y * of_y);
+  };
+  for (std::size_t first = 0; first < hits.size(); first += n) {
+    HWY_ALIGN double u[n], v[n], column[n], row[n], out[3][n];
+    for (std::size_t k = 0; k < n; ++k) {
+      const Hit& hit = hits[std::min(first + k, hits.size() - 1)];
+      const int cell = static_cast<int>(hit.part / 2);
+      u[k] = hit.u;
+      v[k] = hit.v;
+      column[k] = cell % columns;
+      row[k] = cell / columns;
+    }
+    const N fu = N::load(u), fv = N::load(v), one(1.0);
+    const N::Int x = to_int(N::load(column)), y = to_int(N::load(row));
+    const Vec3<N> south = (one - fu) * at_vertex(x, y) + fu * at_vertex(x + 1, y);
+    const Vec3<N> north = (one - fu) * at_vertex(x, y + 1) + fu * at_vertex(x + 1, y + 1);
+    const Vec3<N> normal = unit((one - fv) * south + fv * north);
+    hn::Store(normal.x.v, N::D(), out[0]);
+    hn::Store(normal.y.v, N::D(), out[1]);
+    hn::Store(normal.z.v, N::D(), out[2]);
+    for (std::size_t k = 0; k < std::min(n, hits.size() - first); ++k) normals[first + k] = {out[0][k], out[1][k], out[2][k]};
+  }
 }
 
 void SummarizeTile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {
@@ -149,11 +158,13 @@ RAINREF_TARGET_END(compositor)
 namespace rainref::compositor {
 
 RAINREF_EXPORT(MeetTile);
+RAINREF_EXPORT(SmoothNormals);
 RAINREF_EXPORT(SummarizeTile);
 
 std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
   return RAINREF_DISPATCH(MeetTile)(field, tile, self, lanes, packet);
 }
+void smooth_normals(const HeightfieldView& field, std::span<const Hit> hits, std::span<Vec> normals) { RAINREF_DISPATCH(SmoothNormals)(field, hits, normals); }
 void summarize_tile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {
   RAINREF_DISPATCH(SummarizeTile)(heights, columns, highest, tile);
 }

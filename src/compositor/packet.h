@@ -7,14 +7,30 @@
 
 namespace rainref::compositor {
 
-/// Up to 16 rays, each in a slot of its own, and their first hits so far.
+/// Up to 16 rays component by component, each in a slot of its own, and their first hits so far. Every array has 16 values
+/// that may be read; slots without a ray repeat the last one.
 struct Packet {
   static constexpr int slots = 16;
 
-  const Ray* rays = nullptr;  ///< slot by slot
+  const double *origin[3], *direction[3], *nearest, *farthest;
   Hit first[slots];
-  /// The same rays component by component, for surfaces that take several at once; slots without a ray repeat the last.
-  alignas(64) double origin[3][slots], direction[3][slots], nearest[slots], farthest[slots];
+
+  Ray ray(std::uint32_t slot) const {
+    return {{origin[0][slot], origin[1][slot], origin[2][slot]}, {direction[0][slot], direction[1][slot], direction[2][slot]}, nearest[slot], farthest[slot]};
+  }
+};
+
+/// Room for the components of a packet that does not lie in arrays already.
+struct PacketRoom {
+  alignas(64) double component[8][Packet::slots];
+  void lend_to(Packet& packet) const {
+    for (int k = 0; k < 3; ++k) {
+      packet.origin[k] = component[k];
+      packet.direction[k] = component[3 + k];
+    }
+    packet.nearest = component[6];
+    packet.farthest = component[7];
+  }
 };
 
 /// Calls visit(slot) for every bit of `lanes`, lowest first.

@@ -37,13 +37,17 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
   executor.for_tiles(width, height, tile_width, tile_height, [&](const parallel::Tile& tile) {
     const int columns = tile.x1 - tile.x0, rows = tile.y1 - tile.y0;
     const std::size_t count = static_cast<std::size_t>(columns) * rows;
-    std::vector<Ray> rays(count);
-    std::vector<Seen> seen(count);
-    std::vector<Sum> sums(count);
+    // Kept by each thread for its next tile.
+    static thread_local std::vector<Ray> rays;
+    static thread_local std::vector<Seen> seen;
+    static thread_local std::vector<Sum> sums;
+    rays.resize(count);
+    seen.resize(count);
+    sums.assign(count, Sum{});
     for (const Sample& sample : pattern) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const double x = tile.x0 + static_cast<int>(i) % columns + 0.5 + sample.x, y = tile.y0 + static_cast<int>(i) / columns + 0.5 + sample.y;
-        rays[i] = primary.through(x, y);
+      Ray* ray = rays.data();
+      for (int row = tile.y0; row < tile.y1; ++row) {
+        for (int column = tile.x0; column < tile.x1; ++column) *ray++ = primary.through(column + 0.5 + sample.x, row + 0.5 + sample.y);
       }
       shade(scene, options.shading, rays, seen);
       for (std::size_t i = 0; i < count; ++i) {

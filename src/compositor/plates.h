@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "compositor/flat_kernels.h"
 #include "compositor/surface.h"
 
 namespace rainref::compositor {
@@ -24,14 +25,12 @@ class Plates final : public Surface {
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(plates_.size()); }
   Box bounds(std::uint32_t primitive) const override;
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
+  std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override;
 
  private:
-  struct Flat {
-    Plate plate;
-    Vec normal, to_u, to_v;  ///< unit normal; u = to_u . (p - origin), v likewise
-  };
-  std::vector<Flat> plates_;
+  std::vector<Plate> plates_;
+  std::vector<FlatPlate> flats_;
 };
 
 }  // namespace rainref::compositor

@@ -26,7 +26,6 @@ class PuddleGround : public Opaque {
   void finish(std::span<const Place> places, std::span<Finish> finishes) const override;
 
  private:
-  Finish finish(const Place& place) const;
   GroundLook look_;
   const Heightfield* sheet_;
 };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "compositor/interface.h"
-#include "math/real64.h"
+#include "compositor/shading_kernels.h"
 
 namespace rainref::compositor {
 namespace {
@@ -60,6 +60,7 @@ struct Room {
   std::vector<Term> terms;
   std::vector<Sight> sights;
   std::vector<Vec> arrived;
+  std::vector<double> transmitted;  // of the paths whose media absorb: one share, or three where colours differ
 };
 
 double largest(const Vec& a) { return std::max(a.x, std::max(a.y, a.z)); }
@@ -67,15 +68,6 @@ double largest(const Vec& a) { return std::max(a.x, std::max(a.y, a.z)); }
 /// The spacing of numbers as large as the ray's origin, along the ray.
 double resolution(const Vec& origin, double length) {
   return 0x1p-52 * std::max({std::abs(origin.x), std::abs(origin.y), std::abs(origin.z), 1e-3}) / length;
-}
-
-Vec transmitted(const Medium& m, double path) {
-  const auto share = [&](double extinction) { return exp_real(Real64(-(extinction * path))).v; };
-  if (m.extinction.x == m.extinction.y && m.extinction.y == m.extinction.z) {
-    const double t = share(m.extinction.x);
-    return {t, t, t};
-  }
-  return {share(m.extinction.x), share(m.extinction.y), share(m.extinction.z)};
 }
 
 class Generations {
@@ -100,6 +92,8 @@ class Generations {
       room_.sights.clear();
       room_.terms.clear();
       finish_opaque();
+      absorb();
+      share_ = 0;
       for (std::size_t i = 0; i < now_.paths.size(); ++i) follow(i, depth);
       gather();
       std::swap(now_, next_);
@@ -112,6 +106,7 @@ class Generations {
   std::span<Seen> seen_;
   Room& room_;
   Rays &now_, &next_;
+  std::size_t share_ = 0;  // of room_.transmitted, the next one
 
   void find_side(std::size_t i) {
     const Hit& hit = room_.hits[i];
@@ -158,6 +153,12 @@ class Generations {
 
   Vec direction(std::size_t i) const { return now_.paths[i].length == 1 ? now_.rays[i].direction : now_.rays[i].direction / now_.paths[i].length; }
 
+  /// What is added to the path's distance at its hit.
+  double length_of(std::size_t i) const {
+    const Path& p = now_.paths[i];
+    return (p.travelled + room_.hits[i].t * p.length) - p.travelled;
+  }
+
   Place place(std::size_t i) const {
     const Hit& hit = room_.hits[i];
     return {now_.rays[i].at(hit.t), direction(i), room_.sides[i].normal, now_.paths[i].travelled + hit.t * now_.paths[i].length, hit};
@@ -184,6 +185,26 @@ class Generations {
       room_.finishes.resize(room_.places.size());
       scene_.material(surface).opaque->finish(std::span(room_.places).subspan(begin), std::span(room_.finishes).subspan(begin));
     }
+  }
+
+  static bool is_grey(const Vec& a) { return a.x == a.y && a.y == a.z; }
+
+  /// exp(-extinction path) of every path that met something, in the order in which `follow` asks.
+  void absorb() {
+    std::vector<double>& shares = room_.transmitted;
+    shares.clear();
+    for (std::size_t i = 0; i < now_.paths.size(); ++i) {
+      const Vec& extinction = now_.paths[i].medium->extinction;
+      if (!room_.hits[i].is_surface() || !(largest(extinction) > 0)) continue;
+      const double path = length_of(i);
+      for (int k = 0; k < (is_grey(extinction) ? 1 : 3); ++k) shares.push_back(-(extinction[k] * path));
+    }
+    exponentials(shares);
+  }
+  Vec next_share(const Vec& extinction) {
+    const double* t = &room_.transmitted[share_];
+    share_ += is_grey(extinction) ? 1 : 3;
+    return is_grey(extinction) ? Vec(t[0], t[0], t[0]) : Vec(t[0], t[1], t[2]);
   }
 
   void see(std::uint32_t pixel, const Vec& weight, const Vec& origin, const Vec& towards, double blur) {
@@ -216,7 +237,7 @@ class Generations {
     const double path = at.distance - p.travelled;
     Vec weight = p.weight;
     if (largest(p.medium->extinction) > 0) {
-      const Vec t = transmitted(*p.medium, path);
+      const Vec t = next_share(p.medium->extinction);
       add(p.pixel, weight * (Vec(1, 1, 1) - t) * p.medium->glow);
       weight *= t;
     }

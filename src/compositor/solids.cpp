@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "compositor/flat_kernels.h"
+
 namespace rainref::compositor {
 
 namespace {
@@ -50,6 +52,11 @@ void Solids::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, H
   if (!(t >= ray.nearest && t <= ray.farthest)) return;
   const Hit hit{t, self, primitive, 0, 0};
   if (precedes(hit, first)) first = hit;
+}
+
+std::uint32_t Solids::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
+  const night_street::Solid& solid = solids_[primitive];
+  return solid.shape == night_street::Solid::box ? meet_box(solid.a, solid.b, self, primitive, lanes, packet) : Surface::meet_packet(self, primitive, lanes, packet);
 }
 
 Vec Solids::normal(const Ray& ray, const Hit& hit) const {

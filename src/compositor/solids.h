@@ -18,6 +18,7 @@ class Solids final : public Surface {
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(solids_.size()); }
   Box bounds(std::uint32_t primitive) const override;
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
+  std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override;
 
  private:

@@ -10,7 +10,7 @@ std::uint32_t Surface::meet_packet(std::uint32_t self, std::uint32_t primitive, 
     Hit& first = packet.first[slot];
     const double t = first.t;
     const std::uint32_t surface = first.surface, part = first.part;
-    meet(self, primitive, packet.rays[slot], first);
+    meet(self, primitive, packet.ray(slot), first);
     if (first.t != t || first.surface != surface || first.part != part) changed |= 1u << slot;
   });
   return changed;

@@ -34,41 +34,41 @@ struct PacketQuery : embree::Query {
   Packet packet;
   FloatPacket floats;
   double slack = 0;
-
-  float farthest_of(std::uint32_t slot) const { return float_farthest((packet.first[slot].t - floats.start[slot]) * floats.scale[slot], slack); }
 };
 
 void bounds_from_table(const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID]; }
 
 /// Embree hands over a packet whole or in pieces of N lanes; a lane's id is its slot.
-template <unsigned n, class Arguments, class Farthest>
-void ask_lanes(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+template <unsigned n, class Arguments>
+void ask_lanes(const Arguments* a, RTCRayN* rays, bool any) {
   const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
   PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
   std::uint32_t lanes = 0;
+  _Pragma("GCC unroll 16")
   for (unsigned i = 0; i < n; ++i) lanes |= static_cast<std::uint32_t>(a->valid[i] & 1) << RTCRayN_id(rays, n, i);
-  lanes &= query.floats.enters;
-  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes, query.packet);
-  for (unsigned i = 0; changed != 0 && i < n; ++i) {
+  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes & query.floats.enters, query.packet);
+  if (changed == 0) return;
+  float ends[Packet::slots];
+  if (any) std::fill(ends, ends + Packet::slots, -std::numeric_limits<float>::infinity());
+  else find_ends(query.packet, query.floats, query.slack, ends);
+  _Pragma("GCC unroll 16")
+  for (unsigned i = 0; i < n; ++i) {
     const std::uint32_t slot = RTCRayN_id(rays, n, i);
-    if ((changed >> slot & static_cast<std::uint32_t>(a->valid[i]) & 1) != 0) RTCRayN_tfar(rays, n, i) = farthest(query, slot);
+    float& end = RTCRayN_tfar(rays, n, i);
+    end = (changed >> slot & static_cast<std::uint32_t>(a->valid[i]) & 1) != 0 ? ends[slot] : end;
   }
 }
-template <class Arguments, class Farthest>
-void ask_surface(const Arguments* a, RTCRayN* rays, const Farthest& farthest) {
+template <class Arguments>
+void ask_surface(const Arguments* a, RTCRayN* rays, bool any) {
   switch (a->N) {
-    case 1: return ask_lanes<1>(a, rays, farthest);
-    case 4: return ask_lanes<4>(a, rays, farthest);
-    case 8: return ask_lanes<8>(a, rays, farthest);
-    default: return ask_lanes<16>(a, rays, farthest);
+    case 1: return ask_lanes<1>(a, rays, any);
+    case 4: return ask_lanes<4>(a, rays, any);
+    case 8: return ask_lanes<8>(a, rays, any);
+    default: return ask_lanes<16>(a, rays, any);
   }
 }
-void find_first(const RTCIntersectFunctionNArguments* a) {
-  ask_surface(a, RTCRayHitN_RayN(a->rayhit, a->N), [](const PacketQuery& query, std::uint32_t slot) { return query.farthest_of(slot); });
-}
-void find_any(const RTCOccludedFunctionNArguments* a) {
-  ask_surface(a, a->ray, [](const PacketQuery&, std::uint32_t) { return -std::numeric_limits<float>::infinity(); });
-}
+void find_first(const RTCIntersectFunctionNArguments* a) { ask_surface(a, RTCRayHitN_RayN(a->rayhit, a->N), false); }
+void find_any(const RTCOccludedFunctionNArguments* a) { ask_surface(a, a->ray, true); }
 
 template <int width>
 void fill(const FloatPacket& from, embree::RayHit<width>& to) {
@@ -110,24 +110,60 @@ void prepare(embree::RayHit<width>& rays) {
   }
 }
 
-template <int width, class Ask>
-void trace(const SceneExtent& extent, std::span<const Ray> rays, std::span<Hit> hits, const Ask& ask) {
+/// A packet at a time. take(begin, count, packet) lends the packet the components of its rays.
+template <int width, class Take, class Ask>
+void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, const Ask& ask) {
   PacketQuery query;
   query.slack = extent.slack();
-  alignas(64) embree::RayHit<width> packet;
-  prepare<width>(packet);
+  alignas(64) embree::RayHit<width> rays;
+  prepare<width>(rays);
   alignas(64) int valid[width];
-  for (std::size_t begin = 0; begin < rays.size(); begin += width) {
-    const int count = static_cast<int>(std::min<std::size_t>(width, rays.size() - begin));
-    make_floats(rays.data() + begin, count, extent, query.packet, query.floats);
+  std::uint32_t traced = 0;  // the slots that `valid` names
+  std::fill(valid, valid + width, 0);
+  for (std::size_t begin = 0; begin < hits.size(); begin += width) {
+    const int count = static_cast<int>(std::min<std::size_t>(width, hits.size() - begin));
+    Packet& packet = query.packet;
+    take(begin, count, packet);
+    make_floats(count, extent, packet, query.floats);
     if (query.floats.enters != 0) {
-      query.set_coherent(rays[begin].origin == rays[begin + static_cast<std::size_t>(count) - 1].origin);  // a pinhole's
-      fill<width>(query.floats, packet);
-      for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(query.floats.enters >> slot & 1);
-      ask(valid, query, packet);
+      const auto same = [&](const double* component) { return component[0] == component[count - 1]; };
+      query.set_coherent(same(packet.origin[0]) && same(packet.origin[1]) && same(packet.origin[2]));  // a pinhole's
+      fill<width>(query.floats, rays);
+      if (query.floats.enters != traced) {
+        traced = query.floats.enters;
+        for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(traced >> slot & 1);
+      }
+      ask(valid, query, rays);
     }
-    std::copy_n(query.packet.first, count, hits.data() + begin);
+    std::copy_n(packet.first, count, hits.data() + begin);
   }
+}
+
+/// Of rays one after the other.
+auto spreading(std::span<const Ray> rays, PacketRoom& room) {
+  return [rays, &room](std::size_t begin, int count, Packet& packet) {
+    spread_rays(rays.data() + begin, count, room);
+    room.lend_to(packet);
+  };
+}
+/// Of rays in arrays: they lie there already, but for the last packet, which is filled up with its last ray.
+auto lending(const RayArrays& rays, PacketRoom& room) {
+  return [&rays, &room](std::size_t begin, int count, Packet& packet) {
+    const double* const from[8] = {rays.origin[0], rays.origin[1], rays.origin[2], rays.direction[0], rays.direction[1], rays.direction[2], rays.nearest, rays.farthest};
+    if (count == Packet::slots) {
+      for (int k = 0; k < 3; ++k) {
+        packet.origin[k] = from[k] + begin;
+        packet.direction[k] = from[3 + k] + begin;
+      }
+      packet.nearest = from[6] + begin;
+      packet.farthest = from[7] + begin;
+      return;
+    }
+    for (int c = 0; c < 8; ++c) {
+      for (int slot = 0; slot < Packet::slots; ++slot) room.component[c][slot] = from[c][begin + static_cast<std::size_t>(std::min(slot, count - 1))];
+    }
+    room.lend_to(packet);
+  };
 }
 
 [[noreturn]] void refuse(const std::string& config, const std::string& why) { throw Error(ExitCode::usage, fmt::format("compositor.embree_config = \"{}\": {}", config, why)); }
@@ -181,6 +217,12 @@ struct Tracer::State {
       case 8: return visit(std::integral_constant<int, 8>());
       default: return visit(std::integral_constant<int, 16>());
     }
+  }
+  template <class Take>
+  void find_first_hits(const Take& take, std::span<Hit> hits) const {
+    with_width([&](auto width) {
+      trace<width>(extent, take, hits, [&](const int* valid, PacketQuery& query, auto& rays) { embree::intersect<width>(valid, scene, query, rays); });
+    });
   }
 };
 
@@ -263,19 +305,25 @@ void Tracer::commit() {
 
 void Tracer::first_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   const FloatingPointGuard guard;
-  state_->with_width([&](auto width) {
-    trace<width>(state_->extent, rays, hits, [&](const int* valid, PacketQuery& query, auto& packet) { embree::intersect<width>(valid, state_->scene, query, packet); });
-  });
+  PacketRoom room;
+  state_->find_first_hits(spreading(rays, room), hits.first(rays.size()));
+}
+
+void Tracer::first_hits(const RayArrays& rays, std::span<Hit> hits) const {
+  const FloatingPointGuard guard;
+  PacketRoom room;
+  state_->find_first_hits(lending(rays, room), hits);
 }
 
 void Tracer::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
   const FloatingPointGuard guard;
+  PacketRoom room;
   constexpr std::size_t block = 256;
   Hit hits[block];
   for (std::size_t begin = 0; begin < rays.size(); begin += block) {
     const std::size_t count = std::min(block, rays.size() - begin);
     state_->with_width([&](auto width) {
-      trace<width>(state_->extent, rays.subspan(begin, count), {hits, count},
+      trace<width>(state_->extent, spreading(rays.subspan(begin, count), room), {hits, count},
                    [&](const int* valid, PacketQuery& query, auto& packet) { embree::occluded<width>(valid, state_->scene, query, packet); });
     });
     for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = hits[i].is_surface();

@@ -112,7 +112,7 @@ std::uint32_t DisplacedWater::meet_packet(std::uint32_t self, std::uint32_t prim
     Hit& first = packet.first[slot];
     if (!is_dry(first)) return;
     first = before[slot];
-    meet(self, primitive, packet.rays[slot], first);
+    meet(self, primitive, packet.ray(slot), first);
     if (first.t == before[slot].t && first.surface == before[slot].surface) changed &= ~(1u << slot);
   });
   return changed;

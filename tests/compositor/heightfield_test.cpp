@@ -116,14 +116,15 @@ TEST(Heightfield, LanesGiveThePlainReadingsBits) {
         // Some know a nearer hit of another surface already.
         if ((i + static_cast<std::size_t>(k)) % 7 == 0) lanes_first[k] = plain_first[k] = {30, 5, 0, 0, 0};
       }
-      packet.rays = &rays[i];
+      PacketRoom room;
+      room.lend_to(packet);
       for (int k = 0; k < 16; ++k) {
         for (int c = 0; c < 3; ++c) {
-          packet.origin[c][k] = rays[i + k].origin[c];
-          packet.direction[c][k] = rays[i + k].direction[c];
+          room.component[c][k] = rays[i + k].origin[c];
+          room.component[3 + c][k] = rays[i + k].direction[c];
         }
-        packet.nearest[k] = rays[i + k].nearest;
-        packet.farthest[k] = rays[i + k].farthest;
+        room.component[6][k] = rays[i + k].nearest;
+        room.component[7][k] = rays[i + k].farthest;
       }
       for (std::uint32_t tile = 0; tile < world.water->primitives(); ++tile) {
         const std::uint32_t changed = world.water->meet_packet(0, tile, lanes, packet);
@@ -138,6 +139,23 @@ TEST(Heightfield, LanesGiveThePlainReadingsBits) {
           ASSERT_EQ(lanes_first[k].v, plain_first[k].v);
         }
       }
+    }
+  });
+}
+
+TEST(Heightfield, SmoothNormalsOfSeveralHitsAreThoseOfEach) {
+  const HeightfieldFrame sheared{{1, 2, 3}, {4, 0, 1}, {-1, 3, 0.5}, {0.25, -0.5, 2}};
+  const auto field = sheet(sheared, 9, 7, 4, [](int x, int y) { return test::random_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)); });
+  // Every cell, those at the border too, at its corners and within.
+  std::vector<Hit> hits;
+  for (std::uint32_t part = 0; part < 2 * 9 * 7; ++part) {
+    for (std::uint32_t k = 0; k < 5; ++k) hits.push_back({1, 0, part, k < 4 ? k % 2 : test::random_number(part, 1), k < 4 ? k / 2 : test::random_number(part, 2)});
+  }
+  test::for_every_target([&] {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, hits.size()}) {
+      std::vector<Vec> normals(count);
+      field->smooth_normals(std::span(hits).first(count), normals);
+      for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(normals[i], field->smooth_normal(hits[i])) << i;
     }
   });
 }

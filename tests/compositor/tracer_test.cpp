@@ -194,6 +194,28 @@ TEST(Tracer, WritesOnlyTheHitsThatItIsAskedFor) {
   }
 }
 
+TEST(Tracer, RaysInArraysMeetWhatRaysInARowMeet) {
+  const test::World world;
+  Tracer tracer;
+  world.add_to(tracer);
+  for (const std::size_t count : {std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{33}, every_kind_of_ray().size()}) {
+    const std::vector<Ray> rays(every_kind_of_ray().end() - static_cast<std::ptrdiff_t>(count), every_kind_of_ray().end());
+    std::vector<double> component[8];
+    for (const Ray& ray : rays) {
+      for (int k = 0; k < 3; ++k) {
+        component[k].push_back(ray.origin[k]);
+        component[3 + k].push_back(ray.direction[k]);
+      }
+      component[6].push_back(ray.nearest);
+      component[7].push_back(ray.farthest);
+    }
+    const std::vector<Hit> expected = test::first_hits(tracer, rays);
+    std::vector<Hit> hits(count);
+    tracer.first_hits({{component[0].data(), component[1].data(), component[2].data()}, {component[3].data(), component[4].data(), component[5].data()}, component[6].data(), component[7].data()}, hits);
+    for (std::size_t i = 0; i < count; ++i) ASSERT_TRUE(same(hits[i], expected[i])) << i << " of " << count;
+  }
+}
+
 TEST(Tracer, EqualDistancesGoToTheLowerNumber) {
   const auto square = [](const Vec& origin) { return Plate{Plate::parallelogram, origin, {1, 0, 0}, {0, 0, 1}}; };
   // Two surfaces with two plates each, all in one plane.
