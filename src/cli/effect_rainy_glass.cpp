@@ -105,11 +105,13 @@ class RainyGlassSimulation : public Simulation {
       throw Error(ExitCode::usage, "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here instead of scene.image");
     }
     if (!can) return;
-    const double thickness = config.real("compositor.glass_thickness");
-    tracing_.emplace(choice, executor, [this, thickness, options = rainy_glass::backdrop_from(config), &executor](const compositor::TracerOptions& tracer) {
-      unbarred_ = rainy_glass::make_backdrop(settings_, {options.defocus, 0, options.bar_width}, executor);
-      return compositor::RainyGlassView(settings_, surroundings_, unbarred_, thickness, tracer);
+    tracing_.emplace(choice, executor, [this, config, &executor](const compositor::TracerOptions& tracer) {
+      rainy_glass::BackdropOptions options = rainy_glass::backdrop_from(config);
+      options.bar_spacing = 0;
+      unbarred_ = rainy_glass::make_backdrop(settings_, options, executor);
+      return compositor::RainyGlassView(settings_, surroundings_, unbarred_, config.real("compositor.glass_thickness"), tracer);
     });
+    if (is_traced()) tracing_->has_truth();
   }
 
   void frame(Recorder* recorder) override {
@@ -120,7 +122,7 @@ class RainyGlassSimulation : public Simulation {
     if (tracing_) tracing_->show(is_shown);
   }
   const Image& picture() const override { return is_traced() ? tracing_->shown() : glass_.picture(); }
-  bool has_truth() const override { return tracing_.has_value(); }
+  bool has_truth() const override { return tracing_ && tracing_->has_truth(); }
   nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing_->write_truth(glass_, stem); }
   // The maps have a size of their own, so they get files of their own: raindrops and rivulets, EXR or, of 8 bits, PNG.
   void write_exr(const std::filesystem::path& path) const override {

@@ -53,10 +53,10 @@ class ScreenDropsSimulation : public Simulation {
       : settings_(screen_drops::settings_from(config)), inputs_(images(config, settings_, executor, files)), flow_(screen_drops::flow_from(config, settings_)),
         effect_(settings_, inputs_, executor, flow_ ? &*flow_ : nullptr) {
     if (settings_.variant != screen_drops::Variant::corrected) return;
-    const double thickness = config.real("compositor.glass_thickness");
-    tracing_.emplace(compositor::choice_from(config), executor, [this, thickness, &executor](const compositor::TracerOptions& tracer) {
-      return compositor::ScreenDropsView(settings_, inputs_.colour, thickness, tracer, executor);
+    tracing_.emplace(compositor::choice_from(config), executor, [this, config, &executor](const compositor::TracerOptions& tracer) {
+      return compositor::ScreenDropsView(settings_, inputs_.colour, config.real("compositor.glass_thickness"), tracer, executor);
     });
+    if (is_traced()) tracing_->has_truth();
   }
 
   void frame(Recorder* recorder) override {
@@ -67,7 +67,7 @@ class ScreenDropsSimulation : public Simulation {
     if (tracing_) tracing_->show(is_shown);
   }
   const Image& picture() const override { return is_traced() ? tracing_->shown() : effect_.picture(); }
-  bool has_truth() const override { return tracing_.has_value(); }
+  bool has_truth() const override { return tracing_ && tracing_->has_truth(); }
   nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing_->write_truth(effect_, stem); }
   void write_exr(const std::filesystem::path& path) const override {
     if (is_traced()) return tracing_->write_exr(path);

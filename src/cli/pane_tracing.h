@@ -23,12 +23,19 @@ inline std::vector<scene::Parameter> with_pane_tracing(std::span<const scene::Pa
 }
 
 /// View: what the compositor knows of an effect, with scene(rendered), camera(), width(), height() and display(radiance, executor), and a
-/// compare(rendered, view, options, executor) beside it. It is made when something is traced.
+/// compare(rendered, view, options, executor) beside it. It is made when something is to be
+/// traced, so that one that cannot be is refused before the first frame.
 template <class View>
 class PaneTracing {
  public:
   PaneTracing(const compositor::Choice& choice, const parallel::Executor& executor, std::function<View(const compositor::TracerOptions&)> make)
       : choice_(choice), executor_(executor), make_(std::move(make)) {}
+
+  /// Before the first frame, when passes are to be compared. Throws Error(usage) for what cannot be traced.
+  bool has_truth() const {
+    view();
+    return true;
+  }
 
   /// Whether the scene wants traced pictures.
   bool is_traced() const { return choice_.is_traced; }
@@ -54,14 +61,14 @@ class PaneTracing {
   }
 
  private:
-  const View& view() {
+  const View& view() const {
     if (!view_) view_.emplace(make_(choice_.tracer));
     return *view_;
   }
   compositor::Choice choice_;
   const parallel::Executor& executor_;
   std::function<View(const compositor::TracerOptions&)> make_;
-  std::optional<View> view_;
+  mutable std::optional<View> view_;
   bool is_shown_ = true;
   compositor::Picture picture_;
   Image shown_;

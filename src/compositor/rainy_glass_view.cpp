@@ -128,9 +128,13 @@ RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction)
   if (!(z > 0)) return {from_eye, seen.radiance};
   const double u = 0.5 + 0.5 * dot(from_eye, basis_.right) / (z * half_width_), v = 0.5 + 0.5 * dot(from_eye, basis_.up) / (z * half_height_);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return {from_eye, seen.radiance};
-  // The eye sees the place unless something nearer hides it; a texel's depth is that of its centre.
-  const double depth = unbarred_->depth.row<float>(static_cast<int>(v * settings_.height))[static_cast<int>(u * settings_.width)];
-  if (!(depth >= 0.98 * (is_sky ? rainy_glass::backdrop_far : z) - 0.1)) return {from_eye, seen.radiance};
+  // The eye sees the place unless something nearer hides it, there and all around: a texel's depth is that of its centre.
+  const int column = static_cast<int>(u * settings_.width), row = static_cast<int>(v * settings_.height);
+  float deepest = 0;
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, settings_.height - 1); ++y) {
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, settings_.width - 1); ++x) deepest = std::max(deepest, unbarred_->depth.row<float>(y)[x]);
+  }
+  if (!(deepest >= 0.98 * (is_sky ? rainy_glass::backdrop_far : z) - 0.1)) return {from_eye, seen.radiance};
   using scalar::Number;
   const auto s = scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(colour_.view()), Number(u), Number(v));
   return {from_eye, {s[0].v, s[1].v, s[2].v}};

@@ -20,7 +20,7 @@ std::vector<Cap> caps(const Settings& settings, const Image& cells) {
       const float* drop = cells.row<float>(layer.first_row + row);
       for (int column = 0; column < layer.columns; ++column, drop += 4) {
         // A millionth of a cell is less than any rounding of what the pass draws.
-        if (drop[2] > 1e-6f) all.push_back({(column + drop[0] - layer.offset[0]) * cell, (row + drop[1] - layer.offset[1]) * cell, drop[2] * cell});
+        if (drop[2] > 1e-6f) all.push_back({(column + double{drop[0]} - layer.offset[0]) * cell, (row + double{drop[1]} - layer.offset[1]) * cell, drop[2] * cell});
       }
     }
   }

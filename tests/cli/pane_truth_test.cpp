@@ -63,6 +63,8 @@ TEST_F(PaneTruth, WhatCannotBeTracedIsRefused) {
   expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--compare-truth"}, 2, HasSubstr("has no traced truth"));
   expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.picture: expected \"passes\""));
   expect_refusal({"run", "screen_drops.toml", "-o", "o", "--set", "compositor.glass_thickness=0.09", "--compare-truth"}, 2, HasSubstr("compositor.glass_thickness: expected less than"));
+  expect_refusal({"run", "screen_drops.toml", "-o", "o", "--set", "compositor.glass_thickness=0.09", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.glass_thickness: expected less than"));
+  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.distance=0.02", "--set", "compositor.glass_thickness=0.02", "--compare-truth"}, 2, HasSubstr("compositor.glass_thickness: expected less than"));
 }
 
 }  // namespace
