@@ -1,6 +1,10 @@
+#include <optional>
+
 #include "cli/effects.h"
+#include "cli/pane_tracing.h"
 #include "cli/pictures.h"
 #include "cli/scene_pictures.h"
+#include "compositor/rainy_glass_truth.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
 #include "rainref/rainy_glass.h"
@@ -43,15 +47,40 @@ Surroundings surroundings(const scene::Config& config, const Settings& settings,
   return s;
 }
 
+using Tracing = PaneTracing<compositor::RainyGlassView>;
+
 class RainyGlassSimulation : public Simulation {
  public:
   RainyGlassSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs)
-      : RainyGlassSimulation(rainy_glass::settings_from(config), config, executor, inputs) {}
+      : settings_(rainy_glass::settings_from(config)), surroundings_(surroundings(config, settings_, executor, inputs)), glass_(settings_, surroundings_, executor) {
+    const compositor::Choice choice = compositor::choice_from(config);
+    const bool can = settings_.variant == rainy_glass::Variant::corrected && settings_.shape == rainy_glass::Shape::pane && !settings_.use_probe && config.text("scene.image").empty() && config.text("scene.panorama").empty();
+    if (!can && choice.is_traced) {
+      throw Error(ExitCode::usage, "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here instead of scene.image or scene.panorama");
+    }
+    if (!can) return;
+    tracing_.emplace(choice, executor, [this, config, &executor](const compositor::TracerOptions& tracer) {
+      rainy_glass::BackdropOptions options = rainy_glass::backdrop_from(config);
+      options.bar_spacing = 0;
+      unbarred_ = rainy_glass::make_backdrop(settings_, options, executor);
+      return compositor::RainyGlassView(settings_, surroundings_, unbarred_, config.real("compositor.glass_thickness"), tracer);
+    });
+    if (is_traced()) tracing_->has_truth();
+  }
 
-  void frame(Recorder* recorder) override { glass_.frame(recorder); }
-  const Image& picture() const override { return glass_.picture(); }
+  void frame(Recorder* recorder) override {
+    glass_.frame(recorder);
+    if (is_traced()) tracing_->trace(glass_, glass_.frames() - 1, recorder);
+  }
+  void show(bool is_shown) override {
+    if (tracing_) tracing_->show(is_shown);
+  }
+  const Image& picture() const override { return is_traced() ? tracing_->shown() : glass_.picture(); }
+  bool has_truth() const override { return tracing_ && tracing_->has_truth(); }
+  nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing_->write_truth(glass_, stem); }
   // The maps have a size of their own, so they get files of their own: raindrops and rivulets, EXR or, of 8 bits, PNG.
   void write_exr(const std::filesystem::path& path) const override {
+    if (is_traced()) return tracing_->write_exr(path);
     const Image colour = flipped(glass_.colour()), normal = flipped(glass_.orientation()), surface = flipped(glass_.surface());
     image_io::write_exr(path, {{"", {"R", "G", "B"}, &colour}, {"normal", {"X", "Y", "Z"}, &normal}, {"glass", {"U", "V", "Z"}, &surface}});
     if (maps_are_written_) return;
@@ -61,8 +90,7 @@ class RainyGlassSimulation : public Simulation {
   }
 
  private:
-  RainyGlassSimulation(const Settings& settings, const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs)
-      : glass_(settings, surroundings(config, settings, executor, inputs), executor) {}
+  bool is_traced() const { return tracing_ && tracing_->is_traced(); }
 
   static void write_map(const std::filesystem::path& picture, const std::string& stem, const Image& map) {
     const Image top_first = flipped(map);
@@ -73,14 +101,18 @@ class RainyGlassSimulation : public Simulation {
     }
   }
 
+  Settings settings_;
+  Surroundings surroundings_, unbarred_;  // the second when something is traced
   rainy_glass::RainyGlass glass_;
+  std::optional<Tracing> tracing_;  // where there is a truth
   mutable bool maps_are_written_ = false;
 };
 
 }  // namespace
 
 EffectEntry rainy_glass_entry() {
-  return {"rainy_glass", {"as-published", "corrected"}, rainy_glass::parameters(), &rainy_glass::effect_info(),
+  static const std::vector<scene::Parameter> parameters = with_pane_tracing(rainy_glass::parameters());
+  return {"rainy_glass", {"as-published", "corrected"}, parameters, &rainy_glass::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<RainyGlassSimulation>(config, executor, inputs);
           }};

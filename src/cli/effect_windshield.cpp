@@ -21,7 +21,7 @@ namespace {
 
 std::vector<scene::Parameter> pane_parameters() {
   return {
-      scene::real("compositor.glass_thickness", "m", 1e-5, 0.1, 5e-3, "Thickness of the pane that rays go through."),
+      compositor::pane_thickness(),
       scene::real("compositor.glass_radius", "m", 0, 1e6, 0, "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."),
   };
 }

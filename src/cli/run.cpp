@@ -97,7 +97,7 @@ int run(const RunOptions& options) {
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
   if (options.compare_truth && !simulation->has_truth()) {
-    throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with; puddle corrected and windshield with the street have", config.effect(), config.variant()));
+    throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle and screen_drops have one, and with the street windshield and corrected panes of rainy_glass", config.effect(), config.variant()));
   }
   const int frames = static_cast<int>(config.integer("run.frames"));
   const auto written = [&](int frame) { return options.every > 0 ? frame % options.every == 0 : frame == frames - 1; };

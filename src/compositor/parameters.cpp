@@ -18,6 +18,8 @@ std::vector<scene::Parameter> parameters() {
   };
 }
 
+scene::Parameter pane_thickness() { return scene::real("compositor.glass_thickness", "m", 1e-5, 0.1, 5e-3, "Thickness of the pane that rays go through."); }
+
 Choice choice_from(const scene::Config& config) {
   Choice c;
   const auto& entries = config.entries();

@@ -10,6 +10,8 @@ namespace rainref::compositor {
 
 /// compositor.picture, .samples, .depth and .embree_config, of corrected variants.
 std::vector<scene::Parameter> parameters();
+/// compositor.glass_thickness, of what is seen through a pane.
+scene::Parameter pane_thickness();
 
 struct Choice {
   bool is_traced = false;  ///< the picture is traced, not the passes'

@@ -47,6 +47,17 @@ double WaterLayer::at(double u, double v) const {
   return (1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) + b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1));
 }
 
+double WaterLayer::surface(double u, double v) const {
+  if (!is_wet(u, v)) return -1;
+  const double x = u * width_ - 0.5, y = v * height_ - 0.5;
+  const int i = static_cast<int>(x), j = static_cast<int>(y);
+  const double a = x - i, b = y - j, right = texel(i + 1, j), up = texel(i, j + 1);
+  // The diagonal runs from the right texel to the upper one.
+  const double corner = a + b <= 1 ? texel(i, j) : texel(i + 1, j + 1), along = a + b <= 1 ? a : 1 - a, aloft = a + b <= 1 ? b : 1 - b;
+  const double across = a + b <= 1 ? right : up, above = a + b <= 1 ? up : right;
+  return corner + along * (across - corner) + aloft * (above - corner) + clearance;
+}
+
 WaterLayer::Rise WaterLayer::rise(double u, double v) const {
   const double x = std::clamp(u * width_ - 0.5, 0.0, width_ - 1.0), y = std::clamp(v * height_ - 0.5, 0.0, height_ - 1.0);
   const int i = static_cast<int>(x), j = static_cast<int>(y);

@@ -43,6 +43,8 @@ class WaterLayer {
   Rise rise(double u, double v) const;
   /// Bilinear between texel centres [m], 0 outside them.
   double at(double u, double v) const;
+  /// How high the facets of DisplacedWater stand over the face [m]; -1 where it is dry.
+  double surface(double u, double v) const;
 
  private:
   double texel(int i, int j) const;

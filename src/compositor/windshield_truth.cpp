@@ -4,39 +4,11 @@
 #include <cmath>
 
 #include "compositor/straight_path.h"
-#include "math/half.h"
-#include "math/real64.h"
-#include "math/unorm.h"
+#include "compositor/truth_pixels.h"
 #include "windshield/shown.h"
 #include "windshield/street.h"
 
 namespace rainref::compositor {
-namespace {
-
-double degrees_between(const Vec& a, const Vec& b) {
-  const Vec c = cross(a, b);
-  return atan2_real(Real64(__builtin_sqrt(dot(c, c))), Real64(dot(a, b))).v * (180 / 0x1.921fb54442d18p+1);
-}
-
-/// The signed difference of the channel that differs most.
-double largest_difference(const double (&trick)[3], const double (&truth)[3]) {
-  double worst = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double d = trick[k] - truth[k];
-    if (std::abs(d) > std::abs(worst)) worst = d;
-  }
-  return worst;
-}
-
-void read(const Half* texel, double (&out)[3]) {
-  for (int k = 0; k < 3; ++k) out[k] = to_float(texel[k]);
-}
-void read(const Unorm8* texel, double (&out)[3]) {
-  for (int k = 0; k < 3; ++k) out[k] = texel[k].code;
-}
-
-}  // namespace
-
 Image display(const windshield::Settings& settings, const Image& radiance, const parallel::Executor& executor) {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
   const windshield::DisplayUniforms uniforms = windshield::display_uniforms(settings.picture);

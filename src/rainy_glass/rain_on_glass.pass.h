@@ -81,22 +81,21 @@ RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N a
   const N threshold = max(one - timer * uniform_quotient(1.0f, u.impact, N()), (timer - N(u.impact)) * uniform_quotient(1.0f, 1.0f - u.impact, N()));
   return saturate((height - (one - amount) - threshold) * N(u.sharpness));
 }
-// Slopes are decoded before they are masked, so that dry glass bends nothing. A thin sheet of slope s bends a ray by (ior - 1) s
-// toward the thicker side; on the image plane what lies behind moves by that times 1 - glass distance / scene distance. Where
-// something nearer than the glass lies under any texel of that lookup the pixel shows its own scene texel.
+/// How upright glass of this normal stands: the sine of its slope.
 template <class N>
-RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
-  const N zero(0.0f), one(1.0f);
-  const auto glass = (p.covered > N(0.5f)) & (p.own_depth > p.distance);
-  if (!any(glass)) return p.own;
+RAINREF_FN N steepness(const Vec3<N>& normal) { return sqrt(square(normal.x) + square(normal.z)); }
+/// Slope of the water at place (pu, pv) [m] of glass of this normal, up along (u, v). Slopes are decoded before they are masked, so
+/// that dry glass bends nothing.
+template <class N>
+RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const GlassMaps& m, N pu, N pv, const Vec3<N>& normal, N steep) {
   const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
-  const N amount = N(u.rain_amount) * saturate(dot(p.normal, Vec3<N>(u.rain_to)));
-  const N du = p.u * N(u.drop_tiles), dv = p.v * N(u.drop_tiles);
+  const N amount = N(u.rain_amount) * saturate(dot(normal, Vec3<N>(u.rain_to)));
+  const N du = pu * N(u.drop_tiles), dv = pv * N(u.drop_tiles);
   const auto drop = sample_bilinear<0, 4, N>(raindrops, du, dv);
   const Two<N> bulge = slope_of(drop[0], drop[1], u.drop_neutral, u.drop_scale);
   const N shown = droplet_shown(u, drop[3], drop[2], amount);
 
-  const N ru = p.u * N(u.rivulet_tiles), rv = p.v * N(u.rivulet_tiles), half(0.5f);
+  const N ru = pu * N(u.rivulet_tiles), rv = pv * N(u.rivulet_tiles), half(0.5f);
   const auto flow = sample_bilinear<2, 2, N>(rivulets, ru, rv);
   const N neutral(u.rivulet_neutral), scale(u.rivulet_scale);
   const N fu = (flow[0] - neutral) * scale * N(u.flow_strength), fv = (flow[1] - neutral) * scale * N(u.run_strength);
@@ -105,25 +104,44 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const G
   const auto a = sample_bilinear<0, 2, N>(rivulets, ru + fu * first, scrolled + fv * first);
   const auto b = sample_bilinear<0, 2, N>(rivulets, ru + fu * second, scrolled + fv * second);
   const Two<N> streak = slope_of(mix(a[0], b[0], f.weight), mix(a[1], b[1], f.weight), u.rivulet_neutral, u.rivulet_scale);
-  const N steep = sqrt(square(p.normal.x) + square(p.normal.z)), running = N(u.rivulet_amount) * steep;
-  const N sx = shown * bulge.a + running * streak.a, sy = shown * bulge.b + running * streak.b;
-
+  const N running = N(u.rivulet_amount) * steep;
+  return Two<N>(shown * bulge.a + running * streak.a, shown * bulge.b + running * streak.b);
+}
+/// Dry glass shows the scene's texel itself.
+template <class N>
+RAINREF_FN typename N::Mask is_wet(const Two<N>& slope) { return square(slope.a) + square(slope.b) > N(1e-8f); }
+/// How far a sheet of water of this slope moves, on the image plane, what lies far behind the glass. A thin sheet of slope s bends
+/// a ray by (ior - 1) s toward the thicker side.
+template <class N>
+RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N steep, const Two<N>& slope) {
   // Along u, which is horizontal, and v, up the glass; both fade where the glass lies level.
-  const N inverse = one / max(steep, N(0.05f));
-  const Vec3<N> along_u(p.normal.z * inverse, zero, -p.normal.x * inverse);
-  const Vec3<N> along_v(p.normal.y * along_u.z, p.normal.z * along_u.x - p.normal.x * along_u.z, -p.normal.y * along_u.x);
-  const Vec3<N> rise = sx * along_u + sy * along_v;
-  const N x = N(u.bend) * dot(rise, Vec3<N>(u.right)), y = N(u.bend) * dot(rise, Vec3<N>(u.up));
-
-  // Dry glass shows the scene's texel itself.
-  const auto seen = glass & (square(sx) + square(sy) > N(1e-8f));
+  const N zero(0.0f), one(1.0f), inverse = one / max(steep, N(0.05f));
+  const Vec3<N> along_u(normal.z * inverse, zero, -normal.x * inverse);
+  const Vec3<N> along_v(normal.y * along_u.z, normal.z * along_u.x - normal.x * along_u.z, -normal.y * along_u.x);
+  const Vec3<N> rise = slope.a * along_u + slope.b * along_v;
+  return Two<N>(N(u.bend) * dot(rise, Vec3<N>(u.right)), N(u.bend) * dot(rise, Vec3<N>(u.up)));
+}
+/// The share of that by which what lies at this depth is moved.
+template <class N>
+RAINREF_FN N share_beyond(const GlassPixel<N>& p) { return saturate(N(1.0f) - p.distance / max(p.own_depth, N(1e-3f))); }
+// Where something nearer than the glass lies under any texel of the lookup the pixel shows its own scene texel.
+template <class N>
+RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
+  const N one(1.0f), half(0.5f);
+  const auto glass = (p.covered > half) & (p.own_depth > p.distance);
+  if (!any(glass)) return p.own;
+  const N steep = steepness(p.normal);
+  const Two<N> slope = water_slope(u, m, p.u, p.v, p.normal, steep);
+  const auto seen = glass & is_wet(slope);
   if (!any(seen)) return p.own;
+  const Two<N> moved = prism(u, p.normal, steep, slope);
+  const N x = moved.a, y = moved.b;
   const N cx = (N::index(column) + half) * N(u.pixel[0]), cy = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]), two(2.0f);
   if (u.use_probe != 0) {
     const Vec3<N> behind = probe_at(u, m, (two * cx - one) * N(u.half_width) + x, (two * cy - one) * N(u.half_height) + y);
     return select(seen, behind, p.own);
   }
-  const N beyond = saturate(one - p.distance / max(p.own_depth, N(1e-3f)));
+  const N beyond = share_beyond(p);
   const N su = cx + x * beyond * uniform_quotient(0.5f, u.half_width, N()), sv = cy + y * beyond * uniform_quotient(0.5f, u.half_height, N());
   const N nearest = sample_bilinear<0, 1, N>(fixed_texture<Address::clamp, Address::clamp, 1>(*m.near_depth), su, sv)[0];
   return select(seen & (nearest > p.distance), scene_at(m, su, sv), p.own);

@@ -94,23 +94,39 @@ RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const S
   const N inverse = one / sqrt(sum_any_order(one, square(gx), square(gy)));
   return {mix(s.x, -gx * inverse, cover), mix(s.y, -gy * inverse, cover), mix(s.cover, one, cover), mix(s.level, N(u.flow_level), cover)};
 }
+/// The water that a pixel shows.
+template <class N, class C, class H>
+RAINREF_FN Surface<N> water_at(const DropsUniforms& u, const C& cells, const H& height, int column, int row) {
+  const Surface<N> s = still_drops<N>(u, cells, column, row);
+  return u.has_flow != 0 ? with_flow(u, height, s, column, row) : s;
+}
+/// The view ray behind the water, and how much of it the water's surface mirrors.
+template <class N>
+struct BentRay {
+  Vec3<N> direction;
+  N reflected;
+};
 // The view ray is bent into the water at the glass, which stands across the view, and out of it at the water's surface, by
 // Snell's law at both; the scene is far, so the direction alone says what is seen. Fresnel's reflectance of the surface, 1 beyond
 // the critical angle, mirrors the background, dimmed.
-template <class N, class S, class C, class H>
-RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background, int column, int row) {
+template <class N>
+RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Surface<N>& s, int column, int row) {
   const N half(0.5f), one(1.0f), zero(0.0f);
-  Surface<N> s = still_drops<N>(u, cells, column, row);
-  if (u.has_flow != 0) s = with_flow(u, height, s, column, row);
-  const auto wet = s.cover > zero;
-  if (!any(wet)) return {background, zero};
   const Vec3<N> ray = normalize(Vec3<N>((N::index(column) + half) * N(u.pixel[0]) - N(u.half_size[0]), N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) - N(u.half_size[1]), one));
   const Vec3<N> normal = normalize(Vec3<N>(s.x, s.y, sqrt(max(one - square(s.x) - square(s.y), N(0.04f)))));
   const Vec3<N> inside = refract(ray, Vec3<N>(zero, zero, N(-1.0f)), 1.0f / u.water_ior);
   const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
-  const N reflected = fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior);
-  const N ahead = one / max(bent.z, N(0.05f));
-  const Vec3<N> seen = scene_at<N>(scene, half + bent.x * ahead * N(u.scene_scale[0]), half + bent.y * ahead * N(u.scene_scale[1]), s.level);
-  const Vec3<N> water = mix(seen, N(u.inner) * background, reflected);
+  return {bent, fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior)};
+}
+template <class N, class S, class C, class H>
+RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background, int column, int row) {
+  const N half(0.5f), one(1.0f), zero(0.0f);
+  const Surface<N> s = water_at<N>(u, cells, height, column, row);
+  const auto wet = s.cover > zero;
+  if (!any(wet)) return {background, zero};
+  const BentRay<N> bent = bent_ray(u, s, column, row);
+  const N ahead = one / max(bent.direction.z, N(0.05f));
+  const Vec3<N> seen = scene_at<N>(scene, half + bent.direction.x * ahead * N(u.scene_scale[0]), half + bent.direction.y * ahead * N(u.scene_scale[1]), s.level);
+  const Vec3<N> water = mix(seen, N(u.inner) * background, bent.reflected);
   return {select(wet, mix(background, water, s.cover), background), s.cover};
 }

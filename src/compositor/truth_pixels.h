@@ -1,0 +1,55 @@
+// What comparisons of pictures have in common.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compositor/surface.h"
+#include "compositor/truth.h"
+#include "math/half.h"
+#include "math/real64.h"
+#include "math/unorm.h"
+
+#include <glm/geometric.hpp>
+
+namespace rainref::compositor {
+
+/// What a pane's passes and its rays differ in: pixels by name, and pictures.
+struct PaneTruth {
+  std::vector<std::pair<std::string, std::size_t>> pixels;
+  std::vector<Difference> differences;
+};
+
+inline double degrees_between(const Vec& a, const Vec& b) {
+  const Vec c = cross(a, b);
+  return atan2_real(Real64(__builtin_sqrt(dot(c, c))), Real64(dot(a, b))).v * (180 / 0x1.921fb54442d18p+1);
+}
+
+/// The signed difference of the channel that differs most.
+inline double largest_difference(const double (&trick)[3], const double (&truth)[3]) {
+  double worst = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double d = trick[k] - truth[k];
+    if (std::abs(d) > std::abs(worst)) worst = d;
+  }
+  return worst;
+}
+
+inline void read(const Half* texel, double (&out)[3]) {
+  for (int k = 0; k < 3; ++k) out[k] = to_float(texel[k]);
+}
+inline void read(const Unorm8* texel, double (&out)[3]) {
+  for (int k = 0; k < 3; ++k) out[k] = texel[k].code;
+}
+/// The same of pixel (x, y) of two images of one format, T.
+template <class T>
+double pixel_difference(const Image& trick, const Image& truth, int x, int y) {
+  double a[3], b[3];
+  read(trick.row<T>(y) + 4 * x, a);
+  read(truth.row<T>(y) + 4 * x, b);
+  return largest_difference(a, b);
+}
+
+}  // namespace rainref::compositor
