@@ -1,5 +1,7 @@
 #include <optional>
 
+#include <nlohmann/json.hpp>
+
 #include "capture/pass_clock.h"
 #include "cli/effects.h"
 #include "cli/inputs.h"

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "capture/pass_clock.h"
 #include "cli/effects.h"

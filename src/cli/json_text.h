@@ -3,13 +3,11 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace rainref::cli {
 
 /// Indented. A file's name may be no UTF-8; what JSON cannot hold becomes U+FFFD.
-inline std::string json_text(const nlohmann::ordered_json& json) {
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
+std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace rainref::cli

@@ -1,10 +1,15 @@
 #include "cli/registry.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/effects.h"
 
 namespace rainref::cli {
+
+nlohmann::ordered_json Simulation::compare_truth(const std::filesystem::path&) { return nullptr; }
 
 const std::vector<EffectEntry>& effects() {
   static const std::vector<EffectEntry> all{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};

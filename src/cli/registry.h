@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "capture/pass_info.h"
 #include "rainref/executor.h"
@@ -32,7 +34,7 @@ class Simulation {
   /// Whether there is a traced truth to compare the passes with.
   virtual bool has_truth() const { return false; }
   /// Compares the rendered frame with it and writes pictures of the differences, whose names begin with `stem`; gives the numbers.
-  virtual nlohmann::ordered_json compare_truth(const std::filesystem::path&) { return nullptr; }
+  virtual nlohmann::ordered_json compare_truth(const std::filesystem::path& stem);
 };
 
 /// A file that a scene named, as it was decoded.

@@ -1,5 +1,7 @@
 #include "cli/truth.h"
 
+#include <nlohmann/json.hpp>
+
 #include "cli/pictures.h"
 #include "cli/registry.h"
 #include "image_io/write.h"

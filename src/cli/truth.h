@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "compositor/picture.h"
 #include "compositor/truth.h"

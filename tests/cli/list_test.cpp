@@ -1,4 +1,6 @@
 // `rainref list` and `rainref describe`.
+#include <nlohmann/json.hpp>
+
 #include "cli/support.h"
 #include "math/simd_target.h"
 

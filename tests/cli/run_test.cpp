@@ -1,4 +1,6 @@
 // `rainref run`: what it writes, and where.
+#include <nlohmann/json.hpp>
+
 #include "cli/support.h"
 #include "image_io/read.h"
 

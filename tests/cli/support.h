@@ -15,7 +15,6 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "base/temporary_folder.h"
 #include "cli/cli.h"

@@ -1,4 +1,6 @@
 // Traced pictures and `run --compare-truth`, as a user meets them.
+#include <nlohmann/json.hpp>
+
 #include "cli/support.h"
 #include "image_io/read.h"
 

@@ -1,4 +1,6 @@
 // The windshield's traced pictures and its composite against them, as a user meets them.
+#include <nlohmann/json.hpp>
+
 #include "cli/support.h"
 #include "image_io/read.h"
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <regex>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/support.h"
 
 namespace rainref::cli {
