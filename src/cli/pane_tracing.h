@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "capture/pass_clock.h"
 #include "cli/truth.h"
 #include "compositor/parameters.h"

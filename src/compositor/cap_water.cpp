@@ -152,9 +152,9 @@ std::uint32_t LayerSurface::meet_packet(std::uint32_t self, std::uint32_t primit
   std::uint32_t changed = sheet_.meet_packet(self, primitive, lanes, packet);
   for_each_lane(changed, [&](std::uint32_t slot) {
     Hit& first = packet.first[slot];
-    if (!is_hidden(packet.rays[slot], first)) return;
+    if (!is_hidden(packet.ray(slot), first)) return;
     first = before[slot];
-    meet(self, primitive, packet.rays[slot], first);
+    meet(self, primitive, packet.ray(slot), first);
     if (first.t == before[slot].t && first.surface == before[slot].surface) changed &= ~(1u << slot);
   });
   return changed;

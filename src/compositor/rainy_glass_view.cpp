@@ -10,8 +10,8 @@
 #include "rainref/error.h"
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/kernels.h"
 #include "rainy_glass/storage.h"
+#include "scene/display.h"
 
 namespace rainref::compositor {
 namespace {
@@ -175,8 +175,8 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
 
 Image RainyGlassView::display(const Image& radiance, const parallel::Executor& executor) const {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const rainy_glass::DisplayUniforms uniforms = rainy_glass::display_uniforms(settings_);
-  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8, [&](const parallel::Tile& tile) { rainy_glass::display_rows(uniforms, settings_.rounding, radiance, picture, tile); });
+  const scene::DisplayUniforms uniforms = scene::display_uniforms(settings_.exposure);
+  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8, [&](const parallel::Tile& tile) { scene::display_rows(uniforms, settings_.rounding, radiance, picture, tile); });
   return picture;
 }
 

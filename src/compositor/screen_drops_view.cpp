@@ -6,8 +6,8 @@
 
 #include "compositor/optics.h"
 #include "rainref/error.h"
+#include "scene/display.h"
 #include "screen_drops/host.h"
-#include "screen_drops/kernels.h"
 #include "screen_drops/shown.h"
 
 namespace rainref::compositor {
@@ -81,8 +81,8 @@ std::unique_ptr<Scene> ScreenDropsView::scene(const screen_drops::ScreenDrops& r
 
 Image ScreenDropsView::display(const Image& radiance, const parallel::Executor& executor) const {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const screen_drops::DisplayUniforms uniforms = screen_drops::display_uniforms(settings_);
-  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8, [&](const parallel::Tile& tile) { screen_drops::display_rows(uniforms, settings_.rounding, radiance, picture, tile); });
+  const scene::DisplayUniforms uniforms = scene::display_uniforms(settings_.exposure);
+  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8, [&](const parallel::Tile& tile) { scene::display_rows(uniforms, settings_.rounding, radiance, picture, tile); });
   return picture;
 }
 

@@ -1,4 +1,6 @@
 // The traced panes of screen_drops and rainy_glass, and their passes against them, as a user meets them.
+#include <nlohmann/json.hpp>
+
 #include "cli/support.h"
 #include "image_io/read.h"
 

@@ -1,6 +1,8 @@
 // screen_drops from the command line: both variants run, pack, hash and differ; scenes from files; what is refused.
 #include <sys/stat.h>
 
+#include <nlohmann/json.hpp>
+
 #include "capture/pack_read.h"
 #include "cli/picture_files.h"
 #include "image_io/read.h"

@@ -62,7 +62,7 @@ void expect_truncation_is_noticed(const std::string& bytes, const char* what) {
 
 TEST(ReadErrors, ATruncatedPngIsNoticedAtEveryLength) {
   std::vector<std::string> rows;
-  for (int y = 0; y < 9; ++y) rows.push_back(std::string(21, static_cast<char>('a' + y)));
+  for (int y = 0; y < 9; ++y) rows.emplace_back(21, static_cast<char>('a' + y));
   expect_truncation_is_noticed(png(7, 9, 8, 2, rows), "stored");
   const TemporaryFolder folder;
   write_png(folder / "p.png", make_image(Format::rgba8, 13, 7, [](int x, int y, int c) {

@@ -10,7 +10,7 @@ namespace rainref::night_street {
 namespace {
 
 const City& city() {
-  static const City one(1);
+  static const City one(1, false);
   return one;
 }
 
@@ -90,7 +90,7 @@ TEST(NightStreetTrace, RayThatStartsAnywhereHasASoundRadiance) {
 
 TEST(NightStreetTrace, EveryLotFitsItsPlan) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const City other(seed);
+    const City other(seed, false);
     for (const std::vector<Lot>& row : other.lots) {
       for (std::size_t i = 0; i < row.size(); ++i) {
         ASSERT_LT(row[i].height, plan::tallest) << "seed " << seed;
