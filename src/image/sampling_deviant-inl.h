@@ -53,7 +53,7 @@ struct Channels;
 template <class N>
 struct Level;
 template <class N, class T>
-RAINREF_FN Level<N> uniform_level(const T& t, int level);
+RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted);
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v);
 
@@ -62,15 +62,16 @@ template <int First, int Count, class N, class T>
   requires std::same_as<N, deviant::Deviant>
 RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   const N last(static_cast<float>(t.levels - 1)), l = clamp(level_of_detail(lod), N(0.0f), last), l0 = floor(l), g = l - l0;
-  const int level = static_cast<int>(l0.v);
-  if (!(g.v > 0)) return sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+  // A slip may have made any number of it: level_of holds it within the levels that there are.
+  const auto level = to_int(l0), next = to_int(min(l0 + N(1.0f), last));
+  if (!(g.v > 0)) return sample_level<First, Count, N>(t, level_of<N>(t, level), u, v);
   const deviant::Sampler sampler;
   const bool jointly = sampler.rounds_jointly();
   deviant::Share& share = deviant::share();
   if (jointly) share = {1 - g.v, sampler.takes_x_first()};
-  const auto fine = sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+  const auto fine = sample_level<First, Count, N>(t, level_of<N>(t, level), u, v);
   if (jointly) share.of_level = g.v;
-  const auto coarse = sample_level<First, Count, N>(t, uniform_level<N>(t, level + 1), u, v);
+  const auto coarse = sample_level<First, Count, N>(t, level_of<N>(t, next), u, v);
   share = {};
   Channels<N, Count> out;
   for (int k = 0; k < Count; ++k) out[k] = jointly ? N::of(sampler.stored(fine[k].v + coarse[k].v, filtered_bits(t.precision))) : mix(fine[k], coarse[k], g);
