@@ -11,8 +11,8 @@ struct SelftestGolden {
 inline constexpr SelftestGolden selftest_goldens[] = {
     {"puddle", "as-published", "8ad7bfe1f7282bb65ea03ea2a6a6bde4"},
     {"puddle", "corrected", "ddfa8cd3a32b5146de7d969d28776af6"},
-    {"windshield", "as-published", "aefd73bfdddb607ec8f7ccee24b67b8a"},
-    {"windshield", "corrected", "b2c16e6b1a51e05790358f18d02e186a"},
+    {"windshield", "as-published", "89e50b34a8414ba9571c6a0e51feebc7"},
+    {"windshield", "corrected", "91a20872711a143b74df6308f082e214"},
     {"edge_splash", "as-published", "e6ef4a11f8b8bd41160ce95c013ac411"},
     {"edge_splash", "corrected", "c2b905e62723573b9213f4214a66997f"},
     {"screen_drops", "as-published", "e3e4bba3deb25fb089f3bd74476e9f4e"},
