@@ -89,8 +89,10 @@ std::unique_ptr<PassModel> bind_bake_rivulets(const PassCase& c) {
   const auto all = capture::records_of<Trail>(capture::record_input(c, "trails"));
   m.trails.choose(m.width, m.height, [&](int x0, int y0, int x1, int y1) { return trails_near(all, m.width, x0, y0, x1, y1); });
   m.lattice = BoundTexture(capture::image_input(c, "lattice"));
-  if (m.lattice.view().width[0] < 2 * m.uniforms.flow_cells || m.lattice.view().height[0] < 2 * m.uniforms.flow_cells) {
-    throw Error(ExitCode::port_files, fmt::format("{}: in.lattice: expected {} texels a side, found {}x{}", c.folder(), 2 * m.uniforms.flow_cells, m.lattice.view().width[0], m.lattice.view().height[0]));
+  const std::int64_t side = 2 * std::int64_t{m.uniforms.flow_cells};
+  if (side < 2) throw Error(ExitCode::port_files, fmt::format("{}: flow_cells: expected 1 or more, found {}", c.folder(), m.uniforms.flow_cells));
+  if (m.lattice.view().width[0] < side || m.lattice.view().height[0] < side) {
+    throw Error(ExitCode::port_files, fmt::format("{}: in.lattice: expected {} texels a side, found {}x{}", c.folder(), side, m.lattice.view().width[0], m.lattice.view().height[0]));
   }
   return capture::model_of(std::move(m));
 }

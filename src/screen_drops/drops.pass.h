@@ -110,10 +110,15 @@ struct BentRay {
 // Snell's law at both; the scene is far, so the direction alone says what is seen. Fresnel's reflectance of the surface, 1 beyond
 // the critical angle, mirrors the background, dimmed.
 template <class N>
-RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Surface<N>& s, int column, int row) {
-  const N half(0.5f), one(1.0f), zero(0.0f);
-  const Vec3<N> ray = normalize(Vec3<N>((N::index(column) + half) * N(u.pixel[0]) - N(u.half_size[0]), N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) - N(u.half_size[1]), one));
-  const Vec3<N> normal = normalize(Vec3<N>(s.x, s.y, sqrt(max(one - square(s.x) - square(s.y), N(0.04f)))));
+RAINREF_FN Vec3<N> view_ray(const DropsUniforms& u, int column, int row) {
+  const N half(0.5f), one(1.0f);
+  return normalize(Vec3<N>((N::index(column) + half) * N(u.pixel[0]) - N(u.half_size[0]), N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) - N(u.half_size[1]), one));
+}
+/// slope_x, slope_y: of the normal, as a Surface has them.
+template <class N>
+RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slope_x, N slope_y) {
+  const N one(1.0f), zero(0.0f);
+  const Vec3<N> normal = normalize(Vec3<N>(slope_x, slope_y, sqrt(max(one - square(slope_x) - square(slope_y), N(0.04f)))));
   const Vec3<N> inside = refract(ray, Vec3<N>(zero, zero, N(-1.0f)), 1.0f / u.water_ior);
   const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
   return {bent, fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior)};
@@ -124,9 +129,12 @@ RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, con
   const Surface<N> s = water_at<N>(u, cells, height, column, row);
   const auto wet = s.cover > zero;
   if (!any(wet)) return {background, zero};
-  const BentRay<N> bent = bent_ray(u, s, column, row);
-  const N ahead = one / max(bent.direction.z, N(0.05f));
-  const Vec3<N> seen = scene_at<N>(scene, half + bent.direction.x * ahead * N(u.scene_scale[0]), half + bent.direction.y * ahead * N(u.scene_scale[1]), s.level);
-  const Vec3<N> water = mix(seen, N(u.inner) * background, bent.reflected);
+  const Vec3<N> ray = view_ray<N>(u, column, row);
+  const Vec3<N> water = in_parts(s.x, s.y, [&](N x, N y) RAINREF_LAMBDA {
+    const BentRay<N> bent = bent_ray(u, ray, x, y);
+    const N ahead = one / max(bent.direction.z, N(0.05f));
+    const Vec3<N> seen = scene_at<N>(scene, half + bent.direction.x * ahead * N(u.scene_scale[0]), half + bent.direction.y * ahead * N(u.scene_scale[1]), s.level);
+    return mix(seen, N(u.inner) * background, bent.reflected);
+  });
   return {select(wet, mix(background, water, s.cover), background), s.cover};
 }

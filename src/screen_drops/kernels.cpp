@@ -16,6 +16,7 @@ RAINREF_TARGET_BEGIN(screen_drops)
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
 #include "screen_drops/background.pass.h"
+#include "math/in_parts-inl.h"
 #include "screen_drops/drops.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

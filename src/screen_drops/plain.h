@@ -6,6 +6,7 @@
 #include "image/texture.h"
 #include "math/deviant.h"
 #include "math/enclosure.h"
+#include "math/in_parts.h"
 #include "math/plain.h"
 #include "screen_drops/uniforms.h"
 
@@ -20,6 +21,7 @@ using namespace rainref::plain;
 #include "image/sampling_enclosed-inl.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
+#include "math/in_parts-inl.h"
 #include "screen_drops/drops.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
