@@ -69,13 +69,13 @@ Race& race(int threads) {
 
 // Each go measures both, one right after the other, so that what else runs on the machine slows both; the medians of the
 // ratios of the goes count.
-void compare(benchmark::State& state, const std::string& set, int threads) {
+void compare(benchmark::State& state, const std::string& set, int threads, bool as_records) {
   Race& r = race(threads);
   const auto packets = test::native_packets(r.rays.at(set));
   const auto count = static_cast<std::int64_t>(packets.size()) * 16;
   const bool coherent = set != "reflection";
   // Both take the same packets of floats, 2048 rays at a time, and leave their hits where a shader would find them: in the
-  // cache. Ours first widens the rays to arrays of doubles, and that is part of its time.
+  // cache. Ours first widens the rays to arrays of doubles, or to records (Ray), and that is part of its time.
   constexpr std::size_t chunk = chunk_packets * 16;
   const auto trace = [&] {
     r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
@@ -95,6 +95,20 @@ void compare(benchmark::State& state, const std::string& set, int threads) {
       benchmark::DoNotOptimize(hits.data());
     });
   };
+  const auto trace_records = [&] {
+    r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
+      thread_local std::vector<Ray> rays(chunk);
+      thread_local std::vector<Hit> hits(chunk);
+      const std::size_t filled = static_cast<std::size_t>(end - begin) * 16;
+      for (std::size_t k = 0; k < filled; ++k) {
+        const test::NativePacket& from = packets[static_cast<std::size_t>(begin) + k / 16];
+        const auto at = [&](const auto& v) { return Vec(v[0][k % 16], v[1][k % 16], v[2][k % 16]); };
+        rays[k] = {at(from.origin), at(from.direction)};
+      }
+      r.tracer.first_hits(std::span(rays).first(filled), std::span(hits).first(filled));
+      benchmark::DoNotOptimize(hits.data());
+    });
+  };
   const auto trace_native = [&] {
     r.executor.for_range(count / 16, chunk_packets, [&](std::int64_t begin, std::int64_t end) {
       thread_local std::vector<test::NativeHit> hits(chunk_packets * 16);
@@ -109,7 +123,7 @@ void compare(benchmark::State& state, const std::string& set, int threads) {
     const double nu = seconds_of(threads, [&] { r.native.update(r.frames[ours.size() % 3 + 1]); });
     r.update(0);
     r.native.update(r.frames[0]);
-    const double t = seconds_of(threads, trace), nt = seconds_of(threads, trace_native);
+    const double t = as_records ? seconds_of(threads, trace_records) : seconds_of(threads, trace), nt = seconds_of(threads, trace_native);
     ours.push_back(t);
     theirs.push_back(nt);
     our_update.push_back(u);
@@ -135,11 +149,14 @@ void compare(benchmark::State& state, const std::string& set, int threads) {
 
 const bool registered = [] {
   for (const int threads : {1, 2}) {
-    for (const std::string set : {"camera", "grazing", "reflection"}) {
-      benchmark::RegisterBenchmark(fmt::format("rays/{}/{}x{}/threads:{}", set, width, height, threads).c_str(), [=](benchmark::State& state) { compare(state, set, threads); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMillisecond)
-          ->Iterations(15);
+    for (const bool as_records : {false, true}) {
+      for (const std::string set : {"camera", "grazing", "reflection"}) {
+        benchmark::RegisterBenchmark(fmt::format("{}/{}/{}x{}/threads:{}", as_records ? "rays_as_records" : "rays", set, width, height, threads).c_str(),
+                                     [=](benchmark::State& state) { compare(state, set, threads, as_records); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(15);
+      }
     }
   }
   return true;

@@ -123,52 +123,20 @@ void CapSurface::meet(std::uint32_t self, std::uint32_t cap, const Ray& ray, Hit
 
 Vec CapSurface::normal(const Ray& ray, const Hit& hit) const { return rainref::scene::normalized(ray.at(hit.t) - centre(hit.part)); }
 
-LayerSurface::LayerSurface(std::shared_ptr<const CapWater> water, const parallel::Executor& executor)
-    : water_(std::move(water)), pane_(part_of(water_->pane(), water_->height())), sheet_(pane_, water_->height().height, executor) {}
-
-bool LayerSurface::is_hidden(const Ray& ray, const Hit& hit) const {
-  const PaneCoordinates p = water_->pane().coordinates(ray.at(hit.t));
-  return water_->owner(p.u * water_->width(), p.v * water_->length()) < water_->caps();
-}
-
-void LayerSurface::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const {
-  Ray rest = ray;
-  // As DisplacedWater passes over its dry cells.
-  for (double step = 0x1p-52; step < 1; step *= 2) {
-    Hit hit = first;
-    sheet_.meet(self, primitive, rest, hit);
-    if (hit.surface != self || hit.t == first.t) return;
-    if (!is_hidden(ray, hit)) {
-      first = hit;
-      return;
-    }
-    rest.nearest = hit.t + step * (hit.t < 1e-3 ? 1e-3 : hit.t);
-  }
-}
-
-std::uint32_t LayerSurface::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
-  Hit before[Packet::slots];
-  for_each_lane(lanes, [&](std::uint32_t slot) { before[slot] = packet.first[slot]; });
-  std::uint32_t changed = sheet_.meet_packet(self, primitive, lanes, packet);
-  for_each_lane(changed, [&](std::uint32_t slot) {
-    Hit& first = packet.first[slot];
-    if (!is_hidden(packet.ray(slot), first)) return;
-    first = before[slot];
-    meet(self, primitive, packet.ray(slot), first);
-    if (first.t == before[slot].t && first.surface == before[slot].surface) changed &= ~(1u << slot);
-  });
-  return changed;
-}
-
 void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim, const parallel::Executor& executor, const PaneMedia& media) {
   add_faces(scene, water->pane(), [water](double u, double v) { return water->is_wet(u, v); }, media);
   Material surface = Material::interface_of(media.outside, media.water);
   surface.is_masked = true;
   if (water->caps() > 0) scene.add(std::make_shared<CapSurface>(water), surface);
   if (water->height().height) {
-    const auto sheet = std::make_shared<LayerSurface>(water, executor);
-    surface.smooth_normal = water_normal(sheet->pane(), water->height().height);
-    scene.add(sheet, surface);
+    const Pane part(part_of(water->pane(), water->height()));
+    surface.smooth_normal = water_normal(part, water->height().height);
+    scene.add(std::make_shared<DisplacedWater>(part, water->height().height, executor,
+                                               [water](const Vec& place) {
+                                                 const PaneCoordinates p = water->pane().coordinates(place);
+                                                 return water->owner(p.u * water->width(), p.v * water->length()) < water->caps();
+                                               }),
+              surface);
   }
   scene.add(std::make_shared<PaneRim>(water->pane(), 2 * WaterLayer::clearance), Material::of(std::move(rim)));
 }

@@ -66,25 +66,6 @@ class CapSurface : public Surface {
   std::shared_ptr<const CapWater> water_;
 };
 
-/// The layer's part of it: DisplacedWater where no cap stands higher.
-class LayerSurface : public Surface {
- public:
-  LayerSurface(std::shared_ptr<const CapWater> water, const parallel::Executor& executor);
-  /// The part of the pane that the layer lies on.
-  const Pane& pane() const { return pane_; }
-  std::uint32_t primitives() const override { return sheet_.primitives(); }
-  Box bounds(std::uint32_t primitive) const override { return sheet_.bounds(primitive); }
-  void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
-  std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
-  Vec normal(const Ray& ray, const Hit& hit) const override { return sheet_.normal(ray, hit); }
-
- private:
-  bool is_hidden(const Ray& ray, const Hit& hit) const;
-  std::shared_ptr<const CapWater> water_;
-  Pane pane_;
-  DisplacedWater sheet_;
-};
-
 /// Adds inner face, outer face, the water's surfaces and the rim.
 void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim, const parallel::Executor& executor, const PaneMedia& media);
 

@@ -89,14 +89,14 @@ HeightfieldFrame frame_of(const Pane& pane, const WaterLayer& water) {
 
 }  // namespace
 
-DisplacedWater::DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor)
-    : water_(std::move(water)), field_(frame_of(pane, *water_), water_->width() - 1, water_->height() - 1) {
+DisplacedWater::DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor, std::function<bool(const Vec&)> is_hidden)
+    : water_(std::move(water)), is_hidden_(std::move(is_hidden)), field_(frame_of(pane, *water_), water_->width() - 1, water_->height() - 1) {
   field_.assign(water_->metres(), executor);
 }
 
-bool DisplacedWater::is_dry(const Hit& hit) const {
+bool DisplacedWater::is_there(const Ray& ray, const Hit& hit) const {
   const int cell = static_cast<int>(hit.part / 2), columns = field_.columns();
-  return !water_->is_wet_cell(cell % columns, cell / columns);
+  return water_->is_wet_cell(cell % columns, cell / columns) && !(is_hidden_ && is_hidden_(ray.at(hit.t)));
 }
 
 void DisplacedWater::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const {
@@ -107,7 +107,7 @@ void DisplacedWater::meet(std::uint32_t self, std::uint32_t primitive, const Ray
     Hit hit = first;
     field_.meet(self, primitive, rest, hit);
     if (hit.surface != self || hit.t == first.t) return;
-    if (!is_dry(hit)) {
+    if (is_there(ray, hit)) {
       first = hit;
       return;
     }
@@ -121,7 +121,7 @@ std::uint32_t DisplacedWater::meet_packet(std::uint32_t self, std::uint32_t prim
   std::uint32_t changed = field_.meet_packet(self, primitive, lanes, packet);
   for_each_lane(changed, [&](std::uint32_t slot) {
     Hit& first = packet.first[slot];
-    if (!is_dry(first)) return;
+    if (is_there(packet.ray(slot), first)) return;
     first = before[slot];
     meet(self, primitive, packet.ray(slot), first);
     if (first.t == before[slot].t && first.surface == before[slot].surface) changed &= ~(1u << slot);

@@ -85,8 +85,9 @@ class SlopedWater : public PaneFace {
 /// The water's surface on a flat pane as it is: a heightfield of the texels over the face, without its dry cells.
 class DisplacedWater : public Surface {
  public:
-  /// Throws Error(usage) when the pane is bent.
-  DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor);
+  /// Where is_hidden holds of a place (a pure function), something else stands higher and the water is not there. Throws
+  /// Error(usage) when the pane is bent.
+  DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor, std::function<bool(const Vec&)> is_hidden = {});
   std::uint32_t primitives() const override { return field_.primitives(); }
   Box bounds(std::uint32_t primitive) const override { return field_.bounds(primitive); }
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
@@ -94,8 +95,9 @@ class DisplacedWater : public Surface {
   Vec normal(const Ray& ray, const Hit& hit) const override { return field_.normal(ray, hit); }
 
  private:
-  bool is_dry(const Hit& hit) const;
+  bool is_there(const Ray& ray, const Hit& hit) const;
   std::shared_ptr<const WaterLayer> water_;
+  std::function<bool(const Vec&)> is_hidden_;
   Heightfield field_;
 };
 

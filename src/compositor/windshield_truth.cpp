@@ -5,15 +5,16 @@
 
 #include "compositor/straight_path.h"
 #include "compositor/truth_pixels.h"
+#include "scene/display.h"
 #include "windshield/shown.h"
 #include "windshield/street.h"
 
 namespace rainref::compositor {
 Image display(const windshield::Settings& settings, const Image& radiance, const parallel::Executor& executor) {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const windshield::DisplayUniforms uniforms = windshield::display_uniforms(settings.picture);
+  const scene::DisplayUniforms uniforms = scene::display_uniforms(settings.picture.exposure);
   executor.for_tiles(picture.width(), picture.height(), picture.width(), 8,
-                     [&](const parallel::Tile& tile) { windshield::display_rows(uniforms, settings.surface.rounding, radiance, picture, tile); });
+                     [&](const parallel::Tile& tile) { scene::display_rows(uniforms, settings.surface.rounding, radiance, picture, tile); });
   return picture;
 }
 

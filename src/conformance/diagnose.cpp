@@ -161,13 +161,15 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
       }
     }
   });
+  return best_causes(std::move(causes));
+}
+
+std::vector<Cause> best_causes(std::vector<Cause> causes) {
   // A deviation that explains some texels of many explains nothing; a wrong cause would be worse than none.
-  std::vector<Cause> found;
-  for (Cause& cause : causes)
-    if (cause.inside * 2 >= cause.of || cause.explained * 4 >= cause.of) found.push_back(std::move(cause));
-  std::stable_sort(found.begin(), found.end(), [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
-  if (found.size() > 3) found.resize(3);
-  return found;
+  std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
+  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
+  if (causes.size() > 3) causes.resize(3);
+  return causes;
 }
 
 }  // namespace rainref::conformance

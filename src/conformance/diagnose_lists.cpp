@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -152,12 +153,9 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
         }
       }
     });
-    for (Cause& cause : causes)
-      if (cause.inside * 2 >= cause.of || cause.explained * 4 >= cause.of) found.push_back(std::move(cause));
+    found.insert(found.end(), std::make_move_iterator(causes.begin()), std::make_move_iterator(causes.end()));
   }
-  std::stable_sort(found.begin(), found.end(), [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
-  if (found.size() > 3) found.resize(3);
-  return found;
+  return best_causes(std::move(found));
 }
 
 }  // namespace rainref::conformance

@@ -194,28 +194,24 @@ void add_events(Adder& a) {
     }
     return some_ended && some_go_on;
   });
-  a.add("with a capture that is lost", "a captured record ends, and its captor goes on as if alone: what it had is lost", [](const List& list, const PassCase& c, ListEdit& e) {
-    const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
-    if (!pair) return false;
-    for (const std::uint32_t id : e.at.empty() ? Ids{(*pair)[1]} : e.at) {
-      const auto alone = as_if_alone(list, c, id);
-      const std::size_t place = list.place(e.records, id);
-      if (!alone || place == e.records.size()) return false;
-      e.records[place] = *alone;
-    }
-    return true;
-  });
-  a.add("with the mass of before a capture", "a captor takes over the motion of what it captures, but not its mass", [](const List& list, const PassCase& c, ListEdit& e) {
-    const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
-    if (!pair) return false;
-    for (const std::uint32_t id : e.at.empty() ? Ids{(*pair)[1]} : e.at) {
-      const auto alone = as_if_alone(list, c, id);
-      const std::size_t place = list.place(e.records, id);
-      if (!alone || place == e.records.size()) return false;
-      copy_member(*list.mass(), *alone, e.records[place]);
-    }
-    return true;
-  });
+  // change(to, alone): of a captor, by what it would be had it captured nothing.
+  const auto of_captors = [&](const auto& change) {
+    return [change](const List& list, const PassCase& c, ListEdit& e) {
+      const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
+      if (!pair) return false;
+      for (const std::uint32_t id : e.at.empty() ? Ids{(*pair)[1]} : e.at) {
+        const auto alone = as_if_alone(list, c, id);
+        const std::size_t place = list.place(e.records, id);
+        if (!alone || place == e.records.size()) return false;
+        change(list, *alone, e.records[place]);
+      }
+      return true;
+    };
+  };
+  a.add("with a capture that is lost", "a captured record ends, and its captor goes on as if alone: what it had is lost",
+        of_captors([](const List&, const auto& alone, auto& captor) { captor = alone; }));
+  a.add("with the mass of before a capture", "a captor takes over the motion of what it captures, but not its mass",
+        of_captors([](const List& list, const auto& alone, auto& captor) { copy_member(*list.mass(), alone, captor); }));
   a.add("with a record not treated", "the pass leaves out a record that it should have changed", [](const List& list, const PassCase& c, ListEdit& e) {
     const auto before = list.taken(c);
     const std::set<std::uint32_t> at(e.at.begin(), e.at.end());

@@ -64,6 +64,9 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
 std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, const capture::PassModel* model,
                                   const std::vector<capture::Array>& port, const enclosed::Profile& profile, const parallel::Executor& executor);
 
+/// The three best of them, of those that explain enough.
+std::vector<Cause> best_causes(std::vector<Cause> causes);
+
 /// The status of the whole from its passes.
 void conclude(PortJudgement& judgement);
 

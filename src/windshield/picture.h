@@ -39,9 +39,6 @@ using Corners = std::array<std::array<double, 3>, 3>;
 /// Everything that composite takes besides images. Throws Error(usage) when the eye lies in the plane of the glass.
 CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners);
 std::vector<Glint> glints(const PictureSettings& settings);
-using scene::display_rows;
-using scene::DisplayUniforms;
-inline DisplayUniforms display_uniforms(const PictureSettings& settings) { return scene::display_uniforms(settings.exposure); }
 /// The camera in car axes.
 scene::Camera camera(const PictureSettings& settings);
 /// Vertical field of view of the picture of the scene [deg].

@@ -233,7 +233,7 @@ void Windshield::render(Recorder* recorder) {
   tiles([&](const parallel::Tile& tile) { composite_rows(composite, s.corrected, rounding, in, s.colour, tile); });
   s.report(recorder, last_step, "composite", {{"colour", s.colour}}, composite_clock.seconds());
 
-  const DisplayUniforms display = display_uniforms(settings.picture);
+  const scene::DisplayUniforms display = scene::display_uniforms(settings.picture.exposure);
   s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
   Stopwatch display_clock;
   tiles([&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });

@@ -1,7 +1,5 @@
 // The traced panes of screen_drops and rainy_glass, and their passes against them, as a user meets them.
-#include <nlohmann/json.hpp>
-
-#include "cli/support.h"
+#include "cli/traced_pictures.h"
 #include "image_io/read.h"
 
 namespace rainref::cli {
@@ -10,34 +8,21 @@ namespace {
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 
-class PaneTruth : public CommandLine {
+class PaneTruth : public TracedPictures {
  protected:
   PaneTruth() {
     put(folder / "screen_drops.toml", "effect = 'screen_drops'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [96, 54]\n[glass]\nheight = 0.04\n[rain]\nrate = 100\n[flow]\nwarm_up = 10\nheight_size = [160, 90]\n");
     put(folder / "rainy_glass.toml", "effect = 'rainy_glass'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [96, 54]\n[maps]\nsize = 128\n");
     before = folder.names();
   }
-  nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
-  std::map<std::string, std::string> traced(const std::string& effect, const std::string& to, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run", effect + ".toml", "-o", to, "--image", "none", "--set", "compositor.picture=traced"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome o = rainref(arguments);
-    EXPECT_EQ(o.code, 0) << o.err;
-    std::map<std::string, std::string> out;
-    const nlohmann::json all = summary(to);
-    for (const auto& line : all["last_frame"]) {
-      if (line["pass"] == "compositor") out[line["buffer"]] = line["xxh3"];
-    }
-    return out;
-  }
 };
 
 TEST_F(PaneTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
   for (const std::string effect : {"screen_drops", "rainy_glass"}) {
-    const auto first = traced(effect, effect + "_a", {});
+    const auto first = trace(effect, effect + "_a");
     EXPECT_EQ(first.size(), 6u);
-    EXPECT_EQ(traced(effect, effect + "_b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "3", "--simd", "scalar"}), first);
-    EXPECT_NE(traced(effect, effect + "_c", {"--set", "compositor.glass_thickness=0.02"}), first);
+    EXPECT_EQ(trace(effect, effect + "_b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "3", "--simd", "scalar"}), first);
+    EXPECT_NE(trace(effect, effect + "_c", {"--set", "compositor.glass_thickness=0.02"}), first);
   }
 }
 

@@ -1,7 +1,5 @@
 // Traced pictures and `run --compare-truth`, as a user meets them.
-#include <nlohmann/json.hpp>
-
-#include "cli/support.h"
+#include "cli/traced_pictures.h"
 #include "image_io/read.h"
 
 namespace rainref::cli {
@@ -11,19 +9,7 @@ using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;
 
-class Truth : public CommandLine {
- protected:
-  nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
-  /// The buffers of the traced picture, in the summary.
-  std::map<std::string, std::string> traced(const std::string& in) const {
-    std::map<std::string, std::string> out;
-    const nlohmann::json all = summary(in);
-    for (const auto& line : all["last_frame"]) {
-      if (line["pass"] == "compositor") out[line["buffer"]] = line["xxh3"];
-    }
-    return out;
-  }
-};
+class Truth : public TracedPictures {};
 
 TEST_F(Truth, TracedPicturesComeWithNamedChannels) {
   const Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--image", "both", "--set", "compositor.picture=traced", "--set", "compositor.samples=4"});
@@ -35,17 +21,10 @@ TEST_F(Truth, TracedPicturesComeWithNamedChannels) {
 }
 
 TEST_F(Truth, EmbreesConfigurationAndThreadsChangeNoBit) {
-  const auto run = [&](const std::string& to, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run", "corrected.toml", "-o", to, "--image", "none", "--set", "compositor.picture=traced"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome o = rainref(arguments);
-    EXPECT_EQ(o.code, 0) << o.err;
-    return traced(to);
-  };
-  const auto expected = run("a", {});
-  EXPECT_EQ(run("b", {"--set", "compositor.embree_config=isa=sse2"}), expected);
-  EXPECT_EQ(run("c", {"--threads", "3", "--simd", "scalar"}), expected);
-  EXPECT_NE(run("d", {"--set", "compositor.depth=1"}), expected);
+  const auto expected = trace("corrected", "a");
+  EXPECT_EQ(trace("corrected", "b", {"--set", "compositor.embree_config=isa=sse2"}), expected);
+  EXPECT_EQ(trace("corrected", "c", {"--threads", "3", "--simd", "scalar"}), expected);
+  EXPECT_NE(trace("corrected", "d", {"--set", "compositor.depth=1"}), expected);
 }
 
 TEST_F(Truth, ComparisonWritesPicturesAndPercentiles) {

@@ -1,7 +1,5 @@
 // The windshield's traced pictures and its composite against them, as a user meets them.
-#include <nlohmann/json.hpp>
-
-#include "cli/support.h"
+#include "cli/traced_pictures.h"
 #include "image_io/read.h"
 
 namespace rainref::cli {
@@ -9,7 +7,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class WindshieldTruth : public CommandLine {
+class WindshieldTruth : public TracedPictures {
  protected:
   WindshieldTruth() {
     for (const char* variant : {"corrected", "as-published"}) {
@@ -34,28 +32,15 @@ vertical_fov_deg = 8
     put(folder / "corrected.toml", contents(folder / "corrected.toml") + "[rain]\nrate = 150\nsmallest_drop = 1.5\n");
     before = folder.names();
   }
-  nlohmann::json summary(const std::string& in) const { return nlohmann::json::parse(contents(folder / (in + "/summary.json"))); }
 };
 
 TEST_F(WindshieldTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
-  const auto run = [&](const std::string& to, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run", "corrected.toml", "-o", to, "--image", "none", "--set", "compositor.picture=traced"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome o = rainref(arguments);
-    EXPECT_EQ(o.code, 0) << o.err;
-    std::map<std::string, std::string> out;
-    const nlohmann::json all = summary(to);
-    for (const auto& line : all["last_frame"]) {
-      if (line["pass"] == "compositor") out[line["buffer"]] = line["xxh3"];
-    }
-    return out;
-  };
-  const auto first = run("a", {});
+  const auto first = trace("corrected", "a");
   EXPECT_EQ(first.size(), 6u);
-  EXPECT_EQ(run("b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "1"}), first);
-  EXPECT_EQ(run("c", {"--set", "compositor.embree_config=isa=avx2", "--threads", "3", "--simd", "scalar"}), first);
-  EXPECT_NE(run("d", {"--set", "compositor.glass_radius=3"}), first);
-  EXPECT_NE(run("e", {"--set", "compositor.glass_thickness=0.02"}), first);
+  EXPECT_EQ(trace("corrected", "b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "1"}), first);
+  EXPECT_EQ(trace("corrected", "c", {"--set", "compositor.embree_config=isa=avx2", "--threads", "3", "--simd", "scalar"}), first);
+  EXPECT_NE(trace("corrected", "d", {"--set", "compositor.glass_radius=3"}), first);
+  EXPECT_NE(trace("corrected", "e", {"--set", "compositor.glass_thickness=0.02"}), first);
 }
 
 TEST_F(WindshieldTruth, CompositeIsComparedInBothVariants) {

@@ -121,8 +121,7 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       if (pass.name() == "screen_drops-as-published drops" && is_known_loose(pass.pass, name)) continue;
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
       // the weights of a lookup between two levels.
-      const int most = pass.name() == "screen_drops-corrected background" ? 7 : pass.name() == "screen_drops-corrected drops" ? 5 : 4;
-      EXPECT_LE(at(m.ratios, 0.5), most) << pass.name() << ' ' << name;
+      EXPECT_LE(at(m.ratios, 0.5), pass.name() == "screen_drops-corrected background" ? 7 : 4) << pass.name() << ' ' << name;
     }
   }
 }

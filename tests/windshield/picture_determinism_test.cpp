@@ -76,7 +76,7 @@ struct Scene {
       ahead{pattern<Half>(Format::rgba16f, 19, 13, 0.5f), pattern<float>(Format::r32f, 19, 13, 50)};
   PictureSettings settings;
   CompositeUniforms composite;
-  DisplayUniforms display;
+  scene::DisplayUniforms display;
   ReprojectUniforms reproject{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, -5.5f, 0.4f};
   std::vector<Glint> lights;
 
@@ -87,7 +87,7 @@ struct Scene {
     settings.vertical_fov_deg = 60;  // beyond the glass, too
     settings.lights = {{{-0.9, 0.2, 0.4}, {1, 0.9, 0.8}}, {{0.1, 0.9, 0.2}, {0.2, 0.3, 0.9}}};
     composite = composite_uniforms(settings, raked);
-    display = display_uniforms(settings);
+    display = scene::display_uniforms(settings.exposure);
     lights = glints(settings);
   }
   View make() const {
@@ -99,7 +99,7 @@ struct Scene {
     const CompositeInputs in{pyramid.stored->view(), stored_texture<float>(depth), stored_texture<Half>(water), stored_texture<Half>(normal), stored_texture<Half>(mask), lights};
     executor.for_tiles(settings.width, height, settings.width, 2, [&](const parallel::Tile& tile) {
       composite_rows(composite, corrected, Rounding::rne, in, v.colour, tile);
-      display_rows(display, Rounding::rne, v.colour, v.picture, tile);
+      scene::display_rows(display, Rounding::rne, v.colour, v.picture, tile);
       reproject_rows(reproject, behind, ahead, v.street, tile);
     });
     return v;
