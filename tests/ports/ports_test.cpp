@@ -68,6 +68,15 @@ TEST(Port, WaveStepInCudaPasses) {
   EXPECT_EQ(verdict.code, 0) << verdict.text;
 }
 
+// What envelopes of lookups between two levels are made for (docs/validation.md). Another device may weigh otherwise.
+TEST(Port, AnH100WeighsTwoLevelsTogether) {
+  if (!fs::exists(spirv + "/cuda_two_levels")) GTEST_SKIP() << "built without nvcc";
+  const Outcome run = call("'" + spirv + "/cuda_two_levels'");
+  if (run.text.find("cudaGetDeviceProperties") != std::string::npos) GTEST_SKIP() << "no CUDA device: " << run.text;
+  if (run.text.find("H100") == std::string::npos) GTEST_SKIP() << "another device: " << run.text;
+  EXPECT_EQ(run.code, 0) << run.text;
+}
+
 // One or two bugs of each pass; scripts/full/mutants has them all.
 TEST(Port, SeededBugsGetTheirVerdicts) {
   const TemporaryFolder folder;
