@@ -66,6 +66,9 @@ struct PassCall {
 class Recorder {
  public:
   virtual ~Recorder() = default;
+  /// Whether it reads the buffers of this pass in this frame. Where not, an effect may tell it of a list of records as empty: to
+  /// list drops costs more than some passes take.
+  virtual bool reads(int /*frame*/, std::string_view /*pass*/) const { return true; }
   /// Called before pass() of the same run, while the inputs hold what the pass takes: a pass may overwrite them. From
   /// the thread that runs the effect.
   virtual void before(const PassStart&) {}

@@ -1,6 +1,7 @@
 // Runs of passes as cases: what they took and what they gave, copied while it was there.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ class CaptureRecorder : public Recorder {
   /// `effect` must outlive the recorder. Without inputs a case holds uniforms and outputs only.
   CaptureRecorder(const EffectInfo& effect, std::string variant, bool with_inputs, Wanted wanted, Sink sink);
 
+  bool reads(int frame, std::string_view pass) const override { return wanted_(frame, pass); }
   void before(const PassStart& start) override;
   /// Throws Error(internal) for a run that was not announced, and for a buffer that the effect does not declare.
   void pass(const PassCall& call) override;
@@ -44,6 +46,9 @@ class CaptureRecorder : public Recorder {
 class RecorderList : public Recorder {
  public:
   explicit RecorderList(std::vector<Recorder*> all) : all_(std::move(all)) {}
+  bool reads(int frame, std::string_view pass) const override {
+    return std::any_of(all_.begin(), all_.end(), [&](const Recorder* r) { return r->reads(frame, pass); });
+  }
   void before(const PassStart& start) override {
     for (Recorder* r : all_) r->before(start);
   }

@@ -35,6 +35,7 @@ class HashRecorder : public Recorder {
   explicit HashRecorder(bool hashing = true) : hashing_(hashing) {}
   /// With hashing off only the times are kept.
   void set_hashing(bool on) { hashing_ = on; }
+  bool reads(int, std::string_view) const override { return hashing_; }
   void pass(const PassCall& call) override;
   /// The lines of the frame so far, in the order of the passes, which are then forgotten; they also enter the scene's hash.
   std::vector<HashLine> take_lines();

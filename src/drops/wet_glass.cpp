@@ -24,7 +24,7 @@ std::int64_t WetGlass::balance() const {
 void WetGlass::spawn(const Run& run, const Exposure& exposure, std::int64_t n) {
   const SpawnPlan& plan = arrivals_.plan(exposure, n, steps_per_second_, drops.next_id(), drops.free_slots());
   if (run.recorder) {
-    const PassInput before{"drops", list()}, thresholds{"count_thresholds", records(plan.thresholds)}, masses{"spawn_masses", records(plan.masses)};
+    const PassInput before{"drops", list_for(run, "spawn")}, thresholds{"count_thresholds", records(plan.thresholds)}, masses{"spawn_masses", records(plan.masses)};
     if (settings_.corrected) {
       run.before("spawn", plan.uniforms, std::array{before, thresholds, masses});
     } else {
@@ -34,27 +34,27 @@ void WetGlass::spawn(const Run& run, const Exposure& exposure, std::int64_t n) {
   const Stopwatch clock;
   ledger += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected);
   const double seconds = clock.seconds();
-  if (run.recorder) run.after("spawn", std::array{PassOutput{"drops", list()}}, seconds);
+  if (run.recorder) run.after("spawn", std::array{PassOutput{"drops", list_for(run, "spawn")}}, seconds);
 }
 
 void WetGlass::integrate(const Run& run, const GlassFrame& glass) {
   const IntegrateUniforms uniforms = integrate_uniforms(settings_, frame_, 1 / steps_per_second_);
-  if (run.recorder) run.before("integrate", uniforms, std::array{PassInput{"drops", list()}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
+  if (run.recorder) run.before("integrate", uniforms, std::array{PassInput{"drops", list_for(run, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
   const Stopwatch clock;
   ledger += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass) : integrate_as_published(executor_, drops, uniforms, glass);
   const double seconds = clock.seconds();
-  if (run.recorder) run.after("integrate", std::array{PassOutput{"drops", list()}}, seconds);
+  if (run.recorder) run.after("integrate", std::array{PassOutput{"drops", list_for(run, "integrate")}}, seconds);
 }
 
 void WetGlass::merge(const Run& run, std::int64_t n) {
   const double texel_area = area_ / (static_cast<double>(film.width()) * film.height());
   const std::int64_t drying = film_loss(settings_, texel_area, n, steps_per_second_);
   const MergeUniforms uniforms = merge_uniforms(settings_, frame_, 1 / steps_per_second_, film.width(), film.height(), drying);
-  if (run.recorder) run.before("merge", uniforms, std::array{PassInput{"drops", list()}, PassInput{"film", film}});
+  if (run.recorder) run.before("merge", uniforms, std::array{PassInput{"drops", list_for(run, "merge")}, PassInput{"film", film}});
   const Stopwatch clock;
   ledger += merger_.run(executor_, drops, uniforms, film);
   const double seconds = clock.seconds();
-  if (run.recorder) run.after("merge", std::array{PassOutput{"drops", list()}, PassOutput{"film", film}}, seconds);
+  if (run.recorder) run.after("merge", std::array{PassOutput{"drops", list_for(run, "merge")}, PassOutput{"film", film}}, seconds);
 }
 
 void WetGlass::splat(const Run& run, const SplatSettings& splat, Image& height) {

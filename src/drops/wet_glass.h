@@ -30,6 +30,7 @@ struct Run {
   void after(std::string_view pass, std::span<const PassOutput> outputs, double seconds) const {
     if (recorder) recorder->pass({frame, step, pass, outputs, seconds, -1});
   }
+  bool is_read(std::string_view pass) const { return recorder && recorder->reads(frame, pass); }
 };
 
 class WetGlass {
@@ -47,6 +48,8 @@ class WetGlass {
 
   /// The live drops as records, in slot order; valid until the next call or pass.
   RecordView list();
+  /// The same for the recorder of a pass; none where it does not read them.
+  RecordView list_for(const Run& run, std::string_view pass) { return run.is_read(pass) ? list() : RecordView{nullptr, 0, sizeof(Drop)}; }
   /// Quanta (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
   std::int64_t balance() const;
 

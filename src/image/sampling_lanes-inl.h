@@ -37,14 +37,23 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
   return out;
 }
 template <int First, int Count, class N, class T, class Line>
-  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, Half> && T::channels == 4 && First == 0)
+  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, Half> && T::channels == 4 && First == 0 && Count > 2)
 RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const WordPair pair = gather_words(t.texels, hn::ShiftLeft<1>((row.place + column.place).i));
   Channels<N, Count> out;
   out[0] = widen_low(pair.first);
-  if constexpr (Count > 1) out[1] = widen_high(pair.first);
-  if constexpr (Count > 2) out[2] = widen_low(pair.second);
+  out[1] = widen_high(pair.first);
+  out[2] = widen_low(pair.second);
   if constexpr (Count > 3) out[3] = widen_high(pair.second);
+  return out;
+}
+template <int First, int Count, class N, class T, class Line>
+  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, Half> && T::channels == 4 && First % 2 == 0 && Count <= 2)
+RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+  const auto words = hn::GatherOffset(Lanes::DI(), reinterpret_cast<const std::int32_t*>(t.texels + First), hn::ShiftLeft<1>((row.place + column.place).i));
+  Channels<N, Count> out;
+  out[0] = widen_low(words);
+  if constexpr (Count > 1) out[1] = widen_high(words);
   return out;
 }
 
@@ -79,3 +88,19 @@ RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N
   return out;
 }
 #endif
+
+// Where all lanes lie between the same two levels, those need not be made for each.
+template <int First, int Count, class N, class T>
+  requires(std::same_as<N, Lanes>)
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) {
+  const int last = t.levels - 1;
+  const float held = lod > 0 ? (lod < static_cast<float>(last) ? lod : static_cast<float>(last)) : 0.0f;
+  const int level = static_cast<int>(held);
+  const float between = held - static_cast<float>(level);
+  Channels<N, Count> out = sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
+  if (between > 0) {
+    const auto coarse = sample_level<First, Count, N>(t, uniform_level<N>(t, level + 1), u, v);
+    RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = mix(out[k], coarse[k], N(between));
+  }
+  return out;
+}

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "image/texture.h"
+#include "image/stored_texture.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainy_glass/uniforms.h"
@@ -17,7 +17,10 @@ void bake_raindrops_rows(const BakeRaindropsUniforms& uniforms, bool corrected, 
 void bake_rivulets_rows(const BakeRivuletsUniforms& uniforms, Rounding rounding, std::span<const Trail> trails, const Texture& lattice, Image& map, const parallel::Tile& tile);
 
 struct GlassInputs {
-  const Texture *raindrops, *rivulets, *scene, *near_depth, *probe;  ///< near_depth: corrected; probe: with use_probe
+  const Image *raindrops, *rivulets;            ///< rgba8 or rgba16f
+  const Texture *raindrop_texture, *rivulet_texture;  ///< of the same; needed of rgba8
+  const Image* near_depth;                      ///< r32f; corrected
+  const Texture* probe;                         ///< with use_probe
   const Image *surface, *orientation, *own, *depth;  ///< own: the scene, rgba16f; depth: corrected
 };
 /// colour: rgba16f, alpha 1.

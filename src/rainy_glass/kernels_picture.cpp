@@ -19,8 +19,8 @@ RAINREF_TARGET_BEGIN(rainy_glass)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-void RainOnGlassRows(const RainOnGlassUniforms& uniforms, bool corrected, Rounding rounding, const GlassInputs& in, Image& colour, const parallel::Tile& tile) {
-  const GlassMaps maps{in.raindrops, in.rivulets, in.scene, in.near_depth, in.probe};
+template <class Maps>
+HWY_INLINE HWY_ATTR void glass_rows(const RainOnGlassUniforms& uniforms, bool corrected, Rounding rounding, const GlassInputs& in, const Maps& maps, Image& colour, const parallel::Tile& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
       Lanes s[4], n[4], c[4];
@@ -33,6 +33,17 @@ void RainOnGlassRows(const RainOnGlassUniforms& uniforms, bool corrected, Roundi
       const Lanes rgba[4] = {seen.x, seen.y, seen.z, Lanes(1.0f)};
       store4(colour.row<Half>(y) + 4 * x, rgba, rounding);
     }
+  }
+}
+void RainOnGlassRows(const RainOnGlassUniforms& uniforms, bool corrected, Rounding rounding, const GlassInputs& in, Image& colour, const parallel::Tile& tile) {
+  const auto scene = stored_texture<Half>(*in.own);
+  const auto near_depth = corrected ? stored_texture<float>(*in.near_depth) : StoredTexture<float>();
+  // Two maps of codes hold k / 255, which no half is.
+  if (in.raindrops->format() == Format::rgba16f && in.rivulets->format() == Format::rgba16f) {
+    const auto raindrops = stored_texture<Half>(*in.raindrops), rivulets = stored_texture<Half>(*in.rivulets);
+    glass_rows(uniforms, corrected, rounding, in, GlassMaps<StoredTexture<Half>, StoredTexture<Half>, StoredTexture<float>>{&raindrops, &rivulets, &scene, &near_depth, in.probe}, colour, tile);
+  } else {
+    glass_rows(uniforms, corrected, rounding, in, GlassMaps<Texture, StoredTexture<Half>, StoredTexture<float>>{in.raindrop_texture, in.rivulet_texture, &scene, &near_depth, in.probe}, colour, tile);
   }
 }
 RAINREF_TARGET_END(rainy_glass)

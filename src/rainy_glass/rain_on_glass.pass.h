@@ -10,18 +10,23 @@ struct GlassPixel {
   Vec3<N> own;     ///< the scene's radiance at this very pixel
   N own_depth;     ///< corrected: of the scene there, along the view axis [m]
 };
+/// As Textures, or as lanes have them stored.
+template <class Map, class Scene, class Depth>
 struct GlassMaps {
-  const Texture *raindrops, *rivulets, *scene, *near_depth, *probe;
+  const Map *raindrops, *rivulets;
+  const Scene* scene;
+  const Depth* near_depth;
+  const Texture* probe;
 };
 
-template <class N>
-RAINREF_FN Vec3<N> scene_at(const GlassMaps& m, N u, N v) {
+template <class N, class Maps>
+RAINREF_FN Vec3<N> scene_at(const Maps& m, N u, N v) {
   const auto s = sample_bilinear<0, 3, N>(fixed_texture<Address::clamp, Address::clamp, 4>(*m.scene), u, v);
   return Vec3<N>(s[0], s[1], s[2]);
 }
 /// The reflection probe along the view ray, moved on the image plane at distance 1.
-template <class N>
-RAINREF_FN Vec3<N> probe_at(const RainOnGlassUniforms& u, const GlassMaps& m, N x, N y) {
+template <class N, class Maps>
+RAINREF_FN Vec3<N> probe_at(const RainOnGlassUniforms& u, const Maps& m, N x, N y) {
   const Vec3<N> ray = Vec3<N>(u.forward) + x * Vec3<N>(u.right) + y * Vec3<N>(u.up);
   return sample_latlong(fixed_texture<Address::repeat, Address::clamp, 4>(*m.probe), ray, N(u.probe_level));
 }
@@ -41,8 +46,8 @@ RAINREF_FN FlowPhases<N> flow_phases(N phase) {
 //   timer = fract(time + B),  mask = ceil(A - timer),  d = mask RG + (1 - |n . up|) rivulets,  grab(screen + distortion (2 d - 1))
 // rivulets: the map at uv + BA phase for both phases, mixed by the weight. What rain_amount does the article leaves open:
 // here it dims the map by 1 - rain_amount.
-template <class N>
-RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
+template <class N, class Maps>
+RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
   const N zero(0.0f), one(1.0f);
   const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
   const auto drop = sample_bilinear<0, 4, N>(raindrops, p.u * N(u.drop_tiles), p.v * N(u.drop_tiles));
@@ -86,8 +91,8 @@ template <class N>
 RAINREF_FN N steepness(const Vec3<N>& normal) { return sqrt(square(normal.x) + square(normal.z)); }
 /// Slope of the water at place (pu, pv) [m] of glass of this normal, up along (u, v). Slopes are decoded before they are masked, so
 /// that dry glass bends nothing.
-template <class N>
-RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const GlassMaps& m, N pu, N pv, const Vec3<N>& normal, N steep) {
+template <class N, class Maps>
+RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const Maps& m, N pu, N pv, const Vec3<N>& normal, N steep) {
   const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
   const N amount = N(u.rain_amount) * saturate(dot(normal, Vec3<N>(u.rain_to)));
   const N du = pu * N(u.drop_tiles), dv = pv * N(u.drop_tiles);
@@ -125,8 +130,8 @@ RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N s
 template <class N>
 RAINREF_FN N share_beyond(const GlassPixel<N>& p) { return saturate(N(1.0f) - p.distance / max(p.own_depth, N(1e-3f))); }
 // Where something nearer than the glass lies under any texel of the lookup the pixel shows its own scene texel.
-template <class N>
-RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const GlassMaps& m, const GlassPixel<N>& p, int column, int row) {
+template <class N, class Maps>
+RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
   const N one(1.0f), half(0.5f);
   const auto glass = (p.covered > half) & (p.own_depth > p.distance);
   if (!any(glass)) return p.own;

@@ -1,6 +1,7 @@
 // The order of the passes. No arithmetic.
 #include "rainref/rainy_glass.h"
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <utility>
@@ -32,8 +33,8 @@ struct RainyGlass::State {
   Code drop_code, rivulet_code;
   std::vector<Droplet> droplets;
   std::vector<Trail> trails;
-  TextureData lattice, raindrop_texture, rivulet_texture, scene_texture, near_texture, probe;
-  Image raindrops, rivulets, scene, depth, surface, orientation, colour, picture;
+  TextureData lattice, raindrop_texture, rivulet_texture, probe;
+  Image raindrops, rivulets, scene, depth, least_depth, surface, orientation, colour, picture;
   CodeTable display;
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
@@ -55,10 +56,11 @@ struct RainyGlass::State {
       rivulets = stored_map(around.rivulets, s.map_storage);
     }
     scene = as_half(around.colour);
-    scene_texture = TextureData(scene, Address::clamp, Address::clamp);
     if (corrected) {
       depth = copy(around.depth);
-      near_texture = TextureData(near_depth(depth), 1, s.width, s.height, Address::clamp, Address::clamp);
+      least_depth = Image(Format::r32f, s.width, s.height);
+      const std::vector<float> least = near_depth(depth);
+      for (int y = 0; y < s.height; ++y) std::copy_n(least.begin() + static_cast<std::ptrdiff_t>(y) * s.width, s.width, least_depth.row<float>(y));
     }
     if (s.use_probe) {
       probe = TextureData(around.probe, Address::repeat, Address::clamp);
@@ -100,6 +102,7 @@ struct RainyGlass::State {
       });
       report(recorder, "bake_rivulets", {"rivulets", rivulets}, watch.seconds());
     }
+    if (raindrops.format() == Format::rgba16f && rivulets.format() == Format::rgba16f) return;
     raindrop_texture = TextureData(raindrops, Address::repeat, Address::repeat);
     rivulet_texture = TextureData(rivulets, Address::repeat, Address::repeat);
   }
@@ -124,10 +127,10 @@ void RainyGlass::frame(Recorder* recorder) {
   inputs.push_back({"scene", s.scene, Filter::linear});
   if (s.corrected) {
     inputs.push_back({"scene_depth", s.depth});
-    inputs.push_back({"near_depth", &s.near_texture.view(), Filter::linear});
+    inputs.push_back({"near_depth", s.least_depth, Filter::linear});
   }
   if (s.settings.use_probe) inputs.push_back({"probe", &s.probe.view(), Filter::linear, Filter::linear});
-  const GlassInputs in{&s.raindrop_texture.view(), &s.rivulet_texture.view(), &s.scene_texture.view(), &s.near_texture.view(), &s.probe.view(), &s.surface, &s.orientation, &s.scene, &s.depth};
+  const GlassInputs in{&s.raindrops, &s.rivulets, &s.raindrop_texture.view(), &s.rivulet_texture.view(), &s.least_depth, &s.probe.view(), &s.surface, &s.orientation, &s.scene, &s.depth};
   const Rounding rounding = s.settings.rounding;
   // A tile goes through both passes while it lies in the cache.
   PassClock rain, shown;

@@ -116,7 +116,7 @@ struct RainOnGlass {
                                   plain::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)),
                                   corrected ? N::load(depth.view().texels + texel) : N(0.0f)};
     const Texture drops = raindrops.view(), streaks = rivulets.view(), behind = scene.view(), least = near.view(), around = probe.view();
-    const scalar::GlassMaps maps{&drops, &streaks, &behind, &least, &around};
+    const scalar::GlassMaps<Texture, Texture, Texture> maps{&drops, &streaks, &behind, &least, &around};
     const plain::Vec3<N> seen = corrected ? scalar::rain_on_glass_corrected<N>(uniforms, maps, p, x, y) : scalar::rain_on_glass_as_published<N>(uniforms, maps, p, x, y);
     out[0] = seen.x;
     out[1] = seen.y;

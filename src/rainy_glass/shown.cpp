@@ -24,7 +24,7 @@ Shown ShownGlass::at(int column, int row) const {
   const scalar::GlassPixel<Number> p{Number(place[0]), Number(place[1]), Number(place[2]), half(3), normal, none, Number(surroundings_.depth.row<float>(row)[column])};
   Shown shown{p.covered.v > 0.5 && p.own_depth.v > p.distance.v, false, (2 * (column + 0.5) / width_ - 1) * c.half_width, (2 * (row + 0.5) / height_ - 1) * c.half_height};
   if (!shown.is_behind) return shown;
-  const scalar::GlassMaps maps{&raindrops_.view(), &rivulets_.view(), nullptr, nullptr, nullptr};
+  const scalar::GlassMaps<Texture, Texture, Texture> maps{&raindrops_.view(), &rivulets_.view(), nullptr, nullptr, nullptr};
   const Number steep = scalar::steepness(normal);
   const auto slope = scalar::water_slope(c, maps, p.u, p.v, normal, steep);
   if (!scalar::is_wet(slope)) return shown;
@@ -37,7 +37,7 @@ Shown ShownGlass::at(int column, int row) const {
 
 ShownGlass::Slope ShownGlass::slope(double u, double v, const scene::Vector3& normal) const {
   const scalar::Vec3<Number> n{Number(normal.x), Number(normal.y), Number(normal.z)};
-  const scalar::GlassMaps maps{&raindrops_.view(), &rivulets_.view(), nullptr, nullptr, nullptr};
+  const scalar::GlassMaps<Texture, Texture, Texture> maps{&raindrops_.view(), &rivulets_.view(), nullptr, nullptr, nullptr};
   const auto slope = scalar::water_slope(uniforms_, maps, Number(u), Number(v), n, scalar::steepness(n));
   return {slope.a.v, slope.b.v, scalar::is_wet(slope)};
 }

@@ -61,15 +61,16 @@ template <class N>
 struct Surface {
   N x, y, cover, level;
 };
-/// The drops of the cells, finer layers below coarser ones. A cap of base radius R and contact angle a is part of a sphere of
+/// The drops of the cells, finer layers below coarser ones, without those that a Wanted knows to show nothing here. A cap of base radius R and contact angle a is part of a sphere of
 /// radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
 template <class N, class C>
-RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int column, int row) {
+RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int column, int row, Wanted wanted) {
   const N half(0.5f), one(1.0f), zero(0.0f);
   const N px = N::index(column) + half, py = N(static_cast<float>(row) + 0.5f);
   const Level<N> whole = uniform_level<N>(cells, 0);
   Surface<N> s{zero, zero, zero, zero};
   for (int l = layers - 1; l >= 0; --l) {
+    if ((wanted >> l & 1) == 0) continue;
     const N qx = px * N(u.cells_per_pixel[l]) + N(u.offset_x[l]), qy = py * N(u.cells_per_pixel[l]) + N(u.offset_y[l]);
     const N cx = floor(qx), cy = floor(qy), pixels(u.pixels_per_cell[l]);
     const auto drop = load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
@@ -96,9 +97,9 @@ RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const S
 }
 /// The water that a pixel shows.
 template <class N, class C, class H>
-RAINREF_FN Surface<N> water_at(const DropsUniforms& u, const C& cells, const H& height, int column, int row) {
-  const Surface<N> s = still_drops<N>(u, cells, column, row);
-  return u.has_flow != 0 ? with_flow(u, height, s, column, row) : s;
+RAINREF_FN Surface<N> water_at(const DropsUniforms& u, const C& cells, const H& height, int column, int row, Wanted wanted = wanted_all) {
+  const Surface<N> s = still_drops<N>(u, cells, column, row, wanted);
+  return u.has_flow != 0 && (wanted & wanted_flow) != 0 ? with_flow(u, height, s, column, row) : s;
 }
 /// The view ray behind the water, and how much of it the water's surface mirrors.
 template <class N>
@@ -109,10 +110,10 @@ struct BentRay {
 // The view ray is bent into the water at the glass, which stands across the view, and out of it at the water's surface, by
 // Snell's law at both; the scene is far, so the direction alone says what is seen. Fresnel's reflectance of the surface, 1 beyond
 // the critical angle, mirrors the background, dimmed.
+/// px, py: a pixel's centre.
 template <class N>
-RAINREF_FN Vec3<N> view_ray(const DropsUniforms& u, int column, int row) {
-  const N half(0.5f), one(1.0f);
-  return normalize(Vec3<N>((N::index(column) + half) * N(u.pixel[0]) - N(u.half_size[0]), N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) - N(u.half_size[1]), one));
+RAINREF_FN Vec3<N> view_ray(const DropsUniforms& u, N px, N py) {
+  return normalize(Vec3<N>(px * N(u.pixel[0]) - N(u.half_size[0]), py * N(u.pixel[1]) - N(u.half_size[1]), N(1.0f)));
 }
 /// slope_x, slope_y: of the normal, as a Surface has them.
 template <class N>
@@ -123,18 +124,24 @@ RAINREF_FN BentRay<N> bent_ray(const DropsUniforms& u, const Vec3<N>& ray, N slo
   const Vec3<N> bent = refract(inside, N(-1.0f) * normal, u.water_ior);
   return {bent, fresnel_dielectric(saturate(dot(bent, normal)), u.water_ior)};
 }
-template <class N, class S, class C, class H>
-RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background, int column, int row) {
-  const N half(0.5f), one(1.0f), zero(0.0f);
-  const Surface<N> s = water_at<N>(u, cells, height, column, row);
-  const auto wet = s.cover > zero;
-  if (!any(wet)) return {background, zero};
-  const Vec3<N> ray = view_ray<N>(u, column, row);
+/// What the pixel with this centre shows where it is wet.
+template <class N, class S>
+RAINREF_FN Vec3<N> behind_water(const DropsUniforms& u, const S& scene, const Surface<N>& s, const Vec3<N>& background, N px, N py) {
+  const N half(0.5f), one(1.0f);
+  const Vec3<N> ray = view_ray(u, px, py);
   const Vec3<N> water = in_parts(s.x, s.y, [&](N x, N y) RAINREF_LAMBDA {
     const BentRay<N> bent = bent_ray(u, ray, x, y);
     const N ahead = one / max(bent.direction.z, N(0.05f));
     const Vec3<N> seen = scene_at<N>(scene, half + bent.direction.x * ahead * N(u.scene_scale[0]), half + bent.direction.y * ahead * N(u.scene_scale[1]), s.level);
     return mix(seen, N(u.inner) * background, bent.reflected);
   });
-  return {select(wet, mix(background, water, s.cover), background), s.cover};
+  return mix(background, water, s.cover);
+}
+template <class N, class S, class C, class H>
+RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background, int column, int row) {
+  const N half(0.5f), zero(0.0f);
+  const Surface<N> s = water_at<N>(u, cells, height, column, row);
+  const auto wet = s.cover > zero;
+  if (!any(wet)) return {background, zero};
+  return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background), s.cover};
 }

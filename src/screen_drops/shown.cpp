@@ -49,7 +49,7 @@ ShownDrops::ShownDrops(const Settings& settings, const ScreenDrops& rendered)
 
 Shown ShownDrops::at(int column, int row) const {
   const auto s = scalar::water_at<Number>(uniforms_, cells_.view(), height_.view(), column, row);
-  const auto ray = scalar::bent_ray(uniforms_, scalar::view_ray<Number>(uniforms_, column, row), s.x, s.y);
+  const auto ray = scalar::bent_ray(uniforms_, scalar::view_ray(uniforms_, Number(static_cast<float>(column) + 0.5f), Number(static_cast<float>(row) + 0.5f)), s.x, s.y);
   return {s.cover.v, {ray.direction.x.v, ray.direction.y.v, ray.direction.z.v}, ray.reflected.v};
 }
 

@@ -72,6 +72,10 @@ struct DropsUniforms {
   float flow_texel[2];        ///< 1 / columns and rows of height
 };
 
+/// The water that drops has to ask for: bits 0 to 3 the layers, bit 4 what flows. What is left out must show nothing.
+using Wanted = std::uint32_t;
+constexpr Wanted wanted_flow = 1u << layers, wanted_all = 2 * wanted_flow - 1;
+
 static_assert(sizeof(Tap) == 16 && sizeof(BackgroundUniforms) == 48 && sizeof(PublishedDropsUniforms) == 32 && sizeof(CellsUniforms) == 80);
 static_assert(sizeof(DropsUniforms) == 176);
 

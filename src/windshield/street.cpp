@@ -12,13 +12,15 @@ using scene::Vector3;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
 
-Image as_half(const Image& from) {
+Image as_half(const Image& from, const parallel::Executor& executor) {
   Image to(Format::rgba16f, from.width(), from.height());
-  for (int y = 0; y < from.height(); ++y) {
-    const float* in = from.row<float>(y);
-    Half* out = to.row<Half>(y);
-    for (int x = 0; x < 4 * from.width(); ++x) out[x] = rainref::to_half(in[x]);
-  }
+  executor.for_range(from.height(), 8, [&](std::int64_t begin, std::int64_t end) {
+    for (int y = static_cast<int>(begin); y < end; ++y) {
+      const float* in = from.row<float>(y);
+      Half* out = to.row<Half>(y);
+      for (int x = 0; x < 4 * from.width(); ++x) out[x] = rainref::to_half(in[x]);
+    }
+  });
   return to;
 }
 
@@ -69,7 +71,7 @@ struct StreetDrive::State {
     if (found != keyframes.end()) return found->second;
     // A car at rest may look at its first view for long; those of one that moves pass, two blended.
     night_street::Street::View v = render(k, at_rest && k == 0 ? night_street::Parts::nine : night_street::Parts::three);
-    return keyframes.emplace(k, Keyframe{as_half(v.colour), std::move(v.depth)}).first->second;
+    return keyframes.emplace(k, Keyframe{as_half(v.colour, executor), std::move(v.depth)}).first->second;
   }
 };
 
@@ -83,7 +85,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   if (!moves) {
     if (s.stands) return false;
     night_street::Street::View v = s.render(0, night_street::Parts::nine);
-    view.colour = as_half(v.colour);
+    view.colour = as_half(v.colour, s.executor);
     view.depth = std::move(v.depth);
     s.stands = true;
     return true;

@@ -117,9 +117,9 @@ void Windshield::State::step(Recorder* recorder, int substep) {
                                                      corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
   if (recorder) {
     if (corrected) {
-      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list()}, {"wipers", records(swept)}, {"film", water.film}});
+      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list_for(told, "wipe_drops")}, {"wipers", records(swept)}, {"film", water.film}});
     } else {
-      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list()}, {"wipers", records(swept)}});
+      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list_for(told, "wipe_drops")}, {"wipers", records(swept)}});
     }
   }
   Stopwatch wipe_clock;
@@ -134,9 +134,9 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const double wiped_time = wipe_clock.seconds();
   if (recorder) {
     if (corrected) {
-      report(recorder, substep, "wipe_drops", {{"drops", water.list()}, {"film", water.film}}, wiped_time);
+      report(recorder, substep, "wipe_drops", {{"drops", water.list_for(told, "wipe_drops")}, {"film", water.film}}, wiped_time);
     } else {
-      report(recorder, substep, "wipe_drops", {{"drops", water.list()}}, wiped_time);
+      report(recorder, substep, "wipe_drops", {{"drops", water.list_for(told, "wipe_drops")}}, wiped_time);
     }
   }
 

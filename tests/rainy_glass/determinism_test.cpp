@@ -115,7 +115,7 @@ TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
       for (int i = 0; i < 4 * s.width; ++i) halves.push_back(to_float(to_half(around.colour.row<float>(y)[i])));
     }
     const TextureData scene(halves, 4, s.width, s.height, Address::clamp, Address::clamp), near(near_depth(around.depth), 1, s.width, s.height, Address::clamp, Address::clamp);
-    const scalar::GlassMaps maps{&raindrops.view(), &rivulets.view(), &scene.view(), &near.view(), nullptr};
+    const scalar::GlassMaps<Texture, Texture, Texture> maps{&raindrops.view(), &rivulets.view(), &scene.view(), &near.view(), nullptr};
     const Code code = code_of(s, s.map_storage);
     const RainOnGlassUniforms u = rain_on_glass_uniforms(s, 8, code, code);
     for (int y = 0; y < s.height; ++y) {

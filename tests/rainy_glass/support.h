@@ -113,7 +113,7 @@ struct Pixel {
   }
   void set_normal(double x, double y, double z) { at.normal = plain::Vec3<Double>(Double(x), Double(y), Double(z)); }
   plain::Vec3<Double> colour() const {
-    const scalar::GlassMaps maps{&raindrops.view(), &rivulets.view(), &scene.view(), &near.view(), nullptr};
+    const scalar::GlassMaps<Texture, Texture, Texture> maps{&raindrops.view(), &rivulets.view(), &scene.view(), &near.view(), nullptr};
     return settings.variant == Variant::corrected ? scalar::rain_on_glass_corrected<Double>(uniforms, maps, at, column, row)
                                                   : scalar::rain_on_glass_as_published<Double>(uniforms, maps, at, column, row);
   }
