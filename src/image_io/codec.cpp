@@ -4,7 +4,7 @@
 #include <link.h>
 
 #include <filesystem>
-#include <mutex>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -45,8 +45,8 @@ struct Circumstances {
   bool closed_error = false;            ///< standard error takes no byte
   rlim_t file_bytes = RLIM_INFINITY;    ///< no file may become longer, as on a full disk
   rlim_t memory_bytes = RLIM_INFINITY;  ///< address space
-  /// Not the program but a copy of this process, which calls the same function: the program takes longer to load its
-  /// libraries than to do what most tests ask for.
+  /// Not the program but a copy of this process, which calls the same function and shares what this process has loaded:
+  /// OpenImageIO takes longer to load than what most tests ask for.
   bool is_copy = false;
 };
 
