@@ -15,6 +15,7 @@
 #include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "image_io/codec.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
@@ -93,6 +94,7 @@ int run(const RunOptions& options) {
   const parallel::Executor executor(options.scene.threads);
   const std::filesystem::path folder = options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
   OutputFolder made(folder);
+  if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);

@@ -4,13 +4,11 @@
 #include <cstring>
 #include <exception>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "image_io/codec.h"
 #include "image_io/exr_header.h"
-#include "image_io/openimageio.h"
 #include "image_io/png_chunks.h"
 #include "rainref/error.h"
 
@@ -65,13 +63,12 @@ EvidenceSize png_size(std::string_view file, std::span<const std::byte> bytes) {
   return {header->width, header->height};
 }
 
-Kind kind_of(std::string_view file, const OIIO::ImageSpec& spec, std::size_t channel) {
-  const OIIO::TypeDesc type = spec.channelformat(static_cast<int>(channel));
-  if (type == OIIO::TypeUInt8) return Kind::unorm8;
-  if (type == OIIO::TypeHalf) return Kind::float16;
-  if (type == OIIO::TypeFloat) return Kind::float32;
-  if (type == OIIO::TypeUInt32) return Kind::uint32;
-  refuse(file, fmt::format("channel '{}' is of type {}", spec.channelnames[channel], type.c_str()));
+Kind kind_of(std::string_view file, const StoredChannel& channel) {
+  if (channel.type == "uint8") return Kind::unorm8;
+  if (channel.type == "half") return Kind::float16;
+  if (channel.type == "float") return Kind::float32;
+  if (channel.type == "uint") return Kind::uint32;
+  refuse(file, fmt::format("channel '{}' is of type {}", channel.name, channel.type));
 }
 
 /// OpenImageIO's reason on one line.
@@ -103,23 +100,23 @@ std::vector<std::size_t> in_order(std::span<const std::string> names, std::strin
   return out.size() == names.size() ? out : std::vector<std::size_t>();
 }
 
-void take_spec(std::string_view file, const OIIO::ImageSpec& spec, bool exr, EvidenceSize size, Evidence& out) {
+void take_spec(std::string_view file, const StoredPicture& spec, bool exr, EvidenceSize size, Evidence& out) {
   if (spec.width < 1 || spec.height < 1 || static_cast<std::size_t>(spec.width) != size.width ||
       static_cast<std::size_t>(spec.height) != size.height || spec.depth > 1 || spec.deep) {
     refuse(file, "damaged: its header contradicts itself");
   }
-  if (spec.nchannels < 1 || static_cast<std::size_t>(spec.nchannels) > most_channels) {
-    refuse(file, fmt::format("{} channels; expected 1 to 4", spec.nchannels));
-  }
+  const std::size_t count = spec.channels.size();
+  if (count < 1 || count > most_channels) refuse(file, fmt::format("{} channels; expected 1 to 4", count));
   out.width = size.width;
   out.height = size.height;
-  out.texel_bytes = spec.pixel_bytes(true);
+  out.texel_bytes = spec.texel_bytes();
+  std::vector<std::string> names;
+  for (const StoredChannel& channel : spec.channels) names.push_back(channel.name);
   std::vector<std::size_t> order;
-  if (exr) order = channel_order(file, spec.channelnames);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(spec.nchannels); ++i) {
+  if (exr) order = channel_order(file, names);
+  for (std::size_t i = 0; i < count; ++i) {
     const std::size_t c = exr ? order[i] : i;
-    out.channels.push_back(
-        {spec.channelnames[c], kind_of(file, spec, c), spec.pixel_bytes(0, static_cast<int>(c), true)});
+    out.channels.push_back({names[c], kind_of(file, spec.channels[c]), spec.texel_bytes(0, c)});
   }
 }
 
@@ -156,22 +153,12 @@ EvidenceSize evidence_size(std::string_view file, std::span<const std::byte> byt
 Evidence read_evidence(std::string_view file, std::span<const std::byte> bytes) try {
   const EvidenceSize size = evidence_size(file, bytes);
   const bool exr = is_exr(bytes);
-  configure_openimageio();
-  OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());  // outlives its reader
-  const auto input = OIIO::ImageInput::create(exr ? "openexr" : "png");
-  if (!input || !input->set_ioproxy(&memory)) {
-    throw Error(ExitCode::internal, "this OpenImageIO cannot read EXR or PNG from memory");
-  }
-  OIIO::ImageSpec config, spec;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // colour not multiplied by alpha
-  config.attribute("oiio:RawColor", 1);           // no change of colour model
-  if (!input->open("picture", spec, config)) refuse(file, reason(input->geterror()));
+  const auto reader = codec().open(exr ? "openexr" : "png", bytes);
+  if (!reader) throw Error(ExitCode::internal, "this OpenImageIO cannot read EXR or PNG from memory");
   Evidence out;
-  take_spec(file, spec, exr, size, out);
+  take_spec(file, reader->picture(), exr, size, out);
   out.texels.resize(out.width * out.height * out.texel_bytes);
-  // The unknown type asks for the file's own types, each channel in its own: no value is converted.
-  const bool whole = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeUnknown, out.texels.data());
-  if (!whole || input->has_error()) refuse(file, reason(input->geterror()));
+  reader->read(0, reader->picture().channels.size(), out.texels.data());
   return out;
 } catch (const Error&) {
   throw;

@@ -12,6 +12,7 @@ using testing::StartsWith;
 
 class BadPicture : public CommandLine {
  protected:
+  BadPicture() { image_io::codec(); }  // once, and not in every copy
   void expect_picture_refused(const std::string& file, int code, const std::string& message, const std::string& layout = "latlong") {
     before = folder.names();
     const auto matcher = [&](const std::string& place) { return AllOf(StartsWith(place + "environment.image: "), HasSubstr(message)); };

@@ -1,0 +1,139 @@
+// OpenImageIO and its 250 libraries are loaded at the first picture, and found by programs from the build tree, by an installation that
+// was moved, and by other projects' programs.
+#include <array>
+#include <cstdlib>
+
+#include "cli/picture_files.h"
+#include "cli/support.h"
+
+namespace rainref::cli {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+class Installation : public CommandLine {
+ protected:
+  Installation() {
+    put_npy(folder / "sky.npy", 8, 4, 3, [](int x, int y, int c) { return static_cast<float>(20 * x + 9 * y + c); }, true);
+  }
+
+  /// Runs with no picture to read, and says what the loader opened.
+  std::string libraries_of(std::vector<std::string> arguments, const Circumstances& c = {}) const {
+    ::setenv("LD_DEBUG", "files", 1);
+    ::setenv("LD_DEBUG_OUTPUT", (folder / "loader").c_str(), 1);
+    const Outcome o = rainref(arguments, c);
+    ::unsetenv("LD_DEBUG");
+    EXPECT_EQ(o.code, 0) << o.err;
+    std::string log;
+    for (const std::string& name : folder.names()) {
+      if (!name.starts_with("loader.")) continue;
+      log += contents(folder / name);
+      std::filesystem::remove(folder / name);
+    }
+    return log;
+  }
+  static std::vector<std::string> run_of_arrays(const std::string& image) {
+    return {"run", "corrected.toml", "-o", "out", "--image", image, "--set", "environment.image=sky.npy", "--set", "puddle.ground_image=sky.npy"};
+  }
+  std::string output(const std::string& command) const {
+    std::string out;
+    std::FILE* pipe = ::popen(fmt::format("cd '{}' && {} 2>&1", folder.path().string(), command).c_str(), "r");
+    std::array<char, 4096> buffer;
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
+    EXPECT_EQ(::pclose(pipe), 0) << command << '\n' << out;
+    return out;
+  }
+  /// The program of an installation into one folder that then becomes another.
+  Circumstances installed() const {
+    output(fmt::format(RAINREF_CMAKE " --install '" RAINREF_BUILD "' --config " RAINREF_CONFIG " --prefix first"));
+    std::filesystem::rename(folder / "first", folder / "moved");
+    Circumstances c;
+    c.program = folder / "moved/bin/rainref";
+    return c;
+  }
+  /// The file of the installation that stands between rainref and OpenImageIO.
+  std::filesystem::path module() const {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "moved")) {
+      if (entry.path().filename().string().starts_with("rainref_openimageio")) return entry.path();
+    }
+    return {};
+  }
+  /// Another project's program, which writes and reads a picture and tells what it takes a broken one for.
+  void expect_consumer_works(const std::string& where) const {
+    std::filesystem::create_directory(folder / "consumer");
+    put(folder / "consumer/CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.25)
+project(consumer CXX)
+find_package(rainref REQUIRED)
+add_executable(consumer consumer.cpp)
+target_include_directories(consumer PRIVATE ${RAINREF_SOURCE}/src)  # the room's headers are not installed
+target_link_libraries(consumer PRIVATE rainref::image_io)
+)");
+    put(folder / "consumer/consumer.cpp", R"(#include <cstdio>
+#include "image_io/read.h"
+#include "image_io/write.h"
+#include "rainref/error.h"
+using namespace rainref;
+int main() try {
+  Image image(Format::rgba8, 3, 2);
+  image_io::write_png("a.png", image);
+  std::printf("%d x %d\n", image_io::read("a.png").file_width, image_io::read("a.png").file_height);
+  image_io::read("broken.exr");
+} catch (const Error& error) {
+  std::printf("%d %s\n", static_cast<int>(error.code()), error.what());
+}
+)");
+    put(folder / "broken.exr", std::string("\x76\x2f\x31\x01\2\0\0\0channels", 16));
+    output(fmt::format(RAINREF_CMAKE " -S consumer -B built -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+                       " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR, where));
+    output(RAINREF_CMAKE " --build built");
+    EXPECT_THAT(output("built/consumer"), AllOf(HasSubstr("3 x 2\n2 'broken.exr': "), Not(HasSubstr("cannot load"))));
+  }
+};
+
+TEST_F(Installation, OpenImageIoIsLoadedAtTheFirstPictureAndNotBefore) {
+  EXPECT_THAT(libraries_of({"--version"}), AllOf(HasSubstr("libstdc++"), Not(HasSubstr("OpenImageIO"))));
+  EXPECT_THAT(libraries_of(run_of_arrays("none")), AllOf(HasSubstr("libstdc++"), Not(HasSubstr("OpenImageIO"))));
+  EXPECT_THAT(libraries_of(run_of_arrays("png")), HasSubstr("libOpenImageIO.so"));
+}
+
+TEST_F(Installation, WorksWhereItWasMovedTo) {
+  const Circumstances c = installed();
+  EXPECT_THAT(libraries_of(run_of_arrays("both"), c), HasSubstr((folder / "moved").string()));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/puddle.0001.exr"));
+  EXPECT_EQ(contents(c.program).find(RAINREF_BUILD "/lib"), std::string::npos);  // or it would also work by accident
+}
+
+TEST_F(Installation, AMissingOrForeignLibraryIsOneClearError) {
+  const Circumstances c = installed();
+  const std::string name = module().filename();
+  const std::string place = std::filesystem::canonical(module().parent_path());
+  std::filesystem::remove(module());
+  put(folder / name, "");  // the current folder is no place to look
+  before = folder.names();
+  const auto expect_refused = [&](const testing::Matcher<const std::string&>& message) {
+    const Outcome o = rainref(run_of_arrays("png"), c);
+    EXPECT_EQ(o.code, 4);
+    EXPECT_EQ(o.out, "");
+    EXPECT_THAT(o.err, AllOf(message, EndsWith("\n")));
+    EXPECT_EQ(o.err.find('\n'), o.err.size() - 1) << o.err;
+    EXPECT_EQ(folder.names(), before);
+  };
+  const std::string start = fmt::format("rainref: cannot load '{}', which reads and writes pictures: ", name);
+  expect_refused(AllOf(testing::StartsWith(start + "found in none of "), HasSubstr("moved/bin/../")));
+  put(std::filesystem::path(place) / name, "no library");
+  expect_refused(AllOf(testing::StartsWith(start), HasSubstr("moved/bin/../"), HasSubstr("file too short")));
+  EXPECT_EQ(rainref(run_of_arrays("none"), c).code, 0);
+}
+
+TEST_F(Installation, ServesProgramsOfOtherProjects) {
+  installed();
+  expect_consumer_works("-DCMAKE_PREFIX_PATH=" + (folder / "moved").string());
+  std::filesystem::remove_all(folder / "built");
+  expect_consumer_works("-Drainref_DIR=" RAINREF_BUILD);
+}
+
+}  // namespace
+}  // namespace rainref::cli
