@@ -1,5 +1,6 @@
 // The library behind Codec: the only file that knows OpenImageIO.
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include <OpenImageIO/filesystem.h>
@@ -10,6 +11,15 @@
 namespace rainref::image_io {
 
 namespace {
+
+/// OpenImageIO 2.4 takes an offset of -1, as damaged tables of EXRs have it, and reads before the bytes.
+class Memory : public OIIO::Filesystem::IOMemReader {
+ public:
+  using IOMemReader::IOMemReader;
+  std::size_t pread(void* to, std::size_t bytes, std::int64_t offset) override {
+    return offset < 0 ? 0 : IOMemReader::pread(to, bytes, offset);
+  }
+};
 
 class Reader : public PictureReader {
  public:
@@ -59,7 +69,7 @@ class Reader : public PictureReader {
     }
   }
 
-  OIIO::Filesystem::IOMemReader memory_;  // outlives its reader
+  Memory memory_;  // outlives its reader
   std::unique_ptr<OIIO::ImageInput> input_;
   StoredPicture picture_;
 };
