@@ -36,5 +36,7 @@ struct Seen {
 /// surface that come from the other side: they contradict where it is. Tracing goes on behind such a hit. For this a
 /// surface that bounds a medium has to be closed, or closed by others wherever rays can come.
 void shade(const Scene& scene, const ShadingOptions& options, std::span<const Ray> rays, std::span<Seen> seen);
+/// The same of as many rays as `seen`, component by component.
+void shade(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::span<Seen> seen);
 
 }  // namespace rainref::compositor
