@@ -35,6 +35,10 @@ HWY_INLINE HWY_ATTR Vec3N unit_direction(const RayList& list, const Which& which
   return Vec3N(d.x / length, d.y / length, d.z / length);
 }
 
+void Measure(std::size_t count, const VecArrays& vectors, double* lengths) {
+  for (std::size_t i = 0; i < count; i += n) put(length(load(vectors, i)), lengths + i);
+}
+
 void Gaze(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur) {
   for (std::size_t i = 0; i < list.which.size(); i += n) {
     const Which which(&list.which[i]);
@@ -73,17 +77,17 @@ void Arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalC
 }
 
 /// A ray from where another arrived. It sees nothing nearer than the spacing of numbers there.
-HWY_INLINE HWY_ATTR void start(const ArrivalColumns& from, std::size_t i, const Vec3N& direction, const Vec3N& weight, N blur, RayColumns& to) {
+HWY_INLINE HWY_ATTR void start(const ArrivalColumns& from, std::size_t i, const Vec3N& direction, const Vec3N& weight, N blur, RayColumns& to, std::size_t at) {
   const Vec3N point = load(from.point(), i);
-  put(point, i, to.origin());
-  put(direction, i, to.direction());
-  put(weight, i, to.weight());
-  put(N(0x1p-52) * max(max(abs(point.x), abs(point.y)), max(abs(point.z), N(1e-3))), to.nearest() + i);
-  put(N::load(from.distance() + i), to.travelled() + i);
-  put(blur, to.blur() + i);
+  put(point, at, to.origin());
+  put(direction, at, to.direction());
+  put(weight, at, to.weight());
+  put(N(0x1p-52) * max(max(abs(point.x), abs(point.y)), max(abs(point.z), N(1e-3))), to.nearest() + at);
+  put(N::load(from.distance() + i), to.travelled() + at);
+  put(blur, to.blur() + at);
 }
 
-void CrossInterfaces(std::size_t count, const ArrivalColumns& from, const VecArrays* smooth_normals, double ior_outside, double ior_inside, RayColumns& reflected, RayColumns& refracted,
+void CrossInterfaces(std::size_t count, const ArrivalColumns& from, const VecArrays* smooth_normals, double ior_outside, double ior_inside, RayColumns& reflected, std::size_t first, RayColumns& refracted,
                      const VecArraysOut& shaded) {
   const N outside(ior_outside), inside(ior_inside), one(1.0), zero(0.0);
   for (std::size_t i = 0; i < count; i += n) {
@@ -95,13 +99,13 @@ void CrossInterfaces(std::size_t count, const ArrivalColumns& from, const VecArr
     CrossingOf<N> crossing = smooth_normals == nullptr ? CrossingOf<N>{split(direction, facing, here, beyond), facing}
                                                        : cross_facet(direction, facing, against(load(*smooth_normals, i)), here, beyond);
     const N share = crossing.rays.reflectance;
-    start(from, i, crossing.rays.reflected, share * weight, blur, reflected);
-    start(from, i, crossing.rays.refracted, (one - share) * weight, blur, refracted);
+    start(from, i, crossing.rays.reflected, share * weight, blur, reflected, first + i);
+    start(from, i, crossing.rays.refracted, (one - share) * weight, blur, refracted, i);
     put(crossing.normal, i, shaded);
   }
 }
 
-void LeaveFinishes(std::size_t count, const ArrivalColumns& from, const Finishes& finishes, RayColumns& mirrored, const VecArraysOut& sent, const VecArraysOut& shaded) {
+void LeaveFinishes(std::size_t count, const ArrivalColumns& from, const Finishes& finishes, RayColumns& mirrored, std::size_t first, const VecArraysOut& sent, const VecArraysOut& shaded) {
   const N zero(0.0);
   for (std::size_t i = 0; i < count; i += n) {
     const Vec3N direction = load(from.direction(), i), normal = load(from.normal(), i), weight = load(from.weight(), i);
@@ -112,7 +116,7 @@ void LeaveFinishes(std::size_t count, const ArrivalColumns& from, const Finishes
     const Vec3N out = select(dot(turned, facing) < zero, reflect(turned, facing), turned);
     const auto mirrors = (mirror.x > zero) | (mirror.y > zero) | (mirror.z > zero);
     put(weight * load(finishes.radiance, i), i, sent);
-    start(from, i, out, select(mirrors, weight * mirror, Vec3N(zero, zero, zero)), N::load(finishes.blur + i), mirrored);
+    start(from, i, out, select(mirrors, weight * mirror, Vec3N(zero, zero, zero)), N::load(finishes.blur + i), mirrored, first + i);
     put(select(mirrors, about, facing), i, shaded);
   }
 }
@@ -122,21 +126,23 @@ RAINREF_TARGET_END(compositor)
 #if RAINREF_ONCE
 namespace rainref::compositor {
 
+RAINREF_EXPORT(Measure);
 RAINREF_EXPORT(Gaze);
 RAINREF_EXPORT(Arrive);
 RAINREF_EXPORT(CrossInterfaces);
 RAINREF_EXPORT(LeaveFinishes);
 
+void measure(std::size_t count, const VecArrays& vectors, double* lengths) { RAINREF_DISPATCH(Measure)(count, vectors, lengths); }
 void gaze(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur) { RAINREF_DISPATCH(Gaze)(list, origin, direction, blur); }
 void arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalColumns& arrivals, const VecArraysOut& added) {
   RAINREF_DISPATCH(Arrive)(list, hits, medium, arrivals, added);
 }
-void cross_interfaces(std::size_t count, const ArrivalColumns& arrivals, const VecArrays* smooth_normals, double ior_outside, double ior_inside, RayColumns& reflected,
+void cross_interfaces(std::size_t count, const ArrivalColumns& arrivals, const VecArrays* smooth_normals, double ior_outside, double ior_inside, RayColumns& reflected, std::size_t first,
                       RayColumns& refracted, const VecArraysOut& shaded) {
-  RAINREF_DISPATCH(CrossInterfaces)(count, arrivals, smooth_normals, ior_outside, ior_inside, reflected, refracted, shaded);
+  RAINREF_DISPATCH(CrossInterfaces)(count, arrivals, smooth_normals, ior_outside, ior_inside, reflected, first, refracted, shaded);
 }
-void leave_finishes(std::size_t count, const ArrivalColumns& arrivals, const Finishes& finishes, RayColumns& mirrored, const VecArraysOut& sent, const VecArraysOut& shaded) {
-  RAINREF_DISPATCH(LeaveFinishes)(count, arrivals, finishes, mirrored, sent, shaded);
+void leave_finishes(std::size_t count, const ArrivalColumns& arrivals, const Finishes& finishes, RayColumns& mirrored, std::size_t first, const VecArraysOut& sent, const VecArraysOut& shaded) {
+  RAINREF_DISPATCH(LeaveFinishes)(count, arrivals, finishes, mirrored, first, sent, shaded);
 }
 
 }  // namespace rainref::compositor

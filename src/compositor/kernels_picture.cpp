@@ -12,11 +12,12 @@ RAINREF_TARGET_BEGIN(compositor)
 using N = DoubleLanes;
 constexpr std::size_t n = static_cast<std::size_t>(N::size());
 
-void AddSample(std::size_t pixels, SeenColumns& seen, SampleSums& sums) {
+void AddSample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums) {
   const N zero(0.0), one(1.0), endless(std::numeric_limits<double>::infinity());
   const auto apart = hn::ShiftLeft<2>(hn::Iota(hn::RebindToSigned<N::D>(), 0));
   for (std::size_t i = 0; i < pixels; i += n) {
-    const auto add = [i](const double* from, double* to) HWY_ATTR { hn::StoreU((N::load(to + i) + N::load(from + i)).v, N::D(), to + i); };
+    const auto so_far = [&](const double* sum, N nothing) HWY_ATTR { return is_first ? nothing : N::load(sum + i); };
+    const auto add = [&](const double* from, double* to) HWY_ATTR { hn::StoreU((so_far(to, zero) + N::load(from + i)).v, N::D(), to + i); };
     for (int k = 0; k < 3; ++k) {
       add(seen.radiance().component[k], sums.radiance().component[k]);
       add(seen.normal().component[k], sums.normal().component[k]);
@@ -24,8 +25,8 @@ void AddSample(std::size_t pixels, SeenColumns& seen, SampleSums& sums) {
     add(seen.film(), sums.film());
     add(seen.mask(), sums.mask());
     const N t = hn::GatherIndex(N::D(), &seen.hits()[i].t, apart);  // endless where nothing was met
-    hn::StoreU((N::load(sums.met() + i) + select(t < endless, one, zero)).v, N::D(), sums.met() + i);
-    hn::StoreU(min(N::load(sums.depth() + i), t).v, N::D(), sums.depth() + i);
+    hn::StoreU((so_far(sums.met(), zero) + select(t < endless, one, zero)).v, N::D(), sums.met() + i);
+    hn::StoreU(min(so_far(sums.depth(), N(static_cast<double>(far))), t).v, N::D(), sums.depth() + i);
   }
 }
 
@@ -54,7 +55,7 @@ namespace rainref::compositor {
 RAINREF_EXPORT(AddSample);
 RAINREF_EXPORT(Develop);
 
-void add_sample(std::size_t pixels, SeenColumns& seen, SampleSums& sums) { RAINREF_DISPATCH(AddSample)(pixels, seen, sums); }
+void add_sample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums) { RAINREF_DISPATCH(AddSample)(pixels, seen, is_first, sums); }
 void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask, float* depth) {
   RAINREF_DISPATCH(Develop)(first, pixels, share, sums, beauty, normal, film, mask, depth);
 }

@@ -39,12 +39,16 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
   const puddle::ShadeUniforms& u = look.uniforms;
   const N zero(0.0), one(1.0);
   const float dry_film = 1 - u.wetness;
+  // Levels first: they end a long chain of dependent operations, and by themselves several chains run at once.
+  for (std::size_t i = 0; i < places.size(); i += n) {
+    const N down = N::load(places.direction.component[1] + i);
+    hn::StoreU(nearest_octave(N(u.ground_footprint * look.sample_scale) * N::load(places.distance + i) / max(-down, N(0.02))).v, N::D(), finishes.blur + i);
+  }
   for (std::size_t i = 0; i < places.size(); i += n) {
     const auto of = [i](const VecArrays& values, int k) HWY_ATTR { return N::load(values.component[k] + i); };
     const N px = of(places.point, 0), py = of(places.point, 1), pz = of(places.point, 2);
     const N dx = of(places.direction, 0), dy = of(places.direction, 1), dz = of(places.direction, 2);
-    const N distance = N::load(places.distance + i);
-    const N lod = nearest_octave(N(u.ground_footprint * look.sample_scale) * distance / max(-dy, N(0.02)));
+    const N lod = N::load(finishes.blur + i);
     const N s = px * N(u.ground_scale), t = pz * N(u.ground_scale);
     N albedo[3];
     if (u.use_checkerboard != 0) {

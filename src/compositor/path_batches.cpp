@@ -4,12 +4,9 @@
 
 namespace rainref::compositor {
 
-// Few batches, and neighbours mostly share theirs.
-std::uint32_t PathBatches::find(std::uint32_t surface, const Medium* medium, std::uint32_t guess) {
-  const auto is = [&](std::size_t b) { return batches_[b].surface == surface && batches_[b].medium == medium; };
-  if (is(guess)) return guess;
+std::uint32_t PathBatches::find(std::uint32_t surface, const Medium* medium) {
   std::uint32_t b = 0;
-  while (b < used_ && !is(b)) ++b;
+  while (b < used_ && !batches_[b].is(surface, medium)) ++b;
   if (b < used_) return b;
   make_room(batches_, ++used_);
   batches_[b] = {surface, medium, 0, 0};
@@ -25,7 +22,8 @@ void PathBatches::sort(std::span<const Path> paths, std::span<const Hit> hits) {
   std::uint32_t batch = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint32_t surface = hits[i].surface;
-    batch = find(surface, surface == Hit::none ? nullptr : paths[i].medium, batch);
+    const Medium* const medium = surface == Hit::none ? nullptr : paths[i].medium;
+    if (!batches_[batch].is(surface, medium)) batch = find(surface, medium);  // neighbours mostly share theirs
     ++batches_[batch].count;
     slot_[i] = batch;
   }

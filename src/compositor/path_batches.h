@@ -31,6 +31,7 @@ class PathBatches {
     std::uint32_t surface;
     const Medium* medium;
     std::size_t begin, count;
+    bool is(std::uint32_t s, const Medium* m) const { return surface == s && medium == m; }
   };
 
   void sort(std::span<const Path> paths, std::span<const Hit> hits);
@@ -44,7 +45,7 @@ class PathBatches {
   std::uint32_t slot(std::size_t ray) const { return slot_[ray]; }
 
  private:
-  std::uint32_t find(std::uint32_t surface, const Medium* medium, std::uint32_t guess);
+  std::uint32_t find(std::uint32_t surface, const Medium* medium);
   std::vector<Batch> batches_;
   std::size_t used_ = 0, slots_ = 0;
   std::vector<std::uint32_t> ray_, slot_;

@@ -44,7 +44,7 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
     rays.make_room(count);
     std::fill_n(rays[6], count, 0.0);
     std::fill_n(rays[7], count, std::numeric_limits<double>::infinity());
-    room.sums.clear(count);
+    room.sums.make_room(count);
     for (const Sample& sample : pattern) {
       std::size_t i = 0;
       const VecArraysOut origin = rays.vectors(0), direction = rays.vectors(3);
@@ -56,7 +56,7 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
         }
       }
       shade(scene, options.shading, RayArrays{{rays[0], rays[1], rays[2]}, {rays[3], rays[4], rays[5]}, rays[6], rays[7]}, count, room.seen);
-      add_sample(count, room.seen, room.sums);
+      add_sample(count, room.seen, &sample == pattern.data(), room.sums);
     }
     const double share = 1.0 / static_cast<double>(pattern.size());  // a power of two: exact
     for (int row = 0; row < rows; ++row) {

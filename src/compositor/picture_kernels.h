@@ -8,11 +8,7 @@ namespace rainref::compositor {
 /// Sums over the samples of each pixel of a tile. Arrays go on to whole lanes.
 class SampleSums {
  public:
-  void clear(std::size_t pixels) {
-    columns_.make_room(pixels);
-    for (int c = 0; c < 9; ++c) std::fill_n(columns_[c], whole_lanes(pixels), 0.0);
-    std::fill_n(depth(), whole_lanes(pixels), static_cast<double>(far));
-  }
+  void make_room(std::size_t pixels) { columns_.make_room(pixels); }
   VecArraysOut radiance() { return columns_.vectors(0); }
   VecArraysOut normal() { return columns_.vectors(3); }
   double* film() { return columns_[6]; }
@@ -24,8 +20,8 @@ class SampleSums {
   Columns<10> columns_;
 };
 
-/// Adds a sample of each pixel.
-void add_sample(std::size_t pixels, SeenColumns& seen, SampleSums& sums);
+/// Adds a sample of each pixel, to nothing if it is the first.
+void add_sample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums);
 /// `pixels` of them from the first on, each sum multiplied by `share`, as floats: four channels for beauty and normal. Whole lanes are
 /// written.
 void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask, float* depth);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "compositor/path_batches.h"
@@ -40,7 +39,7 @@ struct Room {
   // Of a batch.
   ArrivalColumns arrivals;
   Columns<16> surface;  // smooth normals, shaded normals, a finish
-  RayColumns child[2];
+  RayColumns refracted;
   std::vector<std::uint32_t> kept;
   // Of a generation: what met nothing, and then what was cut off, with its share in the pixel.
   Columns<7> sights;
@@ -70,11 +69,10 @@ class Generations {
     room.farthest.assign(rays.farthest, rays.farthest + count);
     now_->count = count;
     make_room(now_->paths, count);
-    make_room(room.length, count);
+    make_room(room.length, whole_lanes(count));
+    measure(count, to.direction(), room.length.data());
     room.order.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec d = to.direction()[i];
-      room.length[i] = std::sqrt(dot(d, d));
       now_->paths[i] = {&scene.eye(), static_cast<std::uint32_t>(i)};
       room.order[i] = static_cast<std::uint32_t>(i);
     }
@@ -137,7 +135,7 @@ class Generations {
     scene_.tracer().first_hits(arrays(), std::span(hits).first(n));
     std::vector<std::uint32_t>& again = room_.again;
     again.clear();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; depth_ > 1 && i < n; ++i) {
       if (contradicts(i, hits[i])) again.push_back(static_cast<std::uint32_t>(i));
     }
     // Behind a contradicted hit by the resolution of the origin, doubled from one such hit to the next.
@@ -173,7 +171,6 @@ class Generations {
     ArrivalColumns& at = room_.arrivals;
     at.make_room(n);
     room_.surface.make_room(n);
-    room_.child[0].make_room(n);
     const RayList list = list_of(batch);
     const Hit* hits = room_.batches.hit() + batch.begin;
     const VecArraysOut added = room_.terms.vectors(0).from(batch.begin), sent = room_.terms.vectors(3).from(batch.begin);
@@ -191,12 +188,12 @@ class Generations {
     if (material.opaque) {
       const Finishes finishes{room_.surface.vectors(6), room_.surface.vectors(9), room_.surface.vectors(12), room_.surface[15]};
       material.opaque->finish(places, finishes);
-      leave_finishes(n, at, finishes, room_.child[0], sent, shaded);
+      leave_finishes(n, at, finishes, next_->columns, next_->count, sent, shaded);
     } else {
-      room_.child[1].make_room(n);
+      room_.refracted.make_room(n);
       const VecArrays smooth_normals = smooth;
       if (material.smooth_normals) material.smooth_normals(places, smooth);
-      cross_interfaces(n, at, material.smooth_normals ? &smooth_normals : nullptr, material.outside.ior, material.inside.ior, room_.child[0], room_.child[1], shaded);
+      cross_interfaces(n, at, material.smooth_normals ? &smooth_normals : nullptr, material.outside.ior, material.inside.ior, next_->columns, next_->count, room_.refracted, shaded);
       for (int k = 0; k < 3; ++k) std::fill_n(sent.component[k], n, 0.0);
     }
     if (depth_ == 1) {
@@ -209,23 +206,24 @@ class Generations {
     if (!material.opaque) go_on(batch, 1);
   }
 
-  /// The children of a batch that are worth it join the next generation; the others see the surroundings.
+  /// The children of a batch that are worth it join the next generation; the others see the surroundings. Those that are not
+  /// refracted lie there already.
   void go_on(const PathBatches::Batch& batch, std::size_t which) {
-    const RayColumns& from = room_.child[which];
-    const std::size_t first = next_->count, n = batch.count;
+    const std::size_t first = next_->count, n = batch.count, begin = which == 0 ? first : 0;
+    const RayColumns& from = which == 0 ? next_->columns : room_.refracted;
     make_room(room_.kept, n);
     std::uint32_t* const kept = room_.kept.data();
     std::array<std::uint32_t, 2>* const children = &room_.children[batch.begin];
     std::size_t count = 0;
-    const VecArrays weight = from.weight();
+    const VecArrays weight = from.weight().from(begin);
     for (std::size_t k = 0; k < n; ++k) {
       const double share = std::max(weight.component[0][k], std::max(weight.component[1][k], weight.component[2][k]));
       if (!(share > 0)) continue;
       if (depth_ >= options_.depth || share < options_.least_weight) {
         children[k][which] = is_sight | static_cast<std::uint32_t>(room_.sight_count);
-        room_.sights.vectors(0).put(room_.sight_count, from.origin()[k]);
-        room_.sights.vectors(3).put(room_.sight_count, from.direction()[k]);
-        room_.sights[6][room_.sight_count++] = from.blur()[k];
+        room_.sights.vectors(0).put(room_.sight_count, from.origin()[begin + k]);
+        room_.sights.vectors(3).put(room_.sight_count, from.direction()[begin + k]);
+        room_.sights[6][room_.sight_count++] = from.blur()[begin + k];
         room_.cut_share.push_back(weight[k]);
         continue;
       }
@@ -234,11 +232,10 @@ class Generations {
     }
     if (count == 0) return;
     next_->count += count;
-    for (int c = 0; c < RayColumns::count; ++c) {
-      const double* values = from.column(c);
+    for (int c = 0; (which == 1 || count < n) && c < RayColumns::count; ++c) {
+      const double* values = from.column(c) + begin;
       double* to = next_->columns.column(c) + first;
-      if (count == n) std::memcpy(to, values, n * sizeof(double));
-      for (std::size_t j = 0; count < n && j < count; ++j) to[j] = values[kept[j]];
+      for (std::size_t j = 0; j < count; ++j) to[j] = values[kept[j]];
     }
     const Material& material = scene_.material(batch.surface);
     const double* facing = room_.arrivals.facing();
