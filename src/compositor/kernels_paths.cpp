@@ -18,11 +18,16 @@ using N = DoubleLanes;
 using Vec3N = Vec3<N>;
 constexpr std::size_t n = static_cast<std::size_t>(N::size());
 
-/// Of the rays that lanes are to take.
+/// Of the rays that lanes are to take, which mostly lie side by side.
 struct Which {
-  hn::Vec<hn::RebindToSigned<N::D>> index;
-  HWY_INLINE HWY_ATTR explicit Which(const std::uint32_t* list) : index(hn::PromoteTo(hn::RebindToSigned<N::D>(), hn::LoadU(N::DI(), reinterpret_cast<const std::int32_t*>(list)))) {}
-  HWY_INLINE HWY_ATTR N of(const double* values) const { return hn::GatherIndex(N::D(), values, index); }
+  const std::uint32_t* list;
+  bool is_run;
+  HWY_INLINE HWY_ATTR Which(std::span<const std::uint32_t> ascending, std::size_t i) : list(&ascending[i]), is_run(i + n <= ascending.size() && list[n - 1] - list[0] == n - 1) {}
+  HWY_INLINE HWY_ATTR N of(const double* values) const {
+    if (is_run) return N::load(values + list[0]);
+    const hn::RebindToSigned<N::D> wide;
+    return hn::GatherIndex(N::D(), values, hn::PromoteTo(wide, hn::LoadU(N::DI(), reinterpret_cast<const std::int32_t*>(list))));
+  }
   HWY_INLINE HWY_ATTR Vec3N of(const VecArrays& values) const { return Vec3N(of(values.component[0]), of(values.component[1]), of(values.component[2])); }
 };
 HWY_INLINE HWY_ATTR Vec3N load(const VecArrays& from, std::size_t i) { return Vec3N(N::load(from.component[0] + i), N::load(from.component[1] + i), N::load(from.component[2] + i)); }
@@ -41,7 +46,7 @@ void Measure(std::size_t count, const VecArrays& vectors, double* lengths) {
 
 void Gaze(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur) {
   for (std::size_t i = 0; i < list.which.size(); i += n) {
-    const Which which(&list.which[i]);
+    const Which which(list.which, i);
     put(which.of(list.rays.origin()), i, origin);
     put(unit_direction(list, which), i, direction);
     put(which.of(list.rays.blur()), blur + i);
@@ -54,7 +59,7 @@ void Arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalC
   const bool is_clear = !(extinction.x > 0 || extinction.y > 0 || extinction.z > 0), is_grey = extinction.x == extinction.y && extinction.y == extinction.z;
   const Vec3N glow(N(medium.glow.x), N(medium.glow.y), N(medium.glow.z));
   for (std::size_t i = 0; i < list.which.size(); i += n) {
-    const Which which(&list.which[i]);
+    const Which which(list.which, i);
     const Vec3N along = which.of(list.rays.direction()), weight = which.of(list.rays.weight());
     const N t = hn::GatherIndex(N::D(), &hits[i].t, hn::ShiftLeft<2>(hn::Iota(hn::RebindToSigned<N::D>(), 0)));
     const N travelled = which.of(list.rays.travelled()), distance = travelled + (list.length == nullptr ? t : t * which.of(list.length)), path = distance - travelled;
@@ -111,13 +116,18 @@ void LeaveFinishes(std::size_t count, const ArrivalColumns& from, const Finishes
     const Vec3N direction = load(from.direction(), i), normal = load(from.normal(), i), weight = load(from.weight(), i);
     const Vec3N mirror = load(finishes.mirror, i), about = load(finishes.mirror_normal, i);
     const Vec3N facing = select(N::load(from.facing() + i) < zero, normal, Vec3N(-normal.x, -normal.y, -normal.z));
+    const auto mirrors = (mirror.x > zero) | (mirror.y > zero) | (mirror.z > zero);
+    put(weight * load(finishes.radiance, i), i, sent);
+    put(select(mirrors, about, facing), i, shaded);
+    const Vec3N nothing(zero, zero, zero);
+    if (!any(mirrors)) {
+      put(nothing, first + i, mirrored.weight());
+      continue;
+    }
     // A bump's normal may turn the ray into the surface that it mirrors: it is turned out again.
     const Vec3N turned = reflect(direction, about);
     const Vec3N out = select(dot(turned, facing) < zero, reflect(turned, facing), turned);
-    const auto mirrors = (mirror.x > zero) | (mirror.y > zero) | (mirror.z > zero);
-    put(weight * load(finishes.radiance, i), i, sent);
-    start(from, i, out, select(mirrors, weight * mirror, Vec3N(zero, zero, zero)), N::load(finishes.blur + i), mirrored, first + i);
-    put(select(mirrors, about, facing), i, shaded);
+    start(from, i, out, select(mirrors, weight * mirror, nothing), N::load(finishes.blur + i), mirrored, first + i);
   }
 }
 

@@ -4,48 +4,14 @@
 #include "compositor/shading.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "compositor/path_batches.h"
 #include "compositor/shading_kernels.h"
+#include "compositor/shading_room.h"
 
 namespace rainref::compositor {
 namespace {
-
-struct Rays {
-  RayColumns columns;
-  std::vector<Path> paths;
-  std::size_t count = 0;
-};
-
-/// Where a ray leads: nowhere, to a sight, or to a ray of the next generation.
-constexpr std::uint32_t nowhere = ~std::uint32_t{0}, is_sight = std::uint32_t{1} << 31;
-
-/// Room for the rays of one call, kept by each thread for its next one.
-struct Room {
-  Rays now, next;
-  std::vector<double> length, farthest, endless;
-  std::vector<Hit> hits;
-  std::vector<std::uint32_t> again;
-  std::vector<Ray> rays_again;
-  std::vector<Hit> hits_again;
-  PathBatches batches;
-  std::vector<std::uint32_t> order, next_order;  // of the paths: in which their light is added up
-  // By slot: what the medium added and what the surface sent; the ray that is reflected or mirrored, and the refracted one.
-  Columns<6> terms;
-  std::vector<std::array<std::uint32_t, 2>> children;
-  // Of a batch.
-  ArrivalColumns arrivals;
-  Columns<16> surface;  // smooth normals, shaded normals, a finish
-  RayColumns refracted;
-  std::vector<std::uint32_t> kept;
-  // Of a generation: what met nothing, and then what was cut off, with its share in the pixel.
-  Columns<7> sights;
-  std::size_t sight_count = 0;
-  std::vector<Vec> cut_share, arrived;
-};
 
 /// The spacing of numbers as large as the ray's origin, along the ray.
 double resolution(const Vec& origin, double length) {
@@ -54,7 +20,7 @@ double resolution(const Vec& origin, double length) {
 
 class Generations {
  public:
-  Generations(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen, Room& room)
+  Generations(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen, ShadingRoom& room)
       : scene_(scene), options_(options), seen_(seen), room_(room), now_(&room.now), next_(&room.next) {
     RayColumns& to = now_->columns;
     to.make_room(count);
@@ -108,7 +74,7 @@ class Generations {
   const Scene& scene_;
   const ShadingOptions& options_;
   SeenColumns& seen_;
-  Room& room_;
+  ShadingRoom& room_;
   Rays *now_, *next_;
   int depth_ = 1;
   const double* length_ = nullptr;  // of directions; null where they are unit
@@ -286,8 +252,8 @@ class Generations {
 };
 
 /// Not inlined, or every access would look the thread's room up again.
-[[gnu::noinline]] Room& room_of_thread() {
-  static thread_local Room room;
+[[gnu::noinline]] ShadingRoom& room_of_thread() {
+  static thread_local ShadingRoom room;
   return room;
 }
 
