@@ -130,7 +130,7 @@ void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shar
   if (water->caps() > 0) scene.add(std::make_shared<CapSurface>(water), surface);
   if (water->height().height) {
     const Pane part(part_of(water->pane(), water->height()));
-    surface.smooth_normal = water_normal(part, water->height().height);
+    surface.smooth_normals = normals_of(water_normal(part, water->height().height));
     scene.add(std::make_shared<DisplacedWater>(part, water->height().height, executor,
                                                [water](const Vec& place) {
                                                  const PaneCoordinates p = water->pane().coordinates(place);

@@ -1,5 +1,8 @@
 #include "compositor/environments.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "compositor/shading_kernels.h"
 #include "math/real64.h"
 
@@ -10,7 +13,7 @@ Rotation::Rotation(double angle) : cosine(cos_real(Real64(angle)).v), sine(sin_r
 PictureEnvironment::PictureEnvironment(const Texture& texture, bool is_cube, const Rotation& rotation)
     : texture_(&texture), is_cube_(is_cube), rotation_(rotation) {}
 
-void PictureEnvironment::radiance(std::span<const Sight> sights, std::span<Vec> out) const { look_up(*texture_, is_cube_, rotation_, sights, out); }
+void PictureEnvironment::radiance(const Sights& sights, std::span<Vec> out) const { look_up(*texture_, is_cube_, rotation_, sights, out); }
 
 StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation)
     : street_(&street), offset_(offset), panorama_(panorama, false, Rotation()), rotation_(rotation) {}
@@ -22,13 +25,29 @@ Vec above_road(const Vec& p) { return {p.x, p.y < 0.001 ? 0.001 : p.y, p.z}; }
 
 }  // namespace
 
-void StreetEnvironment::radiance(std::span<const Sight> sights, std::span<Vec> out) const {
+void StreetEnvironment::radiance(const Sights& sights, std::span<Vec> out) const {
+  // Room for the blurred ones, kept by each thread for its next call.
+  static thread_local Columns<7> blurred;
+  static thread_local std::vector<std::size_t> which;
+  static thread_local std::vector<Vec> seen;
+  which.clear();
   for (std::size_t i = 0; i < sights.size(); ++i) {
-    Sight turned = sights[i];
-    turned.direction = rotation_.apply(turned.direction);
-    if (turned.blur > 0) panorama_.radiance({&turned, 1}, {&out[i], 1});
-    else out[i] = street_->radiance(above_road(rotation_.apply(turned.origin) + offset_), turned.direction);
+    const Sight sight = sights[i];
+    if (sight.blur > 0) which.push_back(i);
+    else out[i] = street_->radiance(above_road(rotation_.apply(sight.origin) + offset_), rotation_.apply(sight.direction));
   }
+  if (which.empty()) return;
+  const std::size_t count = which.size(), whole = whole_lanes(count);
+  blurred.make_room(whole);
+  for (std::size_t k = 0; k < whole; ++k) {
+    const Sight sight = sights[which[std::min(k, count - 1)]];
+    blurred.vectors(0).put(k, sight.origin);
+    blurred.vectors(3).put(k, rotation_.apply(sight.direction));
+    blurred[6][k] = sight.blur;
+  }
+  seen.resize(count);
+  panorama_.radiance({count, blurred.vectors(0), blurred.vectors(3), blurred[6]}, seen);
+  for (std::size_t k = 0; k < count; ++k) out[which[k]] = seen[k];
 }
 
 }  // namespace rainref::compositor

@@ -19,7 +19,7 @@ class PictureEnvironment : public Environment {
  public:
   /// The texture must outlive this.
   PictureEnvironment(const Texture& texture, bool is_cube, const Rotation& rotation = Rotation());
-  void radiance(std::span<const Sight> sights, std::span<Vec> radiance) const override;
+  void radiance(const Sights& sights, std::span<Vec> radiance) const override;
 
  private:
   const Texture* texture_;
@@ -33,7 +33,7 @@ class StreetEnvironment : public Environment {
  public:
   /// Street and panorama (latitude/longitude with mips, linear) must outlive this.
   StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation = Rotation());
-  void radiance(std::span<const Sight> sights, std::span<Vec> radiance) const override;
+  void radiance(const Sights& sights, std::span<Vec> radiance) const override;
 
  private:
   const night_street::Street* street_;

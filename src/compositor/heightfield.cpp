@@ -5,9 +5,18 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "compositor/optics.h"
 #include "rainref/error.h"
 
 namespace rainref::compositor {
+
+namespace scalar {
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "compositor/heightfield_normal-inl.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+}  // namespace scalar
 
 namespace {
 
@@ -55,11 +64,6 @@ void Heightfield::assign(std::span<const float> heights, const parallel::Executo
   ++revision_;
 }
 
-double Heightfield::height(int x, int y) const {
-  const int cx = std::clamp(x, 0, columns_), cy = std::clamp(y, 0, rows_);
-  return static_cast<double>(heights_[static_cast<std::size_t>(cy) * static_cast<std::size_t>(columns_ + 1) + static_cast<std::size_t>(cx)]);
-}
-
 Box Heightfield::bounds(std::uint32_t primitive) const {
   const HeightfieldTile& tile = tiles_[primitive];
   Box box{Vec(1e300), Vec(-1e300)};
@@ -82,30 +86,36 @@ Heightfield::Place Heightfield::place(const Hit& hit) const {
   return {cell % columns_ + hit.u, cell / columns_ + hit.v};
 }
 
-Vec Heightfield::normal_of_slopes(double slope_x, double slope_y) const {
-  const auto& m = view_.to_grid;
-  const Vec up{m[2][0], m[2][1], m[2][2]};
-  const Vec n = up - slope_x * Vec{m[0][0], m[0][1], m[0][2]} - slope_y * Vec{m[1][0], m[1][1], m[1][2]};
-  return n / glm::length(n);
-}
+namespace {
+
+using scalar::Number;
+using scalar::vec;
+
+struct Cell {
+  Number::Int x, y, upper;
+  Cell(const Hit& hit, int columns) {
+    const auto cell = static_cast<std::int32_t>(hit.part / 2);
+    x = {cell % columns};
+    y = {cell / columns};
+    upper = {static_cast<std::int32_t>(hit.part & 1)};
+  }
+};
+
+}  // namespace
+
+Vec Heightfield::normal_of_slopes(double slope_x, double slope_y) const { return vec(scalar::normal_of_slopes(view_, Number(slope_x), Number(slope_y))); }
 
 Vec Heightfield::normal(const Ray&, const Hit& hit) const {
-  const auto cell = static_cast<int>(hit.part / 2);
-  const int x = cell % columns_, y = cell / columns_, upper = static_cast<int>(hit.part & 1);
-  return normal_of_slopes(height(x + 1, y + upper) - height(x, y + upper), height(x + upper, y + 1) - height(x + upper, y));
+  const Cell at(hit, columns_);
+  return vec(scalar::facet_normal<Number>(view_, at.x, at.y, at.upper));
+}
+void Heightfield::normals(const RayArrays&, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const {
+  facet_normals(view_, which.size(), hits, normals);
 }
 
 Vec Heightfield::smooth_normal(const Hit& hit) const {
-  const auto cell = static_cast<int>(hit.part / 2);
-  const int x = cell % columns_, y = cell / columns_;
-  const auto at_vertex = [&](int i, int j) {
-    const int w = std::max(i - 1, 0), e = std::min(i + 1, columns_), s = std::max(j - 1, 0), n = std::min(j + 1, rows_);
-    return normal_of_slopes((height(e, j) - height(w, j)) / (e - w), (height(i, n) - height(i, s)) / (n - s));
-  };
-  const Vec south = (1 - hit.u) * at_vertex(x, y) + hit.u * at_vertex(x + 1, y);
-  const Vec north = (1 - hit.u) * at_vertex(x, y + 1) + hit.u * at_vertex(x + 1, y + 1);
-  const Vec sum = (1 - hit.v) * south + hit.v * north;
-  return sum / glm::length(sum);
+  const Cell at(hit, columns_);
+  return vec(scalar::interpolated_normal<Number>(view_, at.x, at.y, Number(hit.u), Number(hit.v)));
 }
 
 }  // namespace rainref::compositor

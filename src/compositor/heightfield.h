@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "compositor/heightfield_view.h"
+#include "compositor/sheet_normals.h"
 #include "compositor/surface.h"
 #include "rainref/executor.h"
 
@@ -46,8 +46,8 @@ class Heightfield final : public Surface {
   Vec normal_of_slopes(double slope_x, double slope_y) const;
   /// Normals of the vertices by central differences, interpolated to the hit and made unit.
   Vec smooth_normal(const Hit& hit) const;
-  /// The same of several hits at once.
-  void smooth_normals(std::span<const Hit> hits, std::span<Vec> normals) const { compositor::smooth_normals(view_, hits, normals); }
+  /// The same of `count` hits, which go on to whole lanes, repeating the last one.
+  void smooth_normals(std::size_t count, const Hit* hits, const VecArraysOut& normals) const { interpolated_normals(view_, count, hits, normals); }
 
   std::uint64_t revision() const override { return revision_; }
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(tiles_.size()); }
@@ -55,9 +55,9 @@ class Heightfield final : public Surface {
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
   std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override;
+  void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const override;
 
  private:
-  double height(int x, int y) const;
   HeightfieldFrame frame_;
   int columns_, rows_, tile_cells_, tiles_across_;
   double cell_height_;  ///< longer side of a cell, in units of the axis

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "compositor/packet.h"
 
@@ -31,9 +30,6 @@ struct HeightfieldTile {
 std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet);
 /// The same for one ray, by the plain reading.
 void meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, const Ray& ray, Hit& first);
-
-/// Heightfield::smooth_normal of each hit.
-void smooth_normals(const HeightfieldView& field, std::span<const Hit> hits, std::span<Vec> normals);
 
 /// Writes `highest` of the tile, and its low and high. bounds: x0, x1, y0, y1 given.
 void summarize_tile(const float* heights, int columns, float* highest, HeightfieldTile& tile);

@@ -1,4 +1,4 @@
-// What a smooth interface between two media does to a ray.
+// What a smooth interface between two media does to one ray.
 #pragma once
 
 #include "compositor/optics.h"
@@ -6,21 +6,24 @@
 
 namespace rainref::compositor {
 
+namespace scalar {
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "compositor/interface-inl.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+}  // namespace scalar
+
 /// The two rays that an interface makes of one; directions unit.
 struct Split {
   Vec reflected, refracted;  ///< refracted is zero beyond the critical angle
   double reflectance;        ///< Fresnel's, of unpolarized light, in [0, 1]; 1 beyond the critical angle
 };
+inline Split split_of(const scalar::SplitOf<scalar::Number>& s) { return {scalar::vec(s.reflected), scalar::vec(s.refracted), s.reflectance.v}; }
 /// direction and normal are unit, the normal against the ray; ior_from is on the ray's side. Within a few roundings.
 inline Split split(const Vec& direction, const Vec& normal, double ior_from, double ior_to) {
   using namespace scalar;
-  const auto d = number(direction), n = number(normal);
-  const auto bent = refract(d, n, ior_from / ior_to);
-  Split out{vec(reflect(d, n)), vec(bent), 1};
-  if (out.refracted == Vec(0, 0, 0)) return out;
-  // Fresnel's equations are the same both ways; the text wants them seen from the thinner medium.
-  out.reflectance = ior_from <= ior_to ? fresnel_dielectric(-dot(n, d), ior_to / ior_from).v : fresnel_dielectric(-dot(n, bent), ior_from / ior_to).v;
-  return out;
+  return split_of(scalar::split(number(direction), number(normal), Number(ior_from), Number(ior_to)));
 }
 
 /// What a material that is an interface does to the ray that met it, and the normal that decided, against the ray.
@@ -28,19 +31,15 @@ struct Crossing {
   Split rays;
   Vec normal;
 };
-/// is_outside: the ray comes from the side of at.normal. Where the smooth normal would send a ray through the facet, the
-/// geometric one decides.
+/// is_outside: the ray comes from the side of at.normal.
 inline Crossing cross_interface(const Material& material, const Place& at, bool is_outside) {
+  using namespace scalar;
   const double here = (is_outside ? material.outside : material.inside).ior, beyond = (is_outside ? material.inside : material.outside).ior;
   const Vec facing = is_outside ? at.normal : -at.normal;
-  if (material.smooth_normal) {
-    const Vec outward = material.smooth_normal(at), smooth = is_outside ? outward : -outward;
-    if (dot(at.direction, smooth) < 0) {
-      const Split rays = split(at.direction, smooth, here, beyond);
-      if (dot(rays.reflected, facing) > 0 && !(dot(rays.refracted, facing) > 0)) return {rays, smooth};
-    }
-  }
-  return {split(at.direction, facing, here, beyond), facing};
+  if (!material.smooth_normals) return {compositor::split(at.direction, facing, here, beyond), facing};
+  const Vec outward = smooth_normal(material, at);
+  const auto crossing = cross_facet(number(at.direction), number(facing), number(is_outside ? outward : -outward), Number(here), Number(beyond));
+  return {split_of(crossing.rays), vec(crossing.normal)};
 }
 
 }  // namespace rainref::compositor

@@ -6,7 +6,6 @@
 #define RAINREF_KERNELS "compositor/kernels_heightfield.cpp"
 #include "math/foreach_target.h"
 #include "compositor/packet_lanes-inl.h"
-#include "math/double_lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(compositor)
 
@@ -82,47 +81,6 @@ std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile
   return changed;
 }
 
-void SmoothNormals(const HeightfieldView& field, std::span<const Hit> hits, std::span<Vec> normals) {
-  using N = DoubleLanes;
-  constexpr std::size_t n = static_cast<std::size_t>(N::size());
-  const int columns = static_cast<int>(field.columns);
-  const N::Int across = N::uniform_int(columns + 1), along = N::uniform_int(field.rows + 1), none = N::uniform_int(0);
-  const auto& m = field.to_grid;
-  const auto row_of = [&](int k) HWY_ATTR { return Vec3<N>(m[k][0], m[k][1], m[k][2]); };
-  const Vec3<N> of_x = row_of(0), of_y = row_of(1), up = row_of(2);
-  const auto height = [&](N::Int i, N::Int j) HWY_ATTR { return fetch(field.heights, j * across + i, N()); };
-  const auto unit = [](const Vec3<N>& a) HWY_ATTR {
-    const N size = length(a);
-    return Vec3<N>(a.x / size, a.y / size, a.z / size);
-  };
-  const auto at_vertex = [&](N::Int i, N::Int j) HWY_ATTR {
-    const N::Int west = max_index(i + -1, none), east = clamp_index(i + 1, across), south = max_index(j + -1, none), north = clamp_index(j + 1, along);
-    const N slope_x = (height(east, j) - height(west, j)) / (to_number(east) - to_number(west));
-    const N slope_y = (height(i, north) - height(i, south)) / (to_number(north) - to_number(south));
-    return unit(up - slope_x * of_x - slope_y * of_y);
-  };
-  for (std::size_t first = 0; first < hits.size(); first += n) {
-    HWY_ALIGN double u[n], v[n], column[n], row[n], out[3][n];
-    for (std::size_t k = 0; k < n; ++k) {
-      const Hit& hit = hits[std::min(first + k, hits.size() - 1)];
-      const int cell = static_cast<int>(hit.part / 2);
-      u[k] = hit.u;
-      v[k] = hit.v;
-      column[k] = cell % columns;
-      row[k] = cell / columns;
-    }
-    const N fu = N::load(u), fv = N::load(v), one(1.0);
-    const N::Int x = to_int(N::load(column)), y = to_int(N::load(row));
-    const Vec3<N> south = (one - fu) * at_vertex(x, y) + fu * at_vertex(x + 1, y);
-    const Vec3<N> north = (one - fu) * at_vertex(x, y + 1) + fu * at_vertex(x + 1, y + 1);
-    const Vec3<N> normal = unit((one - fv) * south + fv * north);
-    hn::Store(normal.x.v, N::D(), out[0]);
-    hn::Store(normal.y.v, N::D(), out[1]);
-    hn::Store(normal.z.v, N::D(), out[2]);
-    for (std::size_t k = 0; k < std::min(n, hits.size() - first); ++k) normals[first + k] = {out[0][k], out[1][k], out[2][k]};
-  }
-}
-
 void SummarizeTile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {
   const int x0 = static_cast<int>(tile.x0), x1 = static_cast<int>(tile.x1), n = Lanes::size();
   const std::size_t stride = static_cast<std::size_t>(columns) + 1;
@@ -158,13 +116,11 @@ RAINREF_TARGET_END(compositor)
 namespace rainref::compositor {
 
 RAINREF_EXPORT(MeetTile);
-RAINREF_EXPORT(SmoothNormals);
 RAINREF_EXPORT(SummarizeTile);
 
 std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
   return RAINREF_DISPATCH(MeetTile)(field, tile, self, lanes, packet);
 }
-void smooth_normals(const HeightfieldView& field, std::span<const Hit> hits, std::span<Vec> normals) { RAINREF_DISPATCH(SmoothNormals)(field, hits, normals); }
 void summarize_tile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {
   RAINREF_DISPATCH(SummarizeTile)(heights, columns, highest, tile);
 }

@@ -20,30 +20,11 @@ RAINREF_TARGET_BEGIN(compositor)
 using N = DoubleLanes;
 constexpr std::size_t n = static_cast<std::size_t>(N::size());
 
-/// of(item i), one lane for each of the n items from `first`; beyond the end the last one again.
-template <class Items, class Of>
-HWY_INLINE HWY_ATTR N collect(const Items& items, std::size_t first, const Of& of) {
-  HWY_ALIGN double values[n];
-  for (std::size_t k = 0; k < n; ++k) values[k] = of(items[std::min(first + k, items.size() - 1)]);
-  return N::load(values);
-}
 HWY_INLINE HWY_ATTR void keep(N x, double* p) { hn::Store(x.v, N::D(), p); }
 
-void Exponentials(std::span<double> x) {
-  std::size_t i = 0;
-  for (; i + n <= x.size(); i += n) hn::StoreU(exp(N::load(&x[i])).v, N::D(), &x[i]);
-  if (i == x.size()) return;
-  HWY_ALIGN double rest[n];
-  keep(exp(collect(x, i, [](double value) { return value; })), rest);
-  std::copy(rest, rest + (x.size() - i), &x[i]);
-}
-
-void LookUp(const Texture& texture, bool is_cube, const Rotation& rotation, std::span<const Sight> sights, std::span<Vec> radiance) {
+void LookUp(const Texture& texture, bool is_cube, const Rotation& rotation, const Sights& sights, std::span<Vec> radiance) {
   for (std::size_t i = 0; i < sights.size(); i += n) {
-    const N x = collect(sights, i, [](const Sight& s) { return s.direction.x; });
-    const N y = collect(sights, i, [](const Sight& s) { return s.direction.y; });
-    const N z = collect(sights, i, [](const Sight& s) { return s.direction.z; });
-    const N blur = collect(sights, i, [](const Sight& s) { return s.blur; });
+    const N x = N::load(sights.direction.component[0] + i), y = N::load(sights.direction.component[1] + i), z = N::load(sights.direction.component[2] + i), blur = N::load(sights.blur + i);
     const Vec3<N> turned(N(rotation.cosine) * x + N(rotation.sine) * z, y, N(rotation.cosine) * z - N(rotation.sine) * x);
     const Vec3<N> seen = sample_environment(texture, is_cube, turned, blur);
     HWY_ALIGN double out[3][n];
@@ -54,16 +35,20 @@ void LookUp(const Texture& texture, bool is_cube, const Rotation& rotation, std:
   }
 }
 
-void FinishGround(const GroundLook& look, std::span<const Place> places, std::span<const GroundSlope> slopes, std::span<Finish> finishes) {
+void FinishGround(const GroundLook& look, const Places& places, const VecArrays* slopes, const Finishes& finishes) {
   const puddle::ShadeUniforms& u = look.uniforms;
   const N zero(0.0), one(1.0);
   const float dry_film = 1 - u.wetness;
+  // Levels first: they end a long chain of dependent operations, and by themselves several chains run at once.
   for (std::size_t i = 0; i < places.size(); i += n) {
-    const auto of = [&](const auto& value) HWY_ATTR { return collect(places, i, value); };
-    const N px = of([](const Place& p) { return p.point.x; }), py = of([](const Place& p) { return p.point.y; }), pz = of([](const Place& p) { return p.point.z; });
-    const N dx = of([](const Place& p) { return p.direction.x; }), dy = of([](const Place& p) { return p.direction.y; }), dz = of([](const Place& p) { return p.direction.z; });
-    const N distance = of([](const Place& p) { return p.distance; });
-    const N lod = nearest_octave(N(u.ground_footprint * look.sample_scale) * distance / max(-dy, N(0.02)));
+    const N down = N::load(places.direction.component[1] + i);
+    hn::StoreU(nearest_octave(N(u.ground_footprint * look.sample_scale) * N::load(places.distance + i) / max(-down, N(0.02))).v, N::D(), finishes.blur + i);
+  }
+  for (std::size_t i = 0; i < places.size(); i += n) {
+    const auto of = [i](const VecArrays& values, int k) HWY_ATTR { return N::load(values.component[k] + i); };
+    const N px = of(places.point, 0), py = of(places.point, 1), pz = of(places.point, 2);
+    const N dx = of(places.direction, 0), dy = of(places.direction, 1), dz = of(places.direction, 2);
+    const N lod = N::load(finishes.blur + i);
     const N s = px * N(u.ground_scale), t = pz * N(u.ground_scale);
     N albedo[3];
     if (u.use_checkerboard != 0) {
@@ -76,7 +61,6 @@ void FinishGround(const GroundLook& look, std::span<const Place> places, std::sp
       for (int k = 0; k < 3; ++k) albedo[k] = texel[k];
     }
     const auto wet = py < zero;
-    HWY_ALIGN double radiance[3][n], normal[3][n], mirror[n], blur[n];
     // Light comes down through the column of water; the way back is the medium's.
     N sunk[3] = {zero, zero, zero};
     if (any(wet)) {
@@ -88,8 +72,12 @@ void FinishGround(const GroundLook& look, std::span<const Place> places, std::sp
       // Slopes of grains that a pixel does not resolve spread what it mirrors: they are sampled, not averaged away.
       const auto tilt = sample_bilinear<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(*look.relief), s, t);
       const N film = smoothstep(0.0f, u.shore_width, N(u.shore_width) - py), rough = one - film;
-      const N slope_x = slopes.empty() ? zero : collect(slopes, i, [](const GroundSlope& g) { return g.x; });
-      const N slope_z = slopes.empty() ? zero : collect(slopes, i, [](const GroundSlope& g) { return g.z; });
+      N slope_x = zero, slope_z = zero;
+      if (slopes != nullptr) {
+        const N up = of(*slopes, 1);
+        slope_x = of(*slopes, 0) / up;
+        slope_z = of(*slopes, 2) / up;
+      }
       const N x = slope_x + rough * tilt[0], z = slope_z + rough * tilt[1];
       const N scale = one / sqrt(x * x + one + z * z);
       const N nx = x * scale, ny = scale, nz = z * scale;
@@ -100,15 +88,14 @@ void FinishGround(const GroundLook& look, std::span<const Place> places, std::sp
       my = select(wet, zero, ny);
       mz = select(wet, zero, nz);
     }
-    for (int k = 0; k < 3; ++k) keep(select(wet, sunk[k], (one - reflectance) * N(u.ambient[k]) * albedo[k]), radiance[k]);
-    keep(mx, normal[0]);
-    keep(my, normal[1]);
-    keep(mz, normal[2]);
-    keep(reflectance, mirror);
-    keep(level, blur);
-    for (std::size_t k = 0; k < std::min(n, places.size() - i); ++k) {
-      finishes[i + k] = {{radiance[0][k], radiance[1][k], radiance[2][k]}, {mirror[k], mirror[k], mirror[k]}, {normal[0][k], normal[1][k], normal[2][k]}, blur[k]};
+    const auto put = [i](N x, double* to) HWY_ATTR { hn::StoreU(x.v, N::D(), to + i); };
+    const N normal[3] = {mx, my, mz};
+    for (int k = 0; k < 3; ++k) {
+      put(select(wet, sunk[k], (one - reflectance) * N(u.ambient[k]) * albedo[k]), finishes.radiance.component[k]);
+      put(reflectance, finishes.mirror.component[k]);
+      put(normal[k], finishes.mirror_normal.component[k]);
     }
+    put(level, finishes.blur);
   }
 }
 
@@ -117,15 +104,13 @@ RAINREF_TARGET_END(compositor)
 #if RAINREF_ONCE
 namespace rainref::compositor {
 
-RAINREF_EXPORT(Exponentials);
 RAINREF_EXPORT(LookUp);
 RAINREF_EXPORT(FinishGround);
 
-void exponentials(std::span<double> x) { RAINREF_DISPATCH(Exponentials)(x); }
-void look_up(const Texture& texture, bool is_cube, const Rotation& rotation, std::span<const Sight> sights, std::span<Vec> radiance) {
+void look_up(const Texture& texture, bool is_cube, const Rotation& rotation, const Sights& sights, std::span<Vec> radiance) {
   RAINREF_DISPATCH(LookUp)(texture, is_cube, rotation, sights, radiance);
 }
-void finish_ground(const GroundLook& look, std::span<const Place> places, std::span<const GroundSlope> slopes, std::span<Finish> finishes) {
+void finish_ground(const GroundLook& look, const Places& places, const VecArrays* slopes, const Finishes& finishes) {
   RAINREF_DISPATCH(FinishGround)(look, places, slopes, finishes);
 }
 

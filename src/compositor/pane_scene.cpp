@@ -13,7 +13,7 @@ void add_pane(Scene& scene, const Pane& pane, std::shared_ptr<const WaterLayer> 
     Material surface = Material::interface_of(media.outside, media.water);
     surface.is_masked = true;
     if (shape == WaterShape::displaced) {
-      surface.smooth_normal = water_normal(pane, water);
+      surface.smooth_normals = normals_of(water_normal(pane, water));
       scene.add(std::make_shared<DisplacedWater>(pane, water, executor), surface);
     } else {
       scene.add(std::make_shared<SlopedWater>(pane, water), surface);

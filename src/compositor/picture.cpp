@@ -1,9 +1,9 @@
 #include "compositor/picture.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
+#include <limits>
 
+#include "compositor/picture_kernels.h"
 #include "math/half_array.h"
 
 namespace rainref::compositor {
@@ -11,10 +11,11 @@ namespace {
 
 constexpr int tile_width = 64, tile_height = 4;  // a tile's rays stay in the cache
 
-/// Sums over the samples of a pixel.
-struct Sum {
-  Vec radiance{0, 0, 0}, normal{0, 0, 0};
-  double film = 0, mask = 0, met = 0, depth = far;
+/// What a tile needs, kept by each thread for its next one.
+struct Room {
+  Columns<8> rays;
+  SeenColumns seen;
+  SampleSums sums;
 };
 
 }  // namespace
@@ -37,48 +38,34 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
   executor.for_tiles(width, height, tile_width, tile_height, [&](const parallel::Tile& tile) {
     const int columns = tile.x1 - tile.x0, rows = tile.y1 - tile.y0;
     const std::size_t count = static_cast<std::size_t>(columns) * rows;
-    // Kept by each thread for its next tile.
-    static thread_local std::vector<Ray> rays;
-    static thread_local std::vector<Seen> seen;
-    static thread_local std::vector<Sum> sums;
-    rays.resize(count);
-    seen.resize(count);
-    sums.assign(count, Sum{});
+    static thread_local Room room_of_thread;
+    Room& room = room_of_thread;
+    Columns<8>& rays = room.rays;
+    rays.make_room(count);
+    std::fill_n(rays[6], count, 0.0);
+    std::fill_n(rays[7], count, std::numeric_limits<double>::infinity());
+    room.sums.make_room(count);
     for (const Sample& sample : pattern) {
-      Ray* ray = rays.data();
+      std::size_t i = 0;
+      const VecArraysOut origin = rays.vectors(0), direction = rays.vectors(3);
       for (int row = tile.y0; row < tile.y1; ++row) {
-        for (int column = tile.x0; column < tile.x1; ++column) *ray++ = primary.through(column + 0.5 + sample.x, row + 0.5 + sample.y);
+        for (int column = tile.x0; column < tile.x1; ++column, ++i) {
+          const Ray ray = primary.through(column + 0.5 + sample.x, row + 0.5 + sample.y);
+          origin.put(i, ray.origin);
+          direction.put(i, ray.direction);
+        }
       }
-      shade(scene, options.shading, rays, seen);
-      for (std::size_t i = 0; i < count; ++i) {
-        Sum& sum = sums[i];
-        const Seen& s = seen[i];
-        sum.radiance += s.radiance;
-        sum.normal += s.normal;
-        sum.film += s.film;
-        sum.mask += s.is_masked;
-        if (!s.hit.is_surface()) continue;
-        sum.met += 1;
-        sum.depth = std::min(sum.depth, s.hit.t);
-      }
+      shade(scene, options.shading, RayArrays{{rays[0], rays[1], rays[2]}, {rays[3], rays[4], rays[5]}, rays[6], rays[7]}, count, room.seen);
+      add_sample(count, room.seen, &sample == pattern.data(), room.sums);
     }
     const double share = 1.0 / static_cast<double>(pattern.size());  // a power of two: exact
     for (int row = 0; row < rows; ++row) {
       // All floats of the row, then one conversion for each image.
-      float beauty[4 * tile_width], normal[4 * tile_width], film[tile_width], mask[tile_width];
+      float beauty[4 * tile_width], normal[4 * tile_width], film[tile_width], mask[tile_width], depth[tile_width];
+      static_assert(tile_width % most_lanes == 0);
       const int y = tile.y0 + row;
-      for (int x = 0; x < columns; ++x) {
-        const Sum& sum = sums[static_cast<std::size_t>(row) * columns + x];
-        for (int k = 0; k < 3; ++k) {
-          beauty[4 * x + k] = static_cast<float>(std::min(share * sum.radiance[k], 65504.0)) + 0.0f;
-          normal[4 * x + k] = static_cast<float>(share * sum.normal[k]) + 0.0f;
-        }
-        beauty[4 * x + 3] = 1;
-        normal[4 * x + 3] = static_cast<float>(share * sum.met);
-        film[x] = static_cast<float>(share * sum.film);
-        mask[x] = static_cast<float>(share * sum.mask);
-        out.depth.row<float>(y)[tile.x0 + x] = static_cast<float>(sum.depth);
-      }
+      develop(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns), static_cast<std::size_t>(columns), share, room.sums, beauty, normal, film, mask, depth);
+      std::copy_n(depth, columns, out.depth.row<float>(y) + tile.x0);
       const auto store = [&](const float* from, Image& image, int channels) {
         to_half_array(from, image.row<Half>(y) + channels * static_cast<std::ptrdiff_t>(tile.x0), static_cast<std::size_t>(channels) * columns, Rounding::rne);
       };

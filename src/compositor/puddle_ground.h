@@ -23,7 +23,7 @@ class PuddleGround : public Opaque {
  public:
   /// `sheet` gives the slopes of the bed; null where it is level. Textures and sheet must outlive this.
   PuddleGround(const GroundLook& look, const Heightfield* sheet) : look_(look), sheet_(sheet) {}
-  void finish(std::span<const Place> places, std::span<Finish> finishes) const override;
+  void finish(const Places& places, const Finishes& finishes) const override;
 
  private:
   GroundLook look_;

@@ -71,15 +71,8 @@ class Slopes {
       }
     });
   }
-  /// The normal at a hit of the sheet: slopes interpolated, as surface_hit does.
-  Vec normal(const Hit& hit) const {
-    const int columns = width_ - 1, cell = static_cast<int>(hit.part / 2), x = cell % columns, y = cell / columns;
-    const float* low = slopes_.data() + 2 * (static_cast<std::size_t>(y) * width_ + x);
-    const float* high = low + 2 * static_cast<std::size_t>(width_);
-    const auto at = [&](int k) { return (1 - hit.v) * ((1 - hit.u) * low[k] + hit.u * low[k + 2]) + hit.v * ((1 - hit.u) * high[k] + hit.u * high[k + 2]); };
-    const double sx = at(0), sz = at(1), scale = 1 / std::sqrt(sx * sx + 1 + sz * sz);
-    return {scale * sx, scale, scale * sz};
-  }
+  /// Normals at hits of the sheet: slopes interpolated, as surface_hit does.
+  void normals(const Places& places, const VecArraysOut& out) const { normals_of_interpolated_slopes({slopes_.data(), width_ - 1}, places.size(), places.hits, out); }
 
  private:
   int width_ = 0;
@@ -128,7 +121,7 @@ struct PuddleScene::State {
     Material surface = Material::interface_of(above, below);
     surface.is_masked = true;
     Material rippled = surface;
-    rippled.smooth_normal = [of_water = &slopes](const Place& p) { return of_water->normal(p.hit); };
+    rippled.smooth_normals = [of_water = &slopes](const Places& places, const VecArraysOut& normals) { of_water->normals(places, normals); };
     scene.set_eye(above);
     scene.add(water.sheet, rippled);
 

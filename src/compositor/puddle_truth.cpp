@@ -78,7 +78,7 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
       Place at;
       at.hit = hits[x];
       at.normal = scene.tracer().surface(hits[x].surface).normal(rays[x], hits[x]);
-      normals[x] = water.smooth_normal ? water.smooth_normal(at) : at.normal;
+      normals[x] = water.smooth_normals ? smooth_normal(water, at) : at.normal;
       const Vec direction = glm::normalize(rays[x].direction);
       bent[x] = {rays[x].at(hits[x].t), split(direction, normals[x], 1, water_ior).refracted};
       bent[x].nearest = 1e-9;

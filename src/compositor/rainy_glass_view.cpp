@@ -102,7 +102,7 @@ class Foreground {
 class Outside : public Environment {
  public:
   explicit Outside(const RainyGlassView& view) : view_(view), outward_(view.pane().normal(0)) {}
-  void radiance(std::span<const Sight> sights, std::span<Vec> out) const override {
+  void radiance(const Sights& sights, std::span<Vec> out) const override {
     // The room is dark.
     for (std::size_t i = 0; i < sights.size(); ++i) out[i] = dot(sights[i].direction, outward_) > 0 ? view_.met(sights[i].origin, sights[i].direction).radiance : Vec(0, 0, 0);
   }

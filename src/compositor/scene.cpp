@@ -1,5 +1,7 @@
 #include "compositor/scene.h"
 
+#include <algorithm>
+
 #include "rainref/error.h"
 
 namespace rainref::compositor {
@@ -8,8 +10,8 @@ namespace {
 class OpaqueFunction : public Opaque {
  public:
   explicit OpaqueFunction(std::function<Finish(const Place&)> finish) : finish_(std::move(finish)) {}
-  void finish(std::span<const Place> places, std::span<Finish> finishes) const override {
-    for (std::size_t i = 0; i < places.size(); ++i) finishes[i] = finish_(places[i]);
+  void finish(const Places& places, const Finishes& finishes) const override {
+    for (std::size_t i = 0; i < places.size(); ++i) finishes.put(i, finish_(places[i]));
   }
 
  private:
@@ -19,7 +21,7 @@ class OpaqueFunction : public Opaque {
 class EnvironmentFunction : public Environment {
  public:
   explicit EnvironmentFunction(std::function<Vec(const Sight&)> radiance) : radiance_(std::move(radiance)) {}
-  void radiance(std::span<const Sight> sights, std::span<Vec> out) const override {
+  void radiance(const Sights& sights, std::span<Vec> out) const override {
     for (std::size_t i = 0; i < sights.size(); ++i) out[i] = radiance_(sights[i]);
   }
 
@@ -28,6 +30,26 @@ class EnvironmentFunction : public Environment {
 };
 
 }  // namespace
+
+NormalsOf normals_of(std::function<Vec(const Place&)> normal) {
+  return [of = std::move(normal)](const Places& places, const VecArraysOut& normals) {
+    for (std::size_t i = 0; i < places.size(); ++i) normals.put(i, of(places[i]));
+  };
+}
+
+Vec smooth_normal(const Material& material, const Place& place) {
+  Columns<13> room;
+  room.make_room(1);
+  Hit hits[most_lanes];
+  std::fill(hits, hits + most_lanes, place.hit);
+  room.vectors(0).put(0, place.point);
+  room.vectors(3).put(0, place.direction);
+  room.vectors(6).put(0, place.normal);
+  room[9][0] = place.distance;
+  const VecArraysOut normals = room.vectors(10);
+  material.smooth_normals({1, room.vectors(0), room.vectors(3), room.vectors(6), room[9], hits}, normals);
+  return normals[0];
+}
 
 std::shared_ptr<const Opaque> opaque_of(std::function<Finish(const Place&)> finish) {
   return std::make_shared<OpaqueFunction>(std::move(finish));

@@ -35,6 +35,20 @@ struct Place {
   Hit hit;
 };
 
+/// Places component by component. Arrays go on to whole lanes, hits repeating the last one.
+struct Places {
+  std::size_t count;
+  VecArrays point, direction, normal;
+  const double* distance;
+  const Hit* hits;
+  std::size_t size() const { return count; }
+  Place operator[](std::size_t i) const { return {point[i], direction[i], normal[i], distance[i], hits[i]}; }
+};
+/// Normals of the places, unit; as a Surface's, whole lanes may be written.
+using NormalsOf = std::function<void(const Places& places, const VecArraysOut& normals)>;
+/// By a function of one place.
+NormalsOf normals_of(std::function<Vec(const Place&)> normal);
+
 /// What leaves an opaque surface toward the ray: its own light, and a mirror image of what lies along one more ray.
 struct Finish {
   Vec radiance{0, 0, 0};       ///< emitted, or scattered by a diffuse surface
@@ -42,11 +56,22 @@ struct Finish {
   Vec mirror_normal{0, 0, 0};  ///< unit, about which the ray is mirrored
   double blur = 0;             ///< mip level at which the mirrored surroundings are looked up
 };
+/// Finishes component by component; whole lanes may be written.
+struct Finishes {
+  VecArraysOut radiance, mirror, mirror_normal;
+  double* blur;
+  void put(std::size_t i, const Finish& f) const {
+    radiance.put(i, f.radiance);
+    mirror.put(i, f.mirror);
+    mirror_normal.put(i, f.mirror_normal);
+    blur[i] = f.blur;
+  }
+};
 class Opaque {
  public:
   virtual ~Opaque() = default;
-  /// finishes[i] is that of places[i]. From several threads at once; a pure function of each place.
-  virtual void finish(std::span<const Place> places, std::span<Finish> finishes) const = 0;
+  /// The i-th of `finishes` becomes that of places[i]. From several threads at once; a pure function of each place.
+  virtual void finish(const Places& places, const Finishes& finishes) const = 0;
 };
 
 /// How a surface treats light. Without `opaque` it is a smooth interface between two media: which lies on which side is
@@ -54,9 +79,9 @@ class Opaque {
 struct Material {
   std::shared_ptr<const Opaque> opaque;
   Medium outside, inside;  ///< on the side of the geometric normal, and on the other
-  /// The smooth normal of an interface that is made of facets, unit, near Place::normal; null: the geometric one. Where it
+  /// The smooth normals of an interface that is made of facets, unit, near Place::normal; null: the geometric ones. Where one
   /// would send a ray through the wrong side of the facet, the geometric one serves.
-  std::function<Vec(const Place&)> smooth_normal;
+  NormalsOf smooth_normals;
   bool is_masked = false;  ///< the channel `mask` is 1 where the eye sees this surface
 
   static Material interface_of(const Medium& outside, const Medium& inside) {
@@ -72,6 +97,9 @@ struct Material {
   }
 };
 
+/// The smooth normal at one place of a material that has them.
+Vec smooth_normal(const Material& material, const Place& place);
+
 /// An opaque finish by a function of one place.
 std::shared_ptr<const Opaque> opaque_of(std::function<Finish(const Place&)> finish);
 /// A diffuse surface under equal light from everywhere: radiance = albedo * light.
@@ -84,11 +112,19 @@ struct Sight {
   Vec origin, direction;  ///< direction unit
   double blur = 0;        ///< mip level: 0 sharp, each level twice as wide
 };
+/// Sights component by component. Arrays go on to whole lanes, repeating the last one.
+struct Sights {
+  std::size_t count;
+  VecArrays origin, direction;
+  const double* blur;
+  std::size_t size() const { return count; }
+  Sight operator[](std::size_t i) const { return {origin[i], direction[i], blur[i]}; }
+};
 class Environment {
  public:
   virtual ~Environment() = default;
   /// radiance[i] is what arrives along sights[i]. From several threads at once; a pure function of each sight.
-  virtual void radiance(std::span<const Sight> sights, std::span<Vec> radiance) const = 0;
+  virtual void radiance(const Sights& sights, std::span<Vec> radiance) const = 0;
 };
 /// Surroundings by a function of one sight.
 std::shared_ptr<const Environment> environment_of(std::function<Vec(const Sight&)> radiance);

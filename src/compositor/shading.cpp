@@ -1,69 +1,17 @@
+// One generation of rays after the other. Rays lie component by component, and those that met one surface within one medium are
+// treated together, in lanes. What reaches a pixel is added up in the order of the paths, whatever the order in which it
+// was found out.
 #include "compositor/shading.h"
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <limits>
 
-#include "compositor/interface.h"
 #include "compositor/shading_kernels.h"
+#include "compositor/shading_room.h"
 
 namespace rainref::compositor {
 namespace {
-
-/// What a ray on its way is to its pixel.
-struct Path {
-  double length = 1;      // of the ray's direction
-  Vec weight{1, 1, 1};    // share of its radiance in the pixel
-  std::uint32_t pixel = 0;
-  std::uint32_t left = Hit::none;  // the surface where it began
-  bool left_outside = false;       // and on which side of it
-  bool is_straight = true;         // refracted and never reflected so far
-  const Medium* medium = nullptr;
-  double travelled = 0, blur = 0;
-};
-
-/// The geometric normal where a ray met a surface, and from which side it came.
-struct Side {
-  Vec normal{0, 0, 0};
-  bool is_outside = false;
-};
-
-/// What is added to a pixel: a radiance, or a weight of what arrives along the next sight.
-struct Term {
-  std::uint32_t pixel;
-  bool is_sight;
-  Vec weight;
-};
-
-/// Rays with what goes with each.
-struct Rays {
-  std::vector<Ray> rays;
-  std::vector<Path> paths;
-  void clear() {
-    rays.clear();
-    paths.clear();
-  }
-};
-
-/// Room for the rays of one call, kept by each thread for its next one.
-struct Room {
-  Rays now, next;
-  std::vector<Hit> hits;
-  std::vector<Side> sides;
-  std::vector<std::uint32_t> again;
-  std::vector<Ray> rays_again;
-  std::vector<Hit> hits_again;
-  std::vector<std::vector<std::uint32_t>> of_surface;  // opaque hits, surface by surface, because a finish takes many places at once
-  std::vector<Place> places;
-  std::vector<Finish> finishes;
-  std::vector<std::uint32_t> place_of;  // by path
-  std::vector<Term> terms;
-  std::vector<Sight> sights;
-  std::vector<Vec> arrived;
-  std::vector<double> transmitted;  // of the paths whose media absorb: one share, or three where colours differ
-};
-
-double largest(const Vec& a) { return std::max(a.x, std::max(a.y, a.z)); }
 
 /// The spacing of numbers as large as the ray's origin, along the ray.
 double resolution(const Vec& origin, double length) {
@@ -72,63 +20,89 @@ double resolution(const Vec& origin, double length) {
 
 class Generations {
  public:
-  Generations(const Scene& scene, const ShadingOptions& options, std::span<const Ray> rays, std::span<Seen> seen, Room& room)
-      : scene_(scene), options_(options), seen_(seen), room_(room), now_(room.now), next_(room.next) {
-    now_.rays.assign(rays.begin(), rays.end());
-    now_.paths.resize(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      Path& p = now_.paths[i] = Path{};
-      p.length = std::sqrt(dot(rays[i].direction, rays[i].direction));
-      p.pixel = static_cast<std::uint32_t>(i);
-      p.medium = &scene.eye();
+  Generations(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen, ShadingRoom& room)
+      : scene_(scene), options_(options), seen_(seen), room_(room), now_(&room.now), next_(&room.next) {
+    RayColumns& to = now_->columns;
+    to.make_room(count);
+    for (int k = 0; k < 3; ++k) {
+      std::copy_n(rays.origin[k], count, to.origin().component[k]);
+      std::copy_n(rays.direction[k], count, to.direction().component[k]);
+      std::fill_n(to.weight().component[k], count, 1.0);
     }
-    if (room.of_surface.size() < scene.surfaces()) room.of_surface.resize(scene.surfaces());
+    std::copy_n(rays.nearest, count, to.nearest());
+    std::fill_n(to.travelled(), count, 0.0);
+    std::fill_n(to.blur(), count, 0.0);
+    room.farthest.assign(rays.farthest, rays.farthest + count);
+    now_->count = count;
+    make_room(now_->paths, count);
+    make_room(room.length, whole_lanes(count));
+    measure(count, to.direction(), room.length.data());
+    room.order.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      now_->paths[i] = {&scene.eye(), static_cast<std::uint32_t>(i)};
+      room.order[i] = static_cast<std::uint32_t>(i);
+    }
+    seen.clear(count);
   }
 
   void run() {
-    for (int depth = 1; !now_.paths.empty(); ++depth) {
+    for (depth_ = 1; now_->count > 0; ++depth_) {
+      const std::size_t n = now_->count;
+      length_ = depth_ == 1 ? room_.length.data() : nullptr;
+      if (room_.endless.size() < n) room_.endless.assign(n, std::numeric_limits<double>::infinity());
       trace();
-      next_.clear();
-      room_.sights.clear();
-      room_.terms.clear();
-      finish_opaque();
-      absorb();
-      share_ = 0;
-      for (std::size_t i = 0; i < now_.paths.size(); ++i) follow(i, depth);
-      gather();
+      if (depth_ == 1) std::copy_n(room_.hits.data(), n, seen_.hits());
+      room_.batches.sort(std::span(now_->paths).first(n), std::span(room_.hits).first(n));
+      next_->columns.make_room(2 * n);
+      make_room(next_->paths, 2 * n);
+      next_->count = 0;
+      room_.sights.make_room(3 * n);
+      room_.terms.make_room(room_.batches.slots());
+      room_.children.assign(room_.batches.slots(), {nowhere, nowhere});
+      for (const PathBatches::Batch& batch : room_.batches.batches()) {
+        if (batch.surface == Hit::none) leave_for_surroundings(batch);
+        else treat(batch);
+      }
+      look_around();
+      add_up();
       std::swap(now_, next_);
+      std::swap(room_.order, room_.next_order);
     }
   }
 
  private:
   const Scene& scene_;
   const ShadingOptions& options_;
-  std::span<Seen> seen_;
-  Room& room_;
-  Rays &now_, &next_;
-  std::size_t share_ = 0;  // of room_.transmitted, the next one
+  SeenColumns& seen_;
+  ShadingRoom& room_;
+  Rays *now_, *next_;
+  int depth_ = 1;
+  const double* length_ = nullptr;  // of directions; null where they are unit
 
-  void find_side(std::size_t i) {
-    const Hit& hit = room_.hits[i];
-    if (!hit.is_surface()) return;
-    Side& side = room_.sides[i];
-    side.normal = scene_.tracer().surface(hit.surface).normal(now_.rays[i], hit);
-    side.is_outside = dot(now_.rays[i].direction, side.normal) < 0;
+  RayArrays arrays() const {
+    const VecArrays o = now_->columns.origin(), d = now_->columns.direction();
+    return {{o.component[0], o.component[1], o.component[2]}, {d.component[0], d.component[1], d.component[2]}, now_->columns.nearest(),
+            depth_ == 1 ? room_.farthest.data() : room_.endless.data()};
   }
-  bool contradicts(std::size_t i) const {
-    return room_.hits[i].is_surface() && room_.hits[i].surface == now_.paths[i].left && room_.sides[i].is_outside != now_.paths[i].left_outside;
+  RayList list_of(const PathBatches::Batch& batch) const { return {now_->columns, length_, {room_.batches.ray() + batch.begin, batch.count}}; }
+
+  /// A hit of the surface that the ray left, from the side where the ray is not.
+  bool contradicts(std::size_t i, const Hit& hit) const {
+    const Path& path = now_->paths[i];
+    if (!hit.is_surface() || hit.surface != path.left) return false;
+    const Ray ray = arrays()[i];
+    return (dot(ray.direction, scene_.tracer().surface(hit.surface).normal(ray, hit)) < 0) != path.left_outside;
   }
 
   void trace() {
-    const std::size_t n = now_.paths.size();
-    room_.hits.resize(n);
-    room_.sides.resize(n);
-    scene_.tracer().first_hits(now_.rays, room_.hits);
+    const std::size_t n = now_->count;
+    std::vector<Hit>& hits = room_.hits;
+    make_room(hits, n);
+    scene_.tracer().first_hits(arrays(), std::span(hits).first(n));
     std::vector<std::uint32_t>& again = room_.again;
     again.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      find_side(i);
-      if (contradicts(i)) again.push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; depth_ > 1 && i < n; ++i) {
+      if (contradicts(i, hits[i])) again.push_back(static_cast<std::uint32_t>(i));
     }
     // Behind a contradicted hit by the resolution of the origin, doubled from one such hit to the next.
     double step = 1;
@@ -136,153 +110,171 @@ class Generations {
       room_.rays_again.resize(again.size());
       room_.hits_again.resize(again.size());
       for (std::size_t k = 0; k < again.size(); ++k) {
-        Ray& ray = now_.rays[again[k]];
-        ray.nearest = room_.hits[again[k]].t + step * resolution(ray.origin, now_.paths[again[k]].length);
-        room_.rays_again[k] = ray;
+        const std::uint32_t i = again[k];
+        now_->columns.nearest()[i] = hits[i].t + step * resolution(now_->columns.origin()[i], length_ == nullptr ? 1 : length_[i]);
+        room_.rays_again[k] = arrays()[i];
       }
       scene_.tracer().first_hits(room_.rays_again, room_.hits_again);
       std::size_t left = 0;
       for (std::size_t k = 0; k < again.size(); ++k) {
-        room_.hits[again[k]] = room_.hits_again[k];
-        find_side(again[k]);
-        if (contradicts(again[k])) again[left++] = again[k];
+        hits[again[k]] = room_.hits_again[k];
+        if (contradicts(again[k], hits[again[k]])) again[left++] = again[k];
       }
       again.resize(left);
     }
   }
 
-  Vec direction(std::size_t i) const { return now_.paths[i].length == 1 ? now_.rays[i].direction : now_.rays[i].direction / now_.paths[i].length; }
-
-  /// What is added to the path's distance at its hit.
-  double length_of(std::size_t i) const {
-    const Path& p = now_.paths[i];
-    return (p.travelled + room_.hits[i].t * p.length) - p.travelled;
+  /// The first of all batches: a ray's sight has the number of its slot.
+  void leave_for_surroundings(const PathBatches::Batch& batch) {
+    gaze(list_of(batch), room_.sights.vectors(0), room_.sights.vectors(3), room_.sights[6]);
+    room_.sight_count = batch.count;
+    room_.cut_share.clear();
   }
 
-  Place place(std::size_t i) const {
-    const Hit& hit = room_.hits[i];
-    return {now_.rays[i].at(hit.t), direction(i), room_.sides[i].normal, now_.paths[i].travelled + hit.t * now_.paths[i].length, hit};
-  }
-
-  void finish_opaque() {
-    const std::size_t n = now_.paths.size();
-    for (std::vector<std::uint32_t>& list : room_.of_surface) list.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t surface = room_.hits[i].surface;
-      if (surface != Hit::none && scene_.material(surface).opaque) room_.of_surface[surface].push_back(static_cast<std::uint32_t>(i));
-    }
-    room_.place_of.resize(n);
-    room_.places.clear();
-    room_.finishes.clear();
-    for (std::uint32_t surface = 0; surface < scene_.surfaces(); ++surface) {
-      const std::vector<std::uint32_t>& list = room_.of_surface[surface];
-      if (list.empty()) continue;
-      const std::size_t begin = room_.places.size();
-      for (const std::uint32_t i : list) {
-        room_.place_of[i] = static_cast<std::uint32_t>(room_.places.size());
-        room_.places.push_back(place(i));
+  void treat(const PathBatches::Batch& batch) {
+    const std::size_t n = batch.count;
+    const Material& material = scene_.material(batch.surface);
+    ArrivalColumns& at = room_.arrivals;
+    at.make_room(n);
+    room_.surface.make_room(n);
+    const RayList list = list_of(batch);
+    const Hit* hits = room_.batches.hit() + batch.begin;
+    const VecArraysOut added = room_.terms.vectors(0).from(batch.begin), sent = room_.terms.vectors(3).from(batch.begin);
+    const VecArraysOut smooth = room_.surface.vectors(0), shaded = room_.surface.vectors(3);
+    scene_.tracer().surface(batch.surface).normals(arrays(), list.which, hits, at.normal());
+    arrive(list, hits, *batch.medium, at, added);
+    if (batch.medium->is_film) {
+      for (std::size_t k = 0; k < n; ++k) {
+        const Path& path = now_->paths[list.which[k]];
+        if (path.is_straight) seen_.film()[path.pixel] += at.path()[k];
       }
-      room_.finishes.resize(room_.places.size());
-      scene_.material(surface).opaque->finish(std::span(room_.places).subspan(begin), std::span(room_.finishes).subspan(begin));
     }
-  }
 
-  static bool is_grey(const Vec& a) { return a.x == a.y && a.y == a.z; }
-
-  /// exp(-extinction path) of every path that met something, in the order in which `follow` asks.
-  void absorb() {
-    std::vector<double>& shares = room_.transmitted;
-    shares.clear();
-    for (std::size_t i = 0; i < now_.paths.size(); ++i) {
-      const Vec& extinction = now_.paths[i].medium->extinction;
-      if (!room_.hits[i].is_surface() || !(largest(extinction) > 0)) continue;
-      const double path = length_of(i);
-      for (int k = 0; k < (is_grey(extinction) ? 1 : 3); ++k) shares.push_back(-(extinction[k] * path));
-    }
-    exponentials(shares);
-  }
-  Vec next_share(const Vec& extinction) {
-    const double* t = &room_.transmitted[share_];
-    share_ += is_grey(extinction) ? 1 : 3;
-    return is_grey(extinction) ? Vec(t[0], t[0], t[0]) : Vec(t[0], t[1], t[2]);
-  }
-
-  void see(std::uint32_t pixel, const Vec& weight, const Vec& origin, const Vec& towards, double blur) {
-    room_.terms.push_back({pixel, true, weight});
-    room_.sights.push_back({origin, towards, blur});
-  }
-  void add(std::uint32_t pixel, const Vec& radiance) { room_.terms.push_back({pixel, false, radiance}); }
-
-  /// A new ray from a place that path `parent` reached; cut off, it sees the surroundings.
-  void go_on(std::size_t parent, int depth, const Place& at, const Vec& towards, const Vec& share, bool is_outside, const Medium& medium, double blur, bool is_straight) {
-    const double largest_share = largest(share);
-    if (!(largest_share > 0)) return;
-    const std::uint32_t pixel = now_.paths[parent].pixel;
-    if (depth >= options_.depth || largest_share < options_.least_weight) return see(pixel, share, at.point, towards, blur);
-    next_.rays.push_back({at.point, towards, resolution(at.point, 1)});
-    next_.paths.push_back({1, share, pixel, at.hit.surface, is_outside, is_straight, &medium, at.distance, blur});
-  }
-
-  // Adds what path i brings, and makes the paths that go on from it.
-  void follow(std::size_t i, int depth) {
-    const Path& p = now_.paths[i];
-    const Hit& hit = room_.hits[i];
-    Seen& seen = seen_[p.pixel];
-    if (depth == 1) seen.hit = hit;
-    if (!hit.is_surface()) return see(p.pixel, p.weight, now_.rays[i].origin, direction(i), p.blur);
-
-    const Material& material = scene_.material(hit.surface);
-    const bool is_outside = room_.sides[i].is_outside;
-    const Place at = material.opaque ? room_.places[room_.place_of[i]] : place(i);
-    const double path = at.distance - p.travelled;
-    Vec weight = p.weight;
-    if (largest(p.medium->extinction) > 0) {
-      const Vec t = next_share(p.medium->extinction);
-      add(p.pixel, weight * (Vec(1, 1, 1) - t) * p.medium->glow);
-      weight *= t;
-    }
-    if (p.is_straight && p.medium->is_film) seen.film += path;
-    const Vec facing = is_outside ? at.normal : -at.normal;
-    Vec shaded = facing;
+    const Places places{n, at.point(), at.direction(), at.normal(), at.distance(), hits};
     if (material.opaque) {
-      const Finish& f = room_.finishes[room_.place_of[i]];
-      add(p.pixel, weight * f.radiance);
-      if (largest(f.mirror) > 0) {
-        shaded = f.mirror_normal;
-        Vec mirrored = at.direction - 2 * dot(at.direction, shaded) * shaded;
-        // A bump's normal may turn the ray into the surface that it mirrors: it is turned out again.
-        const double out = dot(mirrored, facing);
-        if (out < 0) mirrored -= 2 * out * facing;
-        go_on(i, depth, at, mirrored, weight * f.mirror, is_outside, *p.medium, f.blur, false);
-      }
+      const Finishes finishes{room_.surface.vectors(6), room_.surface.vectors(9), room_.surface.vectors(12), room_.surface[15]};
+      material.opaque->finish(places, finishes);
+      leave_finishes(n, at, finishes, next_->columns, next_->count, sent, shaded);
     } else {
-      const Medium& here = is_outside ? material.outside : material.inside;
-      const Medium& beyond = is_outside ? material.inside : material.outside;
-      const auto [rays, normal] = cross_interface(material, at, is_outside);
-      shaded = normal;
-      go_on(i, depth, at, rays.reflected, rays.reflectance * weight, is_outside, here, p.blur, false);
-      if (rays.reflectance < 1) go_on(i, depth, at, rays.refracted, (1 - rays.reflectance) * weight, !is_outside, beyond, p.blur, p.is_straight);
+      room_.refracted.make_room(n);
+      const VecArrays smooth_normals = smooth;
+      if (material.smooth_normals) material.smooth_normals(places, smooth);
+      cross_interfaces(n, at, material.smooth_normals ? &smooth_normals : nullptr, material.outside.ior, material.inside.ior, next_->columns, next_->count, room_.refracted, shaded);
+      for (int k = 0; k < 3; ++k) std::fill_n(sent.component[k], n, 0.0);
     }
-    if (depth == 1) {
-      seen.is_masked = material.is_masked;
-      seen.normal = shaded;
+    if (depth_ == 1) {
+      for (std::size_t k = 0; k < n; ++k) {
+        seen_.normal().put(list.which[k], shaded[k]);
+        seen_.mask()[list.which[k]] = material.is_masked ? 1 : 0;
+      }
+    }
+    go_on(batch, 0);
+    if (!material.opaque) go_on(batch, 1);
+  }
+
+  /// The children of a batch that are worth it join the next generation; the others see the surroundings. Those that are not
+  /// refracted lie there already.
+  void go_on(const PathBatches::Batch& batch, std::size_t which) {
+    const std::size_t first = next_->count, n = batch.count, begin = which == 0 ? first : 0;
+    const RayColumns& from = which == 0 ? next_->columns : room_.refracted;
+    make_room(room_.kept, n);
+    std::uint32_t* const kept = room_.kept.data();
+    std::array<std::uint32_t, 2>* const children = &room_.children[batch.begin];
+    std::size_t count = 0;
+    const VecArrays weight = from.weight().from(begin);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double share = std::max(weight.component[0][k], std::max(weight.component[1][k], weight.component[2][k]));
+      if (!(share > 0)) continue;
+      if (depth_ >= options_.depth || share < options_.least_weight) {
+        children[k][which] = is_sight | static_cast<std::uint32_t>(room_.sight_count);
+        room_.sights.vectors(0).put(room_.sight_count, from.origin()[begin + k]);
+        room_.sights.vectors(3).put(room_.sight_count, from.direction()[begin + k]);
+        room_.sights[6][room_.sight_count++] = from.blur()[begin + k];
+        room_.cut_share.push_back(weight[k]);
+        continue;
+      }
+      children[k][which] = static_cast<std::uint32_t>(first + count);
+      kept[count++] = static_cast<std::uint32_t>(k);
+    }
+    if (count == 0) return;
+    next_->count += count;
+    for (int c = 0; (which == 1 || count < n) && c < RayColumns::count; ++c) {
+      const double* values = from.column(c) + begin;
+      double* to = next_->columns.column(c) + first;
+      for (std::size_t j = 0; j < count; ++j) to[j] = values[kept[j]];
+    }
+    const Material& material = scene_.material(batch.surface);
+    const double* facing = room_.arrivals.facing();
+    const std::uint32_t* rays = room_.batches.ray() + batch.begin;
+    for (std::size_t j = 0; j < count; ++j) {
+      const Path& parent = now_->paths[rays[kept[j]]];
+      const bool goes_through = which == 1, is_outside = (facing[kept[j]] < 0) != goes_through;
+      const Medium* medium = material.opaque ? batch.medium : is_outside ? &material.outside : &material.inside;
+      next_->paths[first + j] = {medium, parent.pixel, batch.surface, is_outside, goes_through && parent.is_straight};
     }
   }
 
-  void gather() {
-    room_.arrived.resize(room_.sights.size());
-    if (!room_.sights.empty()) scene_.environment().radiance(room_.sights, room_.arrived);
-    std::size_t sight = 0;
-    for (const Term& term : room_.terms) seen_[term.pixel].radiance += term.is_sight ? term.weight * room_.arrived[sight++] : term.weight;
+  void look_around() {
+    const std::size_t n = room_.sight_count;
+    make_room(room_.arrived, n);
+    if (n == 0) return;
+    for (std::size_t k = n; k < whole_lanes(n); ++k) {
+      for (int c = 0; c < 7; ++c) room_.sights[c][k] = room_.sights[c][n - 1];
+    }
+    scene_.environment().radiance({n, room_.sights.vectors(0), room_.sights.vectors(3), room_.sights[6]}, std::span(room_.arrived).first(n));
+  }
+
+  /// Each pixel's light, path by path, and the order of the next generation.
+  void add_up() {
+    const std::size_t escaped = room_.batches.batches().front().count;
+    const VecArrays weight = now_->columns.weight(), added = room_.terms.vectors(0), sent = room_.terms.vectors(3);
+    const VecArraysOut radiance = seen_.radiance();
+    const Vec *arrived = room_.arrived.data(), *cut_share = room_.cut_share.data();
+    make_room(room_.next_order, next_->count);
+    std::uint32_t* next = room_.next_order.data();
+    for (const std::uint32_t i : std::span(room_.order).first(now_->count)) {
+      const std::uint32_t pixel = now_->paths[i].pixel, slot = room_.batches.slot(i);
+      Vec sum = radiance[pixel];
+      if (slot < escaped) {
+        sum += weight[i] * arrived[slot];
+      } else {
+        sum += added[slot];
+        sum += sent[slot];
+        for (const std::uint32_t child : room_.children[slot]) {
+          if (child == nowhere) continue;
+          if (child & is_sight) sum += cut_share[(child ^ is_sight) - escaped] * arrived[child ^ is_sight];
+          else *next++ = child;
+        }
+      }
+      radiance.put(pixel, sum);
+    }
   }
 };
 
+/// Not inlined, or every access would look the thread's room up again.
+[[gnu::noinline]] ShadingRoom& room_of_thread() {
+  static thread_local ShadingRoom room;
+  return room;
+}
+
 }  // namespace
 
+void shade(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen) {
+  Generations(scene, options, rays, count, seen, room_of_thread()).run();
+}
+
 void shade(const Scene& scene, const ShadingOptions& options, std::span<const Ray> rays, std::span<Seen> seen) {
-  std::fill(seen.begin(), seen.end(), Seen{});
-  static thread_local Room room;
-  Generations(scene, options, rays, seen, room).run();
+  Columns<8> c;
+  c.make_room(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    c.vectors(0).put(i, rays[i].origin);
+    c.vectors(3).put(i, rays[i].direction);
+    c[6][i] = rays[i].nearest;
+    c[7][i] = rays[i].farthest;
+  }
+  SeenColumns columns;
+  shade(scene, options, RayArrays{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, c[6], c[7]}, rays.size(), columns);
+  for (std::size_t i = 0; i < rays.size(); ++i) seen[i] = {columns.radiance()[i], columns.hits()[i], columns.normal()[i], columns.film()[i], columns.mask()[i] != 0};
 }
 
 }  // namespace rainref::compositor

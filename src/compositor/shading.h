@@ -1,8 +1,10 @@
 // The radiance of rays: every reflection and refraction followed, nothing left to chance.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "compositor/scene.h"
 
@@ -22,6 +24,26 @@ struct Seen {
   bool is_masked = false; ///< the first surface is one that the mask shows
 };
 
+/// What many rays see, component by component. Arrays go on to whole lanes.
+class SeenColumns {
+ public:
+  /// Room for what `count` rays see, all of it black and empty.
+  void clear(std::size_t count) {
+    columns_.make_room(count);
+    for (int c = 0; c < 8; ++c) std::fill_n(columns_[c], whole_lanes(count), 0.0);
+    hits_.resize(whole_lanes(count));
+  }
+  VecArraysOut radiance() { return columns_.vectors(0); }
+  VecArraysOut normal() { return columns_.vectors(3); }
+  double* film() { return columns_[6]; }
+  double* mask() { return columns_[7]; }  ///< 1 or 0
+  Hit* hits() { return hits_.data(); }
+
+ private:
+  Columns<8> columns_;
+  std::vector<Hit> hits_;
+};
+
 /// seen[i] is what rays[i] sees; directions need not be unit vectors, the distance of `hit` counts in their lengths. At each interface a ray goes
 /// on as a reflected and a refracted one, weighted by Fresnel's equations for unpolarized light (all of it reflected
 /// beyond the critical angle), and media absorb along the way (Beer). A ray that `options` cut off sees the surroundings
@@ -36,5 +58,7 @@ struct Seen {
 /// surface that come from the other side: they contradict where it is. Tracing goes on behind such a hit. For this a
 /// surface that bounds a medium has to be closed, or closed by others wherever rays can come.
 void shade(const Scene& scene, const ShadingOptions& options, std::span<const Ray> rays, std::span<Seen> seen);
+/// The same of `count` rays that lie component by component.
+void shade(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen);
 
 }  // namespace rainref::compositor

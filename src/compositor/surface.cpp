@@ -16,4 +16,8 @@ std::uint32_t Surface::meet_packet(std::uint32_t self, std::uint32_t primitive, 
   return changed;
 }
 
+void Surface::normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const {
+  for (std::size_t k = 0; k < which.size(); ++k) normals.put(k, normal(rays[which[k]], hits[k]));
+}
+
 }  // namespace rainref::compositor

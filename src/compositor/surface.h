@@ -3,8 +3,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
-#include <glm/vec3.hpp>
+#include "compositor/columns.h"
 
 namespace rainref::compositor {
 
@@ -17,6 +18,14 @@ struct Ray {
   Vec origin, direction;
   double nearest = 0, farthest = std::numeric_limits<double>::infinity();
   Vec at(double t) const { return origin + t * direction; }
+};
+
+/// Rays component by component.
+struct RayArrays {
+  const double *origin[3], *direction[3], *nearest, *farthest;
+  Ray operator[](std::size_t i) const {
+    return {{origin[0][i], origin[1][i], origin[2][i]}, {direction[0][i], direction[1][i], direction[2][i]}, nearest[i], farthest[i]};
+  }
 };
 
 /// Where a ray meets a surface.
@@ -57,6 +66,9 @@ class Surface {
   virtual std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const;
   /// The geometric normal at a hit: unit, on the side that the surface calls its outside.
   virtual Vec normal(const Ray& ray, const Hit& hit) const = 0;
+  /// The same of many, to the same bits: normals[k] is that of rays[which[k]] at hits[k]. Hits and `which` go on to whole
+  /// lanes, repeating the last one. Surfaces that gain by it override it.
+  virtual void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const;
 };
 
 }  // namespace rainref::compositor

@@ -12,11 +12,6 @@
 
 namespace rainref::compositor {
 
-/// Rays component by component, as many as the hits that are asked for.
-struct RayArrays {
-  const double *origin[3], *direction[3], *nearest, *farthest;
-};
-
 /// None of these changes a bit of any answer.
 struct TracerOptions {
   std::string embree_config;  ///< as rtcNewDevice takes it, for example "isa=sse2,threads=2"
@@ -39,7 +34,7 @@ class Tracer {
 
   /// hits[i] is the first hit of rays[i]. Any number of rays; may be called from several threads at once.
   void first_hits(std::span<const Ray> rays, std::span<Hit> hits) const;
-  /// The same of rays that lie component by component, which spares the tracer from spreading them.
+  /// The same of as many rays as hits that lie component by component, which spares the tracer from spreading them.
   void first_hits(const RayArrays& rays, std::span<Hit> hits) const;
   /// blocked[i] is 1 when anything lies within the limits of rays[i], else 0.
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;

@@ -93,6 +93,7 @@ class DisplacedWater : public Surface {
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
   std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override { return field_.normal(ray, hit); }
+  void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const override { field_.normals(rays, which, hits, normals); }
 
  private:
   bool is_there(const Ray& ray, const Hit& hit) const;

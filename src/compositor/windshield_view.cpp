@@ -22,11 +22,11 @@ class Outside : public Environment {
  public:
   Outside(const WindshieldView& view, double distance) : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)), outward_(view.pane().normal(0.5)) {}
 
-  void radiance(std::span<const Sight> sights, std::span<Vec> out) const override {
+  void radiance(const Sights& sights, std::span<Vec> out) const override {
     const windshield::Settings& s = view_.settings();
     const Vec cabin = vec(s.picture.cabin), fog = vec(s.blur.fog_colour);
     for (std::size_t i = 0; i < sights.size(); ++i) {
-      const Sight& sight = sights[i];
+      const Sight sight = sights[i];
       // A ray that was cut off at the inner face looks out as if nothing followed.
       const bool is_inside = view_.pane().coordinates(sight.origin).lift < -1.001 * view_.pane().shape().thickness;
       if (is_inside || dot(sight.direction, outward_) <= 0) {

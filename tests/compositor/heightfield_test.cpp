@@ -143,19 +143,27 @@ TEST(Heightfield, LanesGiveThePlainReadingsBits) {
   });
 }
 
-TEST(Heightfield, SmoothNormalsOfSeveralHitsAreThoseOfEach) {
+TEST(Heightfield, NormalsOfSeveralHitsAreThoseOfEach) {
   const HeightfieldFrame sheared{{1, 2, 3}, {4, 0, 1}, {-1, 3, 0.5}, {0.25, -0.5, 2}};
   const auto field = sheet(sheared, 9, 7, 4, [](int x, int y) { return test::random_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)); });
   // Every cell, those at the border too, at its corners and within.
-  std::vector<Hit> hits;
+  std::vector<Hit> all;
   for (std::uint32_t part = 0; part < 2 * 9 * 7; ++part) {
-    for (std::uint32_t k = 0; k < 5; ++k) hits.push_back({1, 0, part, k < 4 ? k % 2 : test::random_number(part, 1), k < 4 ? k / 2 : test::random_number(part, 2)});
+    for (std::uint32_t k = 0; k < 5; ++k) all.push_back({1, 0, part, k < 4 ? k % 2 : test::random_number(part, 1), k < 4 ? k / 2 : test::random_number(part, 2)});
   }
   test::for_every_target([&] {
-    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, hits.size()}) {
-      std::vector<Vec> normals(count);
-      field->smooth_normals(std::span(hits).first(count), normals);
-      for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(normals[i], field->smooth_normal(hits[i])) << i;
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, all.size()}) {
+      std::vector<Hit> hits(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+      if (count > 0) hits.resize(whole_lanes(count), hits.back());
+      const std::vector<std::uint32_t> which(count);
+      Columns<6> normals;
+      normals.make_room(count);
+      field->smooth_normals(count, hits.data(), normals.vectors(0));
+      field->normals({}, which, hits.data(), normals.vectors(3));
+      for (std::size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(normals.vectors(0)[i], field->smooth_normal(hits[i])) << i;
+        ASSERT_EQ(normals.vectors(3)[i], field->normal({}, hits[i])) << i;
+      }
     }
   });
 }
