@@ -1,6 +1,8 @@
 #include "image_io/exr_header.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,6 +14,16 @@ namespace {
 
 constexpr std::array<std::string_view, 10> compressions{"none",  "rle", "zips", "zip",  "piz",
                                                         "pxr24", "b44", "b44a", "dwaa", "dwab"};
+
+// What OpenEXR reads of these types is of this size, whatever the size beside it says: with another one it would take the bytes behind
+// for the next attribute.
+struct FixedSize {
+  std::string_view type;
+  std::size_t bytes;
+};
+constexpr FixedSize fixed_sizes[] = {{"box2f", 16},  {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1}, {"double", 8},   {"envmap", 1}, {"float", 4}, {"int", 4},
+                                     {"keycode", 28}, {"lineOrder", 1}, {"m33d", 72}, {"m33f", 36}, {"m44d", 128}, {"m44f", 64}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8},
+                                     {"v2d", 16}, {"v2f", 8}, {"v2i", 8}, {"v3d", 24}, {"v3f", 12}, {"v3i", 12}};
 
 class Reader {
  public:
@@ -43,13 +55,30 @@ class Reader {
     return out;
   }
   bool empty() const { return rest_.empty(); }
+  std::size_t left() const { return rest_.size(); }
 
  private:
   std::string_view file_;
   std::span<const std::byte> rest_;
 };
 
+/// Channels end with an empty name, strings with the attribute: both must fill it, for OpenEXR goes by what they say themselves.
+void check_size(std::string_view name, std::string_view type, Reader value) {
+  const auto is = [&](const FixedSize& f) { return f.type == type; };
+  if (const auto* fixed = std::find_if(std::begin(fixed_sizes), std::end(fixed_sizes), is); fixed != std::end(fixed_sizes) && fixed->bytes != value.left()) {
+    value.refuse(fmt::format("damaged in its EXR header: attribute '{}' of type {} has {} bytes; expected {}", name, type, value.left(), fixed->bytes));
+  }
+  if (type == "chlist") {
+    constexpr std::size_t behind_name = 16;  // type, two flags, sampling
+    while (!value.name().empty()) value.take(behind_name);
+    if (!value.empty()) value.refuse(fmt::format("damaged in its EXR header: {} bytes behind the last channel of '{}'", value.left(), name));
+  } else if (type == "stringvector") {
+    while (!value.empty()) value.take(value.number<std::uint32_t>());
+  }
+}
+
 void read_attribute(std::string_view name, std::string_view type, Reader value, ExrHeader& out) {
+  check_size(name, type, value);
   if (name == "dataWindow" && type == "box2i") {
     for (auto& side : out.data_window) side = value.number<std::int32_t>();
   } else if (name == "displayWindow" && type == "box2i") {
