@@ -1,5 +1,7 @@
 #include "screen_drops/cells.h"
 
+#include <vector>
+
 #include "random/counter.h"
 #include "screen_drops/plain.h"
 
@@ -14,24 +16,43 @@ CellLine::CellLine(const CellsUniforms& uniforms, int row) : u_(uniforms) {
     columns_ = u_.columns[l];
   }
 }
-CellState CellLine::at(int column) const {
-  if (column >= columns_) return {};
+void CellLine::draw_clock(int column, DrawnCell& drawn) const {
   const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
-  const std::uint32_t cell = static_cast<std::uint32_t>(column) | line_;
-  const random::Block own = random::block(seed, random::Purpose::screen_cell, cell, layer_);
-  const std::uint32_t length = u_.shortest + ((own[0] >> 16) * u_.span >> 16), start = (own[1] >> 16) * length >> 16;
-  const std::uint32_t time = u_.tick + start, cycle = time / length;
-  const random::Block drop = random::block(seed, random::Purpose::screen_drop, cell, cycle * layers + layer_);
-  return {(drop[0] >> 16) < u_.keep, cycle, (time % length << 16) / length, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
+  const random::Block own = random::block(seed, random::Purpose::screen_cell, static_cast<std::uint32_t>(column) | line_, layer_);
+  drawn.length = u_.shortest + ((own[0] >> 16) * u_.span >> 16);
+  drawn.start = (own[1] >> 16) * drawn.length >> 16;
+}
+void CellLine::draw_cycle(int column, std::uint32_t time, DrawnCell& drawn) const {
+  const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
+  const std::uint32_t cycle = time / drawn.length;
+  const random::Block drop = random::block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
+  drawn.begin = cycle * drawn.length;
+  drawn.cycle = {(drop[0] >> 16) < u_.keep, cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
+}
+CellState CellLine::at(int column, DrawnCell& drawn) const {
+  if (column >= columns_) return {};
+  const bool is_new = drawn.length == 0;
+  if (is_new) draw_clock(column, drawn);
+  // Time is modulo 2^32: it may lie before the cycle that was drawn.
+  const std::uint32_t time = u_.tick + drawn.start;
+  if (is_new || time < drawn.begin || time - drawn.begin >= drawn.length) draw_cycle(column, time, drawn);
+  CellState s = drawn.cycle;
+  s.phase = ((time - drawn.begin) << 16) / drawn.length;
+  return s;
+}
+CellState CellLine::at(int column) const {
+  DrawnCell drawn;
+  return at(column, drawn);
 }
 
-void cells_rows(const CellsUniforms& u, Image& cells, int begin, int end) {
+void cells_rows(const CellsUniforms& u, std::span<DrawnCell> drawn, Image& cells, int begin, int end) {
   using N = plain::Plain<float>;
   for (int y = begin; y < end; ++y) {
     const CellLine line(u, y);
+    DrawnCell* cell = drawn.data() + static_cast<std::ptrdiff_t>(y) * cells.width();
     float* out = cells.row<float>(y);
     for (int x = 0; x < cells.width(); ++x, out += 4) {
-      const CellState s = line.at(x);
+      const CellState s = line.at(x, cell[x]);
       const auto share = [](std::uint32_t of_65536) { return N(static_cast<float>(of_65536) * 0x1p-16f); };
       const auto d = s.holds_drop ? scalar::cell_drop<N>(u, share(s.size), share(s.x), share(s.y), share(s.phase)) : scalar::CellDrop<N>{};
       out[0] = d.x.v;
@@ -40,6 +61,10 @@ void cells_rows(const CellsUniforms& u, Image& cells, int begin, int end) {
       out[3] = d.phase.v;
     }
   }
+}
+void cells_rows(const CellsUniforms& u, Image& cells, int begin, int end) {
+  std::vector<DrawnCell> drawn(static_cast<std::size_t>(cells.width()) * static_cast<std::size_t>(cells.height()));
+  cells_rows(u, drawn, cells, begin, end);
 }
 
 }  // namespace rainref::screen_drops

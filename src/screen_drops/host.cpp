@@ -12,6 +12,7 @@
 #include "math/unorm.h"
 #include "random/counter.h"
 #include "rainref/error.h"
+#include "screen_drops/cells.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -247,7 +248,7 @@ std::size_t memory_bytes(const Settings& s) {
   std::size_t bytes = pixels * (8 + 8 + 1 + 4 + (8 + 16) * 4 / 3);
   if (corrected(s)) {
     const std::array<int, 2> size = cells_size(make_layers(s));
-    bytes += Image::memory_bytes(Format::rgba32f, size[0], size[1]) * 2;
+    bytes += Image::memory_bytes(Format::rgba32f, size[0], size[1]) * 2 + static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * sizeof(DrawnCell);
   } else {
     bytes += Image::memory_bytes(Format::rgba8, s.noise_size, s.noise_size) * 5;
   }

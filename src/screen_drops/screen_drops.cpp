@@ -35,6 +35,7 @@ struct ScreenDrops::State {
   std::vector<Tap> taps;
   std::array<Layer, layers> grids{};
   std::optional<Flow> flow;
+  std::vector<DrawnCell> drawn_cells;
   Image noise_image, no_height, background, cells, water, colour, picture;
   TextureData noise;
   CodeTable display;
@@ -46,6 +47,7 @@ struct ScreenDrops::State {
       grids = make_layers(s);
       const std::array<int, 2> size = cells_size(grids);
       cells = Image(Format::rgba32f, size[0], size[1]);
+      drawn_cells.resize(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]));
       no_height = Image(Format::r16f, 1, 1);
       if (flowing != nullptr) flow.emplace(*flowing, e);
     } else {
@@ -85,7 +87,7 @@ struct ScreenDrops::State {
     announce(recorder, "cells", u, {});
     const Stopwatch watch;
     executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
-      cells_rows(u, cells, static_cast<int>(begin), static_cast<int>(end));
+      cells_rows(u, drawn_cells, cells, static_cast<int>(begin), static_cast<int>(end));
     });
     report(recorder, "cells", {{"cells", cells}}, watch.seconds());
   }

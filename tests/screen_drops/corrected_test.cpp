@@ -180,6 +180,27 @@ TEST(ScreenDropsCells, LayersCoverIndependently) {
   // 11 x 11 cells of the coarsest layer, some beyond the picture's edge: a share of 1/10 of its .07, and chance overlaps.
   EXPECT_NEAR(wet / (500.0 * 500), 1 - dry, 0.015);
 }
+// A cell that keeps what it drew gives what one does that draws anew: through its cycles, over the end of the clock, and back in time.
+TEST(ScreenDropsCells, KeptDrawsAreFreshDraws) {
+  Settings s = test::settings(Variant::corrected, 400, 400);
+  CellsUniforms u = uniforms(s, 0);
+  const CellLine line(u, 3);
+  std::vector<DrawnCell> drawn(static_cast<std::size_t>(u.columns[0]) + 1);
+  std::vector<std::uint32_t> ticks;
+  for (std::uint32_t k = 0; k < 400; ++k) ticks.push_back(k * 33);
+  for (std::uint32_t k = 0; k < 400; ++k) ticks.push_back(0xffffffffu - 6000 + k * 33);
+  ticks.insert(ticks.end(), {5, 3000, 0x80000000u, 3033});
+  std::set<std::uint32_t> cycles;
+  for (const std::uint32_t tick : ticks) {
+    u.tick = tick;
+    for (int x = 0; x <= u.columns[0]; ++x) {
+      const CellState kept = line.at(x, drawn[static_cast<std::size_t>(x)]), fresh = line.at(x);
+      ASSERT_EQ(std::tie(kept.holds_drop, kept.cycle, kept.phase, kept.size, kept.x, kept.y), std::tie(fresh.holds_drop, fresh.cycle, fresh.phase, fresh.size, fresh.x, fresh.y)) << tick << ", cell " << x;
+      cycles.insert(kept.cycle);
+    }
+  }
+  EXPECT_GT(cycles.size(), 20u);
+}
 TEST(ScreenDropsCells, EveryCellHasAPeriodOfItsOwn) {
   Settings s = test::settings(Variant::corrected, 400, 400);
   s.pane_height = 0.1;
