@@ -88,19 +88,3 @@ RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N
   return out;
 }
 #endif
-
-// Where all lanes lie between the same two levels, those need not be made for each.
-template <int First, int Count, class N, class T>
-  requires(std::same_as<N, Lanes>)
-RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) {
-  const int last = t.levels - 1;
-  const float held = lod > 0 ? (lod < static_cast<float>(last) ? lod : static_cast<float>(last)) : 0.0f;
-  const int level = static_cast<int>(held);
-  const float between = held - static_cast<float>(level);
-  Channels<N, Count> out = sample_level<First, Count, N>(t, uniform_level<N>(t, level), u, v);
-  if (between > 0) {
-    const auto coarse = sample_level<First, Count, N>(t, uniform_level<N>(t, level + 1), u, v);
-    RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = mix(out[k], coarse[k], N(between));
-  }
-  return out;
-}

@@ -14,7 +14,7 @@ class PackedLanes {
     size_ += static_cast<int>(hn::CountTrue(d, wanted.m));
   }
   bool is_full() const { return size_ > capacity - Lanes::size(); }
-  /// pass(numbers, places, count) for each vector of elements, and forgets them; the lanes from count on repeat no element.
+  /// pass(numbers, places, count) for each vector of elements, and forgets them; lanes from count on hold none.
   template <class Pass>
   HWY_INLINE HWY_ATTR void drain(const Pass& pass) {
     const Lanes::D d;

@@ -1,7 +1,5 @@
 #include "screen_drops/cells.h"
 
-#include <vector>
-
 #include "random/counter.h"
 #include "screen_drops/plain.h"
 
@@ -61,10 +59,6 @@ void cells_rows(const CellsUniforms& u, std::span<DrawnCell> drawn, Image& cells
       out[3] = d.phase.v;
     }
   }
-}
-void cells_rows(const CellsUniforms& u, Image& cells, int begin, int end) {
-  std::vector<DrawnCell> drawn(static_cast<std::size_t>(cells.width()) * static_cast<std::size_t>(cells.height()));
-  cells_rows(u, drawn, cells, begin, end);
 }
 
 }  // namespace rainref::screen_drops

@@ -41,9 +41,7 @@ class CellLine {
 };
 
 /// The pass, for rows [begin, end) of the buffer: rgba32f, centre x, y, radius [cell]; phase. The same on every target: one
-/// number at a time.
-void cells_rows(const CellsUniforms& uniforms, Image& cells, int begin, int end);
-/// The same; drawn: of each texel, from the frame before or empty. Only tick may change from frame to frame.
+/// number at a time. drawn: of each texel, from the frame before or empty; only tick may change from frame to frame.
 void cells_rows(const CellsUniforms& uniforms, std::span<DrawnCell> drawn, Image& cells, int begin, int end);
 
 }  // namespace rainref::screen_drops

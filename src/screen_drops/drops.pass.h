@@ -61,6 +61,13 @@ template <class N>
 struct Surface {
   N x, y, cover, level;
 };
+/// Where a pixel with this centre lies in a layer [cell], and in the texture of flowing water.
+template <class N>
+RAINREF_FN Two<N> cell_place(const DropsUniforms& u, int layer, N px, N py) {
+  return Two<N>(px * N(u.cells_per_pixel[layer]) + N(u.offset_x[layer]), py * N(u.cells_per_pixel[layer]) + N(u.offset_y[layer]));
+}
+template <class N>
+RAINREF_FN Two<N> flow_place(const DropsUniforms& u, N px, N py) { return Two<N>(px * N(u.flow_pixel[0]), py * N(u.flow_pixel[1])); }
 /// The drops of the cells, finer layers below coarser ones, without those that a Wanted knows to show nothing here. A cap of base radius R and contact angle a is part of a sphere of
 /// radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
 template <class N, class C>
@@ -71,7 +78,8 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
   Surface<N> s{zero, zero, zero, zero};
   for (int l = layers - 1; l >= 0; --l) {
     if ((wanted >> l & 1) == 0) continue;
-    const N qx = px * N(u.cells_per_pixel[l]) + N(u.offset_x[l]), qy = py * N(u.cells_per_pixel[l]) + N(u.offset_y[l]);
+    const Two<N> place = cell_place(u, l, px, py);
+    const N qx = place.a, qy = place.b;
     const N cx = floor(qx), cy = floor(qy), pixels(u.pixels_per_cell[l]);
     const auto drop = load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
     const N dx = (qx - cx) - drop[0], dy = (qy - cy) - drop[1], radius = drop[2];
@@ -87,7 +95,8 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
 template <class N, class H>
 RAINREF_FN Surface<N> with_flow(const DropsUniforms& u, const H& height, const Surface<N>& s, int column, int row) {
   const N one(1.0f);
-  const N x = (N::index(column) + N(0.5f)) * N(u.flow_pixel[0]), y = N(static_cast<float>(row) + 0.5f) * N(u.flow_pixel[1]), dx(u.flow_texel[0]), dy(u.flow_texel[1]);
+  const Two<N> place = flow_place(u, N::index(column) + N(0.5f), N(static_cast<float>(row) + 0.5f));
+  const N x = place.a, y = place.b, dx(u.flow_texel[0]), dy(u.flow_texel[1]);
   const N left = sample_bilinear<0, 1, N>(height, x - dx, y)[0], right = sample_bilinear<0, 1, N>(height, x + dx, y)[0];
   const N down = sample_bilinear<0, 1, N>(height, x, y - dy)[0], up = sample_bilinear<0, 1, N>(height, x, y + dy)[0];
   const N cover = smoothstep(u.visible_from, u.visible_to, N(0.25f) * sum_any_order(left, right, down, up));

@@ -1,15 +1,19 @@
 #include "screen_drops/reach.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
+
+#include "screen_drops/plain.h"
 
 namespace rainref::screen_drops {
 namespace {
 
-int floor_of(float x) { return static_cast<int>(std::floor(x)); }
-float centre(int pixel) { return static_cast<float>(pixel) + 0.5f; }
-/// The first of the two texels of a side that a bilinear lookup there takes, clamped.
-int lower_texel(float u, int size) { return floor_of(std::clamp(u * static_cast<float>(size) - 0.5f, 0.0f, static_cast<float>(size - 1))); }
+using Number = plain::Plain<float>;
+
+int floor_of(Number x) { return to_int(floor(x)).i; }
+Number centre(int pixel) { return Number(static_cast<float>(pixel) + 0.5f); }
+/// The first of the two texels of a side that a bilinear lookup there takes.
+int lower_texel(Number u, int size) { return floor_of(scalar::texel_coordinate(Address::clamp, u, Number(static_cast<float>(size)))); }
 
 }  // namespace
 
@@ -24,24 +28,25 @@ Reach::Reach(const DropsUniforms& u, const StoredTexture<float>& cells, const St
 }
 
 void Reach::enter_row(int row) {
-  for (int l = 0; l < layers; ++l) enter_layer(l, centre(row));
-  if (u_.has_flow != 0) enter_height(centre(row));
+  for (int l = 0; l < layers; ++l) enter_layer(l, row);
+  if (u_.has_flow != 0) enter_height(row);
 }
-void Reach::enter_layer(int l, float y) {
-  const float qy = y * u_.cells_per_pixel[l] + u_.offset_y[l];
-  const float place = qy - std::floor(qy);
-  const int row = std::clamp(floor_of(qy) + u_.first_row[l], 0, cells_.height[0] - 1);
-  const float* drop = cells_.texels + static_cast<std::ptrdiff_t>(row) * cells_.pitch[0] * 4;
+void Reach::enter_layer(int l, int row) {
+  const Number qy = scalar::cell_place(u_, l, centre(0), centre(row)).b;
+  const float place = fract(qy).v;
+  const int line = std::clamp(floor_of(qy) + u_.first_row[l], 0, cells_.height[0] - 1);
+  const float* drop = cells_.texels + static_cast<std::ptrdiff_t>(line) * cells_.pitch[0] * 4;
   std::vector<std::int32_t>& before = before_cell_[static_cast<std::size_t>(l)];
   // Cover ends half a pixel beyond the base; a whole one leaves room for every rounding.
   for (int c = 0; c < cells_.width[0]; ++c, drop += 4) {
-    const bool may_show = drop[2] > 0 && std::fabs(place - drop[1]) < drop[2] + u_.cells_per_pixel[l];
+    const bool may_show = drop[2] > 0 && std::abs(place - drop[1]) < drop[2] + u_.cells_per_pixel[l];
     before[static_cast<std::size_t>(c) + 1] = before[static_cast<std::size_t>(c)] + (may_show ? 1 : 0);
   }
 }
-void Reach::enter_height(float y) {
+void Reach::enter_height(int row) {
   const int lines = height_.height[0];
-  const int first = lower_texel(y * u_.flow_pixel[1] - u_.flow_texel[1], lines), last = std::min(lower_texel(y * u_.flow_pixel[1] + u_.flow_texel[1], lines) + 1, lines - 1);
+  const Number y = scalar::flow_place(u_, centre(0), centre(row)).b, texel_height(u_.flow_texel[1]);
+  const int first = lower_texel(y - texel_height, lines), last = std::min(lower_texel(y + texel_height, lines) + 1, lines - 1);
   if (first == first_line_ && last == last_line_) return;
   first_line_ = first;
   last_line_ = last;
@@ -55,16 +60,18 @@ void Reach::enter_height(float y) {
 
 Reach::Span Reach::span(int first, int last) const {
   Span s{};
-  // The pass rounds the same way, and floor, product and sum never fall where their argument rises: no cell between is missed.
+  // The places are the pass's own, and floor, product and sum never fall where their argument rises: no cell between is missed.
   for (int l = 0; l < layers; ++l) {
-    const auto cell = [&](int pixel) { return static_cast<std::uint32_t>(std::clamp(floor_of(centre(pixel) * u_.cells_per_pixel[l] + u_.offset_x[l]), 0, cells_.width[0] - 1)); };
+    const auto cell = [&](int pixel) { return static_cast<std::uint32_t>(std::clamp(floor_of(scalar::cell_place(u_, l, centre(pixel), centre(0)).a), 0, cells_.width[0] - 1)); };
     s.cell[l] = cell(first);
     s.cell_end[l] = cell(last) + 1;
   }
   if (u_.has_flow != 0) {
     const int columns = height_.width[0];
-    s.texel = static_cast<std::uint32_t>(lower_texel(centre(first) * u_.flow_pixel[0] - u_.flow_texel[0], columns));
-    s.texel_end = static_cast<std::uint32_t>(std::min(lower_texel(centre(last) * u_.flow_pixel[0] + u_.flow_texel[0], columns) + 1, columns - 1)) + 1;
+    const Number texel_width(u_.flow_texel[0]);
+    const auto place = [&](int pixel) { return scalar::flow_place(u_, centre(pixel), centre(0)).a; };
+    s.texel = static_cast<std::uint32_t>(lower_texel(place(first) - texel_width, columns));
+    s.texel_end = static_cast<std::uint32_t>(std::min(lower_texel(place(last) + texel_width, columns) + 1, columns - 1)) + 1;
   }
   return s;
 }

@@ -31,8 +31,8 @@ class Reach {
     std::uint32_t cell[layers], cell_end[layers], texel, texel_end;
   };
   Span span(int first, int last) const;
-  void enter_layer(int layer, float y);
-  void enter_height(float y);
+  void enter_layer(int layer, int row);
+  void enter_height(int row);
 
   const DropsUniforms& u_;
   const StoredTexture<float>& cells_;

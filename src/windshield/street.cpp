@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/half.h"
+#include "math/half_array.h"
 
 namespace rainref::windshield {
 namespace {
@@ -12,15 +12,9 @@ using scene::Vector3;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
 
-Image as_half(const Image& from, const parallel::Executor& executor) {
+Image as_half(const Image& from) {
   Image to(Format::rgba16f, from.width(), from.height());
-  executor.for_range(from.height(), 8, [&](std::int64_t begin, std::int64_t end) {
-    for (int y = static_cast<int>(begin); y < end; ++y) {
-      const float* in = from.row<float>(y);
-      Half* out = to.row<Half>(y);
-      for (int x = 0; x < 4 * from.width(); ++x) out[x] = rainref::to_half(in[x]);
-    }
-  });
+  for (int y = 0; y < from.height(); ++y) to_half_array(from.row<float>(y), to.row<Half>(y), 4 * static_cast<std::size_t>(from.width()), Rounding::rne);
   return to;
 }
 
@@ -71,7 +65,7 @@ struct StreetDrive::State {
     if (found != keyframes.end()) return found->second;
     // A car at rest may look at its first view for long; those of one that moves pass, two blended.
     night_street::Street::View v = render(k, at_rest && k == 0 ? night_street::Parts::nine : night_street::Parts::three);
-    return keyframes.emplace(k, Keyframe{as_half(v.colour, executor), std::move(v.depth)}).first->second;
+    return keyframes.emplace(k, Keyframe{as_half(v.colour), std::move(v.depth)}).first->second;
   }
 };
 
@@ -85,7 +79,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   if (!moves) {
     if (s.stands) return false;
     night_street::Street::View v = s.render(0, night_street::Parts::nine);
-    view.colour = as_half(v.colour, s.executor);
+    view.colour = as_half(v.colour);
     view.depth = std::move(v.depth);
     s.stands = true;
     return true;

@@ -146,7 +146,7 @@ TEST(ScreenDropsCells, CoverageIsTheClosedForm) {
   const auto grids = make_layers(s);
   const auto size = cells_size(grids);
   Image cells(Format::rgba32f, size[0], size[1]);
-  cells_rows(cells_uniforms(s, grids, 37), cells, 0, size[1]);
+  test::fill_cells(cells_uniforms(s, grids, 37), cells);
   for (const Layer& layer : grids) {
     double area = 0;
     for (int y = 0; y < layer.rows; ++y) {

@@ -18,7 +18,7 @@ Count ask(int width, int height, int stretch, std::uint32_t seed) {
   const auto grids = make_layers(s);
   const auto size = cells_size(grids);
   Image cells(Format::rgba32f, size[0], size[1]), flow(Format::r16f, width / 2 + 1, height / 3 + 1);
-  cells_rows(cells_uniforms(s, grids, 7), cells, 0, size[1]);
+  test::fill_cells(cells_uniforms(s, grids, 7), cells);
   for (int y = 0; y < flow.height(); ++y) {
     for (int x = 0; x < flow.width(); ++x) flow.row<Half>(y)[x] = to_half((x * 7 + y * 13 + static_cast<int>(seed)) % 61 == 0 ? 3.0f : 0.0f);
   }

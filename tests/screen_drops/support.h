@@ -78,6 +78,12 @@ class Published {
   bool wet(int x, int y) const { return at(x, y).layer.v > 0; }
 };
 
+/// All of the buffer of cells, drawn afresh.
+inline void fill_cells(const CellsUniforms& u, Image& cells) {
+  std::vector<DrawnCell> drawn(static_cast<std::size_t>(cells.width()) * static_cast<std::size_t>(cells.height()));
+  cells_rows(u, drawn, cells, 0, cells.height());
+}
+
 /// One pixel of the corrected window, in double: a picture of odd size whose middle pixel looks straight ahead, before a ramp.
 struct Pixel {
   static constexpr int side = 2001, middle = side / 2;
