@@ -1,6 +1,8 @@
 // Rays that start far outside the scene, or whose directions are very long or short; kernels_float_rays.cpp does the rest.
 #include "compositor/float_rays.h"
 
+#include <algorithm>
+
 #include "compositor/extraordinary_ray.h"
 
 namespace rainref::compositor {
@@ -45,6 +47,11 @@ void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, 
   if (!(sum <= 0x1p1000 && length >= 0x1p-1000 && entry_of(ray, extent.box, start))) {
     out.enters &= ~(1u << slot);
     return;
+  }
+  if (!out.moved) {
+    std::fill(out.start, out.start + Packet::slots, 0.0);
+    std::fill(out.scale, out.scale + Packet::slots, 1.0);
+    out.moved = true;
   }
   // origin + t d = origin at start + (t - start) / shrink * (shrink d), and both factors are powers of two.
   const double shrink = scale_for(length), scale = 1 / shrink, slack = extent.slack();

@@ -20,9 +20,11 @@ struct SceneExtent {
   double slack() const { return 8 * margin(); }
 };
 
-/// Up to 16 rays in floats. Where Embree's parameter t' lies on the true ray: t' = (t - start) scale.
+/// Up to 16 rays in floats, in arrays of 16 that someone lends. Where Embree's parameter t' lies on the true ray:
+/// t' = (t - start) scale.
 struct FloatPacket {
-  alignas(64) float origin[3][Packet::slots], direction[3][Packet::slots], nearest[Packet::slots], farthest[Packet::slots];
+  float *origin[3], *direction[3], *nearest, *farthest;
+  bool moved;  ///< some ray has another start than 0 or another scale than 1; without one, neither is set
   double start[Packet::slots], scale[Packet::slots];
   std::uint32_t enters;  ///< slots whose rays do not pass the whole scene by; the others end before they begin
 };
@@ -31,8 +33,19 @@ struct FloatPacket {
 void spread_rays(const Ray* rays, int count, PacketRoom& out);
 /// Makes the hits of the packet none, and gives its first `count` rays in floats.
 void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out);
-/// What Embree may take for the ends of the packet's rays by now, slot by slot; see float_farthest.
-void find_ends(const Packet& packet, const FloatPacket& floats, double slack, float* ends);
+
+/// The lanes that Embree hands to a callback: all of a packet, or a piece of it.
+struct EmbreeLanes {
+  const int* valid;         ///< -1 or 0
+  const unsigned* slot;
+  float* end;               ///< Embree's farthest
+  int count;                ///< 1, 4, 8 or 16
+};
+/// The slots of the valid lanes, a bit for each.
+std::uint32_t slots_of(const EmbreeLanes& lanes);
+/// For lanes whose slots' first hits `changed`: what Embree may take for their ends by now, see float_farthest; or that they
+/// have ended, where any hit will do.
+void put_ends(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes);
 
 inline constexpr double largest_float = 0x1.fffffep127;
 /// What Embree may take for the end of a ray that has a hit at parameter t': nothing that precedes or equals it is culled.

@@ -42,7 +42,7 @@ RAINREF_FN GridRay<R> to_grid(const HeightfieldView& field, const R (&origin)[3]
 /// The wall of the cell that holds time t, on the side where the ray leaves it: walls are at times (k - o) inverse.
 template <class R>
 RAINREF_FN R leaving_wall(R t, R o, R d, R inverse, R ahead, R step, double first, double last) {
-  const R k = maximum(R(first), minimum(R(last), whole(maximum(R(first), minimum(R(last), o + t * d))))) + ahead;
+  const R k = whole(maximum(R(first), minimum(R(last), o + t * d))) + ahead;
   const auto late = (k - o) * inverse <= t, early = (k - step - o) * inverse > t;
   return select(late, k + step, select(early, k - step, k));
 }
@@ -128,30 +128,35 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
       }
     } while (R::any(walking));
     if (!R::any(waiting)) break;
-    const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
-    const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
-    R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
-    gather_two(field.heights, at, h00, h10);
-    gather_two(field.heights, at + stride, h01, h11);
-    const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00), select(up, h11, h10), ahead_y);
-    const R diagonal = (i + j + one - sum_o) * is;
-    const Mask crosses = (t < diagonal) & (diagonal < exit);
-    const R g_diagonal = difference(diagonal, h01, h10, within_unit(r.ox + diagonal * r.dx - i));
-    const Mask above_then = (crosses & (g_diagonal > zero)) | without(above, crosses), above_at_exit = g_exit > zero;
-    const Mask before = above ^ above_then, hit = waiting & (t < exit) & (before | (above_then ^ above_at_exit));
-    const Mask upper = (before | (diagonal >= exit)) ^ to_upper;
-    hit_i = select(hit, i, hit_i);
-    hit_j = select(hit, j, hit_j);
-    hit_upper = select(hit & upper, one, hit_upper);
-    base = select(hit, select(upper, h11, h00), base);
-    slope_x = select(hit, select(upper, h11 - h01, h10 - h00), slope_x);
-    slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
-    found = found | hit;
-    const Mask steps = without(waiting, hit) & (exit < end);
-    t = select(steps, exit, t);
-    kx = select(steps & (tx <= ty), kx + step_x, kx);
-    ky = select(steps & (ty <= tx), ky + step_y, ky);
-    walking = steps;
+    // A ray that passes a cell that it might have hit may well hit the next one, so that is met without being asked.
+    int cells_met = 0;
+    do {
+      const R tx = (kx - r.ox) * ix, ty = (ky - r.oy) * iy, exit = minimum(tx, ty);
+      const R i = kx - ahead_x, j = ky - ahead_y, at = select(waiting, j * stride + i, zero);
+      R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
+      gather_two(field.heights, at, h00, h10);
+      gather_two(field.heights, at + stride, h01, h11);
+      const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00), select(up, h11, h10), ahead_y);
+      const R diagonal = (i + j + one - sum_o) * is;
+      const Mask crosses = (t < diagonal) & (diagonal < exit);
+      const R g_diagonal = difference(diagonal, h01, h10, within_unit(r.ox + diagonal * r.dx - i));
+      const Mask above_then = (crosses & (g_diagonal > zero)) | without(above, crosses), above_at_exit = g_exit > zero;
+      const Mask before = above ^ above_then, hit = waiting & (t < exit) & (before | (above_then ^ above_at_exit));
+      const Mask upper = (before | (diagonal >= exit)) ^ to_upper;
+      hit_i = select(hit, i, hit_i);
+      hit_j = select(hit, j, hit_j);
+      hit_upper = select(hit & upper, one, hit_upper);
+      base = select(hit, select(upper, h11, h00), base);
+      slope_x = select(hit, select(upper, h11 - h01, h10 - h00), slope_x);
+      slope_y = select(hit, select(upper, h11 - h10, h01 - h00), slope_y);
+      found = found | hit;
+      const Mask steps = without(waiting, hit) & (exit < end);
+      t = select(steps, exit, t);
+      kx = select(steps & (tx <= ty), kx + step_x, kx);
+      ky = select(steps & (ty <= tx), ky + step_y, ky);
+      waiting = steps;
+    } while (++cells_met < 2 && R::any(waiting));
+    walking = waiting;
     waiting = nowhere;
   }
   if (!R::any(found)) return found;

@@ -52,20 +52,20 @@ void SpreadRays(const Ray* rays, int count, PacketRoom& out) {
 /// Makes the hits none; gives the slots of rays that floats hold near enough.
 std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket& out) {
   const R::D d;
-  const R zero(0.0), one(1.0), slack(extent.slack()), largest(largest_float);
+  const R zero(0.0), slack(extent.slack()), largest(largest_float);
   const auto smaller = [](R a, R b) HWY_ATTR { return select(b < a, b, a); };
   const auto larger = [](R a, R b) HWY_ATTR { return select(a < b, b, a); };
   std::uint32_t ordinary = 0;
   // Two hits to a vector of 64 bytes; a narrower one holds a part of the pattern.
   const Hit none[2];
   static_assert(sizeof none % sizeof(zero.v) == 0);
-  for (std::size_t i = 0; i < sizeof packet.first; i += sizeof(zero.v)) {
+  for (std::size_t i = 0; i < Packet::slots * sizeof(Hit); i += sizeof(zero.v)) {
     const auto part = hn::LoadU(d, reinterpret_cast<const double*>(reinterpret_cast<const char*>(none) + i % sizeof none));
     hn::StoreU(part, d, reinterpret_cast<double*>(reinterpret_cast<char*>(packet.first) + i));
   }
   for (int slot = 0; slot < Packet::slots; slot += n) {
     const auto at = [&](const double* p) HWY_ATTR { return R(hn::LoadU(d, p + slot)); };
-    const auto put = [&](R x, float* p) HWY_ATTR { hn::Store(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
+    const auto put = [&](R x, float* p) HWY_ATTR { hn::StoreU(hn::DemoteTo(NarrowTag(), x.v), NarrowTag(), p + slot); };
     R reach = zero, length = zero, sum = zero;  // sums keep a NaN
     for (int k = 0; k < 3; ++k) {
       const R o = at(packet.origin[k]), direction = at(packet.direction[k]);
@@ -77,8 +77,6 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
     }
     put(smaller(largest, larger(zero, at(packet.nearest) * R(0.9999) - slack)), out.nearest);
     put(smaller(largest, at(packet.farthest) * R(1.0001) + slack), out.farthest);
-    hn::Store(zero.v, d, out.start + slot);
-    hn::Store(one.v, d, out.scale + slot);
     const auto near = (reach <= R(extent.reach())).m, long_enough = (length >= R(0.5)).m, short_enough = (sum <= R(1024.0)).m;
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hn::And(near, hn::And(long_enough, short_enough)), bits);
@@ -87,12 +85,58 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
   return ordinary;
 }
 
-void FindEnds(const Packet& packet, const FloatPacket& floats, double slack, float* ends) {
+using Floats = hn::ScalableTag<float>;
+using Unsigned = hn::RebindToUnsigned<Floats>;
+constexpr int m = static_cast<int>(hn::MaxLanes(Floats()));
+
+std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
+  std::uint32_t slots = 0;
+  int i = 0;
+  if (lanes.count >= m) {
+    const Unsigned d;
+    auto bits = hn::Zero(d);
+    for (; i < lanes.count; i += m) {
+      const auto valid = hn::LoadU(d, reinterpret_cast<const std::uint32_t*>(lanes.valid + i));
+      bits = hn::Or(bits, hn::Shl(hn::And(valid, hn::Set(d, 1)), hn::LoadU(d, lanes.slot + i)));
+    }
+    slots = hn::GetLane(hn::SumOfLanes(d, bits));  // no two have a bit in common
+  }
+  for (; i < lanes.count; ++i) slots |= static_cast<std::uint32_t>(lanes.valid[i] & 1) << lanes.slot[i];
+  return slots;
+}
+
+/// What Embree may take for the ends of the rays in `slot` and the next ones.
+HWY_INLINE HWY_ATTR hn::Vec<NarrowTag> ends(const Packet& packet, const FloatPacket& floats, double slack, int slot) {
   const R largest(largest_float);
+  R t = distances(packet.first + slot);
+  if (floats.moved) t = (t - load_slots(floats.start + slot)) * load_slots(floats.scale + slot);
+  const R far = t * R(1.0001) + R(slack);
+  return hn::DemoteTo(NarrowTag(), select(largest < far, largest, far).v);
+}
+
+void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes) {
+  const float ended = -std::numeric_limits<float>::infinity();
+  float by_slot[Packet::slots];
+  if (any) std::fill(by_slot, by_slot + Packet::slots, ended);
+  const NarrowTag d;
+  const hn::RebindToSigned<NarrowTag> di;
+  bool in_order = lanes.count == Packet::slots;
+  for (int slot = 0; in_order && slot < Packet::slots; slot += n) {
+    in_order = hn::AllTrue(di, hn::Eq(hn::LoadU(di, reinterpret_cast<const std::int32_t*>(lanes.slot + slot)), hn::Iota(di, slot)));
+  }
   for (int slot = 0; slot < Packet::slots; slot += n) {
-    const R t = distances(packet.first + slot);
-    const R far = (t - load_slots(floats.start + slot)) * load_slots(floats.scale + slot) * R(1.0001) + R(slack);
-    hn::StoreU(hn::DemoteTo(NarrowTag(), select(largest < far, largest, far).v), NarrowTag(), ends + slot);
+    if (in_order) {
+      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(changed >> slot & ((1u << n) - 1))};
+      const auto valid = hn::Ne(hn::LoadU(di, lanes.valid + slot), hn::Zero(di));
+      const auto now = hn::IfThenElse(hn::And(hn::LoadMaskBits(d, bits), hn::RebindMask(d, valid)), any ? hn::Set(d, ended) : ends(packet, floats, slack, slot), hn::LoadU(d, lanes.end + slot));
+      hn::StoreU(now, d, lanes.end + slot);
+    } else if (!any) {
+      hn::StoreU(ends(packet, floats, slack, slot), d, by_slot + slot);
+    }
+  }
+  if (in_order) return;
+  for (int i = 0; i < lanes.count; ++i) {
+    if ((changed >> lanes.slot[i] & static_cast<std::uint32_t>(lanes.valid[i]) & 1) != 0) lanes.end[i] = by_slot[lanes.slot[i]];
   }
 }
 
@@ -103,13 +147,18 @@ namespace rainref::compositor {
 
 RAINREF_EXPORT(SpreadRays);
 RAINREF_EXPORT(RoundPacket);
-RAINREF_EXPORT(FindEnds);
+RAINREF_EXPORT(SlotsOf);
+RAINREF_EXPORT(PutEnds);
 
 void spread_rays(const Ray* rays, int count, PacketRoom& out) { RAINREF_DISPATCH(SpreadRays)(rays, count, out); }
-void find_ends(const Packet& packet, const FloatPacket& floats, double slack, float* ends) { RAINREF_DISPATCH(FindEnds)(packet, floats, slack, ends); }
+std::uint32_t slots_of(const EmbreeLanes& lanes) { return RAINREF_DISPATCH(SlotsOf)(lanes); }
+void put_ends(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes) {
+  RAINREF_DISPATCH(PutEnds)(packet, floats, slack, changed, any, lanes);
+}
 
 void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
   out.enters = (1u << count) - 1;
+  out.moved = false;
   for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
   // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
   for_each_lane(~out.enters & ((1u << Packet::slots) - 1), [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });

@@ -72,11 +72,8 @@ std::uint32_t MeetTile(const HeightfieldView& field, const HeightfieldTile& tile
     R t(0.0), part(0.0), u(0.0), v(0.0);
     const R::Mask hit = meet_cells(field, tile, ray, known, active, t, part, u, v);
     if (!R::any(hit)) continue;
-    HWY_ALIGN double parts[width];
-    hn::Store(part.lower.v, Real64Lanes::D(), parts);
-    hn::Store(part.upper.v, Real64Lanes::D(), parts + lane_width);
-    changed |= take_hits(hit.lower, known.lower, t.lower, u.lower, v.lower, self, slot, [&](std::uint32_t k) { return static_cast<std::uint32_t>(parts[k]); }, packet);
-    changed |= take_hits(hit.upper, known.upper, t.upper, u.upper, v.upper, self, slot + lane_width, [&](std::uint32_t k) { return static_cast<std::uint32_t>(parts[k + lane_width]); }, packet);
+    changed |= take_hits(hit.lower, known.lower, t.lower, part.lower, u.lower, v.lower, self, slot, packet);
+    changed |= take_hits(hit.upper, known.upper, t.upper, part.upper, u.upper, v.upper, self, slot + lane_width, packet);
   }
   return changed;
 }

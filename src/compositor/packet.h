@@ -7,13 +7,13 @@
 
 namespace rainref::compositor {
 
-/// Up to 16 rays component by component, each in a slot of its own, and their first hits so far. Every array has 16 values
-/// that may be read; slots without a ray repeat the last one.
+/// Up to 16 rays component by component, each in a slot of its own, and their first hits so far. Every array has 16 values,
+/// all of which may be read, and hits written; slots without a ray repeat the last one.
 struct Packet {
   static constexpr int slots = 16;
 
   const double *origin[3], *direction[3], *nearest, *farthest;
-  Hit first[slots];
+  Hit* first;
 
   Ray ray(std::uint32_t slot) const {
     return {{origin[0][slot], origin[1][slot], origin[2][slot]}, {direction[0][slot], direction[1][slot], direction[2][slot]}, nearest[slot], farthest[slot]};

@@ -6,6 +6,9 @@
 #define RAINREF_COMPOSITOR_PACKET_LANES_INL_H_
 #endif
 
+#include <cstddef>
+#include <cstring>
+
 #include "compositor/packet.h"
 #include "math/lanes-inl.h"
 
@@ -47,23 +50,32 @@ HWY_INLINE HWY_ATTR Real64Lanes distances(const Hit* hits) {
 }
 
 /// Hits of the lanes in `hit`, for the slots from `slot` on: puts those first that precede what is there, and gives their
-/// slots. `known` are the distances of what is there, part(lane) is the part that was met.
-template <class Part>
-HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes known, Real64Lanes hit_t, Real64Lanes hit_u, Real64Lanes hit_v, std::uint32_t self, int slot, const Part& part, Packet& packet) {
+/// slots. `known` are the distances of what is there; parts are whole numbers below 2^32.
+HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes known, Real64Lanes t, Real64Lanes part, Real64Lanes u, Real64Lanes v, std::uint32_t self, int slot, Packet& packet) {
   if (!Real64Lanes::any(hit)) return 0;
-  HWY_ALIGN double t[lane_width], u[lane_width], v[lane_width];
-  hn::Store(hit_t.v, Real64Lanes::D(), t);
-  hn::Store(hit_u.v, Real64Lanes::D(), u);
-  hn::Store(hit_v.v, Real64Lanes::D(), v);
-  const LaneMask is_nearer = hit & (hit_t < known);
+  const Real64Lanes::D d;
+  const Real64Lanes::DU du;
+  // Surface and part, as they lie in a Hit: the sum's lowest bits are those of the whole number.
+  static_assert(offsetof(Hit, surface) == 8 && offsetof(Hit, part) == 12 && offsetof(Hit, u) == 16 && sizeof(Hit) == 32);
+  const auto ids = hn::BitCast(d, hn::Or(hn::ShiftLeft<32>(hn::BitCast(du, (part + Real64Lanes(0x1p52)).v)), hn::Set(du, self)));
+  const LaneMask is_nearer = hit & (t < known);
   std::uint32_t nearer = bits_of(is_nearer);
-  for (std::uint32_t equal = bits_of(without(hit & (hit_t <= known), is_nearer)); equal != 0; equal &= equal - 1) {
+  HWY_ALIGN double rows[4 * lane_width];
+  hn::StoreInterleaved4(t.v, ids, u.v, v.v, d, rows);
+  for (std::uint32_t equal = bits_of(without(hit & (t <= known), is_nearer)); equal != 0; equal &= equal - 1) {
     const auto k = static_cast<std::uint32_t>(__builtin_ctz(equal));
-    if (precedes(Hit{t[k], self, part(k), u[k], v[k]}, packet.first[slot + static_cast<int>(k)])) nearer |= 1u << k;
+    Hit found;
+    std::memcpy(static_cast<void*>(&found), rows + 4 * k, sizeof found);
+    if (precedes(found, packet.first[slot + static_cast<int>(k)])) nearer |= 1u << k;
   }
-  for (std::uint32_t left = nearer; left != 0; left &= left - 1) {
-    const auto k = static_cast<std::uint32_t>(__builtin_ctz(left));
-    packet.first[slot + static_cast<int>(k)] = Hit{t[k], self, part(k), u[k], v[k]};
+  Hit* const to = packet.first + slot;
+  if (nearer == (1u << lane_width) - 1) {
+    std::memcpy(static_cast<void*>(to), rows, sizeof rows);
+  } else {
+    for (std::uint32_t left = nearer; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::uint32_t>(__builtin_ctz(left));
+      std::memcpy(static_cast<void*>(to + k), rows + 4 * k, sizeof(Hit));
+    }
   }
   return nearer << slot;
 }

@@ -38,60 +38,31 @@ struct PacketQuery : embree::Query {
 
 void bounds_from_table(const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID]; }
 
-/// Embree hands over a packet whole or in pieces of N lanes; a lane's id is its slot.
-template <unsigned n, class Arguments>
-void ask_lanes(const Arguments* a, RTCRayN* rays, bool any) {
-  const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
-  PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
-  std::uint32_t lanes = 0;
-  _Pragma("GCC unroll 16")
-  for (unsigned i = 0; i < n; ++i) lanes |= static_cast<std::uint32_t>(a->valid[i] & 1) << RTCRayN_id(rays, n, i);
-  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, lanes & query.floats.enters, query.packet);
-  if (changed == 0) return;
-  float ends[Packet::slots];
-  if (any) std::fill(ends, ends + Packet::slots, -std::numeric_limits<float>::infinity());
-  else find_ends(query.packet, query.floats, query.slack, ends);
-  _Pragma("GCC unroll 16")
-  for (unsigned i = 0; i < n; ++i) {
-    const std::uint32_t slot = RTCRayN_id(rays, n, i);
-    float& end = RTCRayN_tfar(rays, n, i);
-    end = (changed >> slot & static_cast<std::uint32_t>(a->valid[i]) & 1) != 0 ? ends[slot] : end;
-  }
-}
+/// Embree hands over a packet whole or in pieces of N lanes, component by component; a lane's id is its slot.
 template <class Arguments>
 void ask_surface(const Arguments* a, RTCRayN* rays, bool any) {
-  switch (a->N) {
-    case 1: return ask_lanes<1>(a, rays, any);
-    case 4: return ask_lanes<4>(a, rays, any);
-    case 8: return ask_lanes<8>(a, rays, any);
-    default: return ask_lanes<16>(a, rays, any);
-  }
+  const Entry& entry = *static_cast<const Entry*>(a->geometryUserPtr);
+  PacketQuery& query = static_cast<PacketQuery&>(embree::query_of(a->context));
+  const EmbreeLanes lanes{a->valid, &RTCRayN_id(rays, a->N, 0), &RTCRayN_tfar(rays, a->N, 0), static_cast<int>(a->N)};
+  const std::uint32_t changed = entry.surface->meet_packet(entry.number, a->primID, slots_of(lanes) & query.floats.enters, query.packet);
+  if (changed != 0) put_ends(query.packet, query.floats, query.slack, changed, any, lanes);
 }
 void find_first(const RTCIntersectFunctionNArguments* a) { ask_surface(a, RTCRayHitN_RayN(a->rayhit, a->N), false); }
 void find_any(const RTCOccludedFunctionNArguments* a) { ask_surface(a, a->ray, true); }
 
+using Arrays = std::array<float*, 8>;  // origin, direction, nearest, farthest
+
 template <int width>
-void fill(const FloatPacket& from, embree::RayHit<width>& to) {
-  if constexpr (width == 1) {
-    to.ray.org_x = from.origin[0][0];
-    to.ray.org_y = from.origin[1][0];
-    to.ray.org_z = from.origin[2][0];
-    to.ray.dir_x = from.direction[0][0];
-    to.ray.dir_y = from.direction[1][0];
-    to.ray.dir_z = from.direction[2][0];
-    to.ray.tnear = from.nearest[0];
-    to.ray.tfar = from.farthest[0];
-  } else {
-    const auto copy = [](const float* a, float* b) { std::memcpy(b, a, width * sizeof(float)); };
-    copy(from.origin[0], to.ray.org_x);
-    copy(from.origin[1], to.ray.org_y);
-    copy(from.origin[2], to.ray.org_z);
-    copy(from.direction[0], to.ray.dir_x);
-    copy(from.direction[1], to.ray.dir_y);
-    copy(from.direction[2], to.ray.dir_z);
-    copy(from.nearest, to.ray.tnear);
-    copy(from.farthest, to.ray.tfar);
-  }
+Arrays arrays_of(embree::RayHit<width>& rays) {
+  auto& r = rays.ray;
+  if constexpr (width == 1) return {&r.org_x, &r.org_y, &r.org_z, &r.dir_x, &r.dir_y, &r.dir_z, &r.tnear, &r.tfar};
+  else return {r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z, r.tnear, r.tfar};
+}
+void lend(const Arrays& arrays, FloatPacket& floats) {
+  std::copy_n(arrays.begin(), 3, floats.origin);
+  std::copy_n(arrays.begin() + 3, 3, floats.direction);
+  floats.nearest = arrays[6];
+  floats.farthest = arrays[7];
 }
 
 /// What is the same for all packets; Embree writes none of it, because the surfaces keep the hits.
@@ -117,6 +88,13 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
   query.slack = extent.slack();
   alignas(64) embree::RayHit<width> rays;
   prepare<width>(rays);
+  // Floats are made 16 at a time: where Embree takes them, if it takes as many.
+  constexpr bool is_whole = width == Packet::slots;
+  const Arrays to = arrays_of<width>(rays);
+  [[maybe_unused]] float room[to.size()][Packet::slots];
+  if constexpr (is_whole) lend(to, query.floats);
+  else lend({room[0], room[1], room[2], room[3], room[4], room[5], room[6], room[7]}, query.floats);
+  Hit spare[Packet::slots];
   alignas(64) int valid[width];
   std::uint32_t traced = 0;  // the slots that `valid` names
   std::fill(valid, valid + width, 0);
@@ -124,18 +102,21 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
     const int count = static_cast<int>(std::min<std::size_t>(width, hits.size() - begin));
     Packet& packet = query.packet;
     take(begin, count, packet);
+    packet.first = count == Packet::slots ? hits.data() + begin : spare;
     make_floats(count, extent, packet, query.floats);
     if (query.floats.enters != 0) {
       const auto same = [&](const double* component) { return component[0] == component[count - 1]; };
       query.set_coherent(same(packet.origin[0]) && same(packet.origin[1]) && same(packet.origin[2]));  // a pinhole's
-      fill<width>(query.floats, rays);
+      if constexpr (!is_whole) {
+        for (std::size_t c = 0; c < to.size(); ++c) std::copy_n(room[c], width, to[c]);
+      }
       if (query.floats.enters != traced) {
         traced = query.floats.enters;
         for (int slot = 0; slot < width; ++slot) valid[slot] = -static_cast<int>(traced >> slot & 1);
       }
       ask(valid, query, rays);
     }
-    std::copy_n(packet.first, count, hits.data() + begin);
+    if (packet.first == spare) std::copy_n(spare, count, hits.data() + begin);
   }
 }
 

@@ -111,7 +111,8 @@ TEST(Heightfield, LanesGiveThePlainReadingsBits) {
       const std::uint32_t lanes = i % 32 == 0 ? 0xffff : random::pcg4d({static_cast<std::uint32_t>(i), 1, 2, 3})[0] & 0xffff;
       Packet packet;
       Hit plain_first[16];
-      Hit(&lanes_first)[16] = packet.first;
+      Hit lanes_first[16];
+      packet.first = lanes_first;
       for (int k = 0; k < 16; ++k) {
         // Some know a nearer hit of another surface already.
         if ((i + static_cast<std::size_t>(k)) % 7 == 0) lanes_first[k] = plain_first[k] = {30, 5, 0, 0, 0};

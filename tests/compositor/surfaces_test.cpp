@@ -163,7 +163,8 @@ TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainReadingsBits) {
       PacketRoom room;
       Packet packet;
       room.lend_to(packet);
-      Hit plain[16];
+      Hit plain[16], first[16];
+      packet.first = first;
       for (std::uint32_t k = 0; k < 16; ++k) {
         const Ray& ray = rays[i + k];
         for (int c = 0; c < 3; ++c) {
