@@ -15,7 +15,7 @@ struct Picture {
   Image normal;  ///< rgba16f: mean of the unit normals of the first surfaces, as shaded; alpha: share of samples that met one
   Image depth;   ///< r32f: least distance along the view axis [m]; `far` where every sample met nothing
   Image film;    ///< r16f: length of the refracted ray in media that count as film [m]
-  Image mask;    ///< r16f: share of samples that met a masked surface
+  Image mask;    ///< r16f: share of samples that met a masked surface, refracted and never reflected before
 };
 inline constexpr float far = 10000;  ///< [m]
 

@@ -82,7 +82,7 @@ struct Material {
   /// The smooth normals of an interface that is made of facets, unit, near Place::normal; null: the geometric ones. Where one
   /// would send a ray through the wrong side of the facet, the geometric one serves.
   NormalsOf smooth_normals;
-  bool is_masked = false;  ///< the channel `mask` is 1 where the eye sees this surface
+  bool is_masked = false;  ///< the channel `mask` is 1 where the eye sees this surface, or looks through it
 
   static Material interface_of(const Medium& outside, const Medium& inside) {
     Material m;

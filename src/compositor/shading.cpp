@@ -163,9 +163,12 @@ class Generations {
       for (int k = 0; k < 3; ++k) std::fill_n(sent.component[k], n, 0.0);
     }
     if (depth_ == 1) {
+      for (std::size_t k = 0; k < n; ++k) seen_.normal().put(list.which[k], shaded[k]);
+    }
+    if (material.is_masked) {
       for (std::size_t k = 0; k < n; ++k) {
-        seen_.normal().put(list.which[k], shaded[k]);
-        seen_.mask()[list.which[k]] = material.is_masked ? 1 : 0;
+        const Path& path = now_->paths[list.which[k]];
+        if (path.is_straight) seen_.mask()[path.pixel] = 1;
       }
     }
     go_on(batch, 0);

@@ -21,7 +21,7 @@ struct Seen {
   Hit hit;                ///< the first one
   Vec normal{0, 0, 0};    ///< at it, toward the ray, as shaded; 0 where the ray met nothing
   double film = 0;        ///< [m] that the ray, refracted and never reflected, runs through media that count as film
-  bool is_masked = false; ///< the first surface is one that the mask shows
+  bool is_masked = false; ///< the ray, refracted and never reflected, meets a surface that the mask shows
 };
 
 /// What many rays see, component by component. Arrays go on to whole lanes.

@@ -55,17 +55,8 @@ struct Lanes {
     friend HWY_INLINE HWY_ATTR Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
     /// a / 2^b, rounded down; b in [0, 31].
     friend HWY_INLINE HWY_ATTR Int shift_right(Int a, Int b) { return {hn::Shr(a.i, b.i)}; }
-    /// table: 17 integers, of which a[i] is taken.
-    friend HWY_INLINE HWY_ATTR Int lookup(const std::int32_t* table, Int a) {
-#if HWY_TARGET <= HWY_AVX3
-      // Out of a register; a gather would read each from memory.
-      const DI d;
-      const auto last = hn::Eq(a.i, hn::Set(d, 16));
-      return {hn::IfThenElse(last, hn::Set(d, table[16]), hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, hn::IfThenZeroElse(last, a.i))))};
-#else
-      return {hn::GatherIndex(DI(), table, a.i)};
-#endif
-    }
+    /// table[a]
+    friend HWY_INLINE HWY_ATTR Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }
     friend HWY_INLINE HWY_ATTR Int operator*(Int a, Int b) { return {hn::Mul(a.i, b.i)}; }
     friend HWY_INLINE HWY_ATTR Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
     friend HWY_INLINE HWY_ATTR Int operator*(Int a, std::int32_t b) { return {hn::Mul(a.i, hn::Set(DI(), b))}; }

@@ -384,5 +384,26 @@ TEST(Pane, WaterIsWhereTheTextureHasIt) {
   EXPECT_TRUE(water->is_wet(0.4, 0.6));
 }
 
+// The mask shows water through the pane, at whatever angle it lets the ray out; and does not show what is only mirrored.
+TEST(Pane, MaskShowsWaterThroughIt) {
+  const Pane pane(flat());
+  const auto water = std::make_shared<const WaterLayer>(heights(40, 30, [](double u, double) { return u < 0.5 ? 0.7 : 0.0; }));
+  for (const WaterShape shape : {WaterShape::displaced, WaterShape::sloped}) {
+    const auto scene = scene_of(pane, water, shape);
+    for (int i = 0; i < 100; ++i) {
+      const double u = (i + 0.5) / 100;
+      const auto mask_toward = [&](const Vec& direction) {
+        const Ray ray{pane.point(u, 0.5, -0.1) - 0.1 * direction, direction};
+        Seen seen;
+        shade(*scene, {}, {&ray, 1}, {&seen, 1});
+        return seen.is_masked;
+      };
+      // Straight out: where the cell is wet. 45 degrees off along the height, of which the water does not depend: the same.
+      EXPECT_EQ(mask_toward({0, 0, 1}), water->is_wet(u, 0.5)) << u;
+      EXPECT_EQ(mask_toward(glm::normalize(Vec(0, 1, 1))), water->is_wet(u, 0.5)) << u;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rainref::compositor
