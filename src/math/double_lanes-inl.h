@@ -43,7 +43,7 @@ struct DoubleLanes {
       return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
     }
     /// No texture that lanes of doubles sample has a border.
-    friend HWY_INLINE HWY_ATTR bool inside(Int, Int) { return true; }
+    friend HWY_INLINE HWY_ATTR Mask inside(Int, Int) { return {hn::Eq(hn::Zero(D()), hn::Zero(D()))}; }
     friend HWY_INLINE HWY_ATTR Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
     friend HWY_INLINE HWY_ATTR Int shift_right(Int a, Int b) { return {hn::Shr(a.i, b.i)}; }
     friend HWY_INLINE HWY_ATTR Int lookup(const std::int32_t* table, Int a) { return {hn::GatherIndex(DI(), table, a.i)}; }

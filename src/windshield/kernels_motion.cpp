@@ -49,6 +49,7 @@ void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wip
     drop.velocity_v = load_some(at(drops.velocity_v), count);
     drop.mass = load_some(at(drops.mass), count);
     drop.life = load_some(at(drops.life), count);
+    drop.wiper = drop.bin = Lanes(0.0f);
     drop = corrected ? wipe_drop_corrected<Lanes>(uniforms, wipers, drop)
                      : wipe_drop_as_published<Lanes>(uniforms, wipers, drop);
     store(at(drops.u), drop.u, Rounding::rne, count);
