@@ -1,9 +1,10 @@
 // Rays as Embree culls with them: floats, near enough to the true ray that the margin of the boxes covers the difference.
 //
-// Let L be at least the largest coordinate of the scene's boxes. Boxes are enlarged by margin = 128 ulp of L = 2^-16 L. A
-// ray that starts within 8 L of the axes and is rounded to float strays, at a distance of up to 16 L, by less than
-// 2^-24 (8 + 16) L for its origin and direction; Embree's slab arithmetic adds a few roundings of the same size. Together
-// that is below 2^-18 L, a quarter of the margin. Other rays are first moved to where they enter the scene, and scaled.
+// Let L be at least the largest coordinate of the scene's boxes. Boxes are enlarged by margin = 2^-18 L. A ray whose origin's
+// coordinates add up to 2 L at most reaches every box within 4 L; rounded to float it strays there by less than 2^-24 (2 + 4) L
+// for its origin and direction. Embree's slab arithmetic adds 2^-24 (2 + 1) L for its difference and, with two units in the
+// last place for its reciprocal, 2^-24 2 4 L. Together that is 17/64 of the margin. Other rays are first moved to where they
+// enter the scene, and scaled.
 #pragma once
 
 #include "compositor/packet.h"
@@ -14,8 +15,8 @@ namespace rainref::compositor {
 struct SceneExtent {
   Box box{};           ///< of everything, margin included
   double largest = 1;  ///< a power of two, at least every coordinate by magnitude
-  double margin() const { return 0x1p-16 * largest; }
-  double reach() const { return 8 * largest; }
+  double margin() const { return 0x1p-18 * largest; }
+  double reach() const { return 2 * largest; }
   /// Of Embree's parameter, for directions whose largest component is at least 1/2.
   double slack() const { return 8 * margin(); }
 };

@@ -105,6 +105,53 @@ TEST(Tracer, FindsWhatAskingEverySurfaceFinds) {
   EXPECT_GT(met[2], 20);
 }
 
+// Small plates as far out as the scene's L lets them be, met at their very borders by rays that start as far away as a ray may
+// that floats take as it is, and a little further. What floats stray by there, the margin of the boxes must cover.
+TEST(Tracer, BoxesCoverWhatFloatRaysStray) {
+  constexpr double largest = 1024;
+  std::vector<Plate> plates;
+  const auto random = [](std::uint32_t k, std::uint32_t i) { return 2 * test::random_number(k, i) - 1; };
+  for (std::uint32_t k = 0; k < 300; ++k) {
+    Vec corner(0.999 * largest * random(k, 0), 0.999 * largest * random(k, 1), 0.999 * largest * random(k, 2)), sides[2] = {Vec(0), Vec(0)};
+    const int across = static_cast<int>(k % 3);
+    corner[across] = k % 2 ? 0.999 * largest : -0.999 * largest;
+    sides[0][(across + 1) % 3] = sides[1][(across + 2) % 3] = 1e-3 * largest;
+    plates.push_back({Plate::parallelogram, corner, sides[0], sides[1]});
+  }
+  const std::vector<std::shared_ptr<const Surface>> surfaces{std::make_shared<Plates>(plates)};
+  std::vector<Ray> rays;
+  for (std::uint32_t k = 0; k < 60'000; ++k) {
+    const Plate& plate = plates[k % plates.size()];
+    // Less than the plates' rounding within one of its four sides.
+    const double along = test::random_number(k, 13), inside = k % 2 ? 1e-9 : 1 - 1e-9;
+    const Vec target = plate.origin + (k % 4 < 2 ? along : inside) * plate.edge_u + (k % 4 < 2 ? inside : along) * plate.edge_v;
+    // On the octahedron that bounds the origins, or nearly in the plate's plane: there, what it strays takes it past the plate.
+    Vec origin(random(k, 10), random(k, 11), random(k, 12));
+    origin *= (k % 5 == 0 ? 2.001 : 1.999) * largest / (std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z));
+    if (k % 3 == 0) {
+      const int across = static_cast<int>(k % plates.size() % 3);
+      origin *= 0.4;
+      origin[across] = plate.origin[across] + 1e-3 * random(k, 14);
+    }
+    rays.push_back({origin, glm::normalize(target - origin)});
+  }
+  for (const std::string& isa : embree_isas()) {
+    for (const bool robust : {true, false}) {
+      Tracer tracer({config(isa), 16, robust});
+      for (const auto& surface : surfaces) tracer.add(surface);
+      tracer.commit();
+      const std::vector<Hit> hits = test::first_hits(tracer, rays);
+      int met = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Hit expected = first_hit_of_all(surfaces, rays[i]);
+        ASSERT_TRUE(same(hits[i], expected)) << "ray " << i << ": " << text(hits[i]) << ", oracle " << text(expected) << isa << (robust ? ", robust" : "");
+        met += expected.is_surface();
+      }
+      EXPECT_GT(met, 55'000);
+    }
+  }
+}
+
 TEST(Tracer, OneHashForEveryIsaWidthTraversalTileAndNumberOfThreads) {
   const std::vector<Ray>& rays = every_kind_of_ray();
   std::set<std::string> hashes;
