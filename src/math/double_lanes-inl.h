@@ -62,7 +62,7 @@ struct DoubleLanes {
   friend HWY_INLINE HWY_ATTR DoubleLanes operator+(DoubleLanes a, DoubleLanes b) { return hn::Add(a.v, b.v); }
   friend HWY_INLINE HWY_ATTR DoubleLanes operator-(DoubleLanes a, DoubleLanes b) { return hn::Sub(a.v, b.v); }
   friend HWY_INLINE HWY_ATTR DoubleLanes operator*(DoubleLanes a, DoubleLanes b) { return hn::Mul(a.v, b.v); }
-  friend HWY_INLINE HWY_ATTR DoubleLanes operator/(DoubleLanes a, DoubleLanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR DoubleLanes operator/(DoubleLanes a, DoubleLanes b) { return quotient(D(), a.v, b.v); }
   friend HWY_INLINE HWY_ATTR DoubleLanes operator-(DoubleLanes a) { return hn::Neg(a.v); }
   friend HWY_INLINE HWY_ATTR Mask operator<(DoubleLanes a, DoubleLanes b) { return {hn::Lt(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator<=(DoubleLanes a, DoubleLanes b) { return {hn::Le(a.v, b.v)}; }

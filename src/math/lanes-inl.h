@@ -94,7 +94,7 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
   friend HWY_INLINE HWY_ATTR Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
   friend HWY_INLINE HWY_ATTR Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
-  friend HWY_INLINE HWY_ATTR Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Lanes operator/(Lanes a, Lanes b) { return quotient(D(), a.v, b.v); }
   friend HWY_INLINE HWY_ATTR Lanes operator-(Lanes a) { return hn::Neg(a.v); }
   friend HWY_INLINE HWY_ATTR Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }

@@ -18,6 +18,21 @@ namespace rainref {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// a / b. Highway's emulated vectors say 0 where b is 0.
+template <class D>
+HWY_INLINE HWY_ATTR hn::Vec<D> quotient(D d, hn::Vec<D> a, hn::Vec<D> b) {
+#if HWY_TARGET == HWY_EMU128
+  HWY_ALIGN hn::TFromD<D> x[hn::MaxLanes(D())], y[hn::MaxLanes(D())];
+  hn::Store(a, d, x);
+  hn::Store(b, d, y);
+  for (std::size_t i = 0; i < hn::MaxLanes(d); ++i) x[i] /= y[i];
+  return hn::Load(d, x);
+#else
+  static_cast<void>(d);
+  return hn::Div(a, b);
+#endif
+}
+
 /// As many doubles as fit one vector, with the interface of Real64.
 ///
 /// Its functions name the target (HWY_ATTR) because GCC does not give the target of the region to functions defined in
@@ -40,7 +55,7 @@ struct Real64Lanes {
   friend HWY_INLINE HWY_ATTR Real64Lanes operator+(Real64Lanes a, Real64Lanes b) { return hn::Add(a.v, b.v); }
   friend HWY_INLINE HWY_ATTR Real64Lanes operator-(Real64Lanes a, Real64Lanes b) { return hn::Sub(a.v, b.v); }
   friend HWY_INLINE HWY_ATTR Real64Lanes operator*(Real64Lanes a, Real64Lanes b) { return hn::Mul(a.v, b.v); }
-  friend HWY_INLINE HWY_ATTR Real64Lanes operator/(Real64Lanes a, Real64Lanes b) { return hn::Div(a.v, b.v); }
+  friend HWY_INLINE HWY_ATTR Real64Lanes operator/(Real64Lanes a, Real64Lanes b) { return quotient(D(), a.v, b.v); }
   friend HWY_INLINE HWY_ATTR Real64Lanes operator-(Real64Lanes a) { return hn::Neg(a.v); }
   friend HWY_INLINE HWY_ATTR Mask operator<(Real64Lanes a, Real64Lanes b) { return {hn::Lt(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator<=(Real64Lanes a, Real64Lanes b) { return {hn::Le(a.v, b.v)}; }
