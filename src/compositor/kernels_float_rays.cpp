@@ -85,21 +85,17 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
   return ordinary;
 }
 
-using Floats = hn::ScalableTag<float>;
-using Unsigned = hn::RebindToUnsigned<Floats>;
-constexpr int m = static_cast<int>(hn::MaxLanes(Floats()));
-
 std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
+  const hn::ScalableTag<std::int32_t> d;
+  constexpr int m = static_cast<int>(hn::MaxLanes(d));
   std::uint32_t slots = 0;
   int i = 0;
-  if (lanes.count >= m) {
-    const Unsigned d;
-    auto bits = hn::Zero(d);
-    for (; i < lanes.count; i += m) {
-      const auto valid = hn::LoadU(d, reinterpret_cast<const std::uint32_t*>(lanes.valid + i));
-      bits = hn::Or(bits, hn::Shl(hn::And(valid, hn::Set(d, 1)), hn::LoadU(d, lanes.slot + i)));
-    }
-    slots = hn::GetLane(hn::SumOfLanes(d, bits));  // no two have a bit in common
+  for (; i + m <= lanes.count; i += m) {
+    const auto slot = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i));
+    if (!hn::AllTrue(d, hn::Eq(slot, hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))))) break;  // Embree cuts packets, and keeps the order
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, hn::Ne(hn::LoadU(d, lanes.valid + i), hn::Zero(d)), bytes);
+    slots |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << lanes.slot[i];
   }
   for (; i < lanes.count; ++i) slots |= static_cast<std::uint32_t>(lanes.valid[i] & 1) << lanes.slot[i];
   return slots;
