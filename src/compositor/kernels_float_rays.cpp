@@ -85,17 +85,22 @@ std::uint32_t RoundPacket(Packet& packet, const SceneExtent& extent, FloatPacket
   return ordinary;
 }
 
+using LaneSlots = hn::RebindToSigned<NarrowTag>;
+
+/// Whether the n lanes from i on are there and have neighbouring slots: Embree cuts packets up, and keeps the order.
+HWY_INLINE HWY_ATTR bool are_neighbours(const EmbreeLanes& lanes, int i) {
+  const LaneSlots d;
+  return i + n <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)), hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))));
+}
+HWY_INLINE HWY_ATTR hn::Mask<LaneSlots> are_valid(const EmbreeLanes& lanes, int i) { return hn::Ne(hn::LoadU(LaneSlots(), lanes.valid + i), hn::Zero(LaneSlots())); }
+
 std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
-  const hn::ScalableTag<std::int32_t> d;
-  constexpr int m = static_cast<int>(hn::MaxLanes(d));
   std::uint32_t slots = 0;
   int i = 0;
-  for (; i + m <= lanes.count; i += m) {
-    const auto slot = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i));
-    if (!hn::AllTrue(d, hn::Eq(slot, hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))))) break;  // Embree cuts packets, and keeps the order
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, hn::Ne(hn::LoadU(d, lanes.valid + i), hn::Zero(d)), bytes);
-    slots |= (bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8) << lanes.slot[i];
+  for (; are_neighbours(lanes, i); i += n) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(LaneSlots(), are_valid(lanes, i), bits);
+    slots |= static_cast<std::uint32_t>(bits[0]) << lanes.slot[i];
   }
   for (; i < lanes.count; ++i) slots |= static_cast<std::uint32_t>(lanes.valid[i] & 1) << lanes.slot[i];
   return slots;
@@ -111,27 +116,19 @@ HWY_INLINE HWY_ATTR hn::Vec<NarrowTag> ends(const Packet& packet, const FloatPac
 }
 
 void PutEnds(const Packet& packet, const FloatPacket& floats, double slack, std::uint32_t changed, bool any, const EmbreeLanes& lanes) {
-  const float ended = -std::numeric_limits<float>::infinity();
-  float by_slot[Packet::slots];
-  if (any) std::fill(by_slot, by_slot + Packet::slots, ended);
   const NarrowTag d;
-  const hn::RebindToSigned<NarrowTag> di;
-  bool in_order = lanes.count == Packet::slots;
-  for (int slot = 0; in_order && slot < Packet::slots; slot += n) {
-    in_order = hn::AllTrue(di, hn::Eq(hn::LoadU(di, reinterpret_cast<const std::int32_t*>(lanes.slot + slot)), hn::Iota(di, slot)));
-  }
+  HWY_ALIGN float by_slot[Packet::slots];
   for (int slot = 0; slot < Packet::slots; slot += n) {
-    if (in_order) {
-      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(changed >> slot & ((1u << n) - 1))};
-      const auto valid = hn::Ne(hn::LoadU(di, lanes.valid + slot), hn::Zero(di));
-      const auto now = hn::IfThenElse(hn::And(hn::LoadMaskBits(d, bits), hn::RebindMask(d, valid)), any ? hn::Set(d, ended) : ends(packet, floats, slack, slot), hn::LoadU(d, lanes.end + slot));
-      hn::StoreU(now, d, lanes.end + slot);
-    } else if (!any) {
-      hn::StoreU(ends(packet, floats, slack, slot), d, by_slot + slot);
-    }
+    hn::StoreU(any ? hn::Set(d, -std::numeric_limits<float>::infinity()) : ends(packet, floats, slack, slot), d, by_slot + slot);
   }
-  if (in_order) return;
-  for (int i = 0; i < lanes.count; ++i) {
+  int i = 0;
+  for (; are_neighbours(lanes, i); i += n) {
+    const unsigned slot = lanes.slot[i];
+    const std::uint8_t bits[8] = {static_cast<std::uint8_t>(changed >> slot & ((1u << n) - 1))};
+    const auto takes = hn::And(hn::LoadMaskBits(d, bits), hn::RebindMask(d, are_valid(lanes, i)));
+    hn::StoreU(hn::IfThenElse(takes, hn::LoadU(d, by_slot + slot), hn::LoadU(d, lanes.end + i)), d, lanes.end + i);
+  }
+  for (; i < lanes.count; ++i) {
     if ((changed >> lanes.slot[i] & static_cast<std::uint32_t>(lanes.valid[i]) & 1) != 0) lanes.end[i] = by_slot[lanes.slot[i]];
   }
 }
