@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -11,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/folders.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -32,29 +32,23 @@ AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), target_(path_) {
     if (descriptor_ < 0) fail(errno);
     return;
   }
-  if (fs::exists(status) && fs::is_symlink(fs::symlink_status(path_, error))) {
-    target_ = fs::canonical(path_, error);
-    if (error) fail(error.value());
-  }
   create_temporary();
 }
 
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::create_temporary() {
-  if (!target_.has_filename()) fail(target_.empty() ? ENOENT : EISDIR);
-  // The process and a counter make the name unique among the living. A leftover of a killed process that had the same
-  // number (common in containers) is stepped over. The final name is not part of it: it may already be of full length.
-  static std::atomic<unsigned> counter{0};
-  do {
-    temporary_ = target_.parent_path() / fmt::format(".rainref-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
-  if (descriptor_ < 0) {
-    const int error = errno;
-    temporary_.clear();
-    fail(error);
+  try {
+    target_ = followed(path_);
+    if (!path_.has_filename()) fail(path_.empty() ? ENOENT : EISDIR);
+    // The final name is no part of the temporary one: it may already be of full length.
+    temporary_.emplace(target_.parent_path(), Hidden::Kind::file);
+  } catch (const std::system_error& e) {
+    fail(e.code().value());
   }
+  // The temporary's own descriptor holds its lock until it has its final name.
+  descriptor_ = ::fcntl(temporary_->descriptor(), F_DUPFD_CLOEXEC, 0);
+  if (descriptor_ < 0) fail(errno);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
@@ -70,12 +64,16 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 void AtomicFile::commit() {
   require_open();
   flush();
-  const bool renames = !temporary_.empty();
-  if (renames && ::fsync(descriptor_) != 0) fail(errno);
+  if (temporary_ && ::fsync(descriptor_) != 0) fail(errno);
   // On some file systems the disk turns out to be full only here. The descriptor is gone whatever close returns.
   if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail(errno);
-  if (renames && std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  temporary_.clear();
+  if (!temporary_) return;
+  try {
+    temporary_->become(target_);
+  } catch (const std::system_error& e) {
+    fail(e.code().value());
+  }
+  temporary_.reset();
 }
 
 void AtomicFile::require_open() const {
@@ -100,8 +98,7 @@ void AtomicFile::write_through(std::span<const std::byte> bytes) {
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
+  temporary_.reset();
 }
 
 void AtomicFile::fail(int error) {

@@ -2,11 +2,11 @@
 
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,76 +25,67 @@ namespace {
 
 }  // namespace
 
-NewFolder::NewFolder(fs::path target, const MayReplace& may_replace) : target_(std::move(target)) {
+NewFolder::NewFolder(fs::path target, MayReplace may_replace) : shown_(std::move(target)), may_replace_(std::move(may_replace)) {
   // "pack/" names the folder pack.
-  if (!target_.has_filename()) target_ = target_.parent_path();
+  if (!shown_.has_filename()) shown_ = shown_.parent_path();
+  try {
+    target_ = followed(shown_);
+    remove_leftovers(target_.parent_path());
+    has_older();  // what may not be replaced is known before the work
+    parents_.emplace(target_.parent_path());
+    hidden_.emplace(target_.parent_path(), Hidden::Kind::folder);
+    folders_.insert(hidden_->path());
+  } catch (const std::system_error& e) {
+    fail(shown_, e.code().message());
+  }
+}
+
+NewFolder::~NewFolder() { hidden_.reset(); }
+
+// Whether a folder that is not empty stands under the final name. It is one that may be replaced.
+bool NewFolder::has_older() const {
   std::error_code error;
-  if (fs::exists(target_, error)) {
-    if (!fs::is_directory(target_, error)) fail(target_, "a file of that name exists");
-    if (!fs::is_empty(target_, error)) {
-      const std::string why = may_replace(target_);
-      if (!why.empty()) fail(target_, why);
-    }
-  }
-  for (fs::path p = target_.parent_path(); !p.empty() && !fs::exists(p, error); p = p.parent_path()) made_.push_back(p);
-  hidden_ = hidden_name();
-  fs::create_directories(hidden_, error);
-  if (error) {
-    for (const fs::path& p : made_) {
-      std::error_code ignored;
-      fs::remove(p, ignored);
-    }
-    fail(target_, error.message());
-  }
-}
-
-NewFolder::~NewFolder() {
-  std::error_code ignored;
-  if (!hidden_.empty()) fs::remove_all(hidden_, ignored);
-  for (const fs::path& p : made_) fs::remove(p, ignored);
-}
-
-fs::path NewFolder::hidden_name() const {
-  static std::atomic<unsigned> counter{0};
-  fs::path name;
-  std::error_code ignored;
-  // A leftover of a killed process that had the same number is stepped over.
-  do {
-    name = target_.parent_path() / fmt::format(".rainref-{}-{}.tmp", ::getpid(), counter.fetch_add(1));
-  } while (fs::exists(fs::symlink_status(name, ignored)));
-  return name;
+  if (!fs::exists(target_, error)) return false;
+  if (!fs::is_directory(target_, error)) fail(shown_, "a file of that name exists");
+  if (fs::is_empty(target_, error)) return false;
+  const std::string why = may_replace_(target_);
+  if (!why.empty()) fail(shown_, why);
+  return true;
 }
 
 void NewFolder::write(const std::string& path, std::span<const std::byte> bytes) {
-  const fs::path shown = target_ / path, file = hidden_ / path;
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error) fail(shown, error.message());
+  const fs::path shown = shown_ / path, file = hidden_->path() / path;
   const auto close = [](std::FILE* f) { std::fclose(f); };
-  std::unique_ptr<std::FILE, decltype(close)> out(std::fopen(file.c_str(), "wbxe"), close);
+  std::unique_ptr<std::FILE, decltype(close)> out(nullptr, close);
+  {
+    const Uninterrupted scope;
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    if (error) fail(shown, error.message());
+    out.reset(std::fopen(file.c_str(), "wbxe"));
+  }
   if (!out) fail(shown, errno);
+  for (fs::path p = file.parent_path(); folders_.insert(p).second; p = p.parent_path()) {
+  }
   if (std::fwrite(bytes.data(), 1, bytes.size(), out.get()) != bytes.size()) fail(shown, errno);
+  if (std::fflush(out.get()) != 0 || ::fsync(::fileno(out.get())) != 0) fail(shown, errno);
   // A full disk may show only here.
   if (std::fclose(out.release()) != 0) fail(shown, errno);
 }
 
 void NewFolder::commit() {
-  std::error_code error;
-  fs::path old;
-  if (fs::exists(target_, error)) {
-    old = hidden_name();
-    fs::rename(target_, old, error);
-    if (error) fail(target_, error.message());
+  try {
+    for (const fs::path& folder : folders_) sync_to_disk(folder);
+    // Asked again: something else may have come to lie there since.
+    if (has_older()) hidden_->replace(target_);
+    else hidden_->become(target_);
+    sync_to_disk(target_.parent_path());
+    for (const fs::path& made : parents_->made()) sync_to_disk(made.parent_path());
+  } catch (const std::system_error& e) {
+    fail(shown_, e.code().message());
   }
-  fs::rename(hidden_, target_, error);
-  if (error) {
-    std::error_code ignored;
-    if (!old.empty()) fs::rename(old, target_, ignored);
-    fail(target_, error.message());
-  }
-  hidden_.clear();
-  made_.clear();
-  if (!old.empty()) fs::remove_all(old, error);
+  hidden_.reset();
+  parents_->keep();
 }
 
 }  // namespace rainref::capture

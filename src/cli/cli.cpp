@@ -1,5 +1,7 @@
 #include "cli/cli.h"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -11,7 +13,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/interruption.h"
 #include "cli/commands.h"
+#include "cli/terminal.h"
 #include "math/simd_target.h"
 #include "rainref/executor.h"
 #include "rainref/error.h"
@@ -170,7 +174,7 @@ int parse_and_run(int argc, const char* const* argv) {
   validate_verb.add_option("PACK", validate_pack, "Folder of the pack; with --shadow the scene that the port ran");
   std::optional<std::string> validate_exec, timeout, repeat;
   validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack");
-  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out}, which becomes a new folder or that of --port");
+  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out} (or $RAINREF_PACK and $RAINREF_OUT), which becomes a new folder or that of --port");
   validate_verb.add_option("--timeout", timeout, "Seconds that the command may take (default: 600)");
   validate_verb.add_option("--repeat", repeat, "Run the command so often and look for races");
   validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time");
@@ -259,13 +263,14 @@ int parse_and_run(int argc, const char* const* argv) {
     if (validate_exec) {
       validate_request.exec = *validate_exec;
       if (validate_request.exec.empty()) throw Error(ExitCode::usage, "--exec: expected a command, found ''");
-      if (validate_exec->find("{out}") == std::string::npos && validate_port.empty()) {
-        throw Error(ExitCode::usage, "--exec: expected {out} in the command, where the port's outputs go; or --port, the folder that it writes to");
+      const bool has_out = validate_exec->find("{out}") != std::string::npos || validate_exec->find("RAINREF_OUT") != std::string::npos;
+      if (!has_out && validate_port.empty()) {
+        throw Error(ExitCode::usage, "--exec: expected {out} or $RAINREF_OUT in the command, where the port's outputs go; or --port, the folder that it writes to");
       }
       if (timeout) validate_request.timeout_s = whole_number(*timeout, "--timeout", 1, 1000000);
       if (repeat) validate_request.repeat = whole_number(*repeat, "--repeat", 1, 1000);
-      if (validate_request.repeat > 1 && validate_exec->find("{out}") == std::string::npos) {
-        throw Error(ExitCode::usage, "--repeat: expected {out} in the command: each run has a folder of its own");
+      if (validate_request.repeat > 1 && !has_out) {
+        throw Error(ExitCode::usage, "--repeat: expected {out} or $RAINREF_OUT in the command: each run has a folder of its own");
       }
     }
     validate_request.pack = validate_pack;
@@ -285,6 +290,9 @@ int parse_and_run(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, const char* const* argv) {
+  undo_when_interrupted();  // first: threads that come later must leave signals to it
+  // A reader of standard output who goes away shows as an error, so that files are cleaned up on the way.
+  const bool dies_of_pipes = ::signal(SIGPIPE, SIG_IGN) == SIG_DFL;
   ExitCode code = ExitCode::internal;
   std::string message;
   try {
@@ -300,12 +308,15 @@ int main(int argc, const char* const* argv) {
     code = ExitCode::usage;
     message = "this scene needs more memory than can be had";
   } catch (const std::exception& e) {
-    // fmt throws when a full disk shows before the end.
+    // Printing throws when a full disk shows before the end.
     if (std::ferror(stdout)) code = ExitCode::io;
     message = std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());
   }
-  std::replace(message.begin(), message.end(), '\n', ' ');  // one line, whatever a file is called
-  std::fputs(fmt::format("rainref: {}\n", message).c_str(), stderr);  // fmt::print would throw if this fails too
+  if (dies_of_pipes && code == ExitCode::io && std::ferror(stdout) && reader_is_gone()) {
+    ::signal(SIGPIPE, SIG_DFL);
+    ::raise(SIGPIPE);
+  }
+  complain(message);
   return static_cast<int>(code);
 }
 

@@ -10,6 +10,7 @@
 #include "capture/pack_read.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/terminal.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -25,8 +26,8 @@ struct Findings {
   std::vector<std::string> lines;
   void add(std::string line) { lines.push_back(std::move(line)); }
   void print() const {
-    for (std::size_t i = 0; i < std::min(lines.size(), most_listed); ++i) fmt::print("{}\n", lines[i]);
-    if (lines.size() > most_listed) fmt::print("... and {} more\n", lines.size() - most_listed);
+    for (std::size_t i = 0; i < std::min(lines.size(), most_listed); ++i) say("{}\n", lines[i]);
+    if (lines.size() > most_listed) say("... and {} more\n", lines.size() - most_listed);
   }
 };
 
@@ -150,15 +151,15 @@ int diff(const std::filesystem::path& folder_a, const std::filesystem::path& fol
   const Pack a(folder_a), b(folder_b);
   print_configurations(a, b);
   if (a.effect != b.effect || a.variant != b.variant) {
-    fmt::print("different scenes: {} {} in A, {} {} in B\n", a.effect, a.variant, b.effect, b.variant);
+    say("different scenes: {} {} in A, {} {} in B\n", a.effect, a.variant, b.effect, b.variant);
     return static_cast<int>(ExitCode::fail);
   }
   Comparison comparison(a, b);
   const std::string found = comparison.first_difference();
-  fmt::print("{}", found);
+  say("{}", found);
   comparison.findings.print();
   if (!found.empty() || !comparison.findings.lines.empty()) return static_cast<int>(ExitCode::fail);
-  fmt::print("equal: {} runs of passes, {} buffers\n", comparison.runs, comparison.buffers);
+  say("equal: {} runs of passes, {} buffers\n", comparison.runs, comparison.buffers);
   return 0;
 }
 

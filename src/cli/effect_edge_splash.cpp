@@ -3,6 +3,7 @@
 #include "cli/effects.h"
 #include "cli/pictures.h"
 #include "cli/scene_pictures.h"
+#include "cli/terminal.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
 #include "edge_splash/parameters.h"
@@ -19,7 +20,7 @@ class EdgeSplashSimulation : public Simulation {
  public:
   EdgeSplashSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& files)
       : effect_(edge_splash::settings_from(config), pictures(config, executor, files), executor) {
-    for (const std::string& warning : effect_.warnings()) fmt::print(stderr, "rainref: warning: {}\n", warning);
+    for (const std::string& warning : effect_.warnings()) complain("warning: " + warning);
   }
 
   void frame(Recorder* recorder) override { effect_.render(recorder); }

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/registry.h"
+#include "cli/terminal.h"
 #include "math/simd_target.h"
 #include "rainref/version.h"
 #include "scene/describe.h"
@@ -57,20 +58,20 @@ int list(bool json) {
     out["scenes"] = scenes();
     out["simd_targets"] = simd_targets();
     out["threads"] = parallel::Executor().threads();
-    fmt::print("{}\n", json_text(out));
+    say("{}\n", json_text(out));
     return 0;
   }
-  fmt::print("rainref {}\n\nEffects\n", version());
+  say("rainref {}\n\nEffects\n", version());
   for (const EffectEntry& e : effects()) {
     for (const std::string& variant : e.variants) {
-      fmt::print("  {:<14} {:<13}", e.name, variant);
-      for (const std::string& pass : e.info->pass_names(variant)) fmt::print(" {}", pass);
-      fmt::print("\n");
+      say("  {:<14} {:<13}", e.name, variant);
+      for (const std::string& pass : e.info->pass_names(variant)) say(" {}", pass);
+      say("\n");
     }
   }
-  fmt::print("\nScenes\n");
-  for (const std::string& scene : scenes()) fmt::print("  {}\n", scene);
-  fmt::print("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
+  say("\nScenes\n");
+  for (const std::string& scene : scenes()) say("  {}\n", scene);
+  say("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
   return 0;
 }
 
@@ -79,9 +80,9 @@ int describe(const std::string& name, bool json, const std::optional<std::string
   const std::vector<scene::Parameter> parameters = scene::scene_parameters(effect_table().find(name), effect_table());
   if (layout) {
     const scene::Language language = scene::language_from_name(*layout);
-    for (const scene::UniformBlock& record : e.info->records) fmt::print("{}\n", scene::record_layout(record, language));
+    for (const scene::UniformBlock& record : e.info->records) say("{}\n", scene::record_layout(record, language));
     for (const capture::PassInfo& pass : e.info->passes) {
-      for (const scene::UniformBlock& block : pass.uniforms) fmt::print("// Pass {}\n{}\n", pass.name, scene::layout(block, language));
+      for (const scene::UniformBlock& block : pass.uniforms) say("// Pass {}\n{}\n", pass.name, scene::layout(block, language));
     }
     return 0;
   }
@@ -101,18 +102,18 @@ int describe(const std::string& name, bool json, const std::optional<std::string
       if (!b.variant.empty()) out["buffers"].back()["variant"] = b.variant;
     }
     for (const scene::UniformBlock& record : e.info->records) out["records"].push_back(scene::uniform_block_json(record));
-    fmt::print("{}\n", json_text(out));
+    say("{}\n", json_text(out));
     return 0;
   }
-  fmt::print("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "), scene::describe_text(parameters));
+  say("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "), scene::describe_text(parameters));
   for (const capture::PassInfo& p : e.info->passes) {
     const bool all = p.variants.size() == e.variants.size();
-    fmt::print("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, all ? "" : fmt::format(" ({})", fmt::join(variants_of(p), ", ")), p.sentence,
+    say("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, all ? "" : fmt::format(" ({})", fmt::join(variants_of(p), ", ")), p.sentence,
                reads_text(p), fmt::join(p.writes, ", "), capture::judge_text(p));
   }
-  fmt::print("\nBuffers\n\n");
+  say("\nBuffers\n\n");
   for (const capture::BufferInfo& b : e.info->buffers) {
-    fmt::print("{:<16} {:<15} {}{}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence, b.encoding == "none" ? "" : fmt::format(" {}.", b.encoding));
+    say("{:<16} {:<15} {}{}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence, b.encoding == "none" ? "" : fmt::format(" {}.", b.encoding));
   }
   return 0;
 }

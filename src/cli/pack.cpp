@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "cli/terminal.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 
@@ -60,7 +61,7 @@ int pack(const PackOptions& options) {
     }
   }
   const capture::PackWriter::Total total = writer.finish();
-  fmt::print("{} cases of {} in {} files, {}, in {}\n", total.cases, fmt::join(passes, " "), total.files, memory_text(total.bytes), options.output.string());
+  say("{} cases of {} in {} files, {}, in {}\n", total.cases, fmt::join(passes, " "), total.files, memory_text(total.bytes), options.output.string());
   return 0;
 }
 

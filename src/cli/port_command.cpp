@@ -5,60 +5,31 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <set>
 #include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/interruption.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-enum class Quotes { none, in_double, in_single };
-
-std::string quoted(const std::string& text, Quotes quotes) {
-  std::string out;
-  for (const char c : text) {
-    if (quotes == Quotes::in_double) {
-      if (c == '"' || c == '\\' || c == '$' || c == '`') out += '\\';
-      out += c;
-    } else {
-      out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-  }
-  return quotes == Quotes::none ? "'" + out + "'" : out;
-}
-
-volatile sig_atomic_t interrupted = 0;
-void note_interruption(int signal) { interrupted = signal; }
-
-/// Notes an interruption instead of dying of it, for a scope.
-class InterruptionGuard {
- public:
-  InterruptionGuard() {
-    interrupted = 0;
-    struct sigaction action {};
-    action.sa_handler = note_interruption;  // without SA_RESTART: poll() returns
-    for (int i = 0; i < count; ++i) ::sigaction(signals[i], &action, &saved_[i]);
-  }
-  ~InterruptionGuard() {
-    for (int i = 0; i < count; ++i) ::sigaction(signals[i], &saved_[i], nullptr);
-  }
-  InterruptionGuard(const InterruptionGuard&) = delete;
-  InterruptionGuard& operator=(const InterruptionGuard&) = delete;
-
- private:
-  static constexpr int count = 3;
-  static constexpr int signals[count] = {SIGINT, SIGTERM, SIGHUP};
-  struct sigaction saved_[count];
-};
 
 constexpr std::size_t kept_bytes = 65536, kept_lines = 20;
 
@@ -86,44 +57,173 @@ std::string failure_of(int status) {
 
 [[noreturn]] void fail(const char* what) { throw Error(ExitCode::io, fmt::format("--exec: {}: {}", what, std::generic_category().message(errno))); }
 
+// The processes whose parent is this one. Empty where there is no /proc.
+std::set<pid_t> children() {
+  std::set<pid_t> found;
+  std::error_code error;
+  for (fs::directory_iterator i("/proc", error), end; !error && i != end; i.increment(error)) {
+    const std::string name = i->path().filename().string();
+    pid_t id = 0, parent = 0;
+    if (std::from_chars(name.data(), name.data() + name.size(), id).ec != std::errc()) continue;
+    std::ifstream in(i->path() / "stat");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    // "17 (a name) S 1 ...": the name may hold anything.
+    const std::size_t after = text.rfind(") ");
+    if (after == std::string::npos || after + 4 > text.size()) continue;
+    std::from_chars(text.data() + after + 4, text.data() + text.size(), parent);
+    if (parent == ::getpid()) found.insert(id);
+  }
+  return found;
+}
+
+/// A command's shell and all that came of it. Processes whose parent ends become children of this one while it lives, so
+/// that none is lost: not one that called setsid, nor a daemon's.
+class ProcessTree {
+ public:
+  ProcessTree() : others_(children()) {
+    ::prctl(PR_GET_CHILD_SUBREAPER, &was_reaper_, 0, 0, 0);
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);
+  }
+  ~ProcessTree() {
+    if (undo_) end();
+    ::prctl(PR_SET_CHILD_SUBREAPER, was_reaper_, 0, 0, 0);
+  }
+  ProcessTree(const ProcessTree&) = delete;
+  ProcessTree& operator=(const ProcessTree&) = delete;
+
+  void began(pid_t shell) {
+    shell_ = shell;
+    undo_.emplace([this] { kill_all(); });
+  }
+  bool shell_has_ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(shell_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == shell_;
+  }
+  /// Kills what is left of it. Gives the status that the shell ended with.
+  int end() {
+    const Uninterrupted scope;
+    const int status = kill_all();
+    undo_.reset();
+    return status;
+  }
+
+ private:
+  std::set<pid_t> rest() const {
+    std::set<pid_t> left = children();
+    for (const pid_t id : others_) left.erase(id);
+    return left;
+  }
+  // Until the group is killed the shell is not reaped, so that no other group can have its number.
+  int kill_all() {
+    ::kill(-shell_, SIGKILL);
+    int status = 0;
+    ::waitpid(shell_, &status, 0);
+    // Who is killed leaves its children to this process. One that is another user's, or hangs in a driver, stays.
+    const Clock::time_point end = Clock::now() + std::chrono::seconds(5);
+    for (std::set<pid_t> left = rest(); !left.empty() && Clock::now() < end; left = rest()) {
+      for (const pid_t id : left) ::kill(id, SIGKILL);
+      for (const pid_t id : left) {
+        if (::waitpid(id, nullptr, WNOHANG) == 0) ::poll(nullptr, 0, 1);
+      }
+    }
+    return status;
+  }
+
+  std::set<pid_t> others_;
+  int was_reaper_ = 0;
+  pid_t shell_ = -1;
+  std::optional<Undo> undo_;
+};
+
+bool is_plain(const fs::path& path) {
+  return path.string().find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-") == std::string::npos;
+}
+
 }  // namespace
 
-std::string with_folders(const std::string& command, const std::filesystem::path& pack, const std::filesystem::path& out) {
+TemporaryRun::TemporaryRun() {
+  std::error_code error;
+  fs::path parent = fs::absolute(fs::temp_directory_path(error), error);
+  if (error || !is_plain(parent)) parent = "/tmp";
+  remove_leftovers(parent);
+  try {
+    folder_.emplace(parent, Hidden::Kind::private_folder);
+  } catch (const std::system_error& e) {
+    throw Error(ExitCode::io, fmt::format("--exec: no temporary folder in {}: {}", parent.string(), e.code().message()));
+  }
+}
+
+PortFolders::PortFolders(const fs::path& pack, const fs::path& out) : pack_(fs::absolute(pack)), out_(fs::absolute(out)) {
+  told_pack_ = told(pack_, "pack");
+  told_out_ = told(out_, "out");
+}
+
+fs::path PortFolders::told(const fs::path& real, const char* link) {
+  if (is_plain(real)) return real;
+  if (!links_) links_.emplace();
+  const fs::path path = links_->path() / link;
+  std::error_code error;
+  fs::create_directory_symlink(real, path, error);
+  if (error) throw Error(ExitCode::io, fmt::format("--exec: no link in {}: {}", links_->path().string(), error.message()));
+  return path;
+}
+
+std::string PortFolders::filled_in(const std::string& command) const {
   std::string result;
-  Quotes quotes = Quotes::none;
-  const auto put = [&](std::string_view name, const std::filesystem::path& folder, std::size_t& i) {
-    if (command.compare(i, name.size(), name) != 0) return false;
-    result += quoted(std::filesystem::absolute(folder).string(), quotes);
-    i += name.size() - 1;
-    return true;
-  };
-  for (std::size_t i = 0; i < command.size(); ++i) {
-    if (put("{pack}", pack, i) || put("{out}", out, i)) continue;
-    const char c = command[i];
-    result += c;
-    if (c == '\\' && quotes != Quotes::in_single && i + 1 < command.size()) result += command[++i];
-    else if (c == '"' && quotes != Quotes::in_single) quotes = quotes == Quotes::none ? Quotes::in_double : Quotes::none;
-    else if (c == '\'' && quotes != Quotes::in_double) quotes = quotes == Quotes::none ? Quotes::in_single : Quotes::none;
+  for (std::size_t i = 0; i < command.size();) {
+    const std::string_view rest = std::string_view(command).substr(i);
+    const bool is_pack = rest.starts_with("{pack}"), is_out = rest.starts_with("{out}");
+    result += is_pack ? told_pack_.string() : is_out ? told_out_.string() : std::string(1, command[i]);
+    i += is_pack ? 6 : is_out ? 5 : 1;
   }
   return result;
 }
 
-CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout) {
+std::vector<std::string> PortFolders::environment() const { return {"RAINREF_PACK=" + pack_.string(), "RAINREF_OUT=" + out_.string()}; }
+
+void PortFolders::check() const {
+  std::error_code error;
+  if (told_out_ == out_ || fs::is_symlink(fs::symlink_status(told_out_, error))) return;
+  throw Error(ExitCode::port_files, fmt::format("--exec: the command removed {{out}}, which was a link to '{}'; expected it to write into that folder, or a --port whose path has letters, digits and ._-/ alone", out_.string()));
+}
+
+CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {
+  // All that the child needs is made before it is: after a fork beside other threads it may not allocate.
+  std::vector<std::string> variables = environment;
+  for (char** v = environ; *v; ++v) {
+    const std::string_view name = std::string_view(*v).substr(0, std::string_view(*v).find('='));
+    const auto is_same = [&](const std::string& added) { return added.starts_with(name) && added.substr(name.size(), 1) == "="; };
+    if (std::none_of(environment.begin(), environment.end(), is_same)) variables.emplace_back(*v);
+  }
+  std::vector<char*> pointers;
+  for (std::string& v : variables) pointers.push_back(v.data());
+  pointers.push_back(nullptr);
   int out[2];
   if (::pipe2(out, O_CLOEXEC) != 0) fail("no pipe");
-  const InterruptionGuard guard;
-  const pid_t child = ::fork();
-  if (child < 0) fail("no process");
-  if (child == 0) {
-    ::setpgid(0, 0);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
-    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
-    ::dup2(out[1], STDOUT_FILENO);
-    ::dup2(out[1], STDERR_FILENO);
-    ::execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
-    ::_exit(127);
+  ProcessTree tree;
+  {
+    const Uninterrupted scope;
+    const pid_t child = ::fork();
+    if (child < 0) {
+      const int error = errno;
+      ::close(out[0]);
+      ::close(out[1]);
+      errno = error;
+      fail("no process");
+    }
+    if (child == 0) {
+      ::setpgid(0, 0);
+      ::signal(SIGPIPE, SIG_DFL);
+      take_signals_again();
+      ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+      ::dup2(out[1], STDOUT_FILENO);
+      ::dup2(out[1], STDERR_FILENO);
+      ::execle("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr), pointers.data());
+      ::_exit(127);
+    }
+    ::setpgid(child, child);  // both set it: neither knows who runs first
+    tree.began(child);
   }
-  ::setpgid(child, child);  // both set it: neither knows who runs first
   ::close(out[1]);
 
   const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
@@ -142,40 +242,20 @@ CommandEnd run_command(const std::string& command, std::chrono::duration<double>
     if (text.size() > 2 * kept_bytes) text.erase(0, text.size() - kept_bytes);
     return true;
   };
-  // The shell's end counts, not the pipe's: a process left behind may hold it. Until the group is killed the shell is not
-  // reaped, so that no other group can have its number.
+  // The shell's end counts, not the pipe's: a process left behind may hold it.
   bool timed_out = false;
-  const auto has_ended = [&] {
-    siginfo_t info{};
-    return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
-  };
-  while (!has_ended() && interrupted == 0) {
+  while (!tree.shell_has_ended()) {
     timed_out = Clock::now() >= end;
     if (timed_out) break;
     read_some(20);
   }
-  ::kill(-child, SIGKILL);
-  int status = 0;
-  ::waitpid(child, &status, 0);
+  const int status = tree.end();
   for (int i = 0; i < 64 && read_some(0); ++i) {
   }
   ::close(out[0]);
-  if (interrupted != 0) throw Error(ExitCode::fail, fmt::format("interrupted by {} while the port's command ran", signal_text(interrupted)));
   CommandEnd result{failure_of(status), last_lines_of(text)};
   if (timed_out) result.failure = fmt::format("the port's command was ended after {:g} s (--timeout)", timeout.count());
   return result;
-}
-
-TemporaryRun::TemporaryRun() {
-  std::error_code error;
-  const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
-  std::string name = (error ? std::filesystem::path("/tmp") : parent) / "rainref-port-XXXXXX";
-  if (!::mkdtemp(name.data())) fail("no temporary folder");
-  path_ = name;
-}
-TemporaryRun::~TemporaryRun() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace rainref::cli

@@ -1,12 +1,18 @@
 // `rainref run` and `rainref hash`.
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/file_lock.h"
+#include "base/folders.h"
+#include "base/hidden.h"
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
 #include "capture/pack_write.h"
@@ -15,6 +21,7 @@
 #include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "cli/terminal.h"
 #include "image_io/codec.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
@@ -26,31 +33,44 @@ namespace rainref::cli {
 namespace {
 
 /// The folder of the results, made before the work: an unwritable place should not cost a run. Unless keep() is called,
-/// the folders that were made go again, if nothing lies in them.
+/// the folders that were made go again, if nothing lies in them. While it lives no other run writes there.
 class OutputFolder {
  public:
-  explicit OutputFolder(const std::filesystem::path& folder) {
-    std::error_code error;
-    for (std::filesystem::path p = folder; !p.empty() && !std::filesystem::exists(p, error); p = p.parent_path()) {
-      made_.push_back(p);
-      if (p == p.parent_path()) break;
+  explicit OutputFolder(const std::filesystem::path& folder) : summary_(folder / "summary.json") {
+    const auto fail = [&](const std::string& why) { throw Error(ExitCode::io, fmt::format("{}: {}", folder.string(), why)); };
+    try {
+      made_.emplace(followed(folder));
+    } catch (const std::system_error& e) {
+      std::error_code ignored;
+      const bool is_file = std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored);
+      fail(fmt::format("cannot make this folder: {}", is_file ? "a file of that name exists" : e.code().message()));
     }
-    std::filesystem::create_directories(folder, error);
-    if (!error && std::filesystem::is_directory(folder, error)) return;
-    remove();
-    throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", folder.string(), error ? error.message() : "a file of that name exists"));
+    try {
+      lock_.emplace(folder);
+    } catch (const std::system_error& e) {
+      if (e.code() == std::errc::operation_would_block) fail("another run writes to this folder");
+      fail(fmt::format("cannot write there: {}", e.code().message()));
+    }
+    remove_leftovers(folder);
   }
-  ~OutputFolder() { remove(); }
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-  void keep() { made_.clear(); }
+  void keep() { made_->keep(); }
+  const std::filesystem::path& summary() const { return summary_; }
+  /// To be called before each result is written: the summary of an older run must not stand beside it.
+  void forget_older_run() {
+    if (std::exchange(is_new_, true)) return;
+    try {
+      const std::filesystem::path older = followed(summary_);
+      if (std::filesystem::is_regular_file(older)) std::filesystem::remove(older);
+    } catch (const std::system_error& e) {
+      throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", summary_.string(), e.code().message()));
+    }
+  }
 
  private:
-  void remove() noexcept {
-    std::error_code ignored;
-    for (const std::filesystem::path& p : made_) std::filesystem::remove(p, ignored);
-  }
-  std::vector<std::filesystem::path> made_;  // innermost first
+  std::filesystem::path summary_;
+  std::optional<MadeFolders> made_;
+  std::optional<FolderLock> lock_;
+  bool is_new_ = false;
 };
 
 /// The passes' buffers of the frames that are written, in a folder of their own.
@@ -119,6 +139,7 @@ int run(const RunOptions& options) {
       simulation->frame(&recorders);
       last = recorder.take_lines();
       if (written(frame)) {
+        if (options.png || options.exr || options.compare_truth) made.forget_older_run();
         const std::string stem = fmt::format("{}.{:04}", config.effect(), frame);
         if (options.png) write_picture(folder / (stem + ".png"), simulation->picture());
         if (options.exr) simulation->write_exr(folder / (stem + ".exr"));
@@ -135,11 +156,12 @@ int run(const RunOptions& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
   if (options.compare_truth) report["truth"] = truth;
+  made.forget_older_run();
   if (capture) capture->writer.finish();
-  write_file(folder / "summary.json", json_text(report) + "\n");
+  write_file(made.summary(), json_text(report) + "\n");
   made.keep();
-  if (options.json) fmt::print("{}\n", json_text(report));
-  else fmt::print("{} frames in {}, {} picture{}{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s",
+  if (options.json) say("{}\n", json_text(report));
+  else say("{} frames in {}, {} picture{}{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s",
                   capture ? ", capture/" : "", folder.string());
   return 0;
 }
@@ -154,10 +176,10 @@ int hash(const SceneOptions& options) {
   Progress progress(config.effect(), frames);
   for (int frame = 0; frame < frames; ++frame) {
     simulation->frame(&recorder);
-    for (const capture::HashLine& line : recorder.take_lines()) fmt::print("{}\n", line.text());
+    for (const capture::HashLine& line : recorder.take_lines()) say("{}\n", line.text());
     progress.advance();
   }
-  fmt::print("scene {}\n", recorder.scene_hash().text());
+  say("scene {}\n", recorder.scene_hash().text());
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/pictures.h"
+#include "cli/terminal.h"
 #include "image/colour.h"
 #include "image/texture.h"
 #include "rainref/error.h"
@@ -54,7 +55,7 @@ Image read_tile(const scene::Config& config, const std::string& key, bool needs_
   Image tile = flipped(p.image);
   const double seam = rainy_glass::seam(tile);
   if (seam > rainy_glass::worst_seam) {
-    fmt::print(stderr, "rainref: warning: {}: {} does not tile: the step across its edges is {:.1f} times the one between its texels\n", key, config.text(key), seam);
+    complain(fmt::format("warning: {}: {} does not tile: the step across its edges is {:.1f} times the one between its texels", key, config.text(key), seam));
   }
   return tile;
 }

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/registry.h"
 #include "cli/selftest_golden.h"
+#include "cli/terminal.h"
 #include "math/half.h"
 #include "math/half_array.h"
 #include "math/simd_target.h"
@@ -24,7 +25,7 @@ namespace rainref::cli {
 namespace {
 
 bool report(bool good, const std::string& what) {
-  fmt::print("{}  {}\n", good ? "pass" : "FAIL", what);
+  say("{}  {}\n", good ? "pass" : "FAIL", what);
   return good;
 }
 
@@ -137,7 +138,7 @@ int selftest() {
   good &= half_conversion();
   good &= scenes();
   select_simd_target(before);
-  fmt::print("{}\n", good ? "selftest passed" : "selftest FAILED");
+  say("{}\n", good ? "selftest passed" : "selftest FAILED");
   return static_cast<int>(good ? ExitCode::pass : ExitCode::fail);
 }
 

@@ -15,6 +15,7 @@
 #include "cli/port_command.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "cli/terminal.h"
 #include "conformance/profiles.h"
 #include "conformance/races.h"
 #include "conformance/report_text.h"
@@ -49,13 +50,15 @@ std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& f
   for (int k = 1; k <= request.repeat; ++k) {
     const fs::path out = request.repeat == 1 ? folder : folder / fmt::format("run.{}", k);
     make_empty(out);
-    const CommandEnd end = run_command(with_folders(request.exec, request.pack, out), std::chrono::duration<double>(request.timeout_s));
+    const PortFolders folders(request.pack, out);
+    const CommandEnd end = run_command(folders.filled_in(request.exec), std::chrono::duration<double>(request.timeout_s), folders.environment());
     if (!end.failure.empty()) {
       judgement.status = conformance::Status::fail;
       judgement.reason = request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure);
       for (const std::string& line : end.last_lines) judgement.notes.push_back("the port printed: " + line);
       return {};
     }
+    folders.check();
     last_line = end.last_lines.empty() ? "" : end.last_lines.back();
     runs.push_back(out);
     progress.advance();
@@ -184,7 +187,7 @@ int validate(const ValidateRequest& request, Reports& reports) {
   Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
   judged.judgement.command = request.command;
   reports.apply_baseline(judged.judgement);
-  fmt::print("{}", conformance::report_text(judged.judgement));
+  print_text(conformance::report_text(judged.judgement));
   reports.write(judged.judgement, judged.source);
   return conformance::exit_code(judged.judgement, request.allow_untested);
 }
@@ -211,7 +214,7 @@ int mutate(const MutateRequest& request) {
   Progress progress("trying porting bugs", static_cast<int>(pack.cases.size()));
   options.progress = [&](int, int) { progress.advance(); };
   const conformance::MutationReport report = conformance::mutate(pack, options);
-  fmt::print("{}", conformance::report_text(report, request.all));
+  print_text(conformance::report_text(report, request.all));
   return 0;
 }
 

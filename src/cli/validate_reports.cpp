@@ -1,11 +1,16 @@
 #include "cli/validate_reports.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <string_view>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/folders.h"
+#include "base/hidden.h"
 #include "cli/commands.h"
 #include "conformance/report_figures.h"
 #include "conformance/report_html.h"
@@ -58,11 +63,27 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
     if (o.baseline->empty()) throw Error(ExitCode::usage, "--baseline: expected a file, found ''");
     baseline_ = conformance::Baseline::read(*o.baseline);
   }
-  for (const auto& [a, b] : {std::pair{&o.json, &o.junit}, {&o.json, &o.html}, {&o.junit, &o.html}})
-    if (*a && *a == *b && !(*a)->empty()) throw Error(ExitCode::usage, fmt::format("two reports cannot have one name: '{}'", **a));
   json_ = opened("--json", o.json);
   junit_ = opened("--junit", o.junit);
   html_ = opened("--html", o.html);
+  // By where they lead: "r" and "./r" are one file, and so are a link and its target.
+  std::map<std::filesystem::path, std::string> named;
+  const auto claim = [&](const std::string& name, const std::filesystem::path& target) {
+    std::error_code ignored;
+    const std::filesystem::path folder = target.parent_path().empty() ? "." : target.parent_path();
+    const auto [other, is_new] = named.emplace(std::filesystem::canonical(folder, ignored) / target.filename(), name);
+    if (is_new) return;
+    if (o.baseline && other->second == *o.baseline) throw Error(ExitCode::usage, fmt::format("'{}': a report would replace the baseline '{}'", name, *o.baseline));
+    throw Error(ExitCode::usage, other->second == name ? fmt::format("two reports cannot have one name: '{}'", name)
+                                                       : fmt::format("two reports cannot be one file: '{}' and '{}'", other->second, name));
+  };
+  if (o.baseline) claim(*o.baseline, followed(*o.baseline));
+  if (json_) claim(*o.json, json_->target());
+  if (junit_) claim(*o.junit, junit_->target());
+  if (html_) claim(*o.html, html_->target());
+  for (const File* file : {&json_, &junit_, &html_}) {
+    if (*file) remove_leftovers((*file)->target().parent_path());
+  }
 }
 
 void Reports::check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const {

@@ -61,6 +61,36 @@ TEST(NewFolder, ReplacesWhatItMay) {
   EXPECT_FALSE(std::filesystem::exists(at / "pack/old"));
 }
 
+TEST(NewFolder, ALinkStaysAndWhatItNamesIsWritten) {
+  TemporaryFolder at;
+  std::filesystem::create_directories(at / "real/pack");
+  put(at / "real/pack/old", "old");
+  std::filesystem::create_symlink("real/pack", at / "link");
+  std::filesystem::create_symlink("real/none", at / "dangling");
+  for (const std::string name : {"link", "dangling"}) {
+    NewFolder folder(at / name, always);
+    folder.write("new", bytes("new"));
+    folder.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(at / name));
+    EXPECT_EQ(contents(at / name / "new"), "new");
+  }
+  EXPECT_THAT(at.names(), ElementsAre("dangling", "link", "real"));
+  EXPECT_FALSE(std::filesystem::exists(at / "real/pack/old"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at / "real"), {}), 2);
+  std::filesystem::create_symlink("circle", at / "circle");
+  EXPECT_THAT(error_of([&] { NewFolder(at / "circle", always); }), testing::HasSubstr("Too many levels of symbolic links"));
+}
+
+TEST(NewFolder, WhatCameToLieThereMeanwhileIsNotReplaced) {
+  TemporaryFolder at;
+  NewFolder folder(at / "pack", never);
+  folder.write("new", bytes("new"));
+  std::filesystem::create_directory(at / "pack");
+  put(at / "pack/mine", "mine");
+  EXPECT_EQ(error_of([&] { folder.commit(); }), "4 cannot write '" + (at / "pack").string() + "': no");
+  EXPECT_EQ(contents(at / "pack/mine"), "mine");
+}
+
 TEST(NewFolder, RefusesAFile) {
   TemporaryFolder at;
   put(at / "file", "text");

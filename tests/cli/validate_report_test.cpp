@@ -87,6 +87,9 @@ TEST_F(ValidateReports, ABaselineThatIsOutOfDateFails) {
 TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
   put(folder / "typo.toml", "[shad.colour]\nreason = 'x'\n");
   put(folder / "silent.toml", "[shade.colour]\n");
+  put(folder / "good.toml", "[shade.colour]\nreason = 'x'\n");
+  std::filesystem::create_symlink("r", folder / "link");
+  std::filesystem::create_directory_symlink("bad", folder / "folder");
   before = folder.names();
   const auto refused = [&](std::vector<std::string> options, int code, const testing::Matcher<const std::string&>& message) {
     options.insert(options.begin(), {"validate", "pack", "--port", "bad"});
@@ -98,6 +101,11 @@ TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
   refused({"--baseline", ""}, 2, HasSubstr("--baseline: expected a file, found ''"));
   refused({"--html", ""}, 2, HasSubstr("--html: expected a file, found ''"));
   refused({"--html", "r", "--json", "r"}, 2, HasSubstr("two reports cannot have one name: 'r'"));
+  refused({"--html", "./r", "--json", "r"}, 2, "two reports cannot be one file: 'r' and './r'");
+  refused({"--html", "pack/../r", "--junit", "r"}, 2, HasSubstr("cannot be one file"));
+  refused({"--html", "link", "--junit", "r"}, 2, HasSubstr("cannot be one file"));
+  refused({"--html", "folder/r", "--junit", "bad/r"}, 2, HasSubstr("cannot be one file"));
+  refused({"--baseline", "good.toml", "--json", "./good.toml"}, 2, "'./good.toml': a report would replace the baseline 'good.toml'");
   refused({"--html", "no/such/folder/r.html"}, 4, HasSubstr("no/such/folder/r.html"));
   refused({"--junit", "pack"}, 4, HasSubstr("pack"));
   refused({"--jsom", "r"}, 2, HasSubstr("did you mean '--json'?"));
@@ -123,6 +131,36 @@ TEST_F(ValidateReports, AFullDiskLeavesNothing) {
   EXPECT_EQ(o.code, 4);
   EXPECT_THAT(o.err, HasSubstr("cannot write 'r.html'"));
   EXPECT_EQ(folder.names(), before);
+}
+
+/// Bytes that a terminal could take as commands, or that XML cannot hold.
+bool has_control(const std::string& text) {
+  return std::any_of(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == '\x7f'; }) || text.find("\xc2\x9b") != std::string::npos;
+}
+
+// What a port says, and what files are called, reaches no terminal as a command.
+TEST_F(ValidateReports, EscapeSequencesAreShownAndNotSent) {
+  const std::string evil = "\x1b]0;title\x07\x1b[31m\xc2\x9b" "31m";
+  put(folder / "good/port.json", "{\"device\": {\"api\": \"vulkan\", \"name\": \"\\u001b[2Jgpu\\u009b\", \"driver\": \"\\u001b[2J\"}}");
+  Outcome o = validate("good", {"--html", "r.html", "--junit", "r.xml"});
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("\uFFFD[2Jgpu\uFFFD"));
+  EXPECT_FALSE(has_control(o.out + o.err));
+  EXPECT_FALSE(has_control(contents(folder / "r.xml")));
+  EXPECT_THAT(contents(folder / "r.xml"), HasSubstr("value=\"\uFFFD[2J\"/>"));
+  put(folder / "say.sh", "printf '" + evil + "\\n'; exit 3");
+  o = rainref({"validate", "pack", "--exec", ": {out}; sh say.sh", "--junit", "r.xml", "--html", "r.html"});
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("the port printed: \uFFFD]0;title\uFFFD\uFFFD[31m\uFFFD31m\n"));
+  EXPECT_FALSE(has_control(o.out + o.err));
+  EXPECT_FALSE(has_control(contents(folder / "r.xml")));
+  std::string manifest = contents(folder / "pack/manifest.json");
+  manifest.replace(manifest.find("\"scene\": \""), 10, "\"scene\": \"\\u001b[31m");
+  put(folder / "pack/manifest.json", manifest);
+  o = validate(evil, {});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, HasSubstr("\uFFFD]0;title"));
+  EXPECT_FALSE(has_control(o.out + o.err));
 }
 
 TEST(CommandText, IsWhatAShellReads) {

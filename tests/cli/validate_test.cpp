@@ -1,6 +1,6 @@
 // `rainref validate`: exit codes, a port's own command, races, shadows.
 #include "cli/port_command.h"
-#include "cli/support.h"
+#include "cli/running.h"
 
 namespace rainref::cli {
 namespace {
@@ -45,7 +45,7 @@ TEST_F(Validate, ExitCodes) {
   expect_refusal({"validate", pack, "--port", "port", "--only", "shad"}, 2, HasSubstr("did you mean 'shade'?"));
   expect_refusal({"validate", pack, "--port", "port", "--repeat", "2"}, 2, "--repeat: goes with --exec only");
   expect_refusal({"validate", pack, "--port", "port", "--set", "rain.rate=2"}, 2, HasSubstr("go with --shadow and a scene only"));
-  expect_refusal({"validate", pack, "--exec", "true"}, 2, HasSubstr("expected {out} in the command"));
+  expect_refusal({"validate", pack, "--exec", "true"}, 2, HasSubstr("expected {out} or $RAINREF_OUT in the command"));
   expect_refusal({"validate", pack, "--exec", ""}, 2, "--exec: expected a command, found ''");
   expect_refusal({"validate", pack, "--exec", "true {out}", "--timeout", "0"}, 2, HasSubstr("--timeout: expected a whole number from 1"));
   expect_refusal({"validate", pack, "--exec", "true {out}", "--port", "port"}, 2, HasSubstr("expected a new or empty folder"));
@@ -104,14 +104,49 @@ TEST_F(Validate, APortsCommandIsRunAndJudged) {
   EXPECT_EQ(validate({pack, "--port", "it's a $HOME"}).code, 0);
 }
 
-TEST(PortCommand, PathsAreOneWordInEveryQuote) {
+// However deeply shells are nested, and whatever the paths hold.
+TEST(PortCommand, PathsAreOneWordEverywhere) {
   TemporaryFolder folder;
-  const std::filesystem::path odd = folder / "a 'b' \"c\" $d `e` \\f";
-  for (const std::string command : {"printf %s {out}", "printf %s \"{out}\"", "printf %s '{out}'", "printf %s \"\\\"\"{out} | tail -c +2", "printf %s \\'{out} | tail -c +2"}) {
-    const CommandEnd end = run_command(with_folders(command, folder.path(), odd), std::chrono::seconds(20));
-    EXPECT_EQ(end.failure, "") << command;
-    EXPECT_EQ(end.last_lines, std::vector<std::string>{odd.string()}) << command;
+  for (const std::string name : {"plain", "a 'b' \"c\" $d `e` \\f $(touch g) *;&|\n\x1b h", "-x", "\xc3\xa4"}) {
+    const std::filesystem::path odd = folder / name;
+    std::filesystem::create_directory(odd);
+    const PortFolders folders(folder / "pack", odd);
+    for (const std::string to : {"{out}/f", "\"{out}/f\"", "'{out}'/f", "\"$RAINREF_OUT\"/f"}) {
+      for (const std::string command : {"cat > " + to, "sh -c 'cat > \"$0\"' " + to, "eval 'cat > " + (to[0] == '\'' ? "{out}/f" : to) + "'", "cat << E > /dev/null; cat > " + to + "\n{out}\nE\n"}) {
+        const CommandEnd told = run_command(folders.filled_in("printf text | { " + command + "\n}"), std::chrono::seconds(20), folders.environment());
+        EXPECT_EQ(told.failure, "") << command;
+        EXPECT_EQ(contents(odd / "f"), "text") << command;
+        std::filesystem::remove(odd / "f");
+      }
+    }
+    for (const std::string command : {"sh -c 'sh -c \"cd {out} && pwd -P\"'", "bash -c 'cd {out}; eval \"cd '{out}' && pwd -P\"'", "sh << 'E'\ncd \"{out}\" && pwd -P\nE", "cd \"$RAINREF_OUT\" && pwd -P"}) {
+      const CommandEnd end = run_command(folders.filled_in("cd / && " + command + " > " + (folder / "said").string()), std::chrono::seconds(20), folders.environment());
+      EXPECT_EQ(end.failure, "") << command;
+      EXPECT_EQ(contents(folder / "said"), odd.string() + "\n") << command;
+    }
   }
+  EXPECT_EQ(folder.names().size(), 5u);
+}
+
+TEST(PortCommand, WhoeverItStartsEndsWithIt) {
+  TemporaryFolder folder;
+  const auto daemon = [&] { return std::atoi(contents(folder / "daemon").c_str()); };
+  const std::string start = "cd " + folder.path().string() + "; setsid sh -c 'echo $$ > daemon; (sleep 600 &) ; sleep 600' & while [ ! -s daemon ]; do :; done; ";
+  EXPECT_EQ(run_command(start, std::chrono::seconds(20)).failure, "");
+  EXPECT_GT(daemon(), 0);
+  EXPECT_FALSE(is_running(daemon()));
+  std::filesystem::remove(folder / "daemon");
+  EXPECT_THAT(run_command(start + "sleep 600", std::chrono::seconds(1)).failure, HasSubstr("was ended after 1 s"));
+  EXPECT_GT(daemon(), 0);
+  EXPECT_FALSE(is_running(daemon()));
+}
+
+// A child that this process had before is none of the port's.
+TEST(PortCommand, NobodyElseIsEnded) {
+  ChildProcess other([] { return sleep_for_ever(); });
+  EXPECT_EQ(run_command("true", std::chrono::seconds(20)).failure, "");
+  EXPECT_TRUE(is_running(other.id()));
+  EXPECT_EQ(other.end(SIGTERM), -SIGTERM);
 }
 
 TEST(PortCommand, TheLastLinesAreKept) {
@@ -161,6 +196,13 @@ TEST_F(Validate, NothingIsLeftRunning) {
   const Outcome o = exec("cp -r {pack}/. {out}; sleep 60 &");
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+}
+
+TEST_F(Validate, APortWhoseFolderWasReplacedIsRefused) {
+  const Outcome o = exec("rm -r {out}; mkdir {out}", {"--port", "an odd name"});
+  EXPECT_EQ(o.code, 3) << o.out;
+  EXPECT_THAT(o.err, AllOf(HasSubstr("the command removed {out}, which was a link to '"), HasSubstr("an odd name'")));
+  EXPECT_EQ(exec("cp -r \"$RAINREF_PACK/.\" \"$RAINREF_OUT\"", {"--port", "another odd name"}).code, 0);
 }
 
 TEST_F(Validate, ARaceIsFoundAndNamed) {

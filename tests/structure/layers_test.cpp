@@ -120,6 +120,21 @@ TEST(Layers, TheRulesRefuse) {
   EXPECT_EQ(broken_rule("cli", "vector"), "");
 }
 
+// What came from ports, packs and file names must not command a terminal: all text passes cli/terminal.cpp.
+TEST(Layers, OnlyTheTerminalPrints) {
+  const std::regex prints("fmt::print\\(|std::(cout|cerr|clog)|\\b(printf|fprintf|puts|fputs|putchar|fputc)\\(|fwrite\\(.*(stdout|stderr)");
+  for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
+    const std::string file = fs::relative(entry.path(), root / "src").string();
+    if (!entry.is_regular_file() || file == "cli/terminal.cpp" || file == "cli/progress.cpp") continue;
+    std::ifstream in(entry.path());
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+      ++number;
+      EXPECT_FALSE(std::regex_search(line, prints)) << "src/" << file << ":" << number << ": " << line;
+    }
+  }
+}
+
 TEST(Layers, KernelsHaveNoForbiddenWords) {
   // What would change bits between machines; comments aside.
   const std::regex forbidden(

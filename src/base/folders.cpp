@@ -1,0 +1,78 @@
+#include "base/folders.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace rainref {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(int error) { throw std::system_error(error, std::generic_category()); }
+
+}  // namespace
+
+fs::path followed(fs::path path) {
+  constexpr int most_links = 40;  // as the kernel
+  for (int i = 0; i <= most_links; ++i) {
+    if (!path.has_filename() && path.has_relative_path()) path = path.parent_path();
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+    const fs::path to = fs::read_symlink(path, error);
+    if (error) fail(error.value());
+    path = path.parent_path() / to;  // `to` alone where it is absolute
+  }
+  fail(ELOOP);
+}
+
+MadeFolders::MadeFolders(const fs::path& folder) {
+  std::vector<fs::path> missing;  // innermost first
+  std::error_code error;
+  for (fs::path p = folder; !p.empty() && !fs::exists(fs::status(p, error)); p = p.parent_path()) {
+    missing.push_back(p);
+    if (p == p.parent_path()) break;
+  }
+  const Uninterrupted scope;
+  for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
+    if (::mkdir(p->c_str(), 0777) == 0) {
+      made_.insert(made_.begin(), *p);
+    } else if (const int why = errno; why != EEXIST || !fs::is_directory(*p, error)) {
+      // A link that leads nowhere is in the way like a file.
+      remove();
+      fail(why);
+    }
+  }
+  if (!folder.empty() && !fs::is_directory(folder, error)) {
+    remove();
+    fail(ENOTDIR);
+  }
+  undo_.emplace([this] { remove(); });
+}
+
+MadeFolders::~MadeFolders() { remove(); }
+
+void MadeFolders::keep() {
+  const Uninterrupted scope;
+  made_.clear();
+}
+
+void MadeFolders::remove() noexcept {
+  const Uninterrupted scope;
+  for (const fs::path& p : made_) ::rmdir(p.c_str());
+  made_.clear();
+}
+
+void sync_to_disk(const fs::path& path) {
+  const int descriptor = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(errno);
+  const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0) fail(error);
+}
+
+}  // namespace rainref

@@ -1,0 +1,33 @@
+#include "cli/terminal.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include "base/printable.h"
+
+namespace rainref::cli {
+
+void print_text(std::string_view text) {
+  const std::string shown = printable(text);
+  if (std::fwrite(shown.data(), 1, shown.size(), stdout) < shown.size()) throw std::system_error(errno, std::generic_category());
+}
+
+void complain(std::string_view message) {
+  std::string line(message);
+  std::replace(line.begin(), line.end(), '\n', ' ');  // whatever a file is called
+  line = printable("rainref: " + line + "\n");
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+bool reader_is_gone() {
+  pollfd output{STDOUT_FILENO, 0, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+}  // namespace rainref::cli
