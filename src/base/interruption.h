@@ -7,7 +7,7 @@
 namespace rainref {
 
 /// What to do, while this object lives, should the process be interrupted. Its end does nothing: who would otherwise
-/// clean up does so itself. An action runs inside an Uninterrupted scope, in a thread of its own.
+/// clean up does so itself. An action runs inside an Uninterrupted scope, in another thread.
 class Undo {
  public:
   explicit Undo(std::function<void()> action);
@@ -29,12 +29,8 @@ class Uninterrupted {
   std::unique_lock<std::recursive_mutex> lock_;
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP run all actions, the newest first, before the process dies of them; those that
-/// are ignored stay ignored (nohup). Call first: threads that are already running would die of a signal as before.
-void undo_when_interrupted();
-
-/// After fork(), before exec(): the child takes these signals as if undo_when_interrupted() had never been called.
-/// Async-signal-safe.
-void take_signals_again() noexcept;
+/// Runs all actions, the newest first. Every Uninterrupted scope but the caller's waits for ever after: nothing new may be made
+/// when what was made is gone.
+void undo_all() noexcept;
 
 }  // namespace rainref

@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "base/interruption.h"
+#include "base/signals.h"
 #include "cli/commands.h"
 #include "cli/terminal.h"
 #include "math/simd_target.h"

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include "base/interruption.h"
+#include "base/signals.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {

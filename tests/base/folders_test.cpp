@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "base/child_process.h"
+#include "base/signals.h"
 #include "base/temporary_folder.h"
 
 namespace rainref {

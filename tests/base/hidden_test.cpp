@@ -6,6 +6,7 @@
 
 #include "base/child_process.h"
 #include "base/file_lock.h"
+#include "base/signals.h"
 #include "base/temporary_folder.h"
 
 namespace rainref {

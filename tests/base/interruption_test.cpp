@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "base/child_process.h"
+#include "base/signals.h"
 #include "base/temporary_folder.h"
 
 namespace rainref {

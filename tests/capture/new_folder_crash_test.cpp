@@ -37,9 +37,10 @@ std::string text_of(const std::filesystem::path& pack) {
 class Memory {
  public:
   Memory() {
-    if (std::filesystem::is_directory("/dev/shm")) ::setenv("TEST_TMPDIR", "/dev/shm/", 0);
+    const bool is_free = !::getenv("TEST_TMPDIR") && std::filesystem::is_directory("/dev/shm");
+    if (is_free) ::setenv("TEST_TMPDIR", "/dev/shm/", 1);
     at_.emplace();
-    ::unsetenv("TEST_TMPDIR");
+    if (is_free) ::unsetenv("TEST_TMPDIR");
   }
   const TemporaryFolder& folder() const { return *at_; }
 
