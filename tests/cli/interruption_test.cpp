@@ -9,7 +9,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::vector<std::string> endless{"run", "corrected.toml", "-o", "new/o", "--frames", "1000000", "--image", "none", "--capture", "passes", "--every", "1"};
+const std::vector<std::string> endless{"run", "published.toml", "-o", "new/o", "--frames", "1000000", "--image", "none", "--capture", "passes", "--every", "1"};
 
 class Interrupted : public CommandLine {
  protected:
@@ -43,7 +43,7 @@ TEST_F(Interrupted, ARunLeavesNothing) {
 }
 
 TEST_F(Interrupted, APackLeavesNothing) {
-  const auto running = start_rainref(folder.path(), {"pack", "corrected.toml", "-o", "p", "--at", "0,1000000"});
+  const auto running = start_rainref(folder.path(), {"pack", "published.toml", "-o", "p", "--at", "0,1000000"});
   await([&] { return folder.names().size() > before.size(); });
   EXPECT_EQ(running->end(SIGTERM), -SIGTERM);
   EXPECT_EQ(folder.names(), before);
@@ -52,7 +52,7 @@ TEST_F(Interrupted, APackLeavesNothing) {
 TEST_F(Interrupted, WhatAKilledRunLeftGoesWithTheNext) {
   EXPECT_EQ(start_endless()->end(SIGKILL), -SIGKILL);
   EXPECT_EQ(names("new/o").size(), 2u);  // the lock and the hidden folder
-  const Outcome o = rainref({"run", "corrected.toml", "-o", "new/o", "--image", "none"});
+  const Outcome o = rainref({"run", "published.toml", "-o", "new/o", "--image", "none"});
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(names("new/o"), ElementsAre("summary.json"));
 }
@@ -72,7 +72,7 @@ TEST_F(Interrupted, ASecondRunIntoOneFolderIsRefused) {
 TEST_F(Interrupted, AKilledRunShowsNoOlderSummary) {
   fs::create_directory(folder / "o");
   put(folder / "o/summary.json", "of an older run");
-  const auto running = start_rainref(folder.path(), {"run", "corrected.toml", "-o", "o", "--frames", "1000000", "--every", "1"});
+  const auto running = start_rainref(folder.path(), {"run", "published.toml", "-o", "o", "--frames", "1000000", "--every", "1"});
   await([&] { return fs::exists(folder / "o/puddle.0000.png"); });
   EXPECT_FALSE(fs::exists(folder / "o/summary.json"));
   EXPECT_EQ(running->end(SIGKILL), -SIGKILL);
@@ -82,7 +82,8 @@ TEST_F(Interrupted, AKilledRunShowsNoOlderSummary) {
 TEST_F(Interrupted, ARefusedRunKeepsTheOlderSummary) {
   fs::create_directory(folder / "o");
   put(folder / "o/summary.json", "of an older run");
-  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "environment.image=none.png"}, 4, HasSubstr("none.png"));
+  before = folder.names();
+  expect_refusal({"run", "published.toml", "-o", "o", "--set", "environment.image=none.png"}, 4, HasSubstr("none.png"));
   EXPECT_EQ(contents(folder / "o/summary.json"), "of an older run");
 }
 
@@ -108,7 +109,7 @@ TEST_F(Interrupted, AReaderThatGoesAwayIsNoError) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
   ::close(ends[0]);
-  EXPECT_EQ(start_rainref(folder.path(), {"run", "corrected.toml", "-o", "o", "--image", "none", "--json"}, ends[1])->wait(), -SIGPIPE);
+  EXPECT_EQ(start_rainref(folder.path(), {"run", "published.toml", "-o", "o", "--image", "none", "--json"}, ends[1])->wait(), -SIGPIPE);
   ::close(ends[1]);
   EXPECT_THAT(names("o"), ElementsAre("summary.json"));
 }
@@ -118,10 +119,10 @@ TEST_F(Interrupted, LinksStayAndWhatTheyNameIsWritten) {
   fs::create_directory_symlink("real", folder / "link");
   fs::create_directory_symlink("real/run", folder / "run");
   fs::create_directory_symlink("real/pack", folder / "pack");
-  const Outcome o = rainref({"run", "corrected.toml", "-o", "run", "--image", "none"});
+  const Outcome o = rainref({"run", "published.toml", "-o", "run", "--image", "none"});
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_EQ(rainref({"run", "corrected.toml", "-o", "link", "--image", "none"}).code, 0);
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(rainref({"pack", "corrected.toml", "-o", "pack", "--at", "0", "--passes", "display"}).code, 0);
+  EXPECT_EQ(rainref({"run", "published.toml", "-o", "link", "--image", "none"}).code, 0);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(rainref({"pack", "published.toml", "-o", "pack", "--at", "0", "--passes", "display"}).code, 0);
   for (const std::string name : {"link", "run", "pack"}) EXPECT_TRUE(fs::is_symlink(folder / name)) << name;
   EXPECT_THAT(names("real"), ElementsAre("pack", "run", "summary.json"));
   EXPECT_TRUE(fs::exists(folder / "real/run/summary.json"));
@@ -129,8 +130,8 @@ TEST_F(Interrupted, LinksStayAndWhatTheyNameIsWritten) {
   // A link in the middle that leads nowhere is in the way, and stays too.
   fs::create_directory_symlink("nowhere", folder / "dangling");
   before = folder.names();
-  expect_refusal({"run", "corrected.toml", "-o", "dangling/sub"}, 4, HasSubstr("cannot make this folder"));
-  expect_refusal({"pack", "corrected.toml", "-o", "dangling/sub"}, 4, HasSubstr("cannot write 'dangling/sub'"));
+  expect_refusal({"run", "published.toml", "-o", "dangling/sub"}, 4, HasSubstr("cannot make this folder"));
+  expect_refusal({"pack", "published.toml", "-o", "dangling/sub"}, 4, HasSubstr("cannot write 'dangling/sub'"));
   EXPECT_TRUE(fs::is_symlink(folder / "dangling"));
 }
 

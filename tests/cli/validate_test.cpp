@@ -110,9 +110,10 @@ TEST(PortCommand, PathsAreOneWordEverywhere) {
   for (const std::string name : {"plain", "a 'b' \"c\" $d `e` \\f $(touch g) *;&|\n\x1b h", "-x", "\xc3\xa4"}) {
     const std::filesystem::path odd = folder / name;
     std::filesystem::create_directory(odd);
+    const std::string real = std::filesystem::canonical(odd).string();
     const PortFolders folders(folder / "pack", odd);
     for (const std::string to : {"{out}/f", "\"{out}/f\"", "'{out}'/f", "\"$RAINREF_OUT\"/f"}) {
-      for (const std::string command : {"cat > " + to, "sh -c 'cat > \"$0\"' " + to, "eval 'cat > " + (to[0] == '\'' ? "{out}/f" : to) + "'", "cat << E > /dev/null; cat > " + to + "\n{out}\nE\n"}) {
+      for (const std::string& command : {"cat > " + to, "sh -c 'cat > \"$0\"' " + to, "eval 'cat > " + (to[0] == '\'' ? "{out}/f" : to) + "'", "cat << E > /dev/null; cat > " + to + "\n{out}\nE\n"}) {
         const CommandEnd told = run_command(folders.filled_in("printf text | { " + command + "\n}"), std::chrono::seconds(20), folders.environment());
         EXPECT_EQ(told.failure, "") << command;
         EXPECT_EQ(contents(odd / "f"), "text") << command;
@@ -120,9 +121,9 @@ TEST(PortCommand, PathsAreOneWordEverywhere) {
       }
     }
     for (const std::string command : {"sh -c 'sh -c \"cd {out} && pwd -P\"'", "bash -c 'cd {out}; eval \"cd '{out}' && pwd -P\"'", "sh << 'E'\ncd \"{out}\" && pwd -P\nE", "cd \"$RAINREF_OUT\" && pwd -P"}) {
-      const CommandEnd end = run_command(folders.filled_in("cd / && " + command + " > " + (folder / "said").string()), std::chrono::seconds(20), folders.environment());
+      const CommandEnd end = run_command(folders.filled_in("cd / && { " + command + "\n} > " + (folder / "said").string()), std::chrono::seconds(20), folders.environment());
       EXPECT_EQ(end.failure, "") << command;
-      EXPECT_EQ(contents(folder / "said"), odd.string() + "\n") << command;
+      EXPECT_EQ(contents(folder / "said"), real + "\n") << command;
     }
   }
   EXPECT_EQ(folder.names().size(), 5u);
