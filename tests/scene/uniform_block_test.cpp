@@ -27,12 +27,12 @@ struct Example {
 };
 
 std::vector<Member> camera_members() {
-  return {member<&CameraPart::position>("position", "m", "Where it is."),
-          member<&CameraPart::pixel_scale>("pixel_scale", "1", "Height of a pixel at distance 1.")};
+  return {member<&CameraPart::position>("position", "m", {-10, 10}, "Where it is."),
+          member<&CameraPart::pixel_scale>("pixel_scale", "1", share, "Height of a pixel at distance 1.")};
 }
 
 Member at(std::size_t offset, int components, const std::string& name = "height") {
-  return {name, Scalar::float32, components, offset, "m", "A height."};
+  return {name, Scalar::float32, components, offset, "m", "A height.", share};
 }
 
 std::string broken(std::size_t size, std::vector<Member> members, const std::string& name = "Block") {
@@ -159,12 +159,12 @@ TEST(UniformBlock, DeclaringABadOneThrows) {
     float a;
     float b[3];
   };
-  EXPECT_EQ(error_of([] { uniform_block<Bad>("Bad", {member<&Bad::b>("b", "1", "B.")}); }),
+  EXPECT_EQ(error_of([] { uniform_block<Bad>("Bad", {member<&Bad::b>("b", "1", share, "B.")}); }),
             "5 layout Bad: 'b' at 4 is not aligned to 16");
   struct Short {
     float a, b;
   };
-  EXPECT_EQ(error_of([] { uniform_block<Short>("Short", {member<&Short::a>("a", "1", "A.")}); }),
+  EXPECT_EQ(error_of([] { uniform_block<Short>("Short", {member<&Short::a>("a", "1", share, "A.")}); }),
             "5 layout Short: size 8 is not a multiple of 16");
   EXPECT_EQ(record<Short>("Short", {member<&Short::b>("b", "1", "B.")}).members[0].offset, 4u);
 }
