@@ -1,5 +1,6 @@
 #include "drops/info.h"
 
+#include "drops/drops.h"
 #include "drops/records.h"
 #include "drops/uniforms.h"
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "drops/drops.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
