@@ -69,8 +69,8 @@ class Hostile {
     for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
     return shadow(plan, folder_ / "port", dumped_runs(folder_ / "port", base_.effect, passes), options);
   }
-  fs::path folder() const { return folder_ / "pack"; }
-  fs::path port() const { return folder_ / "port"; }
+  std::filesystem::path folder() const { return folder_ / "pack"; }
+  std::filesystem::path port() const { return folder_ / "port"; }
 
   fuzz::Json manifest;
 

@@ -140,7 +140,8 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
 /// One change of the manifest, wherever in it.
 inline void edit_manifest(nlohmann::ordered_json& manifest, Program& p) {
   nlohmann::ordered_json* at = &manifest;
-  if (p.below(4) > 0) at = &manifest["cases"][0];
+  const nlohmann::ordered_json::json_pointer first_case("/cases/0");
+  if (p.below(4) > 0 && manifest.is_object() && manifest.contains(first_case)) at = &manifest[first_case];
   while (at->is_structured() && !at->empty()) {
     nlohmann::ordered_json& child = *std::next(at->begin(), static_cast<std::ptrdiff_t>(p.below(at->size())));
     if (!child.is_structured() || p.below(4) == 0) {

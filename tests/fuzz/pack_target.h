@@ -103,7 +103,8 @@ inline bool settle(const Base& base, capture::PassCase& c) {
     capture::check_case(*effect.info, effect.parameters, c);
     if (!capture::uniform_fault(*effect.info, c).empty() || !capture::record_fault(c).empty()) return false;
     const capture::PassReadings* readings = conformance::readings_of(base.effect, c.pass);
-    if (!readings) return true;
+    const bool is_data = std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; });
+    if (!readings || is_data) return true;
     std::vector<capture::Array> expected;
     const std::unique_ptr<capture::PassModel> model = conformance::bound(c.pass, readings->bind, c);
     if (model) {
