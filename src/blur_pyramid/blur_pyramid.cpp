@@ -110,16 +110,16 @@ void LevelTexture::refresh(const parallel::Executor& executor, const std::vector
 capture::PassInfo blur_info(const std::string& colour_from, const std::string& depth_from) {
   using scene::member;
   const scene::UniformBlock block = scene::uniform_block<BlurUniforms>(
-      "BlurUniforms", {member<&BlurUniforms::fog_colour>("fog_colour", "1", "Linear radiance of the fog."),
-                       member<&BlurUniforms::fog_density>("fog_density", "1/m", "Extinction of light in the fog."),
-                       member<&BlurUniforms::middle>("middle", "1", "corrected: weight of the middle one of three texels, for columns and rows."),
-                       member<&BlurUniforms::last>("last", "1", "corrected: weight of the last one, over output index + 1."),
-                       member<&BlurUniforms::source_size>("source_size", "texel", "Columns and rows of the level above."),
-                       member<&BlurUniforms::level>("level", "1", "0 fogs the scene, further ones halve the level above.")});
+      "BlurUniforms", {member<&BlurUniforms::fog_colour>("fog_colour", "1", scene::radiance, "Linear radiance of the fog."),
+                       member<&BlurUniforms::fog_density>("fog_density", "1/m", {0, 10}, "Extinction of light in the fog."),
+                       member<&BlurUniforms::middle>("middle", "1", scene::share, "corrected: weight of the middle one of three texels, for columns and rows."),
+                       member<&BlurUniforms::last>("last", "1", scene::share, "corrected: weight of the last one, over output index + 1."),
+                       member<&BlurUniforms::source_size>("source_size", "texel", {1, 65536}, "Columns and rows of the level above."),
+                       member<&BlurUniforms::level>("level", "1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
   return {"blur_pyramid",
           "The scene in fog, and blurred levels of it; one run a level.",
           {{published, 1, capture::Judge::envelope, "BlurUniforms"}, {correct, 1, capture::Judge::envelope, "BlurUniforms"}},
-          {{"scene_colour", colour_from}, {"scene_depth", depth_from}, {"blurred", "blur_pyramid"}},
+          {capture::per_texel({"scene_colour", colour_from}), capture::per_texel({"scene_depth", depth_from}), {"blurred", "blur_pyramid"}},
           {"blurred"},
           {block},
           "gather",

@@ -30,8 +30,8 @@ struct Display {
 }  // namespace
 
 PassInfo display_info(const std::string& from) {
-  return {"display", "Display code.", {{"as-published", 1, Judge::envelope, "DisplayUniforms"}, {"corrected", 1, Judge::envelope, "DisplayUniforms"}}, {{"colour", from}}, {"picture"},
-          {scene::uniform_block<DisplayUniforms>("DisplayUniforms", {scene::member<&DisplayUniforms::exposure>("exposure", "1", "Factor of the radiance.")})}};
+  return {"display", "Display code.", {{"as-published", 1, Judge::envelope, "DisplayUniforms"}, {"corrected", 1, Judge::envelope, "DisplayUniforms"}}, {per_texel({"colour", from})}, {"picture"},
+          {scene::uniform_block<DisplayUniforms>("DisplayUniforms", {scene::member<&DisplayUniforms::exposure>("exposure", "1", scene::exposure_factor, "Factor of the radiance.")})}};
 }
 std::unique_ptr<PassModel> bind_display(const PassCase& c) {
   const CaseInput& colour = image_input(c, "colour");

@@ -27,6 +27,26 @@ namespace {
   throw Error(ExitCode::port_files, fmt::format("{}: {}", file.string(), why));
 }
 
+// Far above what a manifest needs, which names some files a line.
+constexpr std::uintmax_t largest_manifest = std::uintmax_t{256} << 20;
+constexpr int deepest_manifest = 16;
+
+/// The library takes any depth, and what walks the result then runs out of stack.
+nlohmann::ordered_json parse_manifest(const fs::path& path, const std::vector<std::byte>& bytes) {
+  using Json = nlohmann::ordered_json;
+  const auto watch = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > deepest_manifest) refuse(path, fmt::format("nested deeper than {}", deepest_manifest));
+    return true;
+  };
+  const char* text = reinterpret_cast<const char*>(bytes.data());
+  try {
+    return Json::parse(text, text + bytes.size(), watch);
+  } catch (const nlohmann::json::exception& e) {
+    const std::string why = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+    refuse(path, fmt::format("no JSON: {}", why.substr(std::min(why.size(), why.find("] ") + 2))));
+  }
+}
+
 std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
   if (bytes > physical_memory()) refuse(path, fmt::format("{} do not fit into the {} of this machine", memory_text(bytes), memory_text(physical_memory())));
   const auto unreadable = [&] { throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno))); };
@@ -78,14 +98,9 @@ Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
     const fs::path inner = folder_ / "capture";
     refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name, fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
   }
-  const std::vector<std::byte> bytes = whole_file(path, fs::file_size(path));
-  nlohmann::ordered_json json;
-  try {
-    json = nlohmann::ordered_json::parse(reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<const char*>(bytes.data() + bytes.size()));
-  } catch (const nlohmann::json::exception& e) {
-    std::string why = e.what();  // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
-    refuse(path, fmt::format("no JSON: {}", why.substr(std::min(why.size(), why.find("] ") + 2))));
-  }
+  const std::uintmax_t size = fs::file_size(path);
+  if (size > largest_manifest) refuse(path, fmt::format("{} bytes; expected at most {}", size, largest_manifest));
+  const nlohmann::ordered_json json = parse_manifest(path, whole_file(path, size));
   read_manifest(JsonField(json, path.string()), *this);
 }
 

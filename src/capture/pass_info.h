@@ -31,7 +31,13 @@ struct ReadInfo {
   std::string from = "";     ///< the pass that wrote it; "": the host
   bool previous = false;     ///< from the run of that pass before this one, in this frame or the one before
   std::string variant = "";  ///< "": every one
+  bool per_texel = false;    ///< an invocation loads its own texel: the image has the size of the pass's outputs
 };
+/// The same read, per texel.
+inline ReadInfo per_texel(ReadInfo read) {
+  read.per_texel = true;
+  return read;
+}
 
 /// A pass as one variant runs it.
 struct PassVariant {

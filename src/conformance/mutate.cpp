@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/check_pack.h"
 #include "conformance/judge.h"
 #include "conformance/keyed.h"
 #include "conformance/list_slips.h"
@@ -108,6 +109,7 @@ void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::Pa
 
 MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations) {
   const enclosed::Profile& chosen = profile(options.profile);
+  check_pack(pack);
   MutationReport report;
   report.pack = pack.folder().string();
   report.profile = options.profile;
@@ -121,7 +123,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
     bool judged = false;
     for (const capture::PackCase& entry : pack.cases) {
       if (entry.pass != pass.name) continue;
-      PassCase c = pack.read(entry);
+      PassCase c = read_case(pack, entry);
       if (!readings || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
       judged = true;
       const std::unique_ptr<capture::PassModel> model = bind ? bind(c) : std::make_unique<capture::ListPass>("", nullptr);

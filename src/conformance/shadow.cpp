@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "base/read_file.h"
+#include "capture/check_case.h"
 #include "conformance/judge_pass.h"
+#include "conformance/known_effects.h"
 #include "conformance/port_files.h"
 #include "conformance/profiles.h"
 #include "conformance/shadow_checks.h"
@@ -219,9 +221,10 @@ class Shadow {
       out.stored.push_back(read_output(run, o));
       out.c.outputs[o].array = out.stored.back();  // until the reference's are there
     }
-    const std::string non_finite = non_finite_member(pass_of(run).block, out.c.uniforms);
-    if (!non_finite.empty()) {
-      out.broken = out.untested = fmt::format("uniform {} is infinite or not a number", non_finite);  // nothing can be computed with it
+    std::string fault = capture::uniform_fault(*known_effect(plan_.effect).info, out.c);
+    if (fault.empty()) fault = capture::record_fault(out.c);
+    if (!fault.empty()) {
+      out.broken = out.untested = fault;  // nothing can be computed with it
       return out;
     }
     const bool is_first = loaded_.insert(run.id).second;

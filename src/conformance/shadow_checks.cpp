@@ -131,17 +131,6 @@ const PlannedRun* run_with(const ShadowPlan& plan, const std::string& pass, cons
 
 }  // namespace
 
-std::string non_finite_member(const scene::UniformBlock& block, const std::vector<std::byte>& uniforms) {
-  for (const Member& m : block.members) {
-    for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k) {
-      std::uint32_t bits;
-      std::memcpy(&bits, uniforms.data() + m.offset + 4 * static_cast<std::size_t>(k), sizeof bits);
-      if ((bits & 0x7f800000u) == 0x7f800000u) return m.name;
-    }
-  }
-  return "";
-}
-
 std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const std::vector<std::byte>& uniforms, Tally& differing) {
   const std::string& pass = run.c.pass;
   const auto declared = std::find_if(plan.passes.begin(), plan.passes.end(), [&](const capture::PackPass& p) { return p.name == pass; });

@@ -44,9 +44,6 @@ class Tally {
   std::vector<Entry> entries_;
 };
 
-/// The first member that is infinite or no number, or "".
-std::string non_finite_member(const scene::UniformBlock& block, const std::vector<std::byte>& uniforms);
-
 /// Compares a run's uniforms with the plan's. What differs goes into `differing`, because a port may set it otherwise; gives
 /// why the uniforms cannot be this run's, or "": another time, a counter of another run.
 std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const std::vector<std::byte>& uniforms, Tally& differing);

@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "capture/npy_write.h"
+#include "conformance/check_pack.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -68,6 +69,7 @@ Array level_of(const Array& array, int level) {
 }
 
 ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files) {
+  check_pack(pack);
   ShadowPlan plan;
   plan.effect = pack.effect;
   plan.variant = pack.variant;

@@ -1,21 +1,17 @@
 #include "conformance/validate.h"
 
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 
+#include "conformance/check_pack.h"
 #include "conformance/judge_pass.h"
 #include "conformance/keyed.h"
+#include "conformance/known_effects.h"
 #include "conformance/port_files.h"
 #include "conformance/profiles.h"
-#include "edge_splash/readings.h"
 #include "port_dump/dump_file.h"
-#include "puddle/readings.h"
 #include "rainref/error.h"
-#include "rainy_glass/readings.h"
-#include "screen_drops/readings.h"
-#include "windshield/readings.h"
 
 namespace rainref::conformance {
 namespace {
@@ -25,16 +21,6 @@ using capture::Pack;
 using capture::PackCase;
 using capture::PackPass;
 using capture::PassCase;
-
-const std::vector<capture::PassReadings>& readings_of(const std::string& effect) {
-  static const std::map<std::string, const std::vector<capture::PassReadings>*> all{
-      {"puddle", &puddle::readings()}, {"windshield", &windshield::readings()}, {"edge_splash", &edge_splash::readings()}, {"screen_drops", &screen_drops::readings()}, {"rainy_glass", &rainy_glass::readings()}};
-  const auto found = all.find(effect);
-  if (found != all.end()) return *found->second;
-  std::vector<std::string> names;
-  for (const auto& [name, unused] : all) names.push_back(name);
-  throw Error(ExitCode::usage, fmt::format("this build judges {}; the pack is of '{}'", fmt::join(names, ", "), effect));
-}
 
 /// The pack's expected outputs are the reference's: else the pack is of another version, or damaged in a way that its
 /// hashes do not show.
@@ -85,7 +71,7 @@ void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
 }  // namespace
 
 const capture::PassReadings* readings_of(const std::string& effect, const std::string& pass) {
-  for (const capture::PassReadings& r : readings_of(effect))
+  for (const capture::PassReadings& r : *known_effect(effect).readings)
     if (r.pass == pass) return &r;
   return nullptr;
 }
@@ -121,6 +107,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
   const enclosed::Profile& chosen = profile(options.profile);
   if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
   if (!pack.with_inputs) throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
+  check_pack(pack);
   require_apart(pack.folder(), folder);
   PortFiles port(folder);
   check_files(pack, options.only, port);
@@ -146,7 +133,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     runs.diagnose = options.diagnose;
     runs.load = [&](std::size_t k) {
       PortRun run;
-      run.c = pack.read(*cases[k]);
+      run.c = read_case(pack, *cases[k]);
       run.stored = read_outputs(port, run.c);
       return run;
     };

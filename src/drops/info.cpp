@@ -1,5 +1,6 @@
 #include "drops/info.h"
 
+#include "drops/drops.h"
 #include "drops/records.h"
 #include "drops/uniforms.h"
 
@@ -12,36 +13,36 @@ using namespace rainref::capture;
 constexpr const char *published = "as-published", *correct = "corrected";
 
 UniformBlock spawn_block() {
-  return uniform_block<SpawnUniforms>("SpawnUniforms", {member<&SpawnUniforms::seed>("seed", "1", "Low and high word of the seed."),
-                                                        member<&SpawnUniforms::step>("step", "1", "Steps made before this one, modulo 2^32."),
-                                                        member<&SpawnUniforms::parts>("parts", "1", "Draws that add up to the count."),
-                                                        member<&SpawnUniforms::first_count>("first_count", "1", "Drops of a draw whose word is below every threshold."),
-                                                        member<&SpawnUniforms::threshold_count>("threshold_count", "1", "Thresholds in the list; 0: each draw gives first_count."),
-                                                        member<&SpawnUniforms::first_id>("first_id", "1", "Id of the first arrival; the others follow."),
-                                                        member<&SpawnUniforms::room>("room", "1", "Free slots: arrivals beyond are lost."),
-                                                        member<&SpawnUniforms::life>("life", "s", "Life of a new drop.")});
+  return uniform_block<SpawnUniforms>("SpawnUniforms", {member<&SpawnUniforms::seed>("seed", "1", any_word, "Low and high word of the seed."),
+                                                        member<&SpawnUniforms::step>("step", "1", any_word, "Steps made before this one, modulo 2^32."),
+                                                        member<&SpawnUniforms::parts>("parts", "1", {0, 4096}, "Draws that add up to the count."),
+                                                        member<&SpawnUniforms::first_count>("first_count", "1", {0, 1 << 26}, "Drops of a draw whose word is below every threshold."),
+                                                        member<&SpawnUniforms::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list; 0: each draw gives first_count."),
+                                                        member<&SpawnUniforms::first_id>("first_id", "1", any_word, "Id of the first arrival; the others follow."),
+                                                        member<&SpawnUniforms::room>("room", "1", {0, DropArrays::most_slots}, "Free slots: arrivals beyond are lost."),
+                                                        member<&SpawnUniforms::life>("life", "s", {0, 4096}, "Life of a new drop.")});
 }
 UniformBlock integrate_block() {
   return uniform_block<IntegrateUniforms>(
-      "IntegrateUniforms", {member<&IntegrateUniforms::frame>("frame", "m", "corrected: x = frame.x u + frame.y v and y = frame.z v in the plane of the glass."),
-                            member<&IntegrateUniforms::dt>("dt", "s", "The step."),
-                            member<&IntegrateUniforms::inertia_coupling>("inertia_coupling", "1", "as-published: share of the vehicle's acceleration."),
-                            member<&IntegrateUniforms::wind_coupling>("wind_coupling", "1/s", "as-published: acceleration by a unit of wind."),
-                            member<&IntegrateUniforms::drag>("drag", "1/s", "as-published: rate of slowing down; corrected: that times mass^(2/3)."),
-                            member<&IntegrateUniforms::wind_push>("wind_push", "1/m", "corrected: acceleration over wind speed squared, times mass^(1/3)."),
-                            member<&IntegrateUniforms::hold>("hold", "m/s^2", "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
-                            member<&IntegrateUniforms::evaporation>("evaporation", "1/s", "corrected: quanta lost in a second over mass^(1/3)."),
-                            member<&IntegrateUniforms::margin>("margin", "1", "corrected: how far outside the glass a drop lives."),
-                            member<&IntegrateUniforms::rest_speed>("rest_speed", "m/s", "corrected: a held drop below this speed rests."),
-                            member<&IntegrateUniforms::phase_rate>("phase_rate", "1", "corrected: turns in 64 s of the phase that rounds losses.")});
+      "IntegrateUniforms", {member<&IntegrateUniforms::frame>("frame", "m", {-1e4, 1e4}, "corrected: x = frame.x u + frame.y v and y = frame.z v in the plane of the glass."),
+                            member<&IntegrateUniforms::dt>("dt", "s", {0, 1}, "The step."),
+                            member<&IntegrateUniforms::inertia_coupling>("inertia_coupling", "1", {0, 100}, "as-published: share of the vehicle's acceleration."),
+                            member<&IntegrateUniforms::wind_coupling>("wind_coupling", "1/s", {0, 100}, "as-published: acceleration by a unit of wind."),
+                            member<&IntegrateUniforms::drag>("drag", "1/s", {0, 1e9}, "as-published: rate of slowing down; corrected: that times mass^(2/3)."),
+                            member<&IntegrateUniforms::wind_push>("wind_push", "1/m", {0, 1e9}, "corrected: acceleration over wind speed squared, times mass^(1/3)."),
+                            member<&IntegrateUniforms::hold>("hold", "m/s^2", {0, 1e9}, "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
+                            member<&IntegrateUniforms::evaporation>("evaporation", "1/s", {0, 1e9}, "corrected: quanta lost in a second over mass^(1/3)."),
+                            member<&IntegrateUniforms::margin>("margin", "1", share, "corrected: how far outside the glass a drop lives."),
+                            member<&IntegrateUniforms::rest_speed>("rest_speed", "m/s", share, "corrected: a held drop below this speed rests."),
+                            member<&IntegrateUniforms::phase_rate>("phase_rate", "1", {0, 1e7}, "corrected: turns in 64 s of the phase that rounds losses.")});
 }
 UniformBlock merge_block() {
-  return uniform_block<MergeUniforms>("MergeUniforms", {member<&MergeUniforms::frame>("frame", "m", "As in IntegrateUniforms."),
-                                                        member<&MergeUniforms::radius>("radius", "m", "Base radius over mass^(1/3)."),
-                                                        member<&MergeUniforms::trail>("trail", "1/m^2", "Quanta left over base radius and way."),
-                                                        member<&MergeUniforms::dt>("dt", "s", "The step."),
-                                                        member<&MergeUniforms::film>("film", "texel", "Columns and rows of the film."),
-                                                        member<&MergeUniforms::drying>("drying", "1", "Quanta that each texel of the film loses in this step.")});
+  return uniform_block<MergeUniforms>("MergeUniforms", {member<&MergeUniforms::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
+                                                        member<&MergeUniforms::radius>("radius", "m", share, "Base radius over mass^(1/3)."),
+                                                        member<&MergeUniforms::trail>("trail", "1/m^2", {0, 1e12}, "Quanta left over base radius and way."),
+                                                        member<&MergeUniforms::dt>("dt", "s", {0, 1}, "The step."),
+                                                        member<&MergeUniforms::film>("film", "texel", {1, 65536}, "Columns and rows of the film."),
+                                                        member<&MergeUniforms::drying>("drying", "1", {0, most_quanta}, "Quanta that each texel of the film loses in this step.")});
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ PassInfo integrate_info(const std::string& before, const std::string& glass_fram
 }
 PassInfo merge_info(const std::string& before, const std::string& film_from) {
   return {"merge", "Drops that touch become one; sliding drops leave trails on the film.", {{correct, 1, Judge::keyed, "MergeUniforms"}},
-          {{"drops", before, false, correct}, {"film", film_from, film_from == "merge", correct}}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
+          {{"drops", before, false, correct}, per_texel({"film", film_from, film_from == "merge", correct})}, {"drops", "film"}, {merge_block()}, "ordered_scatter", {"length"}};
 }
 
 PassInfo corrected_only(PassInfo pass) {

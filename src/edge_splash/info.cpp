@@ -15,36 +15,36 @@ EffectInfo make() {
   using P = PublishedSplashUniforms;
   using U = SplashUniforms;
   const UniformBlock printed = uniform_block<P>(
-      "PublishedSplashUniforms", {member<&P::drop_color>("drop_color", "1", "Linear RGB and opacity of the drops."),
-                                  member<&P::width>("width", "texel", "Columns of the picture."),
-                                  member<&P::height>("height", "texel", "Rows of the picture."),
-                                  member<&P::noise_width>("noise_width", "texel", "Columns of the noise map."),
-                                  member<&P::noise_height>("noise_height", "texel", "Rows of the noise map."),
-                                  member<&P::edge_threshold>("edge_threshold", "1", "Sobel sum of device depths that counts as an edge."),
-                                  member<&P::rain_drop_scale>("rain_drop_scale", "1", "Threshold of the noise."),
-                                  member<&P::time>("time", "s", "Frame number over frame rate, rounded once."),
-                                  member<&P::drop_speed>("drop_speed", "texel/s", "Speed of the noise in x and in y."),
-                                  member<&P::thickness>("thickness", "texel", "Distance of the taps where the depth is 1.")});
+      "PublishedSplashUniforms", {member<&P::drop_color>("drop_color", "1", radiance, "Linear RGB and opacity of the drops."),
+                                  member<&P::width>("width", "texel", {1, 65536}, "Columns of the picture."),
+                                  member<&P::height>("height", "texel", {1, 65536}, "Rows of the picture."),
+                                  member<&P::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
+                                  member<&P::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
+                                  member<&P::edge_threshold>("edge_threshold", "1", {0, 16}, "Sobel sum of device depths that counts as an edge."),
+                                  member<&P::rain_drop_scale>("rain_drop_scale", "1", share, "Threshold of the noise."),
+                                  member<&P::time>("time", "s", frame_time, "Frame number over frame rate, rounded once."),
+                                  member<&P::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
+                                  member<&P::thickness>("thickness", "texel", {0, 20}, "Distance of the taps where the depth is 1.")});
   const UniformBlock splash = uniform_block<U>(
-      "SplashUniforms", {member<&U::drop_color>("drop_color", "1", "Linear RGB and opacity of the drops."),
-                         member<&U::up>("up", "1", "Unit vector that points up, camera axes: right, up, forward."),
-                         member<&U::reach>("reach", "texel", "Texels that the band covers at 1 m."),
-                         member<&U::pixel>("pixel", "1", "Extent of a pixel on the image plane at distance 1."),
-                         member<&U::half_size>("half_size", "1", "Half the extent of the image plane at distance 1."),
-                         member<&U::depth_scale>("depth_scale", "1/m", "1 / z = depth_scale d + depth_bias."),
-                         member<&U::depth_bias>("depth_bias", "1/m", "See depth_scale."),
-                         member<&U::reach_min>("reach_min", "texel", "Smallest reach of the taps."),
-                         member<&U::reach_max>("reach_max", "texel", "Largest reach of the taps; whole."),
-                         member<&U::step_low>("step_low", "m", "Sobel sum of distances at which an edge begins."),
-                         member<&U::step_high>("step_high", "m", "Sobel sum from which it is whole."),
-                         member<&U::bend_low>("bend_low", "1", "Bend at which an edge begins."),
-                         member<&U::bend_high>("bend_high", "1", "Bend from which it is whole."),
-                         member<&U::cosine_low>("cosine_low", "1", "Cosine between an edge's normal and up at which the mask begins."),
-                         member<&U::cosine_high>("cosine_high", "1", "Cosine from which it is whole."),
-                         member<&U::noise_low>("noise_low", "1", "Noise at which a drop begins."),
-                         member<&U::noise_high>("noise_high", "1", "Noise from which it is whole."),
-                         member<&U::noise_scale>("noise_scale", "1", "Texture coordinates of the noise in a pixel."),
-                         member<&U::noise_offset>("noise_offset", "1", "Texture coordinates that the noise has scrolled, in [0, 1).")});
+      "SplashUniforms", {member<&U::drop_color>("drop_color", "1", radiance, "Linear RGB and opacity of the drops."),
+                         member<&U::up>("up", "1", component, "Unit vector that points up, camera axes: right, up, forward."),
+                         member<&U::reach>("reach", "texel", {0, 1e9}, "Texels that the band covers at 1 m."),
+                         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                         member<&U::depth_scale>("depth_scale", "1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
+                         member<&U::depth_bias>("depth_bias", "1/m", {0, 1e4}, "See depth_scale."),
+                         member<&U::reach_min>("reach_min", "texel", whole(1, 4096), "Smallest reach of the taps."),
+                         member<&U::reach_max>("reach_max", "texel", whole(1, 4096), "Largest reach of the taps; whole."),
+                         member<&U::step_low>("step_low", "m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
+                         member<&U::step_high>("step_high", "m", {0, 1e5}, "Sobel sum from which it is whole."),
+                         member<&U::bend_low>("bend_low", "1", {0, 11}, "Bend at which an edge begins."),
+                         member<&U::bend_high>("bend_high", "1", {0, 11}, "Bend from which it is whole."),
+                         member<&U::cosine_low>("cosine_low", "1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
+                         member<&U::cosine_high>("cosine_high", "1", {0, 11}, "Cosine from which it is whole."),
+                         member<&U::noise_low>("noise_low", "1", {0, 11}, "Noise at which a drop begins."),
+                         member<&U::noise_high>("noise_high", "1", {0, 11}, "Noise from which it is whole."),
+                         member<&U::noise_scale>("noise_scale", "1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
+                         member<&U::noise_offset>("noise_offset", "1", share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
 
   constexpr auto envelope = Judge::envelope;
   EffectInfo info;
@@ -52,7 +52,7 @@ EffectInfo make() {
   info.passes = {
       {"splash", "Masks of edge, angle and noise, and the scene with drops blended over it.",
        {{published, 1, envelope, "PublishedSplashUniforms"}, {correct, 1, envelope, "SplashUniforms"}},
-       {{"scene"}, {"depth"}, {"noise_map"}, {"layer", "", false, correct}}, {"edge", "angle", "noise", "colour"}, {printed, splash}, "gather", {"sobel", "length"}},
+       {per_texel({"scene"}), per_texel({"depth"}), {"noise_map"}, per_texel({"layer", "", false, correct})}, {"edge", "angle", "noise", "colour"}, {printed, splash}, "gather", {"sobel", "length"}},
       display_info("splash"),
   };
   const std::array<double, 2> one{0, 1};

@@ -113,7 +113,7 @@ class Enclosure {
   friend Enclosure fract(Enclosure a);
   /// Gives the invocation up where a is not one integer.
   friend Int to_int(Enclosure a) {
-    if (a.is_point()) return {static_cast<std::int32_t>(a.lo)};
+    if (a.is_point() && a.lo > -0x1p30f && a.lo < 0x1p30f) return {static_cast<std::int32_t>(a.lo)};
     give_up();
     return {0};
   }

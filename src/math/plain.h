@@ -21,18 +21,27 @@ inline float to_float(float x) { return x; }
 template <class N>
 struct Index {
   std::int32_t i;
-  friend Index operator+(Index a, std::int32_t b) { return {a.i + b}; }
-  friend Index operator+(Index a, Index b) { return {a.i + b.i}; }
-  friend Index operator*(Index a, std::int32_t b) { return {a.i * b}; }
-  friend Index operator*(Index a, Index b) { return {a.i * b.i}; }
-  /// a moved into [0, size): to the nearer end, or by one period when it is out by less than one.
+  // Modulo 2^32: what is far outside an image is held inside it by clamp_index or wrap_index.
+  friend Index operator+(Index a, std::int32_t b) { return of(word(a.i) + word(b)); }
+  friend Index operator+(Index a, Index b) { return of(word(a.i) + word(b.i)); }
+  friend Index operator*(Index a, std::int32_t b) { return of(word(a.i) * word(b)); }
+  friend Index operator*(Index a, Index b) { return of(word(a.i) * word(b.i)); }
+  /// a moved into [0, size): to the nearer end, or by whole periods. Lanes move by one, which is all that a pass needs of the
+  /// reference's own numbers; here stands also what a port may have stored.
   friend Index clamp_index(Index a, Index size) { return {a.i < 0 ? 0 : a.i < size.i ? a.i : size.i - 1}; }
-  friend Index wrap_index(Index a, Index size) { return {a.i < 0 ? a.i + size.i : a.i < size.i ? a.i : a.i - size.i}; }
+  friend Index wrap_index(Index a, Index size) {
+    const std::int32_t rest = a.i % size.i;
+    return {rest < 0 ? rest + size.i : rest};
+  }
   friend bool inside(Index a, Index size) { return 0 <= a.i && a.i < size.i; }
   friend Index max_index(Index a, Index b) { return {a.i < b.i ? b.i : a.i}; }
   /// a / 2^b, rounded down; b in [0, 31].
   friend Index shift_right(Index a, Index b) { return {a.i >> b.i}; }
   friend Index lookup(const std::int32_t* table, Index a) { return {table[a.i]}; }
+
+ private:
+  static std::uint32_t word(std::int32_t i) { return static_cast<std::uint32_t>(i); }
+  static Index of(std::uint32_t word) { return {static_cast<std::int32_t>(word)}; }
 };
 
 template <class T>
@@ -83,7 +92,8 @@ struct Plain {
   friend Plain fract(Plain a) { return a - floor(a); }
   /// a (1 - t) + b t, in this order.
   friend Plain mix(Plain a, Plain b, Plain t) { return a * (Plain(1.0f) - t) + b * t; }
-  friend Int to_int(Plain a) { return {static_cast<std::int32_t>(a.v)}; }
+  /// 0 for what no int32 is near, a NaN included.
+  friend Int to_int(Plain a) { return {a.v > T(-0x1p30) && a.v < T(0x1p30) ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Plain to_number(Int a) { return Plain(static_cast<T>(a.i)); }
 
   friend Plain exp(Plain a) { return real(exp_real(Real64{a.v})); }

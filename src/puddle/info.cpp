@@ -12,13 +12,13 @@ using namespace rainref::capture;
 constexpr const char *published = "as-published", *correct = "corrected";
 
 std::vector<Member> camera() {
-  return {member<&CameraUniforms::position>("position", "m", "Eye."),
-          member<&CameraUniforms::pixel_scale>("pixel_scale", "1", "Height of a pixel on the image plane at distance 1."),
-          member<&CameraUniforms::right>("right", "1", "Unit vector to the right of the picture."),
-          member<&CameraUniforms::plane_left>("plane_left", "1", "Left edge of the image plane at distance 1."),
-          member<&CameraUniforms::up>("up", "1", "Unit vector to the top of the picture."),
-          member<&CameraUniforms::plane_bottom>("plane_bottom", "1", "Bottom edge of the image plane at distance 1."),
-          member<&CameraUniforms::forward>("forward", "1", "Unit vector into the picture.")};
+  return {member<&CameraUniforms::position>("position", "m", {-1e5, 1e5}, "Eye."),
+          member<&CameraUniforms::pixel_scale>("pixel_scale", "1", {0, 23}, "Height of a pixel on the image plane at distance 1."),
+          member<&CameraUniforms::right>("right", "1", component, "Unit vector to the right of the picture."),
+          member<&CameraUniforms::plane_left>("plane_left", "1", {-1e6, 0}, "Left edge of the image plane at distance 1."),
+          member<&CameraUniforms::up>("up", "1", component, "Unit vector to the top of the picture."),
+          member<&CameraUniforms::plane_bottom>("plane_bottom", "1", {-12, 0}, "Bottom edge of the image plane at distance 1."),
+          member<&CameraUniforms::forward>("forward", "1", component, "Unit vector into the picture.")};
 }
 std::vector<Member> with_camera(std::vector<Member> head, std::vector<Member> rest) {
   head.insert(head.end(), rest.begin(), rest.end());
@@ -27,76 +27,76 @@ std::vector<Member> with_camera(std::vector<Member> head, std::vector<Member> re
 
 EffectInfo make() {
   const UniformBlock raindrops = uniform_block<RaindropsUniforms>(
-      "RaindropsUniforms", {member<&RaindropsUniforms::time>("time", "s", "Frame number over frame rate, rounded once."),
-                            member<&RaindropsUniforms::rain_speed>("rain_speed", "1/s", "Pulses of each drop a second."),
-                            member<&RaindropsUniforms::drop_intensity>("drop_intensity", "1", "Strength of an impact."),
-                            member<&RaindropsUniforms::width>("width", "texel", "Columns of the wave."),
-                            member<&RaindropsUniforms::height>("height", "texel", "Rows of the wave."),
-                            member<&RaindropsUniforms::drop_count>("drop_count", "1", "Drops in the list.")});
+      "RaindropsUniforms", {member<&RaindropsUniforms::time>("time", "s", frame_time, "Frame number over frame rate, rounded once."),
+                            member<&RaindropsUniforms::rain_speed>("rain_speed", "1/s", {0, 20}, "Pulses of each drop a second."),
+                            member<&RaindropsUniforms::drop_intensity>("drop_intensity", "1", {0, 4}, "Strength of an impact."),
+                            member<&RaindropsUniforms::width>("width", "texel", whole(1, 65536), "Columns of the wave."),
+                            member<&RaindropsUniforms::height>("height", "texel", whole(1, 65536), "Rows of the wave."),
+                            member<&RaindropsUniforms::drop_count>("drop_count", "1", {1, 10}, "Drops in the list.")});
   const UniformBlock wave_step = uniform_block<WaveStepUniforms>(
       "WaveStepUniforms",
-      {member<&WaveStepUniforms::damping>("damping", "1", "as-published: factor of the new level; corrected: gamma of a step."),
-       member<&WaveStepUniforms::step>("step", "texel", "as-published: offset of the neighbours."),
-       member<&WaveStepUniforms::courant_sq>("courant_sq", "1", "corrected: Courant number squared, times (1 + gamma) / 2."),
-       member<&WaveStepUniforms::drop_count>("drop_count", "1", "Drops in the list."),
-       member<&WaveStepUniforms::rest>("rest", "1", "Stored value of level water.")});
+      {member<&WaveStepUniforms::damping>("damping", "1", share, "as-published: factor of the new level; corrected: gamma of a step."),
+       member<&WaveStepUniforms::step>("step", "texel", {1, 8}, "as-published: offset of the neighbours."),
+       member<&WaveStepUniforms::courant_sq>("courant_sq", "1", {0, 0.5}, "corrected: Courant number squared, times (1 + gamma) / 2."),
+       member<&WaveStepUniforms::drop_count>("drop_count", "1", {0, 1 << 20}, "Drops in the list."),
+       member<&WaveStepUniforms::rest>("rest", "1", share, "Stored value of level water.")});
   const UniformBlock surface_hit = uniform_block<SurfaceHitUniforms>(
       "SurfaceHitUniforms",
       with_camera(nested<&SurfaceHitUniforms::camera>("camera", camera()),
-                  {member<&SurfaceHitUniforms::half_size>("half_size", "m", "Half the puddle's extent."),
-                   member<&SurfaceHitUniforms::epsilon>("epsilon", "m", "Distance that counts as a hit."),
-                   member<&SurfaceHitUniforms::texel>("texel", "1", "1 over the wave's columns and rows."),
-                   member<&SurfaceHitUniforms::max_steps>("max_steps", "1", "Most steps of the march."),
-                   member<&SurfaceHitUniforms::normal_gain>("normal_gain", "1", "Factor from a height difference to a slope."),
-                   member<&SurfaceHitUniforms::height_scale>("height_scale", "m", "corrected: height = scale * stored + bias."),
-                   member<&SurfaceHitUniforms::height_bias>("height_bias", "m", "corrected: see height_scale."),
-                   member<&SurfaceHitUniforms::surface_top>("surface_top", "m", "corrected: no height lies above this, or below its negative."),
-                   member<&SurfaceHitUniforms::surface_slope>("surface_slope", "1", "corrected: no slope of the surface is above this."),
-                   member<&SurfaceHitUniforms::inverse_size>("inverse_size", "1/m", "corrected: 1 over the puddle's extent in x and z."),
-                   member<&SurfaceHitUniforms::bounds_scale>("bounds_scale", "1", "corrected: texture coordinates of bounds to one of the water."),
-                   member<&SurfaceHitUniforms::bounds_reach>("bounds_reach", "m", "corrected: a texel of bounds holds this far around its points.")}));
+                  {member<&SurfaceHitUniforms::half_size>("half_size", "m", {0, 1e5}, "Half the puddle's extent."),
+                   member<&SurfaceHitUniforms::epsilon>("epsilon", "m", {1e-5, 1}, "Distance that counts as a hit."),
+                   member<&SurfaceHitUniforms::texel>("texel", "1", share, "1 over the wave's columns and rows."),
+                   member<&SurfaceHitUniforms::max_steps>("max_steps", "1", {1, 4096}, "Most steps of the march."),
+                   member<&SurfaceHitUniforms::normal_gain>("normal_gain", "1", {0, 1e5}, "Factor from a height difference to a slope."),
+                   member<&SurfaceHitUniforms::height_scale>("height_scale", "m", {0, 2}, "corrected: height = scale * stored + bias."),
+                   member<&SurfaceHitUniforms::height_bias>("height_bias", "m", {-1, 0}, "corrected: see height_scale."),
+                   member<&SurfaceHitUniforms::surface_top>("surface_top", "m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
+                   member<&SurfaceHitUniforms::surface_slope>("surface_slope", "1", {0, 1e9}, "corrected: no slope of the surface is above this."),
+                   member<&SurfaceHitUniforms::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+                   member<&SurfaceHitUniforms::bounds_scale>("bounds_scale", "1", share, "corrected: texture coordinates of bounds to one of the water."),
+                   member<&SurfaceHitUniforms::bounds_reach>("bounds_reach", "m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
   const UniformBlock ground_noise = uniform_block<GroundNoiseUniforms>(
       "GroundNoiseUniforms", with_camera(nested<&GroundNoiseUniforms::camera>("camera", camera()),
-                                         {member<&GroundNoiseUniforms::puddle_depth>("puddle_depth", "m", "Depth of the ground under y = 0.")}));
+                                         {member<&GroundNoiseUniforms::puddle_depth>("puddle_depth", "m", {0, 100}, "Depth of the ground under y = 0.")}));
   const UniformBlock shade = uniform_block<ShadeUniforms>(
       "ShadeUniforms",
       with_camera(nested<&ShadeUniforms::camera>("camera", camera()),
-                  {member<&ShadeUniforms::tint>("tint", "1", "Colour of the water's body, linear RGB."),
-                   member<&ShadeUniforms::reflectivity>("reflectivity", "1", "Weight of the reflection."),
-                   member<&ShadeUniforms::rotation>("rotation", "1", "Cosine and sine of env_rotation."),
-                   member<&ShadeUniforms::ground_scale>("ground_scale", "1/m", "Tiles of the ground in a metre."),
-                   member<&ShadeUniforms::water_turbidity>("water_turbidity", "1/m", "Extinction of light in the water."),
-                   member<&ShadeUniforms::puddle_depth>("puddle_depth", "m", "as-published: depth of the ground under y = 0."),
-                   member<&ShadeUniforms::fog_depth>("fog_depth", "1/m", "Extinction of the fog."),
-                   member<&ShadeUniforms::use_checkerboard>("use_checkerboard", "1", "1: checkerboard ground, 0: image."),
-                   member<&ShadeUniforms::environment_is_cube>("environment_is_cube", "1", "1: cube faces, 0: latitude/longitude."),
-                   member<&ShadeUniforms::ambient>("ambient", "1", "corrected: radiance of a white diffuse level ground."),
-                   member<&ShadeUniforms::gloss_level>("gloss_level", "1", "corrected: mip level of the environment in wet ground."),
-                   member<&ShadeUniforms::inverse_size>("inverse_size", "1/m", "corrected: 1 over the puddle's extent in x and z."),
-                   member<&ShadeUniforms::shore_width>("shore_width", "m", "corrected: depth over which wet ground turns into water."),
-                   member<&ShadeUniforms::ground_footprint>("ground_footprint", "1/m", "corrected: texels of the ground under a pixel at distance 1."),
-                   member<&ShadeUniforms::fog_colour>("fog_colour", "1", "corrected: radiance of the fog."),
-                   member<&ShadeUniforms::exact_fresnel>("exact_fresnel", "1", "corrected: 1: Fresnel's equations, 0: Schlick."),
-                   member<&ShadeUniforms::wetness>("wetness", "1", "corrected: reflectance of the wet ground over that of water."),
-                   member<&ShadeUniforms::background_level>("background_level", "1", "corrected: mip level of the environment behind the scene."),
-                   member<&ShadeUniforms::mirror_level>("mirror_level", "1", "corrected: mip level of the environment in the water.")}));
+                  {member<&ShadeUniforms::tint>("tint", "1", share, "Colour of the water's body, linear RGB."),
+                   member<&ShadeUniforms::reflectivity>("reflectivity", "1", share, "Weight of the reflection."),
+                   member<&ShadeUniforms::rotation>("rotation", "1", component, "Cosine and sine of env_rotation."),
+                   member<&ShadeUniforms::ground_scale>("ground_scale", "1/m", {0, 100}, "Tiles of the ground in a metre."),
+                   member<&ShadeUniforms::water_turbidity>("water_turbidity", "1/m", {0, 1000}, "Extinction of light in the water."),
+                   member<&ShadeUniforms::puddle_depth>("puddle_depth", "m", {0, 100}, "as-published: depth of the ground under y = 0."),
+                   member<&ShadeUniforms::fog_depth>("fog_depth", "1/m", {0, 10}, "Extinction of the fog."),
+                   member<&ShadeUniforms::use_checkerboard>("use_checkerboard", "1", flag, "1: checkerboard ground, 0: image."),
+                   member<&ShadeUniforms::environment_is_cube>("environment_is_cube", "1", flag, "1: cube faces, 0: latitude/longitude."),
+                   member<&ShadeUniforms::ambient>("ambient", "1", radiance, "corrected: radiance of a white diffuse level ground."),
+                   member<&ShadeUniforms::gloss_level>("gloss_level", "1", mip_level, "corrected: mip level of the environment in wet ground."),
+                   member<&ShadeUniforms::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+                   member<&ShadeUniforms::shore_width>("shore_width", "m", share, "corrected: depth over which wet ground turns into water."),
+                   member<&ShadeUniforms::ground_footprint>("ground_footprint", "1/m", {0, 1e9}, "corrected: texels of the ground under a pixel at distance 1."),
+                   member<&ShadeUniforms::fog_colour>("fog_colour", "1", radiance, "corrected: radiance of the fog."),
+                   member<&ShadeUniforms::exact_fresnel>("exact_fresnel", "1", flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
+                   member<&ShadeUniforms::wetness>("wetness", "1", share, "corrected: reflectance of the wet ground over that of water."),
+                   member<&ShadeUniforms::background_level>("background_level", "1", mip_level, "corrected: mip level of the environment behind the scene."),
+                   member<&ShadeUniforms::mirror_level>("mirror_level", "1", mip_level, "corrected: mip level of the environment in the water.")}));
   const UniformBlock display =
-      uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::vignette>("vignette", "1", "Loss at distance 1 from the centre."),
-                                                         member<&DisplayUniforms::exposure>("exposure", "1", "corrected: factor of the radiance."),
-                                                         member<&DisplayUniforms::width>("width", "pixel", "Columns of the picture."),
-                                                         member<&DisplayUniforms::height>("height", "pixel", "Rows of the picture.")});
+      uniform_block<DisplayUniforms>("DisplayUniforms", {member<&DisplayUniforms::vignette>("vignette", "1", {0, 1.5}, "Loss at distance 1 from the centre."),
+                                                         member<&DisplayUniforms::exposure>("exposure", "1", exposure_factor, "corrected: factor of the radiance."),
+                                                         member<&DisplayUniforms::width>("width", "pixel", whole(1, 65536), "Columns of the picture."),
+                                                         member<&DisplayUniforms::height>("height", "pixel", whole(1, 65536), "Rows of the picture.")});
   const UniformBlock drop = record<Drop>("Drop", {member<&Drop::x>("x", "texel", "Centre; texel centres lie at k + 1/2."),
                                                   member<&Drop::y>("y", "texel", "Centre."),
                                                   member<&Drop::amplitude>("amplitude", "1", "as-published: strength times activation; corrected: stored height at the centre."),
                                                   member<&Drop::radius>("radius", "texel", "Nothing is added from this distance on.")});
   const UniformBlock rainfall = uniform_block<RainfallUniforms>(
-      "RainfallUniforms", {member<&RainfallUniforms::seed>("seed", "1", "Low and high word of the seed."),
-                           member<&RainfallUniforms::step>("step", "1", "Wave steps made before this one, modulo 2^32."),
-                           member<&RainfallUniforms::first_count>("first_count", "1", "Drops where the word is below every threshold."),
-                           member<&RainfallUniforms::columns>("columns", "texel", "Columns of the wave."),
-                           member<&RainfallUniforms::rows>("rows", "texel", "Rows of the wave."),
-                           member<&RainfallUniforms::boundary>("boundary", "1", "0: reflecting, 1: periodic, 2: fixed."),
-                           member<&RainfallUniforms::threshold_count>("threshold_count", "1", "Thresholds in the list.")});
+      "RainfallUniforms", {member<&RainfallUniforms::seed>("seed", "1", any_word, "Low and high word of the seed."),
+                           member<&RainfallUniforms::step>("step", "1", any_word, "Wave steps made before this one, modulo 2^32."),
+                           member<&RainfallUniforms::first_count>("first_count", "1", {0, 16000}, "Drops where the word is below every threshold."),
+                           member<&RainfallUniforms::columns>("columns", "texel", {1, 65536}, "Columns of the wave."),
+                           member<&RainfallUniforms::rows>("rows", "texel", {1, 65536}, "Rows of the wave."),
+                           member<&RainfallUniforms::boundary>("boundary", "1", {0, 2}, "0: reflecting, 1: periodic, 2: fixed."),
+                           member<&RainfallUniforms::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list.")});
   const UniformBlock threshold = record<CountThreshold>(
       "CountThreshold", {member<&CountThreshold::threshold>("threshold", "1", "A word not below k thresholds draws first_count + k drops.")});
 
@@ -114,16 +114,16 @@ EffectInfo make() {
        {{published, 1, input_only, "RaindropsUniforms"}, {correct, 1, bits, "RainfallUniforms"}},
        {{"craters", "", false, correct}, {"count_thresholds", "", false, correct}}, {"drops"}, {raindrops, rainfall}},
       {"wave_step", "The next level of the water from the newest and the previous one.", both(1, 1, "WaveStepUniforms"),
-       {{"wave", "wave_step", from_previous_run}, {"drops", "raindrops"}, {"shore", "", false, correct}}, {"wave"}, {wave_step}, "gather",
+       {per_texel({"wave", "wave_step", from_previous_run}), {"drops", "raindrops"}, per_texel({"shore", "", false, correct})}, {"wave"}, {wave_step}, "gather",
        {"the four neighbours", "length"}},
       {"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", both(1, 2, "SurfaceHitUniforms"),
        {{"wave", "wave_step"}, {"bounds", "", false, correct}}, {"hit", "normal"}, {surface_hit}, "gather", lengths},
       {"ground_noise", "The sine hash of the ground point, which shade takes as data.", {{published, 1, input_only, "GroundNoiseUniforms"}},
-       {{"hit", "surface_hit"}, {"normal", "surface_hit"}}, {"noise"}, {ground_noise}, "gather", lengths},
+       {per_texel({"hit", "surface_hit"}), per_texel({"normal", "surface_hit"})}, {"noise"}, {ground_noise}, "gather", lengths},
       {"shade", "Reflection, refraction, water and ground: linear radiance.", both(1, 1, "ShadeUniforms"),
-       {{"hit", "surface_hit"}, {"normal", "surface_hit"}, {"noise", "ground_noise", false, published}, {"environment"}, {"ground"},
+       {per_texel({"hit", "surface_hit"}), per_texel({"normal", "surface_hit"}), per_texel({"noise", "ground_noise", false, published}), {"environment"}, {"ground"},
         {"relief", "", false, correct}, {"bed", "", false, correct}}, {"colour"}, {shade}, "gather", lengths},
-      {"display", "Vignette and display code.", both(1, 1, "DisplayUniforms"), {{"colour", "shade"}}, {"picture"}, {display}, "gather", {"length"}},
+      {"display", "Vignette and display code.", both(1, 1, "DisplayUniforms"), {per_texel({"colour", "shade"})}, {"picture"}, {display}, "gather", {"length"}},
   };
   const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
   const std::string around =

@@ -1,6 +1,9 @@
 #include "scene/uniform_block.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -52,6 +55,13 @@ void validate_words(const UniformBlock& block) {
   }
 }
 
+template <class T>
+T loaded(const std::byte* at) {
+  T t;
+  std::memcpy(&t, at, sizeof t);
+  return t;
+}
+
 // Returns the largest alignment.
 std::size_t validate_offsets(const UniformBlock& block) {
   std::size_t end = 0, largest = 4;
@@ -88,6 +98,10 @@ const char* name(Scalar scalar) {
 void validate(const UniformBlock& block) {
   validate_words(block);
   validate_offsets(block);
+  for (const Member& m : block.members) {
+    if (!m.range) broken(block, fmt::format("'{}' has no range", m.name));
+    if (!(m.range->low <= m.range->high)) broken(block, fmt::format("'{}' has an empty range", m.name));
+  }
   if (block.size % row != 0) broken(block, fmt::format("size {} is not a multiple of {}", block.size, row));
 }
 
@@ -97,6 +111,35 @@ void validate_record(const UniformBlock& record) {
   if (record.size % alignment != 0) {
     broken(record, fmt::format("size {} is not a multiple of {}", record.size, alignment));
   }
+}
+
+bool same_layout(const UniformBlock& a, const UniformBlock& b) {
+  return a.size == b.size && std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), [](const Member& m, const Member& n) {
+           return m.name == n.name && m.scalar == n.scalar && m.components == n.components && m.offset == n.offset;
+         });
+}
+
+std::string value_fault(const UniformBlock& block, const std::byte* bytes) {
+  for (const Member& m : block.members) {
+    for (int k = 0; k < m.components; ++k) {
+      const Range range = m.range.value_or(Range{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
+      const std::byte* at = bytes + m.offset + 4 * static_cast<std::size_t>(k);
+      double value = 0, low = range.low, high = range.high;
+      if (m.scalar == Scalar::float32) {
+        value = loaded<float>(at);
+        low = static_cast<float>(low);
+        high = static_cast<float>(high);
+      } else {
+        value = m.scalar == Scalar::int32 ? double{loaded<std::int32_t>(at)} : double{loaded<std::uint32_t>(at)};
+      }
+      const bool is_fit = std::isfinite(value) && low <= value && value <= high && (!range.is_whole || value == std::floor(value));
+      if (is_fit) continue;
+      const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
+      if (!m.range) return fmt::format("{} is {}, expected a finite number", name, value);
+      return fmt::format("{} is {}, expected {}{:g} to {:g}", name, value, range.is_whole ? "a whole number from " : "", range.low, range.high);
+    }
+  }
+  return "";
 }
 
 std::vector<Member> with_padding(const UniformBlock& block) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -13,6 +14,17 @@ enum class Scalar : std::uint8_t { float32, int32, uint32 };
 /// "float", "int", "uint".
 const char* name(Scalar scalar);
 
+/// What each component of a member may be, both ends included.
+struct Range {
+  double low, high;
+  bool is_whole = false;  ///< a float that holds an integer
+};
+inline constexpr Range whole(double low, double high) { return {low, high, true}; }
+
+// Ranges that many members share.
+inline constexpr Range share{0, 1}, component{-1, 1} /* of a unit vector */, flag{0, 1}, any_word{0, 4294967295.0};
+inline constexpr Range mip_level{0, 15}, radiance{0, 1e9}, exposure_factor{0, 0x1p20} /* 20 EV */, frame_time{0, 1e6} /* [s] */;
+
 /// One quantity in a block: a scalar, or a vector of 2 to 4.
 struct Member {
   std::string name;
@@ -21,6 +33,7 @@ struct Member {
   std::size_t offset;  ///< in bytes
   std::string unit;
   std::string sentence;
+  std::optional<Range> range = std::nullopt;  ///< none: any finite number
 
   std::size_t size() const { return 4 * static_cast<std::size_t>(components); }
   /// What std140, std430 and WGSL ask of the offset: 4, 8, 16, 16 for 1 to 4 components.
@@ -36,11 +49,18 @@ struct UniformBlock {
 };
 
 /// Throws Error(internal) unless every language gives this block the same bytes: members in order and apart, each
-/// aligned as Member::alignment says and within one 16-byte row, the size a multiple of 16; names, units and sentences
-/// present, and every name usable in every language.
+/// aligned as Member::alignment says and within one 16-byte row, the size a multiple of 16; names, units, sentences and
+/// ranges present, and every name usable in every language.
 void validate(const UniformBlock& block);
-/// The same for an element struct: its size is a multiple of its largest alignment instead.
+/// The same for an element struct: its size is a multiple of its largest alignment instead, and a range may be missing.
 void validate_record(const UniformBlock& record);
+
+/// Whether both give the same bytes the same names.
+bool same_layout(const UniformBlock& a, const UniformBlock& b);
+
+/// Why these bytes are none that the block may hold, or "": "step is 200, expected 1 to 8". A float that is no number or
+/// infinite is out of every range. The ends are rounded to float, as the values are. `bytes` has the block's size.
+std::string value_fault(const UniformBlock& block, const std::byte* bytes);
 
 /// The members with every gap made explicit: scalars named padding_0, padding_1, …, without unit and sentence.
 std::vector<Member> with_padding(const UniformBlock& block);
@@ -85,11 +105,11 @@ std::size_t offset_of(M S::*pointer) {
 }
 
 template <class S, class M>
-Member member(M S::*pointer, std::string name, std::string unit, std::string sentence) {
+Member member(M S::*pointer, std::string name, std::string unit, std::optional<Range> range, std::string sentence) {
   static_assert(Shape<M>::components >= 1 && Shape<M>::components <= 4, "vectors have 2 to 4 components; no arrays");
   return {std::move(name),      scalar_of<typename Shape<M>::Component>(),
           Shape<M>::components, offset_of(pointer),
-          std::move(unit),      std::move(sentence)};
+          std::move(unit),      std::move(sentence), range};
 }
 
 std::vector<Member> moved(std::vector<Member> members, std::size_t by, const std::string& prefix);
@@ -99,11 +119,16 @@ UniformBlock validated_record(UniformBlock record);
 
 }  // namespace detail
 
-/// The member that P points to: member<&WaveStepUniforms::damping>("damping", "1", "Share of …"). Type and offset are
+/// The member that P points to: member<&WaveStepUniforms::damping>("damping", "1", share, "Share of …"). Type and offset are
 /// taken from the struct, whose vectors are float[3], std::array<float, 3> or a glm vector, of float, int32 or uint32.
 template <auto P>
+Member member(std::string name, std::string unit, Range range, std::string sentence) {
+  return detail::member(P, std::move(name), std::move(unit), range, std::move(sentence));
+}
+/// Of a record, whose fields may be any finite numbers.
+template <auto P>
 Member member(std::string name, std::string unit, std::string sentence) {
-  return detail::member(P, std::move(name), std::move(unit), std::move(sentence));
+  return detail::member(P, std::move(name), std::move(unit), std::nullopt, std::move(sentence));
 }
 
 /// The members of a struct that is itself the member P of another, as members of that other: offsets moved, and names

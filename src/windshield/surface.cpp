@@ -103,39 +103,41 @@ void normals(const parallel::Executor& executor, const NormalsUniforms& uniforms
 }
 
 capture::PassInfo wipe_texture_info() {
+  using capture::per_texel;
   using scene::member;
   using U = WipeTextureUniforms;
   const scene::UniformBlock block = scene::uniform_block<U>(
-      "WipeTextureUniforms", {member<&U::frame>("frame", "m/texel", "Plane coordinates of a step: x of a column, x and y of a row."),
-                              member<&U::edge_width>("edge_width", "m", "Width over which coverage falls at a blade's edge."),
-                              member<&U::axis_length>("axis_length", "m", "as-published: lengths of the axes u and v."),
-                              member<&U::strength>("strength", "mm", "as-published: what full coverage takes off the height."),
-                              member<&U::keep>("keep", "1", "as-published: share of the mask that a frame leaves."),
-                              member<&U::dt>("dt", "s", "corrected: time since the frame before, so rounded that sums are exact."),
-                              member<&U::inverse_tau>("inverse_tau", "1/s", "corrected: 1 over the time constant of the mask."),
-                              member<&U::wiped_limit>("wiped_limit", "s", "corrected: the time since a wipe grows to this and no further."),
-                              member<&U::wiper_count>("wiper_count", "1", "Wipers in the list.")});
+      "WipeTextureUniforms", {member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+                              member<&U::edge_width>("edge_width", "m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
+                              member<&U::axis_length>("axis_length", "m", {0, 1e4}, "as-published: lengths of the axes u and v."),
+                              member<&U::strength>("strength", "mm", {0, 1000}, "as-published: what full coverage takes off the height."),
+                              member<&U::keep>("keep", "1", scene::share, "as-published: share of the mask that a frame leaves."),
+                              member<&U::dt>("dt", "s", {0, 1}, "corrected: time since the frame before, so rounded that sums are exact."),
+                              member<&U::inverse_tau>("inverse_tau", "1/s", {0, 100}, "corrected: 1 over the time constant of the mask."),
+                              member<&U::wiped_limit>("wiped_limit", "s", {0, 1 << 15}, "corrected: the time since a wipe grows to this and no further."),
+                              member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Wipers in the list.")});
   constexpr bool from_previous_run = true;
   return {"wipe_texture",
           "What the blades take off the height, and the mask of freshly wiped glass.",
           {{published, 1, capture::Judge::envelope, "WipeTextureUniforms"}, {correct, 1, capture::Judge::envelope, "WipeTextureUniforms"}},
-          {{"height", "splat"}, {"mask", "wipe_texture", from_previous_run, published}, {"wiped", "wipe_texture", from_previous_run, correct}, {"wipers"}},
+          {per_texel({"height", "splat"}), per_texel({"mask", "wipe_texture", from_previous_run, published}), per_texel({"wiped", "wipe_texture", from_previous_run, correct}), {"wipers"}},
           {"height", "mask", "wiped"},
           {block},
           "gather",
           {"dot", "length"}};
 }
 capture::PassInfo normals_info() {
+  using capture::per_texel;
   using scene::member;
   using U = NormalsUniforms;
   const scene::UniformBlock block = scene::uniform_block<U>(
-      "NormalsUniforms", {member<&U::slope_x>("slope_x", "1/mm", "Slope along x for 1 mm across two columns."),
-                          member<&U::slope_shear>("slope_shear", "1/mm", "corrected: slope along y for 1 mm across two columns."),
-                          member<&U::slope_y>("slope_y", "1/mm", "Slope along y for 1 mm across two rows.")});
+      "NormalsUniforms", {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
+                          member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
+                          member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
   return {"normals",
           "The normal of the water in axes of the glass, z outward.",
           {{published, 1, capture::Judge::envelope, "NormalsUniforms"}, {correct, 1, capture::Judge::envelope, "NormalsUniforms"}},
-          {{"height", "wipe_texture"}, {"mask", "wipe_texture"}},
+          {per_texel({"height", "wipe_texture"}), per_texel({"mask", "wipe_texture"})},
           {"normal"},
           {block},
           "gather",

@@ -33,9 +33,9 @@ inline const EffectInfo& example_info() {
   static const EffectInfo info = [] {
     EffectInfo i;
     i.name = "puddle";  // a name that scenes may have
-    const UniformBlock block = uniform_block<BlurUniforms>("BlurUniforms", {member<&BlurUniforms::weight>("weight", "1", "A weight."),
-                                                                            member<&BlurUniforms::reach>("reach", "texel", "A reach."),
-                                                                            member<&BlurUniforms::mask>("mask", "1", "A mask.")});
+    const UniformBlock block = uniform_block<BlurUniforms>("BlurUniforms", {member<&BlurUniforms::weight>("weight", "1", {-1e6, 1e6}, "A weight."),
+                                                                            member<&BlurUniforms::reach>("reach", "texel", {-1e6, 1e6}, "A reach."),
+                                                                            member<&BlurUniforms::mask>("mask", "1", {-1e6, 1e6}, "A mask.")});
     i.passes = {{"drip", "Drops fall.", {{"corrected", 3, Judge::bits, "BlurUniforms"}}, {}, {"drips"}, {block}},
                 {"blur", "The picture spreads.", {{"as-published", 1, Judge::input_only, "BlurUniforms"}, {"corrected", 2, Judge::envelope, "BlurUniforms"}},
                  {{"picture", "blur", true}, {"drips", "drip", false, "corrected"}, {"sky"}}, {"picture"}, {block}, "gather", {"taps"}}};

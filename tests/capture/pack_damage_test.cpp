@@ -75,7 +75,7 @@ TEST_F(DamagedPack, NoJson) {
   put(pack() / "manifest.json", "[1]");
   EXPECT_EQ(error(), in_manifest("expected an object, found an array"));
   put(pack() / "manifest.json", std::string(200000, '['));  // deep, and never closed
-  EXPECT_THAT(error(), testing::StartsWith(in_manifest("no JSON: ")));
+  EXPECT_EQ(error(), in_manifest("nested deeper than 16"));
 }
 
 TEST_F(DamagedPack, OtherFormatsAndNewerVersions) {

@@ -1,7 +1,10 @@
 #include "scene/uniform_block.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
 
 #include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
@@ -27,12 +30,12 @@ struct Example {
 };
 
 std::vector<Member> camera_members() {
-  return {member<&CameraPart::position>("position", "m", "Where it is."),
-          member<&CameraPart::pixel_scale>("pixel_scale", "1", "Height of a pixel at distance 1.")};
+  return {member<&CameraPart::position>("position", "m", {-10, 10}, "Where it is."),
+          member<&CameraPart::pixel_scale>("pixel_scale", "1", share, "Height of a pixel at distance 1.")};
 }
 
 Member at(std::size_t offset, int components, const std::string& name = "height") {
-  return {name, Scalar::float32, components, offset, "m", "A height."};
+  return {name, Scalar::float32, components, offset, "m", "A height.", share};
 }
 
 std::string broken(std::size_t size, std::vector<Member> members, const std::string& name = "Block") {
@@ -144,6 +147,53 @@ TEST(ValidateBlock, RefusesAMemberWithoutUnitOrSentence) {
   EXPECT_EQ(broken(16, {m}), "5 layout Block: 'height' has no sentence");
 }
 
+TEST(ValidateBlock, RefusesAMemberWithoutARange) {
+  Member m = at(0, 1);
+  m.range = std::nullopt;
+  EXPECT_EQ(broken(16, {m}), "5 layout Block: 'height' has no range");
+  m.range = Range{1, 0};
+  EXPECT_EQ(broken(16, {m}), "5 layout Block: 'height' has an empty range");
+}
+
+struct Values {
+  float share = 0.5f, steps = 3;
+  std::int32_t count = 2;
+  float free = 0;
+};
+std::string fault(const Values& values, std::optional<Range> free = std::nullopt) {
+  const UniformBlock block{"Values",
+                           16,
+                           {member<&Values::share>("share", "1", share, "S."), member<&Values::steps>("steps", "1", whole(1, 8), "S."),
+                            member<&Values::count>("count", "1", {0, 10}, "C."), member<&Values::free>("free", "1", "F.")}};
+  UniformBlock own = block;
+  own.members.back().range = free;
+  return value_fault(own, reinterpret_cast<const std::byte*>(&values));
+}
+
+TEST(ValueFault, NamesTheFirstValueOutOfItsRange) {
+  EXPECT_EQ(fault({}), "");
+  EXPECT_EQ(fault({.share = 0, .steps = 8, .count = 10}), "");
+  EXPECT_EQ(fault({.share = 1.5f}), "share is 1.5, expected 0 to 1");
+  EXPECT_EQ(fault({.share = -1e-30f}), "share is -1.0000000031710769e-30, expected 0 to 1");
+  EXPECT_EQ(fault({.steps = 2.5f}), "steps is 2.5, expected a whole number from 1 to 8");
+  EXPECT_EQ(fault({.count = -1}), "count is -1, expected 0 to 10");
+  EXPECT_EQ(fault({.count = INT32_MIN}), "count is -2147483648, expected 0 to 10");
+}
+
+TEST(ValueFault, WhatIsNoFiniteNumberIsInNoRange) {
+  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(fault({.share = nan}), "share is nan, expected 0 to 1");
+  EXPECT_EQ(fault({.free = nan}), "free is nan, expected a finite number");
+  EXPECT_EQ(fault({.free = -infinity}), "free is -inf, expected a finite number");
+  EXPECT_EQ(fault({.free = 3.4e38f}), "");
+}
+
+// A tenth as a float is above a tenth: what a scene may say at an end of its range is no fault.
+TEST(ValueFault, EndsAreRoundedAsTheValuesAre) {
+  EXPECT_EQ(fault({.free = 0.1f}, Range{0, 0.1}), "");
+  EXPECT_NE(fault({.free = std::nextafterf(0.1f, 1)}, Range{0, 0.1}), "");
+}
+
 TEST(ValidateRecord, NeedsWholeAlignmentsNotWholeRows) {
   const auto error = [](std::size_t size, const Member& m) {
     return error_of([&] { validate_record({"Drop", size, {m}}); });
@@ -159,12 +209,12 @@ TEST(UniformBlock, DeclaringABadOneThrows) {
     float a;
     float b[3];
   };
-  EXPECT_EQ(error_of([] { uniform_block<Bad>("Bad", {member<&Bad::b>("b", "1", "B.")}); }),
+  EXPECT_EQ(error_of([] { uniform_block<Bad>("Bad", {member<&Bad::b>("b", "1", share, "B.")}); }),
             "5 layout Bad: 'b' at 4 is not aligned to 16");
   struct Short {
     float a, b;
   };
-  EXPECT_EQ(error_of([] { uniform_block<Short>("Short", {member<&Short::a>("a", "1", "A.")}); }),
+  EXPECT_EQ(error_of([] { uniform_block<Short>("Short", {member<&Short::a>("a", "1", share, "A.")}); }),
             "5 layout Short: size 8 is not a multiple of 16");
   EXPECT_EQ(record<Short>("Short", {member<&Short::b>("b", "1", "B.")}).members[0].offset, 4u);
 }

@@ -39,18 +39,18 @@ struct Uniforms {
 UniformBlock uniforms() {
   return uniform_block<Uniforms>(
       "WaveStepUniforms", {
-                              member<&Uniforms::camera_position>("camera_position", "m", "Where the camera is."),
-                              member<&Uniforms::pixel_scale>("pixel_scale", "1", "Height of a pixel at distance 1."),
-                              member<&Uniforms::drop_count>("drop_count", "1", "Number of drops."),
-                              member<&Uniforms::texel>("texel", "1", "One over the size."),
-                              member<&Uniforms::seed_bits>("seed_bits", "1", "The seed."),
-                              member<&Uniforms::frame_index>("frame_index", "frame", "The frame."),
-                              member<&Uniforms::cell>("cell", "1", "The cell."),
-                              member<&Uniforms::tint>("tint", "1", "The tint."),
-                              member<&Uniforms::wave_size>("wave_size", "texel", "Size of the wave buffer."),
-                              member<&Uniforms::hash_bits>("hash_bits", "1", "A hash."),
-                              member<&Uniforms::bounds>("bounds", "texel", "A rectangle."),
-                              member<&Uniforms::time>("time", "s", "Time of the frame."),
+                              member<&Uniforms::camera_position>("camera_position", "m", any_word, "Where the camera is."),
+                              member<&Uniforms::pixel_scale>("pixel_scale", "1", any_word, "Height of a pixel at distance 1."),
+                              member<&Uniforms::drop_count>("drop_count", "1", any_word, "Number of drops."),
+                              member<&Uniforms::texel>("texel", "1", any_word, "One over the size."),
+                              member<&Uniforms::seed_bits>("seed_bits", "1", any_word, "The seed."),
+                              member<&Uniforms::frame_index>("frame_index", "frame", any_word, "The frame."),
+                              member<&Uniforms::cell>("cell", "1", any_word, "The cell."),
+                              member<&Uniforms::tint>("tint", "1", any_word, "The tint."),
+                              member<&Uniforms::wave_size>("wave_size", "texel", any_word, "Size of the wave buffer."),
+                              member<&Uniforms::hash_bits>("hash_bits", "1", any_word, "A hash."),
+                              member<&Uniforms::bounds>("bounds", "texel", any_word, "A rectangle."),
+                              member<&Uniforms::time>("time", "s", any_word, "Time of the frame."),
                           });
 }
 
@@ -173,8 +173,8 @@ struct Small {
   float padding0;
 };
 UniformBlock small() {
-  return uniform_block<Small>("SmallUniforms", {member<&Small::texel>("texel", "1", "One over the size."),
-                                                member<&Small::frame_index>("frame_index", "frame", "The frame.")});
+  return uniform_block<Small>("SmallUniforms", {member<&Small::texel>("texel", "1", any_word, "One over the size."),
+                                                member<&Small::frame_index>("frame_index", "frame", any_word, "The frame.")});
 }
 const std::string head = "// SmallUniforms: 16 bytes, little endian. Comments: offset in bytes, [unit], meaning.\n";
 

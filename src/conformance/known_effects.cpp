@@ -1,0 +1,52 @@
+#include "conformance/known_effects.h"
+
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "edge_splash/info.h"
+#include "edge_splash/parameters.h"
+#include "edge_splash/readings.h"
+#include "puddle/info.h"
+#include "puddle/parameters.h"
+#include "puddle/readings.h"
+#include "rainref/error.h"
+#include "rainy_glass/info.h"
+#include "rainy_glass/parameters.h"
+#include "rainy_glass/readings.h"
+#include "screen_drops/info.h"
+#include "screen_drops/parameters.h"
+#include "screen_drops/readings.h"
+#include "windshield/info.h"
+#include "windshield/readings.h"
+#include "windshield/scene_keys.h"
+
+namespace rainref::conformance {
+namespace {
+
+const std::map<std::string, KnownEffect, std::less<>>& all() {
+  static const std::map<std::string, KnownEffect, std::less<>> effects{
+      {"puddle", {&puddle::effect_info(), puddle::parameters(), &puddle::readings()}},
+      {"windshield", {&windshield::effect_info(), windshield::parameters(), &windshield::readings()}},
+      {"edge_splash", {&edge_splash::effect_info(), edge_splash::parameters(), &edge_splash::readings()}},
+      {"screen_drops", {&screen_drops::effect_info(), screen_drops::parameters(), &screen_drops::readings()}},
+      {"rainy_glass", {&rainy_glass::effect_info(), rainy_glass::parameters(), &rainy_glass::readings()}}};
+  return effects;
+}
+
+}  // namespace
+
+const KnownEffect* find_effect(std::string_view name) {
+  const auto found = all().find(name);
+  return found == all().end() ? nullptr : &found->second;
+}
+
+const KnownEffect& known_effect(std::string_view name) {
+  if (const KnownEffect* found = find_effect(name)) return *found;
+  std::vector<std::string> names;
+  for (const auto& [known, unused] : all()) names.push_back(known);
+  throw Error(ExitCode::usage, fmt::format("this build judges {}; the pack is of '{}'", fmt::join(names, ", "), name));
+}
+
+}  // namespace rainref::conformance

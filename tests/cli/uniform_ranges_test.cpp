@@ -1,0 +1,142 @@
+// Whatever a scene may say, its uniforms lie in the ranges that the passes declare: a port that takes them is never refused for
+// them. Random scenes, each key at an end of its range, near it, or anywhere between.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "capture/pass_info.h"
+#include "cli/registry.h"
+#include "rainref/error.h"
+#include "scene/toml.h"
+
+namespace rainref::cli {
+namespace {
+
+/// splitmix64 (Steele, Lea, Flood 2014).
+class Words {
+ public:
+  explicit Words(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t operator()() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+  }
+  double share() { return static_cast<double>((*this)() >> 11) * 0x1p-53; }
+
+ private:
+  std::uint64_t state_;
+};
+
+double drawn(double low, double high, Words& words) {
+  const double t = words.share();
+  switch (words() % 5) {
+    case 0: return low;
+    case 1: return high;
+    case 2: return low + (high - low) * t * t * t * t * t;
+    case 3: return high - (high - low) * t * t * t * t * t;
+    default: return low + (high - low) * t;
+  }
+}
+
+/// Looks at each pass's uniforms before it runs.
+class Ranges : public Recorder {
+ public:
+  Ranges(const capture::EffectInfo& effect, std::string variant) : effect_(effect), variant_(std::move(variant)) {}
+  void before(const PassStart& start) override {
+    const auto names = effect_.pass_names(variant_);
+    if (std::find(names.begin(), names.end(), start.pass) == names.end()) return;
+    const std::string fault = scene::value_fault(effect_.pass(start.pass).block(variant_), start.uniforms.data());
+    if (!fault.empty()) faults.insert(fmt::format("{} {}.{}: {}", effect_.name, start.pass, variant_, fault));
+    ++passes;
+  }
+  void pass(const PassCall&) override {}
+
+  std::set<std::string> faults;
+  int passes = 0;
+
+ private:
+  const capture::EffectInfo& effect_;
+  std::string variant_;
+};
+
+class UniformRanges : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+INSTANTIATE_TEST_SUITE_P(Effects, UniformRanges,
+                         testing::Combine(testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"), testing::Values("as-published", "corrected")),
+                         [](const auto& i) {
+                           std::string name = std::get<0>(i.param) + "_" + std::get<1>(i.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
+  const auto& [name, variant] = GetParam();
+  const EffectEntry& entry = effect(name);
+  const parallel::Executor executor(2);
+  // What makes a run large or long, and what has nothing to do with uniforms, stays small.
+  const std::map<std::string, std::string> fixed{{"maps.size", "8"},          {"maps.droplets", "20"},   {"maps.trails", "4"}, {"noise.size", "8"},
+                                                 {"scene.size", "[16, 12]"}, {"scene.keyframes", "1"},    {"wipers.count", "2"},     {"puddle.grid", "[9, 7]"},
+                                                 {"windshield.capacity", "500"}, {"flow.capacity", "500"}, {"windshield.height_size", "[12, 9]"}, {"flow.height_size", "[12, 9]"},
+                                                 {"glass.shape", "'pane'"},  {"scene.source", "'shapes'"}, {"puddle.max_steps", "4"}, {"windshield.substeps", "2"}, {"flow.substeps", "2"}};
+  const std::string packs = RAINREF_SOURCE_DIR "/tests/packs/", scene = packs + name + "-" + variant + ".toml";
+  // The street would take seconds to make.
+  std::vector<std::string> always{"run.frames=2"};
+  if (name == "windshield") always.insert(always.end(), {fmt::format("scene.image='{}sky.png'", packs), "vehicle.key_frames=''"});
+  if (name == "rainy_glass") always.push_back(fmt::format("scene.panorama='{}sky.png'", packs));
+  Words words(7);
+  int passes = 0, built = 0;
+  std::set<std::string> faults;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::string> overrides = always;
+    overrides.push_back(fmt::format("run.fps={}", drawn(1, 1000, words)));
+    for (const scene::Parameter& p : entry.parameters) {
+      if (!p.used_by(variant) || p.type == scene::Type::text || p.key.starts_with("compositor.") || p.key.starts_with("trace.")) continue;
+      if (const auto known = fixed.find(p.key); known != fixed.end()) {
+        overrides.push_back(p.key + "=" + known->second);
+        continue;
+      }
+      // Half of the keys stay as they are: with all of them wild nearly nothing can run.
+      if (words() % 2 == 0) continue;
+      const double low = std::max(p.minimum, -1e6), high = std::min(p.maximum, 1e6);
+      const auto real = [&] { return fmt::format("{:e}", std::clamp(drawn(low, high, words), low, high)); };
+      const auto whole = [&] { return fmt::format("{}", static_cast<std::int64_t>(drawn(low, std::min(high, 5000.0), words))); };
+      switch (p.type) {
+        case scene::Type::boolean: overrides.push_back(p.key + (words() % 2 ? "=true" : "=false")); break;
+        case scene::Type::integer: overrides.push_back(p.key + "=" + whole()); break;
+        case scene::Type::integer2: break;
+        case scene::Type::real: overrides.push_back(p.key + "=" + real()); break;
+        case scene::Type::real2: overrides.push_back(fmt::format("{}=[{}, {}]", p.key, real(), real())); break;
+        // A direction or a corner: all three components anywhere.
+        case scene::Type::real3: overrides.push_back(fmt::format("{}=[{}, {}, {}]", p.key, real(), real(), real())); break;
+        case scene::Type::choice: overrides.push_back(fmt::format("{}='{}'", p.key, p.choices[words() % p.choices.size()])); break;
+        case scene::Type::text: break;
+      }
+    }
+    try {
+      const scene::Config config = scene::load(scene, overrides, effect_table());
+      std::vector<InputFile> inputs;
+      const std::unique_ptr<Simulation> simulation = entry.make(config_of_passes(config), executor, inputs);
+      Ranges ranges(*entry.info, variant);
+      ++built;
+      simulation->frame(&ranges);
+      simulation->frame(&ranges);
+      passes += ranges.passes;
+      faults.insert(ranges.faults.begin(), ranges.faults.end());
+    } catch (const Error& e) {
+      ASSERT_NE(e.code(), ExitCode::internal) << e.what();  // a scene that cannot run says so
+    }
+  }
+  for (const std::string& fault : faults) ADD_FAILURE() << fault;
+  EXPECT_GT(built, 10);
+  EXPECT_GT(passes, 60);
+}
+
+}  // namespace
+}  // namespace rainref::cli
