@@ -130,7 +130,7 @@ std::string value_fault(const UniformBlock& block, const std::byte* bytes) {
         low = static_cast<float>(low);
         high = static_cast<float>(high);
       } else {
-        value = m.scalar == Scalar::int32 ? double{loaded<std::int32_t>(at)} : double{loaded<std::uint32_t>(at)};
+        value = m.scalar == Scalar::int32 ? static_cast<double>(loaded<std::int32_t>(at)) : static_cast<double>(loaded<std::uint32_t>(at));
       }
       const bool is_fit = std::isfinite(value) && low <= value && value <= high && (!range.is_whole || value == std::floor(value));
       if (is_fit) continue;
