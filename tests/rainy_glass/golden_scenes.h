@@ -1,6 +1,7 @@
 // The scenes of rainy_glass behind tests/golden/hashes.txt: every pass, variant and storage, at frames 0, 1, 2 and 59.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,7 +60,9 @@ inline std::vector<GoldenScene> golden_scenes() {
 
 /// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
-  const Surroundings around = make_backdrop(scene.settings, {0.02, 0.3, 0.03}, executor);
+  static std::map<std::string, Surroundings> made;  // once, however often a test takes the scene
+  Surroundings& around = made[scene.name];
+  if (around.colour.empty()) around = make_backdrop(scene.settings, {0.02, 0.3, 0.03}, executor);
   std::optional<RainyGlass> glass;
   caller([&] { glass.emplace(scene.settings, around, executor); });
   std::vector<std::string> lines;
