@@ -41,7 +41,7 @@ TEST_F(BadScene, AWrongPathNamesTheNearestScene) {
 
 TEST_F(BadScene, AKeyOfAnotherEffectNamesIt) {
   expect_scene_refused(scene("corrected", "[wipers]\ncount = 1\n"), "x.toml:9:1: wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
-  expect_scene_refused(scene("corrected", "[vehicle]\n"), "x.toml:8:1: vehicle: unknown table of 'puddle'; it is one of 'windshield'");
+  expect_scene_refused(scene("corrected", "[vehicle]\n"), "x.toml:8:2: vehicle: unknown table of 'puddle'; it is one of 'windshield'");
   expect_refusal({"hash", "corrected.toml", "--set", "wipers.count=1"}, 2, "--set wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
   expect_refusal({"hash", "corrected.toml", "--set", "scene.margin=2"}, 2, "--set scene.margin: unknown key of 'puddle'; it is one of 'windshield' and 'screen_drops'");
 }

@@ -78,7 +78,7 @@ TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
 
 TEST_F(PackVerb, OneCaseIsOne) {
   EXPECT_THAT(pack({"corrected.toml", "-o", "p", "--at", "0", "--passes", "display"}).out, MatchesRegex("1 case of display in [0-9]+ files, .*"));
-  EXPECT_THAT(rainref({"diff", "p", "p"}).out, testing::StartsWith("equal: 1 run of a pass, 1 buffer\n"));
+  EXPECT_THAT(rainref({"diff", "p", "p"}).out, testing::StartsWith("equal: 1 run of a pass, 2 buffers\n"));
 }
 
 TEST_F(PackVerb, FramesAndPassesAreChosen) {
