@@ -51,6 +51,7 @@ TEST(AnyCaller, PuddlesOfOnesOwnWater) {
   settings.width = 16;
   settings.height = 9;
   settings.grid = {12, 10};
+  settings.shape = puddle::Shape::basin;
   puddle::Surroundings around;
   around.environment = Image(Format::rgba32f, 4, 2);
   around.ground = Image(Format::rgba32f, 4, 4);  // asphalt takes longer than all else
