@@ -54,7 +54,7 @@ struct Settings {
   bool exact_fresnel = true;
   double rain_rate = 10, smallest_drop = 0.5;
 
-  std::array<double, 3> camera_position{}, camera_target{}, camera_up{0, 1, 0};
+  std::array<double, 3> camera_position{0.25, 0.36, 1.8}, camera_target{0, 0, 0.1}, camera_up{0, 1, 0};  ///< world, y up [m]
   double vertical_fov_deg = 45;
 };
 
@@ -72,7 +72,7 @@ struct Surroundings {
 class Puddle {
  public:
   /// Throws Error(usage) for settings that cannot run: an unstable Courant number names the limit, sizes that need too
-  /// much memory name the need. The executor must outlive the puddle.
+  /// much memory name the need; and without an environment. The executor must outlive the puddle.
   Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor);
   ~Puddle();
   Puddle(Puddle&&) noexcept;

@@ -9,6 +9,7 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
+#include "rainref/scene_text.h"
 
 namespace rainref::screen_drops {
 
@@ -52,12 +53,15 @@ struct Inputs {
   Image noise;   ///< as-published: four channels, any size, a tile; empty: made from the seed
 };
 
-struct FlowSettings;  ///< of drops that slide and merge: src/screen_drops/flow.h
+struct FlowSettings;  ///< of drops that slide and merge, within rainref; others say it as keys of a SceneText
 
 /// A wet window before a still scene. Every buffer has the same bits whatever the executor's threads and the SIMD target.
 class ScreenDrops {
  public:
-  /// Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
+  /// A scene of this effect, flowing water included (flow.on). Throws Error(usage), naming place and key, for what no scene may say, for
+  /// settings or images that cannot run, for pictures named in the scene rather than given here, and for keys of traced pictures.
+  ScreenDrops(const SceneText& scene, const Inputs& inputs, const parallel::Executor& executor);
+  /// The same without a text. Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
   /// flow: corrected only; null: no water flows. Its pane is pane_height high and as wide as the picture.
   ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow = nullptr);
   ~ScreenDrops();

@@ -9,6 +9,7 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
+#include "rainref/scene_text.h"
 
 namespace rainref {
 namespace scene {
@@ -40,8 +41,11 @@ struct WaterLedger {
 /// executor's threads and the SIMD target.
 class Windshield {
  public:
-  /// The configuration of a scene of this effect. Throws Error(usage) for one that cannot run: corners on a line, a blade
-  /// longer than the glass, a drive cycle that is none. The executor must outlive the windshield.
+  /// A scene of this effect, `Windshield({}, {}, executor)` the default one. Throws Error(usage), naming place and key, for what no scene
+  /// may say and for one that cannot run: corners on a line, a blade longer than the glass, a drive cycle that is none, pictures named in
+  /// the scene rather than given here, keys of traced pictures. The executor must outlive the windshield.
+  Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor);
+  /// The same of a scene that rainref's own programs have read and checked.
   Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor);
   ~Windshield();
   Windshield(Windshield&&) noexcept;

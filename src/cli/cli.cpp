@@ -8,14 +8,19 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "base/floating_point.h"
 #include "base/signals.h"
 #include "cli/commands.h"
 #include "cli/terminal.h"
+#include "conformance/profiles.h"
 #include "math/simd_target.h"
 #include "rainref/executor.h"
 #include "rainref/error.h"
@@ -32,12 +37,12 @@ struct SceneFlags {
 };
 
 void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames = true) {
-  verb.add_option("SCENE", flags.scene, "Scene file (TOML)")->required();
-  if (with_frames) verb.add_option("--frames", flags.frames, "Number of frames");
-  verb.add_option("--size", flags.size, "Picture size, WxH");
-  verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them");
-  verb.add_option("--simd", flags.simd, "SIMD target; the result does not depend on it (see `rainref list`)");
-  verb.add_option("--set", flags.set, "Override a scene value: key=value")->allow_extra_args(false);
+  verb.add_option("SCENE", flags.scene, "Scene file (TOML)")->type_name("FILE")->required();
+  if (with_frames) verb.add_option("--frames", flags.frames, "Number of frames")->type_name("N");
+  verb.add_option("--size", flags.size, "Picture size, WxH")->type_name("WxH");
+  verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them")->type_name("N");
+  verb.add_option("--simd", flags.simd, "SIMD target; the result does not depend on it (see `rainref list`)")->type_name("TARGET");
+  verb.add_option("--set", flags.set, "Override a scene value: key=value")->type_name("KEY=VALUE")->allow_extra_args(false);
 }
 
 int whole_number(const std::string& text, const char* option, int low, int high) {
@@ -71,7 +76,7 @@ SceneOptions resolve(const SceneFlags& flags) {
   if (flags.frames) options.overrides.push_back(fmt::format("run.frames={}", whole_number(*flags.frames, "--frames", 1, 1000000)));
   if (flags.size) {
     const std::string& size = *flags.size;
-    const std::size_t x = size.find('x');
+    const std::size_t x = size.find_first_of("xX");
     if (x == std::string::npos) throw Error(ExitCode::usage, fmt::format("--size: expected WxH such as 1280x720, found '{}'", size));
     options.overrides.push_back(fmt::format("run.size=[{}, {}]", whole_number(size.substr(0, x), "--size", 1, 65536),
                                             whole_number(size.substr(x + 1), "--size", 1, 65536)));
@@ -113,11 +118,21 @@ void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
   }
 }
 
+/// `help` and `help VERB` as what they stand for.
+std::vector<const char*> without_help_verb(int argc, const char* const* argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || std::string_view(argv[1]) != "help") return words;
+  if (argc > 3) throw Error(ExitCode::usage, fmt::format("help: expected one verb, found '{}' too", argv[3]));
+  words.erase(words.begin() + 1);
+  if (argc == 2 || argv[2][0] != '-') words.push_back("--help");
+  return words;
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{"rainref: the deterministic CPU reference for real-time rain"};
   app.set_version_flag("--version", std::string("rainref ") + version());
   app.require_subcommand(1);
-  app.footer("Example: rainref run scenes/puddle/default.toml");
+  app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
 
   bool list_json = false, describe_json = false;
   CLI::App& list_verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
@@ -127,9 +142,9 @@ int parse_and_run(int argc, const char* const* argv) {
   std::string described;
   std::optional<std::string> layout;
   CLI::App& describe_verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
-  describe_verb.add_option("EFFECT", described, "Effect")->required();
+  describe_verb.add_option("EFFECT", described, "Effect")->type_name("NAME")->required();
   describe_verb.add_flag("--json", describe_json, "As JSON");
-  describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda");
+  describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda")->type_name("LANGUAGE");
   describe_verb.footer("Example: rainref describe puddle --layout glsl");
 
   SceneFlags run_flags, hash_flags, pack_flags;
@@ -138,10 +153,10 @@ int parse_and_run(int argc, const char* const* argv) {
   std::optional<std::string> output, every, captured;
   CLI::App& run_verb = *app.add_subcommand("run", "Simulate and render a scene");
   add_scene_flags(run_verb, run_flags);
-  run_verb.add_option("-o,--output", output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)");
-  run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none");
-  run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)");
-  run_verb.add_option("--capture", captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)");
+  run_verb.add_option("-o,--output", output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)")->type_name("DIR");
+  run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none")->type_name("KIND");
+  run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)")->type_name("K");
+  run_verb.add_option("--capture", captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")->type_name("WHAT");
   run_verb.add_flag("--compare-truth", run_options.compare_truth, "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
   run_verb.add_flag("--json", run_options.json, "Print the summary as JSON");
   run_verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
@@ -154,54 +169,57 @@ int parse_and_run(int argc, const char* const* argv) {
   std::optional<std::string> passes;
   CLI::App& pack_verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
   add_scene_flags(pack_verb, pack_flags, false);
-  pack_verb.add_option("-o,--output", pack_output, "Folder of the pack; an older pack there is replaced")->required();
-  pack_verb.add_option("--at", at, "Frames to take, such as 0,1,12");
-  pack_verb.add_option("--passes", passes, "Passes to take, such as wave_step,shade (default: all)");
+  pack_verb.add_option("-o,--output", pack_output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
+  pack_verb.add_option("--at", at, "Frames to take, such as 0,1,12")->type_name("LIST");
+  pack_verb.add_option("--passes", passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
   pack_verb.footer("Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack");
 
   std::string diff_a, diff_b;
   CLI::App& diff_verb = *app.add_subcommand("diff", "The first difference between two captures or packs");
-  diff_verb.add_option("A", diff_a, "Folder of a capture or pack")->required();
-  diff_verb.add_option("B", diff_b, "Folder of another")->required();
+  diff_verb.add_option("A", diff_a, "Folder of a capture or pack")->type_name("DIR")->required();
+  diff_verb.add_option("B", diff_b, "Folder of another")->type_name("DIR")->required();
   diff_verb.footer("Example: rainref diff out/a/capture out/b/capture");
 
+  const std::string profiles = fmt::format("{}", fmt::join(conformance::profile_names(), ", "));
   ValidateRequest validate_request;
   std::optional<std::string> validate_threads, mutate_threads;
   std::string validate_pack, validate_port, mutate_pack;
   CLI::App& validate_verb = *app.add_subcommand("validate", "Judge a GPU port's outputs against a pack");
   SceneFlags shadow_flags;
   std::optional<std::string> shadow;
-  validate_verb.add_option("PACK", validate_pack, "Folder of the pack; with --shadow the scene that the port ran");
+  validate_verb.add_option("PACK", validate_pack, "Folder of the pack; with --shadow the scene that the port ran")->type_name("DIR");
   std::optional<std::string> validate_exec, timeout, repeat;
-  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack");
-  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out} (or $RAINREF_PACK and $RAINREF_OUT), which becomes a new folder or that of --port");
-  validate_verb.add_option("--timeout", timeout, "Seconds that the command may take (default: 600)");
-  validate_verb.add_option("--repeat", repeat, "Run the command so often and look for races");
-  validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time");
-  validate_verb.add_option("--size", shadow_flags.size, "With --shadow and a scene: its picture size, WxH");
-  validate_verb.add_option("--set", shadow_flags.set, "With --shadow and a scene: override one of its values, key=value")->allow_extra_args(false);
-  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: ieee, vulkan, webgpu, d3d, cuda or metal (default: vulkan)");
-  validate_verb.add_option("--only", validate_request.only, "Judge this pass alone");
+  validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack")->type_name("DIR");
+  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out} (or $RAINREF_PACK and $RAINREF_OUT), which becomes a new folder or that of --port")->type_name("COMMAND");
+  validate_verb.add_option("--timeout", timeout, "Seconds that the command may take (default: 600)")->type_name("SECONDS");
+  validate_verb.add_option("--repeat", repeat, "Run the command so often and look for races")->type_name("N");
+  validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time")->type_name("DIR");
+  validate_verb.add_option("--size", shadow_flags.size, "With --shadow and a scene: its picture size, WxH")->type_name("WxH");
+  validate_verb.add_option("--set", shadow_flags.set, "With --shadow and a scene: override one of its values, key=value")->type_name("KEY=VALUE")->allow_extra_args(false);
+  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: " + profiles + " (default: vulkan)")->type_name("NAME");
+  validate_verb.add_option("--only", validate_request.only, "Judge this pass alone")->type_name("PASS");
   validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
-  validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them");
+  validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them")->type_name("N");
   add_report_options(validate_verb, validate_request.reports);
+  for (CLI::Option* option : validate_verb.get_options([](const CLI::Option* o) { return o->get_type_name() == "TEXT"; })) option->type_name("FILE");
   validate_verb.footer("Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} {out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
 
   MutateRequest mutate_request;
   CLI::App& mutate_verb = *app.add_subcommand("mutate", "Which porting bugs a pack would catch");
-  mutate_verb.add_option("PACK", mutate_pack, "Folder of the pack")->required();
-  mutate_verb.add_option("--profile", mutate_request.profile, "Profile to judge under");
-  mutate_verb.add_option("--only", mutate_request.only, "Of this pass alone");
+  mutate_verb.add_option("PACK", mutate_pack, "Folder of the pack")->type_name("DIR")->required();
+  mutate_verb.add_option("--profile", mutate_request.profile, "What the port's API allows: " + profiles + " (default: vulkan)")->type_name("NAME");
+  mutate_verb.add_option("--only", mutate_request.only, "Of this pass alone")->type_name("PASS");
   mutate_verb.add_flag("--all", mutate_request.all, "List every deviation, not only those missed");
-  mutate_verb.add_option("--threads", mutate_threads, "Threads; the result does not depend on them");
+  mutate_verb.add_option("--threads", mutate_threads, "Threads; the result does not depend on them")->type_name("N");
   mutate_verb.footer("Example: rainref mutate out/pack --profile vulkan");
 
   CLI::App& selftest_verb = *app.add_subcommand("selftest", "Prove determinism on this machine, in seconds");
   selftest_verb.footer("Example: rainref selftest");
 
-  refuse_unknown(app, argc, argv);
+  const std::vector<const char*> words = without_help_verb(argc, argv);
+  refuse_unknown(app, static_cast<int>(words.size()), words.data());
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     throw Error(ExitCode::usage, fmt::format("{} (see `rainref --help`)", e.what()));
@@ -293,6 +311,7 @@ int main(int argc, const char* const* argv) {
   undo_when_interrupted();  // first: threads that come later must leave signals to it
   // A reader of standard output who goes away shows as an error, so that files are cleaned up on the way.
   const bool dies_of_pipes = ::signal(SIGPIPE, SIG_IGN) == SIG_DFL;
+  const FloatingPointGuard guard;  // libraries that are loaded at the start may have set another state
   ExitCode code = ExitCode::internal;
   std::string message;
   try {

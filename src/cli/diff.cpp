@@ -163,7 +163,7 @@ int diff(const std::filesystem::path& folder_a, const std::filesystem::path& fol
   say("{}", found);
   comparison.findings.print();
   if (!found.empty() || !comparison.findings.lines.empty()) return static_cast<int>(ExitCode::fail);
-  say("equal: {} runs of passes, {} buffers\n", comparison.runs, comparison.buffers);
+  say("equal: {} of {}, {}\n", counted(static_cast<long long>(comparison.runs), "run"), comparison.runs == 1 ? "a pass" : "passes", counted(static_cast<long long>(comparison.buffers), "buffer"));
   return 0;
 }
 

@@ -23,7 +23,7 @@ class EdgeSplashSimulation : public Simulation {
     for (const std::string& warning : effect_.warnings()) complain("warning: " + warning);
   }
 
-  void frame(Recorder* recorder) override { effect_.render(recorder); }
+  void advance(Recorder* recorder) override { effect_.render(recorder); }
   const Image& picture() const override { return effect_.picture(); }
   void write_exr(const std::filesystem::path& path) const override {
     const Image colour = flipped(effect_.colour()), depth = flipped(effect_.depth());

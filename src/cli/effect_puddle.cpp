@@ -70,7 +70,7 @@ class PuddleSimulation : public Simulation {
     if (is_traced_) tracing();
   }
 
-  void frame(Recorder* recorder) override {
+  void advance(Recorder* recorder) override {
     puddle_.simulate(recorder);
     puddle_.render(recorder);
     if (is_traced_ && is_shown_) tracing().trace(puddle_, executor_, recorder);

@@ -22,6 +22,8 @@ Surroundings surroundings(const scene::Config& config, const Settings& settings,
   const bool own_scene = !config.text("scene.image").empty();
   if (!own_scene && corrected && !config.text("scene.depth_image").empty()) throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
   if (own_scene && corrected && config.text("scene.depth_image").empty()) throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
+  if (settings.shape != rainy_glass::Shape::image) refuse_unused(config, "glass.normal_image", "glass.shape");
+  if (!settings.use_probe) refuse_unused(config, "glass.probe_image", "glass.background");
   const Image panorama = read_panorama(config, inputs);
   Surroundings s;
   if (own_scene) {
@@ -68,7 +70,7 @@ class RainyGlassSimulation : public Simulation {
     if (is_traced()) tracing_->has_truth();
   }
 
-  void frame(Recorder* recorder) override {
+  void advance(Recorder* recorder) override {
     glass_.frame(recorder);
     if (is_traced()) tracing_->trace(glass_, glass_.frames() - 1, recorder);
   }

@@ -49,7 +49,7 @@ class ScreenDropsSimulation : public Simulation {
     if (is_traced()) tracing_->has_truth();
   }
 
-  void frame(Recorder* recorder) override {
+  void advance(Recorder* recorder) override {
     effect_.render(recorder);
     if (is_traced()) tracing_->trace(effect_, effect_.frame() - 1, recorder);
   }

@@ -68,7 +68,7 @@ class WindshieldSimulation : public Simulation {
     tracing();
   }
 
-  void frame(Recorder* recorder) override {
+  void advance(Recorder* recorder) override {
     windshield_.simulate(recorder);
     windshield_.render(recorder);
     if (is_traced_ && is_shown_) tracing().trace(windshield_, recorder);

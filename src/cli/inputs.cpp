@@ -4,6 +4,7 @@
 
 #include "cli/npy_picture.h"
 #include "rainref/error.h"
+#include "scene/check.h"
 
 namespace rainref::cli {
 
@@ -20,6 +21,11 @@ image_io::Picture read_input(const scene::Config& config, const std::string& key
   }
   inputs.push_back({key, config.text(key), picture.decoded_hash.text(), picture.lossy});
   return picture;
+}
+
+void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why) {
+  if (config.text(key).empty()) return;
+  scene::refuse(config.entry(key).origin, key, fmt::format("expected none where {} is \"{}\", which does not use it, found '{}'", why, config.text(why), config.text(key)));
 }
 
 }  // namespace rainref::cli

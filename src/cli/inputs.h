@@ -13,4 +13,7 @@ namespace rainref::cli {
 /// the command line where the user stands. Throws Error naming the key where it cannot be read.
 image_io::Picture read_input(const scene::Config& config, const std::string& key, std::vector<InputFile>& inputs);
 
+/// Throws Error(usage) where `key` names a file although the value of the key `why` leaves no use for it.
+void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why);
+
 }  // namespace rainref::cli

@@ -1,12 +1,11 @@
 // `rainref list` and `rainref describe`.
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/registry.h"
+#include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "math/simd_target.h"
 #include "rainref/version.h"
@@ -16,20 +15,6 @@
 
 namespace rainref::cli {
 namespace {
-
-// The scenes below ./scenes, or else those that came with this build.
-std::vector<std::string> scenes() {
-  std::vector<std::string> found;
-  for (const char* root : {"scenes", RAINREF_SCENES}) {
-    std::error_code none;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root, std::filesystem::directory_options::skip_permission_denied, none)) {
-      if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
-    }
-    if (!found.empty()) break;
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 std::string reads_text(const capture::PassInfo& pass) {
   std::string text;
@@ -55,7 +40,7 @@ int list(bool json) {
       for (const capture::PassInfo& pass : e.info->passes) effect["passes"].push_back(pass.name);
       out["effects"].push_back(effect);
     }
-    out["scenes"] = scenes();
+    out["scenes"] = known_scenes();
     out["simd_targets"] = simd_targets();
     out["threads"] = parallel::Executor().threads();
     say("{}\n", json_text(out));
@@ -70,7 +55,7 @@ int list(bool json) {
     }
   }
   say("\nScenes\n");
-  for (const std::string& scene : scenes()) say("  {}\n", scene);
+  for (const std::string& scene : known_scenes()) say("  {}\n", scene);
   say("\nSIMD targets    {}\nThreads         {}\n", fmt::join(simd_targets(), " "), parallel::Executor().threads());
   return 0;
 }

@@ -10,9 +10,9 @@
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
 
 namespace rainref::cli {
 namespace {
@@ -35,7 +35,7 @@ std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const st
 }  // namespace
 
 int pack(const PackOptions& options) {
-  const scene::Config config = config_of_passes(scene::load(options.scene.scene, options.scene.overrides, effect_table()));
+  const scene::Config config = config_of_passes(load_scene(options.scene));
   const EffectEntry& entry = effect(config.effect());
   const std::vector<std::string> passes = chosen_passes(*entry.info, config.variant(), options.passes);
   const parallel::Executor executor(options.scene.threads);
@@ -61,7 +61,7 @@ int pack(const PackOptions& options) {
     }
   }
   const capture::PackWriter::Total total = writer.finish();
-  say("{} cases of {} in {} files, {}, in {}\n", total.cases, fmt::join(passes, " "), total.files, memory_text(total.bytes), options.output.string());
+  say("{} of {} in {}, {}, in {}\n", counted(total.cases, "case"), fmt::join(passes, " "), counted(total.files, "file"), memory_text(total.bytes), options.output.string());
   return 0;
 }
 

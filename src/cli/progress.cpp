@@ -13,6 +13,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 
+std::string counted(long long count, std::string_view what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
+
 Progress::Progress(std::string what, int total)
     : what_(std::move(what)), total_(total), shown_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {
   if (shown_) draw();

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace rainref::cli {
 
@@ -23,6 +24,8 @@ class Progress {
   Clock::time_point start_, drawn_;
 };
 
+/// "1 frame", "2 frames".
+std::string counted(long long count, std::string_view what);
 /// "4.2 s", "1 min 05 s".
 std::string duration_text(double seconds);
 

@@ -5,14 +5,28 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/floating_point.h"
 #include "cli/effects.h"
 
 namespace rainref::cli {
 
+void Simulation::frame(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  advance(recorder);
+}
 nlohmann::ordered_json Simulation::compare_truth(const std::filesystem::path&) { return nullptr; }
 
 const std::vector<EffectEntry>& effects() {
-  static const std::vector<EffectEntry> all{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};
+  static const std::vector<EffectEntry> all = [] {
+    std::vector<EffectEntry> entries{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};
+    for (EffectEntry& e : entries) {
+      e.make = [make = std::move(e.make)](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) {
+        const FloatingPointGuard guard;
+        return make(config, executor, inputs);
+      };
+    }
+    return entries;
+  }();
   return all;
 }
 

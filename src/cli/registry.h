@@ -23,8 +23,8 @@ namespace rainref::cli {
 class Simulation {
  public:
   virtual ~Simulation() = default;
-  /// Advances by one frame, then renders it.
-  virtual void frame(Recorder* recorder) = 0;
+  /// Advances by one frame, then renders it, whatever floating-point state the caller has.
+  void frame(Recorder* recorder);
   /// Whether the pictures of the frames to come are wanted; tracing is left out of those that are not. True at first.
   virtual void show(bool) {}
   /// The picture as display code, row 0 = bottom.
@@ -35,6 +35,9 @@ class Simulation {
   virtual bool has_truth() const { return false; }
   /// Compares the rendered frame with it and writes pictures of the differences, whose names begin with `stem`; gives the numbers.
   virtual nlohmann::ordered_json compare_truth(const std::filesystem::path& stem);
+
+ private:
+  virtual void advance(Recorder* recorder) = 0;
 };
 
 /// A file that a scene named, as it was decoded.
@@ -48,7 +51,7 @@ struct EffectEntry {
   std::vector<std::string> variants;
   std::span<const scene::Parameter> parameters;
   const capture::EffectInfo* info;
-  /// Reads the scene's input files, which are added to `inputs`, and builds the effect.
+  /// Reads the scene's input files, which are added to `inputs`, and builds the effect, whatever floating-point state the caller has.
   std::function<std::unique_ptr<Simulation>(const scene::Config&, const parallel::Executor&, std::vector<InputFile>& inputs)> make;
 };
 

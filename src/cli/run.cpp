@@ -21,13 +21,13 @@
 #include "cli/pictures.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "image_io/codec.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
 #include "scene/json.h"
-#include "scene/toml.h"
 
 namespace rainref::cli {
 namespace {
@@ -110,7 +110,7 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<In
 }  // namespace
 
 int run(const RunOptions& options) {
-  const scene::Config config = scene::load(options.scene.scene, options.scene.overrides, effect_table());
+  const scene::Config config = load_scene(options.scene);
   const parallel::Executor executor(options.scene.threads);
   const std::filesystem::path folder = options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
   OutputFolder made(folder);
@@ -161,13 +161,13 @@ int run(const RunOptions& options) {
   write_file(made.summary(), json_text(report) + "\n");
   made.keep();
   if (options.json) say("{}\n", json_text(report));
-  else say("{} frames in {}, {} picture{}{} and summary.json in {}\n", frames, duration_text(seconds), pictures, pictures == 1 ? "" : "s",
+  else say("{} in {}, {}{} and summary.json in {}\n", counted(frames, "frame"), duration_text(seconds), counted(pictures, "picture"),
                   capture ? ", capture/" : "", folder.string());
   return 0;
 }
 
 int hash(const SceneOptions& options) {
-  const scene::Config config = scene::load(options.scene, options.overrides, effect_table());
+  const scene::Config config = load_scene(options);
   const parallel::Executor executor(options.threads);
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);

@@ -15,6 +15,7 @@
 #include "cli/port_command.h"
 #include "cli/progress.h"
 #include "cli/registry.h"
+#include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "conformance/profiles.h"
 #include "conformance/races.h"
@@ -22,7 +23,6 @@
 #include "conformance/shadow.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
-#include "scene/toml.h"
 
 namespace rainref::cli {
 
@@ -79,7 +79,7 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
   options.profile = request.profile;
   options.only = request.only;
   // What is wrong with the request shows before the port is run.
-  static_cast<void>(conformance::profile(options.profile));
+  static_cast<void>(conformance::judging_profile(options.profile));
   if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
   std::vector<std::string> ids;
   for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
@@ -135,7 +135,7 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
     if (!has_manifest) throw Error(ExitCode::usage, fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", request.shadow.string()));
     return manifest();
   }
-  const scene::Config config = scene::load(request.scene.scene, request.scene.overrides, effect_table());
+  const scene::Config config = load_scene(request.scene);
   const EffectEntry& entry = effect(config.effect());
   conformance::ShadowPlan plan = conformance::ShadowPlan::of_effect(*entry.info, config.variant(), request.scene.scene.filename().string());
   std::set<int> frames;
@@ -160,7 +160,7 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
 }
 
 Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
-  static_cast<void>(conformance::profile(request.profile));
+  static_cast<void>(conformance::judging_profile(request.profile));
   if (!fs::is_directory(request.shadow)) throw Error(ExitCode::port_files, fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
   const auto planned = std::make_shared<const conformance::ShadowPlan>(shadow_plan(request, executor));
   const conformance::ShadowPlan& plan = *planned;
@@ -211,6 +211,7 @@ int validate(const ValidateRequest& request) {
 
 int mutate(const MutateRequest& request) {
   const capture::Pack pack(request.pack);
+  static_cast<void>(conformance::judging_profile(request.profile));
   const parallel::Executor executor(request.threads);
   conformance::ValidateOptions options;
   options.profile = request.profile;

@@ -144,6 +144,10 @@ const enclosed::Profile& profile(std::string_view name) {
   const std::vector<std::string> names = profile_names();
   throw Error(ExitCode::usage, fmt::format("--profile: expected one of {}, found '{}'{}", fmt::join(names, ", "), name, did_you_mean(name, names)));
 }
+const enclosed::Profile& judging_profile(std::string_view name) {
+  if (name != "typical") return profile(name);
+  throw Error(ExitCode::usage, fmt::format("--profile: expected one of {}, found 'typical', which is what present devices do and no rule: each of these warns by it", fmt::join(profile_names(), ", ")));
+}
 std::string_view profile_text(std::string_view name) {
   for (const auto& e : detail::embedded_profiles())
     if (e.name == name) return e.text;

@@ -13,6 +13,8 @@ namespace rainref::conformance {
 std::vector<std::string> profile_names();
 /// The profile of this name; Error(usage) naming the nearest one.
 const enclosed::Profile& profile(std::string_view name);
+/// One that a port may be judged under: Error(usage) for "typical" too.
+const enclosed::Profile& judging_profile(std::string_view name);
 /// The text of its data file, with the source of every number.
 std::string_view profile_text(std::string_view name);
 

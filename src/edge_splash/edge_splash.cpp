@@ -1,6 +1,7 @@
 // The order of the passes. No arithmetic.
 #include "rainref/edge_splash.h"
 
+#include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/kernels.h"
@@ -60,6 +61,7 @@ struct EdgeSplash::State {
 };
 
 EdgeSplash::EdgeSplash(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
   if (inputs.colour.empty()) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
   state_ = std::make_unique<State>(settings, inputs, executor);
 }
@@ -67,6 +69,7 @@ EdgeSplash::~EdgeSplash() = default;
 EdgeSplash::EdgeSplash(EdgeSplash&&) noexcept = default;
 
 void EdgeSplash::render(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   const auto published = published_splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
   const auto corrected = splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/floating_point.h"
 #include "base/memory.h"
 #include "image/colour.h"
 #include "math/half.h"
@@ -47,10 +48,12 @@ void require_size(const Image& image, const Image& colour, const char* key) {
 
 // Of a projection onto [near, far]: d (reversed) = near (far - z) / (z (far - near)), so 1 / z = d (1/near - 1/far) + 1/far.
 double distance_of(const DepthRange& r, double depth) {
+  const FloatingPointGuard guard;
   const double slope = 1 / r.near_plane - 1 / r.far_plane;
   return 1 / ((r.reversed ? depth : 1 - depth) * slope + 1 / r.far_plane);
 }
 double depth_of(const DepthRange& r, double distance) {
+  const FloatingPointGuard guard;
   const double reversed = r.near_plane * (r.far_plane - distance) / (distance * (r.far_plane - r.near_plane));
   return r.reversed ? reversed : 1 - reversed;
 }
@@ -211,6 +214,7 @@ std::string seam_warning(const Image& noise) {
 }
 
 std::size_t memory_bytes(const Settings& s) {
+  const FloatingPointGuard guard;
   const auto bytes = [&](Format f) { return Image::memory_bytes(f, s.width, s.height); };
   return 2 * bytes(Format::rgba16f) + 2 * bytes(Format::r32f) + 4 * bytes(Format::r8) + bytes(Format::rgba8);
 }

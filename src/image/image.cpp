@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/floating_point.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -54,6 +55,7 @@ std::size_t Image::memory_bytes(Format format, int width, int height) {
 }
 
 Image::Image(Format format, int width, int height) : format_(format), width_(width), height_(height) {
+  const FloatingPointGuard guard;
   if (width < 1 || height < 1 || width > max_side || height > max_side) {
     throw Error(ExitCode::usage, fmt::format("image size {}x{}: each side must be from 1 to {}", width, height, max_side));
   }

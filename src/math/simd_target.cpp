@@ -51,8 +51,10 @@ void select_simd_target(std::string_view name) {
   }
   if (bit == 0) {
     const std::vector<std::string> here = simd_targets();
+    // AVX-512 is the one target whose usual name is not near the one here.
+    const bool is_avx512 = name.starts_with("avx512") || name.starts_with("AVX512") || name.starts_with("avx-512") || name.starts_with("AVX-512");
     throw Error(ExitCode::usage, fmt::format("SIMD target '{}': this machine has {}{}", name, fmt::join(here, ", "),
-                                             did_you_mean(name, here)));
+                                             !is_avx512 ? did_you_mean(name, here) : here.front() == "avx3" ? "; did you mean 'avx3'?" : "; AVX-512 is called avx3, which is not among them"));
   }
   hwy::SetSupportedTargetsForTest(bit);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());

@@ -23,13 +23,12 @@ struct Executor::Pool {
     // The scheduler starts no more workers than the machine has processors unless told to, and a proof over 8 threads on
     // 2 processors needs 8. One limit for the process: of several, the smallest would hold for every pool.
     static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, max_threads);
-    // An arena hands its workers the floating-point state of the thread that starts it.
-    FloatingPointGuard guard;
     arena.initialize();
   }
 };
 
 Executor::Executor(int threads) {
+  const FloatingPointGuard guard;
   if (threads < 0 || threads > max_threads) {
     throw Error(ExitCode::usage, fmt::format("threads: expected a number from 1 to {}, found {}", max_threads, threads));
   }
@@ -43,6 +42,7 @@ int Executor::threads() const { return pool_->arena.max_concurrency(); }
 void Executor::for_range(std::int64_t count, std::int64_t chunk,
                          const std::function<void(std::int64_t, std::int64_t)>& body) const {
   if (count <= 0) return;
+  const FloatingPointGuard caller;
   const std::int64_t chunks = (count + chunk - 1) / chunk;
   std::vector<std::int64_t> order;
   if (shuffle_seed_ != 0) {

@@ -35,6 +35,7 @@ std::vector<float> recode(const Image& image, bool is_encoded, Variant variant) 
 
 TextureData prepare_environment(const Surroundings& s, Variant variant) {
   const Image& image = s.environment;
+  if (image.empty()) throw Error(ExitCode::usage, "environment.image: expected an image, found none");
   std::vector<float> texels = recode(image, s.environment_is_encoded, variant);
   int width = image.width(), height = image.height();
   if (s.environment_is_cube) {

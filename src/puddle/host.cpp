@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/floating_point.h"
 #include "base/memory.h"
 #include "math/real64.h"
 #include "rainref/error.h"
@@ -184,6 +185,7 @@ float ground_footprint(const Settings& s, int tile_texels) {
 }
 
 std::size_t memory_bytes(const Settings& s) {
+  const FloatingPointGuard guard;
   const auto [columns, rows] = wave_size(s);
   const Format channel = s.storage == Format::rgba8 ? Format::r8 : s.storage == Format::rg32f ? Format::r32f : Format::r16f;
   const std::size_t wave = 2 * Image::memory_bytes(channel, columns, rows) + static_cast<std::size_t>(columns) * rows * sizeof(float);

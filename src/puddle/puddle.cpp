@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "puddle/bounds.h"
 #include "puddle/environment.h"
@@ -135,6 +136,7 @@ struct Puddle::State {
 };
 
 Puddle::Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
   check(settings);
   state_ = std::make_unique<State>(settings, surroundings, executor);
 }
@@ -142,6 +144,7 @@ Puddle::~Puddle() = default;
 Puddle::Puddle(Puddle&&) noexcept = default;
 
 void Puddle::simulate(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   const std::int64_t end = steps_until(s.settings, s.frame + 1);
   for (int step = 0; s.steps < end; ++step, ++s.steps) {
@@ -179,6 +182,7 @@ void Puddle::simulate(Recorder* recorder) {
 }
 
 void Puddle::render(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   const int recorded_frame = s.frame;
   s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
@@ -238,6 +242,7 @@ void Puddle::render(Recorder* recorder) {
 }
 
 void Puddle::set_water(const std::vector<float>& newest, const std::vector<float>& previous) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   const std::size_t cells = static_cast<std::size_t>(s.newest.width()) * s.newest.height();
   if (newest.size() != cells || previous.size() != cells) throw Error(ExitCode::internal, "set_water: sizes differ from the wave's");
@@ -252,7 +257,10 @@ void Puddle::set_water(const std::vector<float>& newest, const std::vector<float
 
 int Puddle::frame() const { return state_->frame; }
 std::int64_t Puddle::steps() const { return state_->steps; }
-double Puddle::courant() const { return courant_number(state_->settings); }
+double Puddle::courant() const {
+  const FloatingPointGuard guard;
+  return courant_number(state_->settings);
+}
 const Image& Puddle::newest() const { return state_->newest; }
 const Image& Puddle::previous() const { return state_->previous; }
 BufferView Puddle::wave() const { return BufferView(state_->settings.storage, {&state_->newest, &state_->previous}); }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/floating_point.h"
 #include "base/memory.h"
 #include "math/real64.h"
 #include "rainref/error.h"
@@ -141,6 +142,7 @@ RainOnGlassUniforms rain_on_glass_uniforms(const Settings& s, int frame, Code ra
 }
 
 std::size_t memory_bytes(const Settings& s) {
+  const FloatingPointGuard guard;
   const std::size_t maps = 2 * (Image::memory_bytes(s.map_storage, s.map_size, s.map_size) + static_cast<std::size_t>(s.map_size) * s.map_size * 16);
   const std::size_t picture = Image::memory_bytes(Format::rgba32f, s.width, s.height) + 3 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +
                               Image::memory_bytes(Format::rgba8, s.width, s.height) + static_cast<std::size_t>(s.width) * s.height * 28;

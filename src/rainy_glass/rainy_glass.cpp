@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
@@ -109,6 +110,7 @@ struct RainyGlass::State {
 };
 
 RainyGlass::RainyGlass(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
   check(settings);
   check(settings, surroundings);
   state_ = std::make_unique<State>(settings, surroundings, executor);
@@ -117,6 +119,7 @@ RainyGlass::~RainyGlass() = default;
 RainyGlass::RainyGlass(RainyGlass&&) noexcept = default;
 
 void RainyGlass::frame(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   if (s.frame == 0) s.bake(recorder);
   const RainOnGlassUniforms u = rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/floating_point.h"
 #include "image/texture.h"
 #include "math/half.h"
 #include "math/unorm.h"
@@ -43,6 +44,7 @@ Image copy(const Image& image) {
 }
 
 double seam(const Image& map) {
+  const FloatingPointGuard guard;
   const TextureData decoded(map, Address::clamp, Address::clamp);
   const float* texels = decoded.view().texels;
   const int width = map.width(), height = map.height(), channels = map.channels();

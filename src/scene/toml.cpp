@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/floating_point.h"
 #include "scene/check.h"
 #include "scene/toml_reader.h"
 
@@ -91,8 +92,8 @@ std::string guess(const std::string& wrong, const std::vector<std::string>& vali
 
 class Assembly {
  public:
-  Assembly(std::vector<Parameter> parameters, std::string variant) : variant_(std::move(variant)) {
-    for (Parameter& p : parameters) {
+  Assembly(const Effect& effect, const EffectTable& effects, std::string variant) : effect_(effect), effects_(effects), variant_(std::move(variant)) {
+    for (Parameter& p : scene_parameters(effect, effects)) {
       const Value value = p.default_in(variant_);
       if (p.used_by(variant_)) valid_.push_back(p.key);
       entries_.push_back({std::move(p), value, {}});
@@ -107,7 +108,7 @@ class Assembly {
       refuse({Origin::file, raw.value.at}, raw.key, fmt::format("expected a table, found {}", raw.value.text()));
     }
     if (std::holds_alternative<RawValue::Table>(raw.value.data) && !declared(raw.key)) {
-      refuse(origin, shortened(raw.key), "unknown table" + guess(raw.key, tables()));
+      refuse(origin, shortened(raw.key), "unknown table" + foreign(raw.key + ".", tables()));
     }
     Config::Entry& entry = find(raw.key, origin);
     entry.value = scene::checked(raw.value, entry.parameter, origin);
@@ -140,7 +141,19 @@ class Assembly {
       refuse(origin, key,
              fmt::format("not used by variant '{}', only by '{}'", variant_, fmt::join(e.parameter.variants, "', '")));
     }
-    refuse(origin, shortened(key), "unknown key" + guess(key, valid_));
+    refuse(origin, shortened(key), "unknown key" + foreign(key, valid_));
+  }
+
+  /// Where a key (or, ending in a dot, a table) belongs that this effect has not: other effects that have it, else the nearest valid one.
+  std::string foreign(const std::string& key, const std::vector<std::string>& valid) const {
+    const bool is_table = key.ends_with('.');
+    std::vector<std::string> owners;
+    for (const Effect& other : effects_.effects) {
+      const auto is_it = [&](const Parameter& p) { return is_table ? p.key.starts_with(key) : p.key == key; };
+      if (&other != &effect_ && std::any_of(other.parameters.begin(), other.parameters.end(), is_it)) owners.push_back("'" + other.name + "'");
+    }
+    if (owners.empty()) return guess(is_table ? key.substr(0, key.size() - 1) : key, valid);
+    return fmt::format(" of '{}'; it is one of {}", effect_.name, fmt::join(owners, " and "));
   }
 
   bool declared(const std::string& key) const {
@@ -157,6 +170,8 @@ class Assembly {
     return out;
   }
 
+  const Effect& effect_;
+  const EffectTable& effects_;
   std::string variant_;
   std::vector<Config::Entry> entries_;
   std::vector<std::string> valid_;  // the keys that this variant uses
@@ -177,19 +192,38 @@ std::string deciding(const Parameter& p, const std::vector<RawEntry>& entries, c
 }  // namespace
 
 Config load(const std::filesystem::path& file, const std::vector<std::string>& overrides, const EffectTable& effects) {
+  const FloatingPointGuard guard;
   return parse(read_file(file), file, overrides, effects);
 }
 
 Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,
              const EffectTable& effects) {
+  const FloatingPointGuard guard;
   const std::vector<Override> given = split(overrides);
   const std::vector<RawEntry> entries = read_toml(toml, file.string());
   const Effect& effect = effects.find(deciding(effect_parameter(effects), entries, given, file));
   std::string variant = deciding(variant_parameter(effect), entries, given, file);
-  Assembly assembly(scene_parameters(effect, effects), std::move(variant));
+  Assembly assembly(effect, effects, std::move(variant));
   for (const RawEntry& e : entries) assembly.take(e);
   for (const Override& o : given) assembly.take(o);
   return assembly.finish(file);
+}
+
+Config parse(const SceneText& scene, const Effect& effect, std::span<const char* const> pictures) {
+  const FloatingPointGuard guard;
+  std::vector<std::string> overrides;
+  const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);
+  for (const auto& [key, value] : {std::pair<std::string, std::string>{"effect", effect.name}, {"variant", effect.variants.back()}}) {
+    const bool is_said = std::any_of(entries.begin(), entries.end(), [&](const RawEntry& e) { return e.key == key; });
+    if (!is_said) overrides.push_back(key + "=" + value);  // before the caller's own, which win
+  }
+  overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
+  const Config config = parse(scene.toml, scene.file, overrides, {{effect}});
+  for (const char* key : pictures) {
+    const bool is_used = std::any_of(config.entries().begin(), config.entries().end(), [&](const Config::Entry& e) { return e.parameter.key == key; });
+    if (is_used && !config.text(key).empty()) refuse(config.entry(key).origin, key, fmt::format("expected none, for the caller hands in the picture itself, found '{}'", config.text(key)));
+  }
+  return config;
 }
 
 }  // namespace rainref::scene

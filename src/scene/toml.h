@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "rainref/scene_text.h"
 #include "scene/config.h"
 #include "scene/effect_table.h"
 
@@ -23,5 +25,9 @@ Config load(const std::filesystem::path& file, const std::vector<std::string>& o
 /// The same for a text already in memory; `file` names it in messages and gives the directory.
 Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,
              const EffectTable& effects);
+
+/// The same of a text that may leave out `effect` and `variant`, for a caller who hands in the pictures himself: the keys `pictures`,
+/// which name some, must be empty.
+Config parse(const SceneText& scene, const Effect& effect, std::span<const char* const> pictures);
 
 }  // namespace rainref::scene

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/floating_point.h"
 #include "base/memory.h"
 #include "image/texture.h"
 #include "math/half.h"
@@ -244,6 +245,7 @@ std::vector<Image> scene_levels(const Image& colour) {
 }
 
 std::size_t memory_bytes(const Settings& s) {
+  const FloatingPointGuard guard;
   const std::size_t pixels = static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
   std::size_t bytes = pixels * (8 + 8 + 1 + 4 + (8 + 16) * 4 / 3);
   if (corrected(s)) {

@@ -5,14 +5,17 @@
 #include <span>
 #include <vector>
 
+#include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
 #include "rainref/error.h"
 #include "scene/display.h"
+#include "scene/toml.h"
 #include "screen_drops/cells.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/kernels.h"
+#include "screen_drops/parameters.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -93,7 +96,18 @@ struct ScreenDrops::State {
   }
 };
 
+ScreenDrops::ScreenDrops(const SceneText& scene, const Inputs& inputs, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
+  constexpr const char* pictures[] = {"scene.image", "scene.panorama", "noise.image"};
+  const scene::Config config = scene::parse(scene, {"screen_drops", {"as-published", "corrected"}, parameters()}, pictures);
+  const Settings settings = settings_from(config);
+  check(settings);
+  check(settings, inputs);
+  const std::optional<FlowSettings> flow = flow_from(config, settings);
+  state_ = std::make_unique<State>(settings, inputs, executor, flow ? &*flow : nullptr);
+}
 ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow) {
+  const FloatingPointGuard guard;
   check(settings);
   check(settings, inputs);
   if (flow != nullptr && settings.variant != Variant::corrected) throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
@@ -103,6 +117,7 @@ ScreenDrops::~ScreenDrops() = default;
 ScreenDrops::ScreenDrops(ScreenDrops&&) noexcept = default;
 
 void ScreenDrops::render(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   if (s.flow) s.flow->simulate(recorder);
   if (s.frame == 0) s.blur(recorder);

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
+#include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "drops/wet_glass.h"
 #include "rainref/error.h"
+#include "scene/toml.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
 #include "windshield/wipe_drops.h"
@@ -27,6 +31,16 @@ RecordView record(const T& one) {
 }  // namespace
 
 struct Windshield::State {
+  static void check_pictures(const Surroundings& s) {
+    const auto expect = [&](const Image& image, Format format, const char* key) {
+      if (image.format() == format && image.width() == s.colour.width() && image.height() == s.colour.height()) return;
+      throw Error(ExitCode::usage, fmt::format("{}: expected {} of {}x{}, found {} of {}x{}", key, info(format).name, s.colour.width(), s.colour.height(), info(image.format()).name, image.width(), image.height()));
+    };
+    if (s.colour.empty()) return;
+    expect(s.colour, Format::rgba16f, "scene.image");
+    expect(s.depth, Format::r32f, "scene.depth_image");
+  }
+
   Settings settings;
   const parallel::Executor& executor;
   bool corrected;
@@ -64,6 +78,7 @@ struct Windshield::State {
     display = scene::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
+    check_pictures(surroundings);
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
@@ -151,12 +166,21 @@ bool Windshield::State::look() {
   return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
 }
 
-Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor)
-    : state_(std::make_unique<State>(config, std::move(surroundings), executor)) {}
+Windshield::Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
+  constexpr const char* pictures[] = {"scene.image", "scene.depth_image"};
+  const scene::Config config = scene::parse(scene, {"windshield", {"as-published", "corrected"}, parameters()}, pictures);
+  state_ = std::make_unique<State>(config, std::move(surroundings), executor);
+}
+Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
+  state_ = std::make_unique<State>(config, std::move(surroundings), executor);
+}
 Windshield::~Windshield() = default;
 Windshield::Windshield(Windshield&&) noexcept = default;
 
 void Windshield::simulate(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   s.wipers.clear();
   for (int substep = 0; substep < s.settings.substeps; ++substep) s.step(recorder, substep);
@@ -164,6 +188,7 @@ void Windshield::simulate(Recorder* recorder) {
 }
 
 void Windshield::render(Recorder* recorder) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   const int recorded_frame = s.frame;
   s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
@@ -243,6 +268,7 @@ void Windshield::render(Recorder* recorder) {
 
 int Windshield::frame() const { return state_->frame; }
 std::vector<DropView> Windshield::drops() const {
+  const FloatingPointGuard guard;
   std::vector<drops::Drop> all;
   state_->water.drops.gather(all, state_->executor);
   std::vector<DropView> out;
@@ -250,6 +276,7 @@ std::vector<DropView> Windshield::drops() const {
   return out;
 }
 WaterLedger Windshield::ledger() const {
+  const FloatingPointGuard guard;
   const State& s = *state_;
   const drops::WetGlass& w = s.water;
   return {w.ledger.spawned, w.ledger.evaporated, w.ledger.removed, s.corrected ? drops::film_water(w.film) : 0, s.corrected ? w.drops.water() : w.drops.live()};

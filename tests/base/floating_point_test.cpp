@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <stdexcept>
 #include <thread>
 
@@ -102,6 +103,73 @@ TEST(FloatingPointGuard, PutsTheStateBackAfterAnException) {
     return;
   }
   FAIL();
+}
+
+#if defined(__x86_64__)
+std::uint16_t x87_control() {
+  std::uint16_t control;
+  asm volatile("fnstcw %0" : "=m"(control));
+  return control;
+}
+void set_x87_control(std::uint16_t control) { asm volatile("fldcw %0" : : "m"(control)); }
+
+// The C library reads and prints numbers by the rounding of the x87 unit, which std::fesetround sets as well.
+TEST(FloatingPointGuard, PinsTheX87UnitToo) {
+  const std::uint16_t at_start = x87_control();
+  EXPECT_EQ(at_start, 0x37f);
+  std::uint16_t inside[3], after[3];
+  for (int i = 0; i < 3; ++i) {
+    set_x87_control(static_cast<std::uint16_t>(0x37f | (i + 1) << 10));
+    {
+      const FloatingPointGuard guard;
+      inside[i] = x87_control();
+    }
+    after[i] = x87_control();
+    set_x87_control(at_start);
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(inside[i], 0x37f);
+    EXPECT_EQ(after[i], 0x37f | (i + 1) << 10);
+  }
+}
+
+// Would end the process: neither unit may compute with the caller's exceptions, nor leave flags that raise them afterwards.
+TEST(FloatingPointGuard, KeepsTheCallersExceptionsAway) {
+  const KeepFloatingPoint keep;
+  const std::uint16_t at_start = x87_control();
+  set_floating_point_control(0);
+  set_x87_control(0x340);
+  std::uint64_t control;
+  {
+    const FloatingPointGuard guard;
+    volatile double zero = 0, one = 1, quotient = one / zero;
+    volatile long double longer = one;
+    longer = longer / zero;
+    static_cast<void>(quotient);
+    control = floating_point_control();
+  }
+  asm volatile("fwait");  // raises what is pending
+  const std::uint64_t after = floating_point_control();
+  const std::uint16_t x87_after = x87_control();
+  set_x87_control(at_start);
+  set_floating_point_control(pinned_floating_point_control);
+  EXPECT_EQ(control, pinned_floating_point_control);
+  EXPECT_EQ(after, 0u);
+  EXPECT_EQ(x87_after, 0x340);
+}
+#endif
+
+TEST(FloatingPointGuard, LeavesTheCallersFlagsAsTheyWere) {
+  std::feclearexcept(FE_ALL_EXCEPT);
+  std::feraiseexcept(FE_DIVBYZERO);
+  {
+    const FloatingPointGuard guard;
+    volatile double one = 1, three = 3, third = one / three;  // raises "inexact"
+    static_cast<void>(third);
+  }
+  const int flags = std::fetestexcept(FE_ALL_EXCEPT);
+  std::feclearexcept(FE_ALL_EXCEPT);
+  EXPECT_EQ(flags, FE_DIVBYZERO);
 }
 
 TEST(FloatingPointGuard, Nests) {

@@ -47,6 +47,20 @@ TEST_F(BadPicture, EmptyTruncatedOrNone) {
   }
 }
 
+// libpng would print a line of its own beside ours; the reason that it gives is in ours.
+TEST_F(BadPicture, ADamagedPngIsOneLine) {
+  std::string bytes = contents(folder / "sky.png");
+  const std::size_t data = bytes.find("IDAT") + 4;
+  bytes[data + 6] = static_cast<char>(bytes[data + 6] ^ 0x55);  // inside the compressed data
+  put(folder / "damaged.png", bytes);
+  expect_picture_refused("damaged.png", 2, "'damaged.png': ");
+  expect_picture_refused("damaged.png", 2, "IDAT: invalid");
+  std::string header = contents(folder / "sky.png");
+  header[16 + 8] = 3;  // 3 bits a channel: there is no such PNG
+  put(folder / "header.png", header);
+  expect_picture_refused("header.png", 2, "'header.png': ");
+}
+
 TEST_F(BadPicture, NotFinite) {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     Image image(Format::rgba32f, 8, 4);

@@ -25,6 +25,27 @@ TEST_F(BadScene, MissingOrNoFile) {
   expect_refusal({"hash", "two\nlines"}, 4, StartsWith("two lines: cannot be read"));
 }
 
+TEST_F(BadScene, AWrongPathNamesTheNearestScene) {
+  const auto missing = [](const std::string& file) { return file + ": cannot be read: No such file or directory"; };
+  for (const std::string verb : {"hash", "run"}) expect_refusal({verb, "corected.toml"}, 4, missing("corected.toml") + "; did you mean 'corrected.toml'?");
+  expect_refusal({"pack", "corected.toml", "-o", "new"}, 4, missing("corected.toml") + "; did you mean 'corrected.toml'?");
+  // Those that come with the program, by their last folder.
+  expect_refusal({"hash", "pudle/default.toml"}, 4, missing("pudle/default.toml") + "; did you mean '" RAINREF_SOURCE_DIR "/scenes/puddle/default.toml'?");
+  expect_refusal({"hash", "scenes/puddle/defualt.toml"}, 4, missing("scenes/puddle/defualt.toml") + "; did you mean '" RAINREF_SOURCE_DIR "/scenes/puddle/default.toml'?");
+  std::filesystem::create_directories(folder / "scenes/deep");
+  put(folder / "scenes/deep/mine.toml", "");
+  before = folder.names();
+  expect_refusal({"hash", "scenes/deep/mien.toml"}, 4, missing("scenes/deep/mien.toml") + "; did you mean 'scenes/deep/mine.toml'?");
+  expect_refusal({"hash", "scenes/dep/mine.toml"}, 4, missing("scenes/dep/mine.toml") + "; did you mean 'scenes/deep/mine.toml'?");
+}
+
+TEST_F(BadScene, AKeyOfAnotherEffectNamesIt) {
+  expect_scene_refused(scene("corrected", "[wipers]\ncount = 1\n"), "x.toml:9:1: wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
+  expect_scene_refused(scene("corrected", "[vehicle]\n"), "x.toml:8:2: vehicle: unknown table of 'puddle'; it is one of 'windshield'");
+  expect_refusal({"hash", "corrected.toml", "--set", "wipers.count=1"}, 2, "--set wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
+  expect_refusal({"hash", "corrected.toml", "--set", "scene.margin=2"}, 2, "--set scene.margin: unknown key of 'puddle'; it is one of 'windshield' and 'screen_drops'");
+}
+
 TEST_F(BadScene, NoToml) {
   expect_scene_refused("effect = 'puddle'\nvariant = = 1\n", StartsWith("x.toml:2:11: "));
   expect_scene_refused("", "x.toml: effect: missing; expected one of " + effect_list());

@@ -12,6 +12,7 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::Not;
 
 class Installation : public CommandLine {
@@ -126,6 +127,47 @@ TEST_F(Installation, AMissingOrForeignLibraryIsOneClearError) {
   put(std::filesystem::path(place) / name, "no library");
   expect_refused(AllOf(testing::StartsWith(start), HasSubstr("moved/bin/../"), HasSubstr("file too short")));
   EXPECT_EQ(rainref(run_of_arrays("none"), c).code, 0);
+}
+
+// The installed headers are all that a program has; pkg-config finds them where the installation lies now, not where it was made.
+TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
+  installed();
+  const std::string by_cmake = fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/tests/outside -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+                                           " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' '-DCMAKE_PREFIX_PATH={}'", (folder / "moved").string());
+  output(by_cmake);
+  output(RAINREF_CMAKE " --build outside");
+  const std::string said = output("outside/every_effect");
+  EXPECT_THAT(lines_of(said), testing::ElementsAre(MatchesRegex("puddle 32x18 .{8}"), MatchesRegex("windshield 32x18 .{8}"), MatchesRegex("edge_splash 32x18 .{8}"), MatchesRegex("screen_drops 32x18 .{8}"),
+                                                   MatchesRegex("screen_drops.flow 32x18 .{8}"), MatchesRegex("rainy_glass 32x18 .{8}"),
+                                                   "2 mine.toml:2:1: wipers.cuont: unknown key; did you mean 'wipers.count'?"));
+
+  std::string pc;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "moved")) {
+    if (entry.path().filename() == "rainref.pc") pc = entry.path().parent_path();
+  }
+  const std::string config = fmt::format("PKG_CONFIG_PATH='{}' pkg-config", pc);
+  const auto path_of = [&](const char* variable) {
+    std::string path = output(fmt::format("{} --variable={} rainref", config, variable));
+    path.erase(path.find_last_not_of('\n') + 1);
+    return std::filesystem::canonical(path);
+  };
+  EXPECT_EQ(path_of("prefix"), folder / "moved");
+  EXPECT_EQ(path_of("includedir"), folder / "moved/include");
+  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR "/tests/outside/every_effect.cpp -o by_pkg_config $({} --cflags --libs rainref)", RAINREF_CXX_COMPILER, config));
+  EXPECT_EQ(output("./by_pkg_config"), said);
+}
+
+// Where a package is put together it is installed below another root than the one where it will lie.
+TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
+  output(fmt::format("DESTDIR='{}/stage' " RAINREF_CMAKE " --install '" RAINREF_BUILD "' --config " RAINREF_CONFIG " --prefix /opt/rain", folder.path().string()));
+  std::filesystem::rename(folder / "stage/opt/rain", folder / "moved");
+  Circumstances c;
+  c.program = folder / "moved/bin/rainref";
+  const Outcome o = rainref({"list"}, c);
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("\n  " + (folder / "moved/share/rainref/scenes/puddle/default.toml").string() + "\n"));
+  EXPECT_THAT(o.out, Not(HasSubstr(RAINREF_SOURCE_DIR)));
+  EXPECT_EQ(contents(c.program).find(RAINREF_SOURCE_DIR "/scenes"), std::string::npos);  // what a machine that builds is called stays there
 }
 
 TEST_F(Installation, ServesProgramsOfOtherProjects) {

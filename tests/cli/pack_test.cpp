@@ -76,6 +76,11 @@ TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
   EXPECT_THAT(ids("p"), testing::IsSupersetOf({"puddle.shade/0000.0", "puddle.shade/0001.0", "puddle.shade/0012.0"}));
 }
 
+TEST_F(PackVerb, OneCaseIsOne) {
+  EXPECT_THAT(pack({"corrected.toml", "-o", "p", "--at", "0", "--passes", "display"}).out, MatchesRegex("1 case of display in [0-9]+ files, .*"));
+  EXPECT_THAT(rainref({"diff", "p", "p"}).out, testing::StartsWith("equal: 1 run of a pass, 2 buffers\n"));
+}
+
 TEST_F(PackVerb, FramesAndPassesAreChosen) {
   pack({"corrected.toml", "-o", "p", "--at", "3,1,3", "--passes", "shade,wave_step"});
   EXPECT_THAT(ids("p"), ElementsAre("puddle.wave_step/0001.0", "puddle.wave_step/0001.1", "puddle.wave_step/0001.2", "puddle.wave_step/0001.3", "puddle.shade/0001.0",

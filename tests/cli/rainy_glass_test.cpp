@@ -56,6 +56,18 @@ TEST_F(RainyGlassFiles, MapsWithoutAlphaAreRefusedAndSeamsDoubted) {
   }
 }
 
+// A picture that nothing looks at would go unnoticed, be it missing, damaged or of something else.
+TEST_F(RainyGlassFiles, APictureWithoutUseIsRefused) {
+  expect_refused("glass.toml", {"glass.normal_image=none.png"}, HasSubstr("--set glass.normal_image: expected none where glass.shape is \"pane\", which does not use it, found 'none.png'"));
+  expect_refused("glass.toml", {"glass.shape=sphere", "glass.normal_image=depth.npy"}, HasSubstr("glass.normal_image: expected none where glass.shape is \"sphere\""));
+  expect_refused("glass.toml", {"glass.probe_image=none.png"}, HasSubstr("--set glass.probe_image: expected none where glass.background is \"grab\", which does not use it, found 'none.png'"));
+  put(folder / "unused.toml", contents(folder / "glass.toml") + "[glass]\nprobe_image = 'x.png'\n");
+  const int line = static_cast<int>(lines_of(contents(folder / "unused.toml")).size());
+  expect_refused("unused.toml", {}, HasSubstr(fmt::format("unused.toml:{}:1: glass.probe_image: expected none", line)));
+  put(folder / "broken.png", "no picture");
+  expect_refused("glass.toml", {"glass.background=probe", "glass.probe_image=broken.png"}, HasSubstr("glass.probe_image: 'broken.png': not an EXR"));
+}
+
 TEST_F(RainyGlassFiles, WhatIsMissingIsNamed) {
   expect_refused("glass.toml", {"scene.depth_image="}, HasSubstr("scene.depth_image: expected a depth beside scene.image, found none"));
   expect_refused("glass.toml", {"scene.image="}, HasSubstr("scene.depth_image: expected scene.image beside it, found none"));

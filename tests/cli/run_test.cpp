@@ -39,6 +39,10 @@ TEST_F(RunVerb, WritesTheLastFrameAndASummary) {
   EXPECT_THAT(picture.channel_names, ElementsAre("R", "G", "B"));
 }
 
+TEST_F(RunVerb, OneFrameIsOne) {
+  EXPECT_THAT(run({"corrected.toml", "-o", "o", "--frames", "1"}).out, MatchesRegex("1 frame in [^\n]*, 1 picture and summary\\.json in o\n"));
+}
+
 TEST_F(RunVerb, KindsOfPictures) {
   run({"corrected.toml", "-o", "exr", "--image", "exr"});
   EXPECT_THAT(names("exr"), ElementsAre("puddle.0001.exr", "summary.json"));

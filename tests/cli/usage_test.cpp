@@ -9,6 +9,7 @@ using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 using testing::StartsWith;
 
 using Usage = CommandLine;
@@ -25,6 +26,29 @@ TEST_F(Usage, HelpShowsAnExample) {
   EXPECT_THAT(all.out, HasSubstr("\nExample: rainref run "));
   for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"}) EXPECT_THAT(all.out, HasSubstr("\n  " + verb + " "));
   EXPECT_EQ(rainref({"-h"}).out, all.out);
+}
+
+TEST_F(Usage, HelpIsAVerbToo) {
+  EXPECT_EQ(rainref({"help"}).out, rainref({"--help"}).out);
+  for (const std::string verb : {"run", "validate"}) {
+    const Outcome o = rainref({"help", verb});
+    EXPECT_EQ(o.code, 0);
+    EXPECT_EQ(o.err, "");
+    EXPECT_EQ(o.out, rainref({verb, "--help"}).out);
+  }
+  expect_refusal({"help", "rnu"}, 2, EndsWith("found 'rnu'; did you mean 'run'?"));
+  expect_refusal({"help", "run", "hash"}, 2, "help: expected one verb, found 'hash' too");
+}
+
+TEST_F(Usage, HelpSaysWhatAValueIs) {
+  const auto help = [&](const char* verb) { return rainref({verb, "--help"}).out; };
+  for (const char* verb : {"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "selftest"}) EXPECT_THAT(help(verb), Not(HasSubstr("TEXT"))) << verb;
+  EXPECT_THAT(help("run"), AllOf(HasSubstr("SCENE FILE"), HasSubstr("--frames N"), HasSubstr("--size WxH"), HasSubstr("--threads N"), HasSubstr("--set KEY=VALUE"), HasSubstr("--output DIR")));
+  EXPECT_THAT(help("validate"), AllOf(HasSubstr("--port DIR"), HasSubstr("--timeout SECONDS"), HasSubstr("--repeat N"), HasSubstr("--junit FILE"), HasSubstr("--exec COMMAND")));
+}
+
+TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
+  for (const char* verb : {"validate", "mutate"}) EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda, d3d, ieee, metal, vulkan, webgpu (default: vulkan)"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {
@@ -81,6 +105,10 @@ TEST_F(Usage, Size) {
   }
 }
 
+TEST_F(Usage, ASizeMayHaveACapitalX) {
+  EXPECT_EQ(hash({"corrected.toml", "--size", "20X12", "--frames", "1"}), hash({"corrected.toml", "--size", "20x12", "--frames", "1"}));
+}
+
 TEST_F(Usage, NumbersOfFramesThreadsAndPictures) {
   for (const std::string threads : {"0", "-1", "x", "", "1025", "2.0", "99999999999999999999"}) {
     expect_refusal({"hash", "corrected.toml", "--threads", threads}, 2, "--threads: expected a whole number from 1 to 1024, found '" + threads + "'");
@@ -94,6 +122,10 @@ TEST_F(Usage, NumbersOfFramesThreadsAndPictures) {
 TEST_F(Usage, AnUnknownSimdTargetNamesThoseOfThisMachine) {
   expect_refusal({"hash", "corrected.toml", "--simd", "zebra"}, 2, fmt::format("SIMD target 'zebra': this machine has {}", fmt::join(simd_targets(), ", ")));
   expect_refusal({"hash", "corrected.toml", "--simd", "scaler"}, 2, EndsWith("did you mean 'scalar'?"));
+  const bool has_it = simd_targets().front() == "avx3";
+  for (const char* name : {"avx512", "AVX512", "avx-512", "avx512f"}) {
+    expect_refusal({"hash", "corrected.toml", "--simd", name}, 2, EndsWith(has_it ? "; did you mean 'avx3'?" : "; AVX-512 is called avx3, which is not among them"));
+  }
   expect_refusal({"hash", "corrected.toml", "--simd", ""}, 2, HasSubstr(fmt::format("{}", fmt::join(simd_targets(), ", "))));
 }
 

@@ -2,6 +2,7 @@
 // and 59.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "capture/hashing.h"
 #include "edge_splash/host.h"
 #include "edge_splash/shapes.h"
+#include "golden/caller.h"
 #include "rainref/edge_splash.h"
 #include "rainref/executor.h"
 
@@ -45,20 +47,21 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
   const Settings& s = scene.settings;
   ShapesView view = render_shapes(camera(s), s.width, s.height, s.depth.far_plane, executor);
   Inputs in;
   in.colour = std::move(view.colour);
   in.depth = std::move(view.depth);
   in.depth_is_distance = true;
-  EdgeSplash effect(s, in, executor);
+  std::optional<EdgeSplash> effect;
+  caller([&] { effect.emplace(s, in, executor); });
   std::vector<std::string> lines;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    effect.render(golden ? &recorder : nullptr);
+    caller([&] { effect->render(golden ? &recorder : nullptr); });
     if (!golden) continue;
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }

@@ -1,12 +1,14 @@
 // The scenes behind tests/golden/hashes.txt: every pass, variant and storage, at frames 0, 1, 2 and 59.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
+#include "golden/caller.h"
 #include "night_street/night_street.h"
 #include "rainref/executor.h"
 #include "rainref/puddle.h"
@@ -66,18 +68,19 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
-  Surroundings around;
-  around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
-  Puddle puddle(scene.settings, around, executor);
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+  static Surroundings around;  // one for all scenes
+  if (around.environment.empty()) around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
+  std::optional<Puddle> puddle;
+  caller([&] { puddle.emplace(scene.settings, around, executor); });
   std::vector<std::string> lines;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    puddle.simulate(golden ? &recorder : nullptr);
+    caller([&] { puddle->simulate(golden ? &recorder : nullptr); });
     if (!golden) continue;
-    puddle.render(&recorder);
+    caller([&] { puddle->render(&recorder); });
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }
   return lines;

@@ -1,12 +1,15 @@
 // The scenes of rainy_glass behind tests/golden/hashes.txt: every pass, variant and storage, at frames 0, 1, 2 and 59.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
+#include "golden/caller.h"
 #include "rainref/executor.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/backdrop.h"
@@ -55,14 +58,18 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
-  RainyGlass glass(scene.settings, make_backdrop(scene.settings, {0.02, 0.3, 0.03}, executor), executor);
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+  static std::map<std::string, Surroundings> made;  // once, however often a test takes the scene
+  Surroundings& around = made[scene.name];
+  if (around.colour.empty()) around = make_backdrop(scene.settings, {0.02, 0.3, 0.03}, executor);
+  std::optional<RainyGlass> glass;
+  caller([&] { glass.emplace(scene.settings, around, executor); });
   std::vector<std::string> lines;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    glass.frame(golden ? &recorder : nullptr);
+    caller([&] { glass->frame(golden ? &recorder : nullptr); });
     if (!golden) continue;
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
+#include "golden/caller.h"
 #include "night_street/night_street.h"
 #include "rainref/executor.h"
 #include "screen_drops/flow.h"
@@ -64,17 +65,18 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
   const Settings& s = scene.settings;
   Inputs in;
   in.colour = night_street::Street({s.seed}).view(scene_camera(s), s.width, s.height, 1000, executor).colour;
-  ScreenDrops window(s, in, executor, scene.flow ? &*scene.flow : nullptr);
+  std::optional<ScreenDrops> window;
+  caller([&] { window.emplace(s, in, executor, scene.flow ? &*scene.flow : nullptr); });
   std::vector<std::string> lines;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    window.render(golden ? &recorder : nullptr);
+    caller([&] { window->render(golden ? &recorder : nullptr); });
     if (!golden) continue;
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }

@@ -1,12 +1,14 @@
 // The scenes behind tests/golden/hashes.txt: every pass, variant and rounding, at frames 0, 1, 2 and 59.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
+#include "golden/caller.h"
 #include "rainref/executor.h"
 #include "rainref/windshield.h"
 #include "scene/effect_table.h"
@@ -61,15 +63,16 @@ inline std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor) {
-  Windshield windshield(config_of(scene.variant, scene.toml), small_surroundings(), executor);
+/// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+  std::optional<Windshield> windshield;
+  caller([&] { windshield.emplace(config_of(scene.variant, scene.toml), small_surroundings(), executor); });
   std::vector<std::string> lines;
-  for (int frame = 0; frame < 60; ++frame) {
+  for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    windshield.simulate(golden ? &recorder : nullptr);
-    windshield.render(golden ? &recorder : nullptr);
+    caller([&] { windshield->simulate(golden ? &recorder : nullptr); });
+    caller([&] { windshield->render(golden ? &recorder : nullptr); });
     if (!golden) continue;
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }

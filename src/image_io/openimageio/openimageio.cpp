@@ -7,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "image_io/codec.h"
+#include "image_io/openimageio/quiet_png.h"
 
 namespace rainref::image_io {
 
@@ -21,6 +22,13 @@ class Memory : public OIIO::Filesystem::IOMemReader {
   }
 };
 
+/// OpenImageIO's reason, and libpng's, which OpenImageIO does not pass on.
+[[noreturn]] void fail(std::string reason) {
+  const std::string png = take_png_refusal();
+  if (!png.empty() && reason.find(png) == std::string::npos) reason += (reason.empty() ? "" : ": ") + png;
+  throw std::runtime_error(reason);
+}
+
 class Reader : public PictureReader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : memory_(bytes.data(), bytes.size()) {}
@@ -33,7 +41,8 @@ class Reader : public PictureReader {
     config.attribute("oiio:UnassociatedAlpha", 1);  // colour not multiplied by alpha
     config.attribute("oiio:RawColor", 1);           // no change of colour model
     // The bytes come from memory; OpenImageIO needs a name for its messages only.
-    if (!input_->open("picture", spec, config)) throw std::runtime_error(input_->geterror());
+    take_png_refusal();  // of an earlier picture
+    if (!input_->open("picture", spec, config)) fail(input_->geterror());
     take(spec);
     return true;
   }
@@ -44,7 +53,7 @@ class Reader : public PictureReader {
     // The unknown type asks for the file's own types, each channel in its own.
     const bool whole = input_->read_image(0, 0, static_cast<int>(first), static_cast<int>(end), OIIO::TypeUnknown, texels);
     // Some readers return partial data and success, and leave only a message behind.
-    if (!whole || input_->has_error()) throw std::runtime_error(input_->geterror());
+    if (!whole || input_->has_error()) fail(input_->geterror());
   }
 
  private:
@@ -109,7 +118,7 @@ std::optional<std::vector<std::byte>> encode(const char* format, const std::stri
   // The texels are in the file's own types: for one type to be named, for several to be left unknown.
   const OIIO::TypeDesc type = spec.channelformats.empty() ? spec.format : OIIO::TypeUnknown;
   const bool whole = output->open(name, spec) && output->write_image(type, texels) && output->close();
-  if (!whole || output->has_error()) throw std::runtime_error(output->geterror());
+  if (!whole || output->has_error()) fail(output->geterror());
   const auto written = std::as_bytes(std::span(bytes));
   return std::vector<std::byte>(written.begin(), written.end());
 }

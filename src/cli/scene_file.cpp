@@ -1,0 +1,89 @@
+#include "cli/scene_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "cli/registry.h"
+#include "rainref/error.h"
+#include "scene/toml.h"
+
+namespace rainref::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> scenes_below(const fs::path& root) {
+  std::vector<std::string> found;
+  std::error_code none;
+  for (const auto& entry : fs::recursive_directory_iterator(root, fs::directory_options::skip_permission_denied, none)) {
+    if (entry.path().extension() == ".toml") found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The folders `scenes` that belong to this program, from where it lies: an installation may be moved. A build folder links the sources'.
+std::vector<fs::path> own_folders() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  std::vector<fs::path> folders;
+  for (const char* from_program : {RAINREF_SCENES_FROM_PROGRAM, "../share/rainref/scenes"}) {
+    const fs::path folder = fs::canonical(program.parent_path() / from_program, error);
+    if (!error) folders.push_back(folder);
+  }
+  return folders;
+}
+
+/// What a user may have meant by a file that is not there: "; did you mean 'x'?" or "".
+std::string guess(const fs::path& wrong) {
+  std::vector<std::string> names, files;  // what is compared, and the file that it stands for
+  const auto add = [&](std::string name, const std::string& file) {
+    names.push_back(std::move(name));
+    files.push_back(file);
+  };
+  std::error_code none;
+  const fs::path beside = wrong.parent_path();
+  std::vector<std::string> siblings;
+  for (const auto& entry : fs::directory_iterator(beside.empty() ? "." : beside, none)) {
+    if (entry.path().extension() == ".toml") siblings.push_back((beside / entry.path().filename()).string());
+  }
+  std::sort(siblings.begin(), siblings.end());
+  for (const std::string& file : siblings) add(file, file);
+  for (const std::string& file : known_scenes()) {
+    add(file, file);
+    // "puddle/default.toml", "scenes/puddle/default.toml", wherever the folder lies; "default.toml" would be any effect's.
+    const fs::path path(file), in_effect = path.parent_path().filename() / path.filename();
+    add(in_effect.string(), file);
+    add(("scenes" / in_effect).string(), file);
+  }
+  const std::string near = nearest_name(wrong.lexically_normal().string(), names);
+  if (near.empty()) return "";
+  return fmt::format("; did you mean '{}'?", files[static_cast<std::size_t>(std::find(names.begin(), names.end(), near) - names.begin())]);
+}
+
+}  // namespace
+
+std::vector<std::string> known_scenes() {
+  std::vector<std::string> found = scenes_below("scenes");
+  if (!found.empty()) return found;
+  for (const fs::path& folder : own_folders()) {
+    found = scenes_below(folder);
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
+scene::Config load_scene(const SceneOptions& options) {
+  try {
+    return scene::load(options.scene, options.overrides, effect_table());
+  } catch (const Error& e) {
+    std::error_code none;
+    if (e.code() != ExitCode::io || options.scene.empty() || fs::exists(options.scene, none)) throw;
+    throw Error(e.code(), e.what() + guess(options.scene));
+  }
+}
+
+}  // namespace rainref::cli

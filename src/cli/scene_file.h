@@ -1,0 +1,18 @@
+// Scene files as a user names them, and those that came with this program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "scene/config.h"
+
+namespace rainref::cli {
+
+/// The scenes below ./scenes, or else those that came with the program: of its installation, or of the sources that it was built from.
+std::vector<std::string> known_scenes();
+
+/// scene::load of the options' file and overrides. A file that is not there brings the nearest scene that is into the message.
+scene::Config load_scene(const SceneOptions& options);
+
+}  // namespace rainref::cli

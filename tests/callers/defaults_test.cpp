@@ -1,0 +1,87 @@
+// Every effect runs with what its public header says by default: nobody needs a setting to begin.
+#include <gtest/gtest.h>
+
+#include "rainref/edge_splash.h"
+#include "rainref/error.h"
+#include "rainref/puddle.h"
+#include "rainref/rainy_glass.h"
+#include "rainref/screen_drops.h"
+#include "rainref/windshield.h"
+
+namespace rainref {
+namespace {
+
+/// An image of one value.
+Image filled(Format format, int width, int height, float value) {
+  Image image(format, width, height);
+  for (int y = 0; y < height; ++y) std::fill_n(image.row<float>(y), width * image.channels(), value);
+  return image;
+}
+/// Somewhere in the picture something is lit: code 0 all over would be a camera that sees nothing.
+void expect_lit(const Image& picture) {
+  ASSERT_EQ(picture.format(), Format::rgba8);
+  int brightest = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) brightest = std::max<int>(brightest, picture.row<Unorm8>(y)[4 * x].code);
+  }
+  EXPECT_GT(brightest, 0);
+}
+
+class Defaults : public testing::Test {
+ protected:
+  parallel::Executor executor{2};
+};
+
+TEST_F(Defaults, Puddle) {
+  const puddle::Settings settings;
+  puddle::Surroundings around;
+  around.environment = filled(Format::rgba32f, 4, 2, 0.5f);
+  puddle::Puddle puddle(settings, around, executor);
+  puddle.simulate();
+  puddle.render();
+  expect_lit(puddle.picture());
+  around.environment = Image();
+  EXPECT_THROW(puddle::Puddle(settings, around, executor), Error);
+}
+TEST_F(Defaults, EdgeSplash) {
+  const edge_splash::Settings settings;
+  edge_splash::Inputs in;
+  in.colour = filled(Format::rgba32f, settings.width, settings.height, 0.5f);
+  in.depth = filled(Format::r32f, settings.width, settings.height, 2);
+  in.depth_is_distance = true;
+  edge_splash::EdgeSplash effect(settings, in, executor);
+  effect.render();
+  expect_lit(effect.picture());
+}
+TEST_F(Defaults, RainyGlass) {
+  const rainy_glass::Settings settings;
+  rainy_glass::Surroundings around;
+  around.colour = filled(Format::rgba32f, settings.width, settings.height, 0.5f);
+  around.depth = filled(Format::r32f, settings.width, settings.height, 9);
+  rainy_glass::RainyGlass glass(settings, around, executor);
+  glass.frame();
+  expect_lit(glass.picture());
+}
+TEST_F(Defaults, ScreenDrops) {
+  const screen_drops::Settings settings;
+  screen_drops::Inputs in;
+  in.colour = filled(Format::rgba32f, settings.width, settings.height, 0.5f);
+  screen_drops::ScreenDrops still(settings, in, executor);
+  still.render();
+  expect_lit(still.picture());
+  // The whole scene, its flowing water with it.
+  screen_drops::ScreenDrops flowing(SceneText{}, in, executor);
+  flowing.render();
+  expect_lit(flowing.picture());
+  EXPECT_GT(flowing.height().width(), 1);
+}
+TEST_F(Defaults, Windshield) {
+  windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {}, executor);
+  windshield.simulate();
+  windshield.render();
+  expect_lit(windshield.picture());
+  EXPECT_EQ(windshield.ledger().balance(), 0);
+}
+
+}  // namespace
+}  // namespace rainref

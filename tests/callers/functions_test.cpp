@@ -1,0 +1,112 @@
+// The public functions beside the effects' classes, and the reading of scenes, in every caller's state.
+#include <bit>
+
+#include <gtest/gtest.h>
+
+#include "callers/states.h"
+#include "edge_splash/host.h"
+#include "puddle/parameters.h"
+#include "rainref/error.h"
+#include "rainref/puddle.h"
+#include "rainref/rainy_glass.h"
+#include "scene/toml.h"
+
+namespace rainref {
+namespace {
+
+using test::CalledIn;
+using test::CallerState;
+using test::caller_states;
+
+/// What `call` gives in every state is what it gives in the pinned one, and the state is kept.
+template <class Call>
+void expect_the_same(const Call& call) {
+  const auto expected = call();
+  for (const CallerState& state : caller_states()) {
+    auto found = decltype(expected){};
+    CalledIn called(state);
+    called([&] { found = call(); });
+    EXPECT_EQ(found, expected) << state.name;
+    EXPECT_TRUE(called.kept()) << state.name;
+  }
+}
+
+TEST(AnyCaller, DepthsAndSeams) {
+  const edge_splash::DepthRange range{0.3, 700, true};
+  // Quotients that no rounding but the one to nearest gives all of.
+  for (const double x : {0.1, 0.3, 0.7, 0.9}) {
+    expect_the_same([&] { return std::bit_cast<std::uint64_t>(edge_splash::distance_of(range, x)); });
+    const double metres = x * 10;  // here, in the test's own state
+    expect_the_same([&] { return std::bit_cast<std::uint64_t>(edge_splash::depth_of(range, metres)); });
+  }
+  Image map(Format::rgba32f, 7, 5);
+  for (int y = 0; y < 5; ++y) {
+    for (int i = 0; i < 28; ++i) map.row<float>(y)[i] = static_cast<float>((13 * i + 7 * y) % 11) / 11;
+  }
+  expect_the_same([&] { return std::bit_cast<std::uint64_t>(rainy_glass::seam(map)); });
+}
+
+TEST(AnyCaller, PuddlesOfOnesOwnWater) {
+  puddle::Settings settings;
+  settings.width = 16;
+  settings.height = 9;
+  settings.grid = {12, 10};
+  settings.shape = puddle::Shape::basin;
+  puddle::Surroundings around;
+  around.environment = Image(Format::rgba32f, 4, 2);
+  around.ground = Image(Format::rgba32f, 4, 4);  // asphalt takes longer than all else
+  const parallel::Executor executor(1);
+  expect_the_same([&] { return puddle::memory_bytes(settings); });
+  std::vector<float> heights(120);
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(i % 17) * 1.3e-4f;
+  settings.storage = Format::rgba8;  // heights are scaled
+  expect_the_same([&] {
+    puddle::Puddle puddle(settings, around, executor);
+    puddle.set_water(heights, heights);
+    std::vector<std::uint64_t> seen{std::bit_cast<std::uint64_t>(puddle.courant())};
+    for (int y = 0; y < 10; ++y) {
+      for (int x = 0; x < 12; ++x) seen.push_back(puddle.newest().row<Unorm8>(y)[x].code);
+    }
+    return seen;
+  });
+}
+
+TEST(AnyCaller, AnExceptionPutsTheStateBack) {
+  puddle::Settings settings;
+  settings.wave_speed = 5;
+  puddle::Surroundings around;
+  around.environment = Image(Format::rgba32f, 4, 2);
+  const parallel::Executor executor(1);
+  expect_the_same([&]() -> std::string {
+    try {
+      puddle::Puddle(settings, around, executor);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  });
+}
+
+TEST(AnyCaller, AnExecutor) {
+  expect_the_same([] {
+    const parallel::Executor executor(3);
+    std::vector<std::uint64_t> control(5);
+    executor.for_range(5, 1, [&](std::int64_t begin, std::int64_t) { control[static_cast<std::size_t>(begin)] = floating_point_control(); });
+    return control;
+  });
+}
+
+// Decimal fractions that no float has: reading them rounds.
+TEST(AnyCaller, AScene) {
+  const scene::EffectTable table{{{"puddle", {"as-published", "corrected"}, puddle::parameters()}}};
+  const std::string toml = "effect = 'puddle'\nvariant = 'corrected'\n[puddle]\ndamping = 0.9000000000000000355\ntint = [0.1, 0.30000000000000000000000001, 7e-1]\n[camera]\nposition = [1e-5, 12345.678901234567, 3]\n";
+  const std::vector<std::string> overrides{"rain.rate=12.3456789012345678", "puddle.cell_size=4.1e-3"};
+  expect_the_same([&] {
+    const scene::Config config = scene::parse(toml, "x.toml", overrides, table);
+    const puddle::Settings s = puddle::settings_from(config);
+    return std::pair{config.canonical_text(), std::bit_cast<std::uint64_t>(s.rain_rate)};
+  });
+}
+
+}  // namespace
+}  // namespace rainref
