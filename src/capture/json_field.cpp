@@ -65,6 +65,8 @@ std::int64_t JsonField::whole(std::int64_t low, std::int64_t high) const {
   return value_.get<std::int64_t>();
 }
 
+bool JsonField::is_number() const { return value_.is_number(); }
+
 double JsonField::number() const {
   if (!value_.is_number()) fail("a number");
   return value_.get<double>();

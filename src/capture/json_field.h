@@ -27,6 +27,7 @@ class JsonField {
   /// Members of an object, in order.
   std::vector<std::pair<std::string, JsonField>> members() const;
 
+  bool is_number() const;
   std::string text() const;
   std::int64_t whole(std::int64_t low, std::int64_t high) const;
   double number() const;

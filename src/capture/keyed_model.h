@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "math/enclosure.h"
@@ -19,12 +20,21 @@ struct KeyedRecord {
   std::vector<std::uint32_t> words;  ///< bits of each other integer, likewise, the id left out
 };
 
+/// The least and the most that a float member of a record ordinarily is, each of its components, in the member's unit.
+/// Beyond it a value counts by its own size.
+struct FieldRange {
+  std::string_view member;
+  double low, high;
+};
+
 /// Groups of records that share decisions: a drop that another one captures is in the group of its captor, so that the
 /// two agree on what happened. Most groups hold one id. Evaluation is thread-safe.
 class KeyedModel {
  public:
   virtual ~KeyedModel() = default;
   virtual int groups() const = 0;
+  /// Of every float member: what the widths of its envelopes are compared with.
+  virtual const std::vector<FieldRange>& ranges() const = 0;
   /// Appends a record for every id that the group may give, under the profile and replay in force; the same ids in
   /// every alternative. No id is in two groups.
   virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "capture/difference.h"
 #include "capture/manifest_write.h"
 #include "rainref/error.h"
 
@@ -107,12 +109,19 @@ PackInput read_input(const JsonField& from, const Records& records) {
   return input;
 }
 
+bool is_keyed_record(const Array& shape) {
+  const auto& members = shape.record.members;
+  return shape.is_records && std::any_of(members.begin(), members.end(), [](const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; });
+}
+
 PackOutput read_output(const JsonField& from, const Records& records) {
   PackOutput output{read_array(from, records), {}};
   output.rules.name = output.name;
   output.rules.array = output.shape;
   output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
   output.rules.judge = named<Judge, 4>(from["judge"]);
+  if (output.shape.is_records && output.rules.judge == Judge::envelope) from["judge"].fail("bits, keyed or input_only for records");
+  if (output.rules.judge == Judge::keyed && !is_keyed_record(output.shape)) from["judge"].fail("bits, envelope or input_only for what is no list of records with a uint 'id'");
   output.rules.range = output.range;
   output.rules.unit = output.unit;
   output.rules.color_space = from["color_space"].text();
@@ -124,7 +133,24 @@ std::uint32_t read_bits(const JsonField& field) {
   if (bits.size() != 10 || !bits.starts_with("0x") || bits.find_first_not_of("0123456789abcdef", 2) != std::string::npos) field.fail("eight hexadecimal digits behind 0x");
   return static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16));
 }
-float read_float(const JsonField& from) { return std::bit_cast<float>(read_bits(from["bits"])); }
+
+/// The value that stands beside the bits is for people, who must not be told another one. Null stands for what JSON cannot hold.
+void require_value(const JsonField& value, scene::Scalar scalar, std::uint32_t bits) {
+  bool is_same = false;
+  if (scalar == scene::Scalar::float32) {
+    const float number = std::bit_cast<float>(bits);
+    is_same = std::isfinite(number) ? value.is_number() && std::bit_cast<std::uint32_t>(static_cast<float>(value.number())) == bits : value.dump() == "null";
+  } else {
+    is_same = value.dump() == (scalar == scene::Scalar::int32 ? fmt::format("{}", std::bit_cast<std::int32_t>(bits)) : fmt::format("{}", bits));
+  }
+  if (!is_same) value.fail(fmt::format("{}, as its bits say", scalar_text(reinterpret_cast<const std::byte*>(&bits), scalar)));
+}
+
+float read_float(const JsonField& from) {
+  const std::uint32_t bits = read_bits(from["bits"]);
+  require_value(from["value"], scene::Scalar::float32, bits);
+  return std::bit_cast<float>(bits);
+}
 
 std::vector<std::byte> read_uniforms(const JsonField& from, const scene::UniformBlock& block) {
   std::vector<std::byte> out(block.size);
@@ -132,12 +158,17 @@ std::vector<std::byte> read_uniforms(const JsonField& from, const scene::Uniform
   if (found.size() != block.members.size()) from.refuse(fmt::format("expected the {} members of {}, found {}", block.members.size(), block.name, found.size()));
   for (std::size_t i = 0; i < found.size(); ++i) {
     const scene::Member& m = block.members[i];
-    const JsonField bits = found[i]["bits"];
     if (found[i]["name"].text() != m.name) found[i]["name"].fail(fmt::format("'{}'", m.name));
-    const std::vector<JsonField> parts = m.components == 1 ? std::vector<JsonField>{bits} : bits.elements();
-    if (parts.size() != static_cast<std::size_t>(m.components)) bits.refuse(fmt::format("expected {} components, found {}", m.components, parts.size()));
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const std::uint32_t word = read_bits(parts[k]);
+    const auto components = [&](const char* key) {
+      const JsonField all = found[i][key];
+      const std::vector<JsonField> parts = m.components == 1 ? std::vector<JsonField>{all} : all.elements();
+      if (parts.size() != static_cast<std::size_t>(m.components)) all.refuse(fmt::format("expected {} components, found {}", m.components, parts.size()));
+      return parts;
+    };
+    const std::vector<JsonField> bits = components("bits"), values = components("value");
+    for (std::size_t k = 0; k < bits.size(); ++k) {
+      const std::uint32_t word = read_bits(bits[k]);
+      require_value(values[k], m.scalar, word);
       std::memcpy(out.data() + m.offset + 4 * k, &word, sizeof word);
     }
   }
@@ -156,6 +187,7 @@ PackCase read_case(const JsonField& from, const Records& records) {
   c.uniforms = read_file_entry(from["uniform_block"]);
   for (const JsonField& input : from["inputs"].elements()) c.inputs.push_back(read_input(input, records));
   for (const JsonField& output : from["outputs"].elements()) c.outputs.push_back(read_output(output, records));
+  if (c.outputs.empty()) from["outputs"].refuse("expected one output or more, found none");
   return c;
 }
 
@@ -188,7 +220,9 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
   Records records;
   for (const JsonField& record : manifest["records"].elements()) records.push_back(read_block(record));
   std::set<std::string> ids;
-  for (const JsonField& c : manifest["cases"].elements()) {
+  const std::vector<JsonField> cases = manifest["cases"].elements();
+  if (cases.empty()) manifest["cases"].refuse("expected one run of a pass or more, found none");
+  for (const JsonField& c : cases) {
     c["pass"].one_of(names);
     pack.cases.push_back(read_case(c, records));
     const PackCase& read = pack.cases.back();

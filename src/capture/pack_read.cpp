@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/memory.h"
+#include "capture/difference.h"
 #include "capture/manifest_read.h"
 #include "capture/manifest_write.h"
 #include "capture/npy_read.h"
@@ -85,6 +86,17 @@ std::string header_mismatch(const NpyHeader& header, const Array& shape, int lev
   return fmt::format("expected type {} and shape ({}), found '{}' and ({})", type, fmt::join(expected, ", "), header.type, fmt::join(header.shape, ", "));
 }
 
+/// The bytes that a pass takes are what the manifest says of them; padding may hold anything.
+void require_uniforms(const fs::path& file, const PackCase& entry, const scene::UniformBlock& block, const std::vector<std::byte>& bytes) {
+  for (const scene::Member& m : block.members) {
+    for (std::size_t at = m.offset; at < m.offset + m.size(); at += 4) {
+      if (std::memcmp(&entry.block[at], &bytes[at], 4) == 0) continue;
+      const std::string part = m.components == 1 ? "" : fmt::format(".{}", "xyzw"[(at - m.offset) / 4]);
+      refuse(file, fmt::format("{}: uniform {}{}: expected {} as the manifest says, found {}", entry.id, m.name, part, scalar_text(&entry.block[at], m.scalar), scalar_text(&bytes[at], m.scalar)));
+    }
+  }
+}
+
 }  // namespace
 
 Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
@@ -152,6 +164,7 @@ PassCase Pack::read(const PackCase& entry) const {
   c.time = entry.time;
   c.dt = entry.dt;
   c.uniforms = read_file(entry.uniforms);
+  require_uniforms(folder_ / entry.uniforms.path, entry, pass(entry.pass).block, c.uniforms);
   for (const PackInput& input : entry.inputs) {
     c.inputs.push_back(input.rules);
     c.inputs.back().array = read(input);

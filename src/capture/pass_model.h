@@ -1,7 +1,9 @@
 // A pass bound to one case, read with every number: what conformance judges by, and all it knows of an effect.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,8 +36,10 @@ class PassModel {
   virtual bool needs_port() const { return false; }
   /// Whether the pass itself rounds to binary16 on its way, as its outputs are stored.
   virtual bool rounds_inside() const { return false; }
-  /// Whether value v is declared as not reproducible (a count of steps): it is held to its buffer's range, no more.
-  virtual bool is_free(int) const { return false; }
+  /// Of a value that is declared as not reproducible (a count of steps) the least and the most that it may be: it is held
+  /// to them, no more. Nothing for others.
+  virtual std::optional<std::array<double, 2>> free_range(int) const { return std::nullopt; }
+  bool is_free(int value) const { return free_range(value).has_value(); }
   /// Of an output of Judge::keyed; null: its records are judged by bits.
   virtual const KeyedModel* keyed(std::string_view) const { return nullptr; }
 

@@ -62,8 +62,9 @@ std::vector<Word> words_of(const UniformBlock& layout) {
   return out;
 }
 /// The widest envelope of each float, among those that are a bound.
-void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, double range, const enclosed::Profile& profile) {
+void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, const UniformBlock& record, const enclosed::Profile& profile) {
   if (!model) return;
+  const std::vector<double> extents = extents_of(record, *model);
   const enclosed::ProfileScope scope(profile);
   for (int group = 0; group < model->groups(); ++group) {
     enclosed::Replay replay;
@@ -73,7 +74,7 @@ void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, doub
       model->enclose(group, records);
       for (const capture::KeyedRecord& r : records)
         for (std::size_t k = 0; k < r.floats.size() && k < words.size(); ++k)
-          if (const double width = static_cast<double>(r.floats[k].hi) - r.floats[k].lo; r.lives && !r.floats[k].is_vacuous() && width < range / 64)
+          if (const double width = static_cast<double>(r.floats[k].hi) - r.floats[k].lo; r.lives && !r.floats[k].is_vacuous() && width < std::max(extents[k], r.floats[k].magnitude()) / 64)
             words[k].leeway = std::max(words[k].leeway, width);
     });
   }
@@ -122,7 +123,7 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
     const ById got = by_id(port[o]), right = by_id(reference);
     const Records stored = records_of(port[o]);
     std::vector<Word> words = words_of(expected.array.record);
-    set_leeway(words, keyed, expected.range[1] - expected.range[0], profile);
+    set_leeway(words, keyed, expected.array.record, profile);
 
     std::vector<Deviation> all = deviations_of(pass, c, *model, before);
     std::vector<Cause> causes(all.size());

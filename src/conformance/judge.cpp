@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "conformance/bits.h"
 #include "conformance/keyed.h"
 #include "conformance/slots.h"
+#include "conformance/widths.h"
 #include "math/replay.h"
 #include "rainref/error.h"
 
@@ -35,9 +37,6 @@ enclosed::Profile narrowed(const enclosed::Profile& profile, HalfMode mode) {
   out.half_overflow = rules.half_overflow;
   return out;
 }
-HalfMode mode_of(enclosed::StoreRounding r) {
-  return r == enclosed::StoreRounding::rne ? HalfMode::rne : r == enclosed::StoreRounding::rtz ? HalfMode::rtz : HalfMode::either;
-}
 
 /// Every alternative of an invocation.
 struct Alternatives {
@@ -45,6 +44,13 @@ struct Alternatives {
   int count = 0;
   bool gave_up = false;
 
+  /// What the reference stored, and nothing else.
+  void only(const std::vector<float>& expected) {
+    count = 1;
+    gave_up = false;
+    values.front().clear();
+    for (const float x : expected) values.front().emplace_back(x, x);
+  }
   void run(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
     const enclosed::ProfileScope scope(profile);
     enclosed::Replay replay;
@@ -57,25 +63,43 @@ struct Alternatives {
   }
 };
 
+/// Under exact rules a march has one number of steps, too.
+std::optional<std::array<double, 2>> free_range(const PassModel& model, std::size_t value, const enclosed::Profile& profile) {
+  return profile.reference ? std::nullopt : model.free_range(static_cast<int>(value));
+}
+
 /// What an invocation stored, and what the reference does.
 struct Stored {
   std::vector<std::int64_t> got, expected;
-  std::vector<float> got_values;
-  bool nan = false;
+  std::vector<float> got_values, expected_values;
+  std::vector<char> same;        ///< the reference's bits: -0 is not +0
+  std::vector<char> free;        ///< declared as not reproducible
+  std::vector<char> impossible;  ///< not a number, or free and outside what it may be
+  bool any_impossible = false;
 
-  void read(const std::vector<Slot>& slots, const PassCase& c, const std::vector<Array>& port, int x, int y) {
+  void read(const std::vector<Slot>& slots, const PassCase& c, const PassModel& model, const enclosed::Profile& profile, const std::vector<Array>& port, int x, int y) {
     const std::size_t n = slots.size();
     got.resize(n);
     expected.resize(n);
     got_values.resize(n);
-    nan = false;
+    expected_values.resize(n);
+    same.resize(n);
+    free.resize(n);
+    impossible.resize(n);
+    any_impossible = false;
     for (std::size_t v = 0; v < n; ++v) {
       const Slot& s = slots[v];
       const std::size_t o = static_cast<std::size_t>(s.output);
-      got[v] = s.code(port[o], x, y);
-      expected[v] = s.code(c.outputs[o].array, x, y);
-      got_values[v] = stored_value(s, s.at(port[o], x, y));
-      nan |= is_nan(s.kind, s.at(port[o], x, y));
+      const std::byte *have = s.at(port[o], x, y), *want = s.at(c.outputs[o].array, x, y);
+      got[v] = enclosed::ordered_code(s.kind, have);
+      expected[v] = enclosed::ordered_code(s.kind, want);
+      got_values[v] = stored_value(s, have);
+      expected_values[v] = stored_value(s, want);
+      same[v] = std::memcmp(have, want, static_cast<std::size_t>(s.channel_bytes)) == 0;
+      const auto range = free_range(model, v, profile);
+      free[v] = range.has_value();
+      impossible[v] = is_nan(s.kind, have) || (range && !(got_values[v] >= (*range)[0] && got_values[v] <= (*range)[1]));
+      any_impossible |= impossible[v] != 0;
     }
   }
 };
@@ -93,12 +117,14 @@ void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& v
   for (std::size_t v = 0; v < slots.size(); ++v) out[v] = enclosed::code_range(slots[v].kind, values[v], rules_of(profile, mode, slots[v].store_rounding));
 }
 
-/// Under exact rules a march has one number of steps, too.
-bool is_free(const PassModel& model, std::size_t value, const enclosed::Profile& profile) { return !profile.reference && model.is_free(static_cast<int>(value)); }
-
-bool inside(const PassModel& model, const enclosed::Profile& profile, const std::vector<CodeRange>& ranges, const std::vector<std::int64_t>& codes) {
-  for (std::size_t v = 0; v < codes.size(); ++v)
-    if (!is_free(model, v, profile) && !ranges[v].contains(codes[v])) return false;
+/// Whether an alternative of these codes holds a value: exact rules compare bits.
+bool holds(const enclosed::Profile& profile, const Stored& stored, std::size_t v, const CodeRange& range) {
+  if (profile.reference) return stored.same[v];
+  return stored.free[v] ? !stored.impossible[v] : range.contains(stored.got[v]);
+}
+bool inside(const enclosed::Profile& profile, const std::vector<CodeRange>& ranges, const Stored& stored) {
+  for (std::size_t v = 0; v < ranges.size(); ++v)
+    if (!holds(profile, stored, v, ranges[v])) return false;
   return true;
 }
 
@@ -115,7 +141,7 @@ void keep_worst(std::vector<Failure>& worst) {
 /// Counts of some rows under one rounding.
 struct Part {
   CaseJudgement counts;
-  std::vector<std::vector<std::uint32_t>> widths;  // of each output
+  std::vector<Widths> widths;  // of each output
 };
 
 class CaseJudge {
@@ -139,9 +165,9 @@ class CaseJudge {
         for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, scratch, parts[static_cast<std::size_t>(tile.y0 / rows)], whole);
     });
     for (std::size_t m = 0; m < modes_.size(); ++m) {
-      std::vector<std::vector<std::uint32_t>> widths(case_.outputs.size());
+      std::vector<Widths> widths(case_.outputs.size());
       for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths);
-      for (std::size_t o = 0; o < widths.size(); ++o) set_widths(whole[m].outputs[o], widths[o]);
+      for (std::size_t o = 0; o < widths.size(); ++o) widths[o].summarize(whole[m].outputs[o]);
     }
     return whole;
   }
@@ -170,10 +196,12 @@ class CaseJudge {
   }
 
   void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
-    s.stored.read(slots_, case_, port_, x, y);
-    if (!model_.rounds_inside()) s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
+    s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
+    const bool is_exact = options_.profile->reference, each_rounds = model_.rounds_inside() && !is_exact;
+    if (is_exact) s.alternatives.only(s.stored.expected_values);
+    else if (!each_rounds) s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
     for (std::size_t m = 0; m < modes_.size(); ++m) {
-      if (model_.rounds_inside()) s.alternatives.run(model_, x, y, s.stored.got_values.data(), narrowed(*options_.profile, modes_[m]));
+      if (each_rounds) s.alternatives.run(model_, x, y, s.stored.got_values.data(), narrowed(*options_.profile, modes_[m]));
       one_mode(x, y, s, modes_[m], parts[m], whole[m]);
     }
   }
@@ -197,17 +225,17 @@ class CaseJudge {
     if (!s.alternatives.gave_up) {
       for (int a = 0; a < s.alternatives.count; ++a) {
         const std::vector<Enclosure>& values = s.alternatives.values[static_cast<std::size_t>(a)];
-        code_ranges(slots_, values, *options_.profile, mode, s.ranges);
+        ranges_of(s, a, mode);
         bool holds_reference = true;
         std::uint64_t far = 0;
         for (std::size_t v = 0; v < n; ++v) {
-          if (is_free(model_, v, *options_.profile)) continue;
+          if (s.stored.free[v]) continue;
           far = std::max(far, distance(s.stored.got[v], s.ranges[v]));
           enclosed::StoreRules own = rules_of(*options_.profile, slots_[v].store_rounding == Rounding::rne ? HalfMode::rne : HalfMode::rtz, slots_[v].store_rounding);
           holds_reference &= enclosed::code_range(slots_[v].kind, values[v], own).contains(s.stored.expected[v]);
         }
         if (holds_reference && reference < 0) reference = a;
-        if (inside(model_, *options_.profile, s.ranges, s.stored.got) && (accepted < 0 || a == reference)) accepted = a;
+        if (inside(*options_.profile, s.ranges, s.stored) && (accepted < 0 || a == reference)) accepted = a;
         if (far < nearest_distance || nearest < 0) {
           nearest = a;
           nearest_distance = far;
@@ -215,23 +243,23 @@ class CaseJudge {
         }
       }
     }
-    const bool failed = s.stored.nan || (!s.alternatives.gave_up && accepted < 0);
+    const bool failed = s.stored.any_impossible || (!s.alternatives.gave_up && accepted < 0);
     counts.failing += failed;
     counts.other_branch += !failed && reference >= 0 && accepted != reference;
     const int shown = accepted >= 0 ? accepted : nearest;
-    if (shown >= 0) code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(shown)], *options_.profile, mode, s.ranges);
+    if (shown >= 0) ranges_of(s, shown, mode);
 
     bool differs = false;
     for (std::size_t v = 0; v < n; ++v) {
       const Slot& slot = slots_[v];
       OutputJudgement& out = counts.outputs[static_cast<std::size_t>(slot.output)];
       ++out.elements;
-      const bool different = s.stored.got[v] != s.stored.expected[v];
+      const bool different = !s.stored.same[v], impossible = s.stored.impossible[v];
       out.differing += different;
       if (different) mark(whole, slot.output, x, y, 1);
-      const bool nan = is_nan(slot.kind, slot.at(port_[static_cast<std::size_t>(slot.output)], x, y));
-      if (is_free(model_, v, *options_.profile) && !nan) {
+      if (s.stored.free[v]) {
         ++out.free;
+        if (impossible) add_failure(x, y, v, s, part, whole);
         continue;
       }
       differs |= different;
@@ -247,29 +275,45 @@ class CaseJudge {
         const bool vacuous = r.is_vacuous() || width > scale / 16;
         out.vacuous += vacuous;
         out.loose += vacuous || width > scale / 256;
-        const double codes = r.is_vacuous() ? 4e9 : static_cast<double>(r.hi) - static_cast<double>(r.lo);
-        part.widths[static_cast<std::size_t>(slot.output)].push_back(static_cast<std::uint32_t>(std::min(codes, 4e9)));
+        part.widths[static_cast<std::size_t>(slot.output)].add(r);
       }
-      if (failed && (nan || (!s.alternatives.gave_up && !s.nearest[v].contains(s.stored.got[v])))) {
-        ++out.failing;
-        mark(whole, slot.output, x, y, 3);
-        Failure f;
-        f.x = x;
-        f.y = y;
-        f.channel = slot.channel;
-        f.got = s.stored.got[v];
-        f.expected = s.stored.expected[v];
-        if (!s.alternatives.gave_up) {
-          f.low = s.nearest[v].lo;
-          f.high = s.nearest[v].hi;
-        }
-        f.not_a_number = nan;
-        f.distance = nan ? ~std::uint64_t{0} : distance(f.got, s.nearest[v]);
-        out.worst.push_back(f);
-        if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
-      }
+      if (failed && (impossible || (!s.alternatives.gave_up && !holds(*options_.profile, s.stored, v, s.nearest[v])))) add_failure(x, y, v, s, part, whole);
     }
     if (!failed && differs && options_.typical && !s.alternatives.gave_up) check_typical(x, y, s, mode, counts, whole);
+  }
+
+  void add_failure(int x, int y, std::size_t v, const Scratch& s, Part& part, CaseJudgement& whole) const {
+    const Slot& slot = slots_[v];
+    const std::size_t o = static_cast<std::size_t>(slot.output);
+    OutputJudgement& out = part.counts.outputs[o];
+    ++out.failing;
+    mark(whole, slot.output, x, y, 3);
+    Failure f;
+    f.x = x;
+    f.y = y;
+    f.channel = slot.channel;
+    set_unequal(slot.kind, slot.at(case_.outputs[o].array, x, y), slot.at(port_[o], x, y), f);
+    if (!options_.profile->reference) {
+      f.low = f.high = 0;
+      if (const auto range = free_range(model_, v, *options_.profile)) {
+        const CodeRange free = enclosed::code_range(slot.kind, Enclosure(static_cast<float>((*range)[0]), static_cast<float>((*range)[1])), rules_of(*options_.profile, HalfMode::rne, slot.store_rounding));
+        f.low = free.lo;
+        f.high = free.hi;
+      } else if (!s.alternatives.gave_up) {
+        f.low = s.nearest[v].lo;
+        f.high = s.nearest[v].hi;
+      }
+      if (!f.not_a_number) f.distance = distance(f.got, {f.low, f.high});
+    }
+    out.worst.push_back(f);
+    if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
+  }
+
+  /// The codes of alternative a, into s.ranges.
+  void ranges_of(Scratch& s, int a, HalfMode mode) const {
+    if (!options_.profile->reference) return code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *options_.profile, mode, s.ranges);
+    s.ranges.clear();
+    for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
   }
 
   void check_typical(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts, CaseJudgement& whole) const {
@@ -280,7 +324,7 @@ class CaseJudge {
     for (int a = 0; a < s.typical.count; ++a) {
       code_ranges(slots_, s.typical.values[static_cast<std::size_t>(a)], *options_.typical, mode, s.nearest);
       std::size_t outside = 0;
-      for (std::size_t v = 0; v < slots_.size(); ++v) outside += !is_free(model_, v, *options_.profile) && !s.nearest[v].contains(s.stored.got[v]);
+      for (std::size_t v = 0; v < slots_.size(); ++v) outside += !s.stored.free[v] && !s.nearest[v].contains(s.stored.got[v]);
       if (outside < fewest) {
         fewest = outside;
         best = a;
@@ -289,13 +333,13 @@ class CaseJudge {
     if (fewest == 0) return;
     code_ranges(slots_, s.typical.values[static_cast<std::size_t>(best)], *options_.typical, mode, s.nearest);
     for (std::size_t v = 0; v < slots_.size(); ++v) {
-      if (is_free(model_, v, *options_.profile) || s.nearest[v].contains(s.stored.got[v])) continue;
+      if (s.stored.free[v] || s.nearest[v].contains(s.stored.got[v])) continue;
       ++counts.outputs[static_cast<std::size_t>(slots_[v].output)].atypical;
       mark(whole, slots_[v].output, x, y, 2);
     }
   }
 
-  static void add(CaseJudgement& whole, Part& part, std::vector<std::vector<std::uint32_t>>& widths) {
+  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths) {
     whole.invocations += part.counts.invocations;
     whole.failing += part.counts.failing;
     whole.ambiguous += part.counts.ambiguous;
@@ -309,18 +353,8 @@ class CaseJudge {
         to.*counter += from.*counter;
       to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
       keep_worst(to.worst);
-      widths[o].insert(widths[o].end(), part.widths[o].begin(), part.widths[o].end());
+      widths[o].append(part.widths[o]);
     }
-  }
-  static void set_widths(OutputJudgement& out, std::vector<std::uint32_t>& widths) {
-    if (widths.empty()) return;
-    const auto at = [&](double share) {
-      const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(widths.size() - 1));
-      std::nth_element(widths.begin(), widths.begin() + k, widths.end());
-      return static_cast<double>(widths[static_cast<std::size_t>(k)]);
-    };
-    out.median_width = at(0.5);
-    out.p99_width = at(0.99);
   }
 
   const PassCase& case_;
@@ -331,71 +365,15 @@ class CaseJudge {
   std::vector<Slot> slots_;
 };
 
-/// The first channel of a texel whose bits differ, as a failure says it.
-void set_first_difference(const FormatInfo& format, const std::byte* want, const std::byte* have, Failure& f) {
-  const auto bytes = static_cast<std::size_t>(format.channel_bytes);
-  while (std::memcmp(want + static_cast<std::size_t>(f.channel) * bytes, have + static_cast<std::size_t>(f.channel) * bytes, bytes) == 0) ++f.channel;
-  const std::size_t at = static_cast<std::size_t>(f.channel) * bytes;
-  f.got = enclosed::ordered_code(format.kind, have + at);
-  f.expected = f.low = f.high = enclosed::ordered_code(format.kind, want + at);
-  f.not_a_number = is_nan(format.kind, have + at);
-  f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, distance(f.got, {f.low, f.high}));
-}
-
-/// The first word of a record whose bits differ. Padding has no name, but counts.
-void set_first_difference(const scene::UniformBlock& record, const std::byte* want, const std::byte* have, Failure& f) {
-  std::size_t at = 0;
-  while (std::memcmp(want + at, have + at, 4) == 0) at += 4;
-  f.field = fmt::format("byte {}", at);
-  for (const scene::Member& m : record.members) {
-    if (at < m.offset || at >= m.offset + m.size()) continue;
-    f.field = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[(at - m.offset) / 4]);
-    if (m.scalar == scene::Scalar::float32) f.field_kind = FormatInfo::float32;
-  }
-  f.got = enclosed::ordered_code(f.field_kind, have + at);
-  f.expected = f.low = f.high = enclosed::ordered_code(f.field_kind, want + at);
-  f.not_a_number = is_nan(f.field_kind, have + at);
-  f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, distance(f.got, {f.low, f.high}));
-}
-
-/// Bits against bits, texel by texel or record by record.
-void judge_bits(const capture::CaseOutput& expected, const Array& port, CaseJudgement& j) {
-  OutputJudgement out;
-  out.name = expected.name;
-  out.format = expected.array.format;
-  out.records = expected.array.is_records;
-  out.width = expected.array.width;
-  out.height = expected.array.height;
-  const std::size_t size = expected.array.element_bytes();
-  const std::vector<std::byte>&want = expected.array.levels[0], &have = port.levels[0];
-  const std::size_t count = want.size() / size, found = have.size() / size;
-  out.elements = static_cast<std::int64_t>(std::max(count, found));
-  if (!out.records) out.map.assign(count, 0);
-  for (std::size_t i = 0; i < std::max(count, found); ++i) {
-    if (i < count && i < found && std::memcmp(want.data() + i * size, have.data() + i * size, size) == 0) continue;
-    ++out.failing;
-    ++out.differing;
-    if (!out.records) out.map[i] = 3;
-    if (out.worst.size() < OutputJudgement::max_failures) {
-      Failure f;
-      f.x = static_cast<int>(out.records ? i : i % static_cast<std::size_t>(out.width));
-      f.y = out.records ? 0 : static_cast<int>(i / static_cast<std::size_t>(out.width));
-      f.distance = 1;
-      if (!out.records) set_first_difference(info(out.format), want.data() + i * size, have.data() + i * size, f);
-      else if (i < count && i < found) set_first_difference(expected.array.record, want.data() + i * size, have.data() + i * size, f);
-      out.worst.push_back(f);
-    }
-  }
-  j.invocations = std::max(j.invocations, out.elements);
-  j.failing += out.failing;
-  j.outputs.push_back(std::move(out));
-}
-
 }  // namespace
 
 const char* name(Status status) {
   constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA"};
   return names[static_cast<int>(status)];
+}
+const char* name(Counted counted) {
+  constexpr const char* names[] = {"values", "texels", "fields", "records"};
+  return names[static_cast<int>(counted)];
 }
 const char* name(HalfMode mode) {
   constexpr const char* names[] = {"rne", "rtz", "either"};
@@ -404,6 +382,10 @@ const char* name(HalfMode mode) {
 Status worse(Status a, Status b) {
   const auto rank = [](Status s) { return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : s == Status::pass ? 0 : -1; };
   return rank(a) >= rank(b) ? a : b;
+}
+
+HalfMode half_mode_of(const enclosed::Profile& profile) {
+  return profile.half_store == enclosed::StoreRounding::rne ? HalfMode::rne : profile.half_store == enclosed::StoreRounding::rtz ? HalfMode::rtz : HalfMode::either;
 }
 
 void conclude(CaseJudgement& j) {
@@ -435,7 +417,7 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
   const bool has_half = std::any_of(c.outputs.begin(), c.outputs.end(), [](const capture::CaseOutput& o) {
     return o.judge == capture::Judge::envelope && !o.array.is_records && info(o.array.format).kind == FormatInfo::float16;
   });
-  const HalfMode declared = mode_of(options.profile->half_store);
+  const HalfMode declared = half_mode_of(*options.profile);
   if (options.profile->reference || !has_half) result.modes = {declared == HalfMode::either ? HalfMode::rne : declared};
   else if (declared != HalfMode::either && options.half_mode == declared) result.modes = {declared};
   else if (declared != HalfMode::either) result.modes = {declared, declared == HalfMode::rne ? HalfMode::rtz : HalfMode::rne};
@@ -448,10 +430,15 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
   else result.judgements.assign(result.modes.size(), CaseJudgement{});
   for (CaseJudgement& j : result.judgements) {
     j.id = c.folder();
-    for (std::size_t o = 0; o < c.outputs.size(); ++o)
-      if (c.outputs[o].judge == capture::Judge::bits) judge_bits(c.outputs[o], port[o], j);
+    std::vector<OutputJudgement> outputs;  // each judged output once, in the case's order
     std::string events;
     for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+      if (c.outputs[o].judge == capture::Judge::envelope && enveloped) outputs.push_back(std::move(j.outputs[o]));
+      if (c.outputs[o].judge == capture::Judge::bits) {
+        outputs.push_back(judge_bits(c.outputs[o], port[o]));
+        j.invocations = std::max(j.invocations, outputs.back().elements);
+        j.failing += outputs.back().failing;
+      }
       if (c.outputs[o].judge != capture::Judge::keyed) continue;
       KeyedJudgement k = judge_keyed(c.outputs[o], port[o], model ? model->keyed(c.outputs[o].name) : nullptr, *options.profile);
       j.invocations += k.groups;
@@ -459,9 +446,10 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
       j.ambiguous += k.ambiguous;
       j.other_branch += k.other_branch;
       j.gave_up += k.gave_up;
-      j.outputs.push_back(std::move(k.output));
+      outputs.push_back(std::move(k.output));
       if (const std::string text = k.events.text(); !text.empty()) events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);
     }
+    j.outputs = std::move(outputs);
     conclude(j);
     if (!events.empty()) j.reason = events;
     if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) {
@@ -478,15 +466,16 @@ InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, cons
 bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
   const std::vector<Slot> slots = slots_of(case_);
   Stored stored;
-  stored.read(slots, case_, port, x, y);
-  if (stored.nan) return false;
+  stored.read(slots, case_, model_, profile_, port, x, y);
+  if (stored.any_impossible) return false;
+  if (profile_.reference) return std::all_of(stored.same.begin(), stored.same.end(), [](char same) { return same; });
   Alternatives alternatives;
   alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
   if (alternatives.gave_up) return true;
   std::vector<CodeRange> ranges;
   for (int a = 0; a < alternatives.count; ++a) {
     code_ranges(slots, alternatives.values[static_cast<std::size_t>(a)], profile_, mode_, ranges);
-    if (inside(model_, profile_, ranges, stored.got)) return true;
+    if (inside(profile_, ranges, stored)) return true;
   }
   return false;
 }

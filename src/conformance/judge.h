@@ -18,6 +18,9 @@ struct JudgeOptions {
   std::optional<HalfMode> half_mode;  ///< declared by the port
 };
 
+/// What a profile asks of stores to binary16.
+HalfMode half_mode_of(const enclosed::Profile& profile);
+
 /// The ways in which stores to binary16 may have been rounded, each judged. Where the profile leaves it open these are rne,
 /// rtz and either, or the one that the port declares. Where it asks for one, that one and then the other, because drivers
 /// do not all obey; only that one where the port declares the same.

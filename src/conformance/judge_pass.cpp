@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "conformance/half_votes.h"
 #include "conformance/list_slips.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
@@ -34,29 +35,29 @@ ModeJudgements not_judged(const PortRun& run) {
   return out;
 }
 
-/// Sums a pass's cases under each rounding and keeps those of the best one.
-void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const JudgeOptions& options) {
+/// A pass's failures under each rounding, over all of its cases.
+HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& cases) {
+  HalfVotes votes{pass, {}, {}};
   const auto judged = std::find_if(cases.begin(), cases.end(), [](const ModeJudgements& c) { return !c.modes.empty(); });
-  std::size_t best = 0;
-  if (judged != cases.end()) {
-    const std::vector<HalfMode> modes = judged->modes;
-    std::vector<std::int64_t> failing(modes.size(), 0);
-    for (const ModeJudgements& c : cases)
-      for (std::size_t m = 0; m < c.modes.size(); ++m) failing[m] += c.judgements[m].failing;
-    // Stores of one device round one way. Only when both ways fail and a mixture does not is it a mixture.
-    if (modes.size() > 1 && failing[1] < failing[0]) best = 1;
-    if (modes.size() == 3) {
-      pass.half_mode_voted = true;
-      std::copy(failing.begin(), failing.end(), pass.half_votes.begin());
-      if (failing[best] > 0 && failing[2] == 0) best = 2;
-    }
-    pass.half_mode = modes[best];
-    if (modes.size() == 2 && best == 1) {
-      pass.reason = fmt::format("stores to binary16 round {}, where the profile {} asks for {}", modes[1] == HalfMode::rne ? "to nearest" : "toward zero",
-                                options.profile->name, modes[0] == HalfMode::rne ? "to nearest" : "toward zero");
-    }
+  if (judged == cases.end()) return votes;
+  votes.modes = judged->modes;
+  votes.failing.resize(votes.modes.size(), 0);
+  for (const ModeJudgements& c : cases)
+    for (std::size_t m = 0; m < c.modes.size(); ++m) votes.failing[m] += c.judgements[m].failing;
+  return votes;
+}
+
+/// Keeps of each case the judgement under the rounding that was found.
+void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const HalfVotes& own, const std::vector<HalfVotes>& all, const JudgeOptions& options) {
+  FoundRounding found;
+  if (!own.modes.empty()) {
+    found = pass_rounding(own, all, half_mode_of(*options.profile), options.profile->name);
+    pass.half_mode = own.modes[found.mode];
+    pass.reason = found.doubt;
+    pass.half_mode_voted = own.modes.size() == 3;
+    if (pass.half_mode_voted) std::copy(own.failing.begin(), own.failing.end(), pass.half_votes.begin());
   }
-  for (ModeJudgements& c : cases) pass.cases.push_back(std::move(c.judgements[c.modes.empty() ? 0 : best]));
+  for (ModeJudgements& c : cases) pass.cases.push_back(std::move(c.judgements[c.modes.empty() ? 0 : found.mode]));
 }
 
 void conclude_pass(PassJudgement& pass) {
@@ -75,10 +76,6 @@ void conclude_pass(PassJudgement& pass) {
   if (pass.cases.empty()) {
     pass.status = Status::untested;
     pass.reason = "there is no run of this pass";
-  }
-  if (pass.half_mode_voted && pass.half_mode == HalfMode::either && pass.status == Status::pass) {
-    pass.status = Status::warn;
-    pass.reason = "some stores to binary16 round to nearest and some toward zero";
   }
 }
 
@@ -117,15 +114,16 @@ std::unique_ptr<PassModel> bound(const std::string& pass, Bind bind, const captu
   return bind && std::any_of(c.outputs.begin(), c.outputs.end(), has_model) ? bind(c) : nullptr;
 }
 
-PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const JudgeOptions& options) {
-  PassJudgement judged;
-  judged.pass = pass.name;
-  judged.formula = pass.formula;
+namespace {
+
+/// Every run of a pass, under each rounding that may be its port's.
+std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options) {
+  const PassRuns& runs = task.runs;
   std::vector<ModeJudgements> cases;
   for (std::size_t k = 0; k < runs.count; ++k) {
     PortRun run = runs.load(k);
     std::unique_ptr<PassModel> model;
-    if (run.untested.empty()) model = prepare(pass, bind, runs, run);
+    if (run.untested.empty()) model = prepare(*task.pass, task.bind, runs, run);
     if (!run.untested.empty()) {
       cases.push_back(not_judged(run));
     } else {
@@ -139,10 +137,29 @@ PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRun
     }
     if (runs.done_one) runs.done_one();
   }
-  choose_mode(judged, cases, options);
-  conclude_pass(judged);
-  if (runs.diagnose && judged.status == Status::fail) judged.causes = causes_of(pass, bind, runs, judged, options);
-  return judged;
+  return cases;
+}
+
+}  // namespace
+
+std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options) {
+  std::vector<std::vector<ModeJudgements>> cases;
+  std::vector<HalfVotes> votes;
+  for (const PassTask& task : tasks) {
+    cases.push_back(judge_runs(task, options));
+    votes.push_back(votes_of(task.pass->name, cases.back()));
+  }
+  std::vector<PassJudgement> all;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const PassTask& task = tasks[k];
+    PassJudgement& judged = all.emplace_back();
+    judged.pass = task.pass->name;
+    judged.formula = task.pass->formula;
+    choose_mode(judged, cases[k], votes[k], votes, options);
+    conclude_pass(judged);
+    if (task.runs.diagnose && judged.status == Status::fail) judged.causes = causes_of(*task.pass, task.bind, task.runs, judged, options);
+  }
+  return all;
 }
 
 }  // namespace rainref::conformance

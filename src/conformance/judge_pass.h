@@ -1,4 +1,4 @@
-// Judging every run of one pass that a port made, one run in memory at a time.
+// Judging every run of each pass that a port made, one run in memory at a time.
 #pragma once
 
 #include <functional>
@@ -34,8 +34,15 @@ struct PassRuns {
   bool diagnose = true;
 };
 
-/// `bind` may be null when no output of the pass is judged by envelope; keyed records are then judged by bits.
-PassJudgement judge_pass(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const JudgeOptions& options);
+/// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records
+/// are then judged by bits.
+struct PassTask {
+  const capture::PackPass* pass;
+  Bind bind;
+  PassRuns runs;
+};
+/// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them.
+std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options);
 
 /// Whether an output is judged by envelope.
 bool is_enveloped(const capture::PassCase& c);

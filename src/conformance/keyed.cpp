@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "conformance/bits.h"
+#include "conformance/keyed_fields.h"
+#include "conformance/slots.h"
 #include "image/code_range.h"
 #include "math/replay.h"
 #include "rainref/error.h"
@@ -17,56 +20,15 @@ using capture::Array;
 using capture::KeyedRecord;
 using enclosed::CodeRange;
 
-/// Where the fields of a record lie.
-struct Layout {
-  std::size_t id = 0;
-  std::vector<std::size_t> floats, words;
-  std::vector<int> float_fields, word_fields;  ///< their numbers among all fields
-  std::vector<std::string> float_names, word_names;
-};
-bool is_key(const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; }
-
-Layout layout_of(const scene::UniformBlock& record) {
-  Layout out;
-  int field = 0;
-  for (const scene::Member& m : record.members) {
-    if (is_key(m)) {
-      out.id = m.offset;
-      continue;
-    }
-    if (m.name.starts_with("padding")) continue;
-    for (int k = 0; k < m.components; ++k, ++field) {
-      const bool is_float = m.scalar == scene::Scalar::float32;
-      (is_float ? out.floats : out.words).push_back(m.offset + 4 * static_cast<std::size_t>(k));
-      (is_float ? out.float_fields : out.word_fields).push_back(field);
-      (is_float ? out.float_names : out.word_names).push_back(m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k & 3]));
-    }
-  }
-  return out;
-}
-std::uint32_t word_at(const std::byte* record, std::size_t offset) {
-  std::uint32_t w;
-  std::memcpy(&w, record + offset, 4);
-  return w;
-}
-
-/// Records by id; where there are several, the first.
-using Table = std::map<std::uint32_t, const std::byte*>;
-Table table_of(const Array& list, const Layout& layout, std::vector<std::uint32_t>& duplicate) {
-  Table table;
-  const std::vector<std::byte>& bytes = list.levels[0];
-  for (std::size_t at = 0; at + list.record.size <= bytes.size(); at += list.record.size) {
-    const std::uint32_t id = word_at(&bytes[at], layout.id);
-    if (!table.emplace(id, &bytes[at]).second) duplicate.push_back(id);
-  }
-  return table;
-}
-
 /// The expected records as they are.
 class Exactly : public capture::KeyedModel {
  public:
-  Exactly(const Table& table, const Layout& layout) : layout_(layout), records_(table.begin(), table.end()) {}
+  Exactly(const RecordTable& table, const RecordLayout& layout) : layout_(layout), records_(table.begin(), table.end()) {}
   int groups() const override { return static_cast<int>(records_.size()); }
+  const std::vector<capture::FieldRange>& ranges() const override {
+    static const std::vector<capture::FieldRange> none;  // points have no width to compare
+    return none;
+  }
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
     const auto& [id, bytes] = records_[static_cast<std::size_t>(group)];
     KeyedRecord r;
@@ -81,11 +43,16 @@ class Exactly : public capture::KeyedModel {
   }
 
  private:
-  const Layout& layout_;
+  const RecordLayout& layout_;
   std::vector<std::pair<std::uint32_t, const std::byte*>> records_;
 };
 
-bool is_not_a_number(std::uint32_t word) { return (word & 0x7fffffffu) > 0x7f800000u; }
+/// What a list is compared by.
+struct Rules {
+  const RecordLayout& layout;
+  const enclosed::Profile& profile;
+  bool by_bits;
+};
 
 /// How far one list is from one alternative of a group.
 struct Difference {
@@ -94,10 +61,30 @@ struct Difference {
   std::size_t count() const { return missing.size() + extra.size() + failures.size(); }
 };
 
-Difference compare(const std::vector<KeyedRecord>& alternative, const Table& table, const Layout& layout,
-                   const enclosed::Profile& profile) {
+/// A float that its envelope does not hold, or not to the bit; nothing where it does.
+std::optional<Failure> float_failure(const enclosed::Enclosure& e, const std::byte* at, const Rules& rules) {
+  Failure f;
+  f.field_kind = FormatInfo::float32;
+  if (rules.by_bits) {
+    std::byte want[4];
+    std::memcpy(want, &e.lo, 4);
+    if (std::memcmp(want, at, 4) == 0) return std::nullopt;
+    set_unequal(FormatInfo::float32, want, at, f);
+    return f;
+  }
+  const CodeRange range = enclosed::code_range(FormatInfo::float32, e, enclosed::store_rules(rules.profile));
+  f.not_a_number = is_nan(FormatInfo::float32, at);
+  f.got = enclosed::ordered_code(FormatInfo::float32, at);
+  if (range.contains(f.got) && !f.not_a_number) return std::nullopt;
+  f.low = range.lo;
+  f.high = range.hi;
+  f.distance = f.not_a_number ? ~std::uint64_t{0} : static_cast<std::uint64_t>(f.got < range.lo ? range.lo - f.got : f.got - range.hi);
+  return f;
+}
+
+Difference compare(const std::vector<KeyedRecord>& alternative, const RecordTable& table, const Rules& rules) {
+  const RecordLayout& layout = rules.layout;
   Difference d;
-  const enclosed::StoreRules rules = enclosed::store_rules(profile);
   for (const KeyedRecord& r : alternative) {
     const auto found = table.find(r.id);
     if ((found != table.end()) != r.lives) {
@@ -106,28 +93,19 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const Table& tab
     }
     if (!r.lives) continue;
     const std::size_t before = d.failures.size();
-    Failure f;
-    f.x = static_cast<int>(r.id);
     for (std::size_t k = 0; k < layout.floats.size(); ++k) {
-      const std::byte* at = found->second + layout.floats[k];
-      const CodeRange range = enclosed::code_range(FormatInfo::float32, r.floats[k], rules);
-      f.not_a_number = is_not_a_number(word_at(at, 0));
-      f.got = enclosed::ordered_code(FormatInfo::float32, at);
-      if (range.contains(f.got) && !f.not_a_number) continue;
-      f.channel = layout.float_fields[k];
-      f.field = layout.float_names[k];
-      f.field_kind = FormatInfo::float32;
-      f.low = range.lo;
-      f.high = range.hi;
-      f.distance = f.not_a_number ? ~std::uint64_t{0}
-                                  : static_cast<std::uint64_t>(f.got < range.lo ? range.lo - f.got : f.got - range.hi);
-      d.failures.push_back(f);
+      std::optional<Failure> f = float_failure(r.floats[k], found->second + layout.floats[k], rules);
+      if (!f) continue;
+      f->x = static_cast<int>(r.id);
+      f->channel = layout.float_fields[k];
+      f->field = layout.float_names[k];
+      d.failures.push_back(std::move(*f));
     }
-    f.not_a_number = false;
-    f.field_kind = FormatInfo::uint32;
     for (std::size_t k = 0; k < layout.words.size(); ++k) {
+      Failure f;
+      f.x = static_cast<int>(r.id);
       f.got = word_at(found->second, layout.words[k]);
-      f.low = f.high = r.words[k];
+      f.low = f.high = f.expected = r.words[k];
       f.channel = layout.word_fields[k];
       f.field = layout.word_names[k];
       f.distance = static_cast<std::uint64_t>(f.got < f.low ? f.low - f.got : f.got - f.low);
@@ -138,35 +116,10 @@ Difference compare(const std::vector<KeyedRecord>& alternative, const Table& tab
   return d;
 }
 
-/// Counts of the fields that an alternative bounds, and how well.
-void count_fields(const std::vector<KeyedRecord>& alternative, const Table& port, const Table& expected,
-                  const Layout& layout, double extent, bool gave_up, OutputJudgement& out) {
-  for (const KeyedRecord& r : alternative) {
-    const auto got = port.find(r.id), want = expected.find(r.id);
-    if (got == port.end()) continue;
-    const auto differs = [&](std::size_t offset) {
-      return want == expected.end() || word_at(got->second, offset) != word_at(want->second, offset);
-    };
-    for (std::size_t k = 0; k < layout.floats.size(); ++k) {
-      ++out.elements;
-      out.differing += differs(layout.floats[k]);
-      if (gave_up || !r.lives) {
-        out.vacuous += gave_up;
-        out.loose += gave_up;
-        continue;
-      }
-      const enclosed::Enclosure& e = r.floats[k];
-      const double width = static_cast<double>(e.hi) - e.lo, scale = std::max(extent, e.magnitude());
-      out.vacuous += e.is_vacuous() || width > scale / 16;
-      out.loose += e.is_vacuous() || width > scale / 256;
-    }
-    for (const std::size_t offset : layout.words) {
-      ++out.elements;
-      out.differing += differs(offset);
-      out.vacuous += gave_up;
-      out.loose += gave_up;
-    }
-  }
+void add_failures(const std::vector<Failure>& failures, OutputJudgement& out) {
+  out.failing += static_cast<std::int64_t>(failures.size());
+  for (const Failure& f : failures)
+    if (out.worst.size() < OutputJudgement::max_failures) out.worst.push_back(f);
 }
 
 void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
@@ -195,9 +148,6 @@ std::string KeyedEvents::text() const {
   return out;
 }
 
-bool has_key(const scene::UniformBlock& record) {
-  return std::any_of(record.members.begin(), record.members.end(), is_key);
-}
 
 bool same_records(const Array& a, const Array& b) {
   const auto sorted = [](const Array& list) {
@@ -215,22 +165,26 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
                            const enclosed::Profile& profile) {
   if (!expected.array.is_records || !has_key(expected.array.record))
     throw Error(ExitCode::internal, fmt::format("{}: expected records with a uint 'id'", expected.name));
-  const Layout layout = layout_of(expected.array.record);
+  const RecordLayout layout = record_layout(expected.array.record);
   KeyedJudgement j;
   j.output.name = expected.name;
   j.output.records = true;
+  j.output.counted = Counted::fields;
   j.output.width = expected.array.width;
   j.output.height = 1;
   std::vector<std::uint32_t> twice;
-  const Table want = table_of(expected.array, layout, twice);
+  const RecordTable want = table_of(expected.array, layout, twice);
   if (!twice.empty())
     throw Error(ExitCode::port_files,
                 fmt::format("{}: expected each id once, found {} twice", expected.name, twice.front()));
-  Table have = table_of(port, layout, j.events.duplicate);
+  const RecordTable have = table_of(port, layout, j.events.duplicate);
+  const Rules rules{layout, profile, profile.reference || !model};
   const Exactly exactly(want, layout);
-  if (!model) model = &exactly;
+  std::vector<double> extents = rules.by_bits ? std::vector<double>(layout.floats.size(), 0.0) : extents_of(expected.array.record, *model);
+  if (rules.by_bits) model = &exactly;
 
-  Table unknown = have;
+  RecordTable unknown = have;
+  FieldCounts counts(have, want, layout, std::move(extents), j.output);
   const enclosed::ProfileScope scope(profile);
   for (int group = 0; group < model->groups(); ++group) {
     std::vector<std::vector<KeyedRecord>> alternatives;
@@ -249,7 +203,12 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
                           r.floats.size(), r.words.size(), layout.floats.size(), layout.words.size()));
       }
     if (!whole) {
-      count_fields(alternatives.front(), have, want, layout, 0, true, j.output);
+      counts.add(alternatives.front(), true);
+      // Anything else passes where nothing is bounded.
+      const std::vector<Failure> failures = not_numbers(alternatives.front(), have, layout);
+      j.failing += !failures.empty();
+      for (const Failure& f : failures) j.events.outside.push_back(static_cast<std::uint32_t>(f.x));
+      add_failures(failures, j.output);
       continue;
     }
     // The alternative that accepts what was stored, the reference's if it does; else the nearest.
@@ -257,31 +216,29 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
     Difference least;
     int reference = -1;
     for (std::size_t a = 0; a < alternatives.size(); ++a) {
-      if (reference < 0 && compare(alternatives[a], want, layout, profile).count() == 0)
+      if (reference < 0 && compare(alternatives[a], want, rules).count() == 0)
         reference = static_cast<int>(a);
-      Difference d = compare(alternatives[a], have, layout, profile);
+      Difference d = compare(alternatives[a], have, rules);
       if (a == 0 || d.count() < least.count() || (d.count() == 0 && static_cast<int>(a) == reference)) {
         best = a;
         least = std::move(d);
       }
     }
-    count_fields(alternatives[best], have, want, layout, expected.range[1] - expected.range[0], false, j.output);
+    counts.add(alternatives[best], false);
     const bool failed = least.count() > 0;
     j.failing += failed;
     j.other_branch += !failed && reference >= 0 && static_cast<int>(best) != reference;
     append(j.events.missing, least.missing);
     append(j.events.extra, least.extra);
     append(j.events.outside, least.outside);
-    j.output.failing += static_cast<std::int64_t>(least.failures.size());
-    for (const Failure& f : least.failures)
-      if (j.output.worst.size() < OutputJudgement::max_failures) j.output.worst.push_back(f);
+    add_failures(least.failures, j.output);
   }
   for (const auto& [id, bytes] : unknown) j.events.extra.push_back(id);
+  for (std::size_t k = 0; k < unknown.size() + j.events.duplicate.size(); ++k) counts.add_whole_record();
+  counts.finish();
   for (std::vector<std::uint32_t>* ids : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside})
     settle(*ids);
   j.failing += static_cast<std::int64_t>(unknown.size() + j.events.duplicate.size());
-  j.output.failing +=
-      static_cast<std::int64_t>(j.events.missing.size() + j.events.extra.size() + j.events.duplicate.size());
   std::stable_sort(j.output.worst.begin(), j.output.worst.end(),
                    [](const Failure& a, const Failure& b) { return a.distance > b.distance; });
   return j;

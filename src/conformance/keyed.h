@@ -24,7 +24,9 @@ struct KeyedEvents {
 };
 
 struct KeyedJudgement {
-  OutputJudgement output;  ///< elements and failing count fields; Failure::x is the id, channel the field, id left out
+  /// Elements are the fields, id left out, of the records that either list has; of one that is missing, extra or there
+  /// twice all are outside. Failure::x is the id, channel the field.
+  OutputJudgement output;
   KeyedEvents events;
   std::int64_t groups = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
 };
@@ -35,11 +37,15 @@ bool has_key(const scene::UniformBlock& record);
 /// Whether two lists hold the same records, byte for byte, in any order.
 bool same_records(const capture::Array& a, const capture::Array& b);
 
+/// The extent of the declared range of each float of a record, in the order of declaration. Throws Error(internal) for a
+/// member that the model gives none.
+std::vector<double> extents_of(const scene::UniformBlock& record, const capture::KeyedModel& model);
+
 /// Judges a port's list. A group of ids passes when one alternative of the model holds all of it: who lives, their
 /// floats by envelope, their integers by bits. Ids that no group knows are extra. A group with too many alternatives is
-/// vacuous. Without a model each expected record is a group whose fields must have the expected bits. Throws
-/// Error(internal) for a record without a key or a model that does not fit it, Error(port_files) when the expected list
-/// has an id twice.
+/// vacuous. Without a model, and under exact rules, each expected record is a group whose fields must have the expected
+/// bits. Throws Error(internal) for a record without a key or a model that does not fit it, Error(port_files) when the
+/// expected list has an id twice.
 KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const capture::Array& port,
                            const capture::KeyedModel* model, const enclosed::Profile& profile);
 

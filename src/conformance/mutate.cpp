@@ -1,5 +1,6 @@
 // The power of a pack: which deviations of the reference it would catch.
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -31,7 +32,7 @@ std::vector<Texel> spread(const capture::PassModel& model, int most) {
 bool differs(const std::vector<Slot>& slots, const std::vector<Array>& stored, const std::vector<Array>& plain, Texel t) {
   for (const Slot& s : slots) {
     const std::size_t o = static_cast<std::size_t>(s.output);
-    if (s.code(stored[o], t.x, t.y) != s.code(plain[o], t.x, t.y)) return true;
+    if (std::memcmp(s.at(stored[o], t.x, t.y), s.at(plain[o], t.x, t.y), static_cast<std::size_t>(s.channel_bytes)) != 0) return true;
   }
   return false;
 }
@@ -44,6 +45,7 @@ struct Stores {
 std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCase& c, const capture::PassModel& model, const parallel::Executor& executor) {
   using enclosed::StoreRounding;
   std::vector<Stores> out;
+  if (profile.reference) return {{HalfMode::either, reference_outputs(c, model, executor)}};  // as the pack has them
   if (profile.half_store != StoreRounding::rtz) out.push_back({HalfMode::rne, reference_outputs(c, model, executor, HalfMode::rne)});
   if (profile.half_store != StoreRounding::rne) out.push_back({HalfMode::rtz, reference_outputs(c, model, executor, HalfMode::rtz)});
   return out;
@@ -109,6 +111,7 @@ void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::Pa
 
 MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations) {
   const enclosed::Profile& chosen = profile(options.profile);
+  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
   check_pack(pack);
   MutationReport report;
   report.pack = pack.folder().string();

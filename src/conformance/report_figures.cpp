@@ -17,6 +17,8 @@ void add(Figures& to, const Figures& f) {
   to.p99_width = std::max(to.p99_width, f.p99_width);
 }
 
+const char* negative_zero_text(FormatInfo::Kind kind) { return kind == FormatInfo::float16 ? "-0 (0x8000)" : "-0 (0x80000000)"; }
+
 }  // namespace
 
 Figures figures_of(const OutputJudgement& o) {
@@ -56,9 +58,10 @@ std::string share_text(std::int64_t part, std::int64_t of) {
 }
 std::string width_text(double codes) { return codes >= 4e9 ? "none" : fmt::format("{:.0f}", codes); }
 std::string shape_text(const OutputJudgement& o) {
-  return o.records ? fmt::format("{} record{}", o.elements, o.elements == 1 ? "" : "s") : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
+  const std::int64_t records = o.counted == Counted::fields ? o.width : o.elements;
+  return o.records ? fmt::format("{} record{}", records, records == 1 ? "" : "s") : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
 }
-const char* element_word(const OutputJudgement& o) { return o.records ? "records" : "elements"; }
+const char* element_word(const OutputJudgement& o) { return o.counted == Counted::fields ? "fields" : o.records ? "records" : "elements"; }
 const char* element_word(const Cause& c) { return c.of_records ? "records" : "texels"; }
 std::string channel_name(int channel) { return std::string(1, "xyzw"[channel & 3]); }
 
@@ -67,9 +70,10 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   const FormatInfo::Kind kind = o.records ? f.field_kind : info(o.format).kind;
   FailureText t;
   t.place = o.records ? fmt::format("record {}, {}", f.x, f.field) : fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
-  t.got = enclosed::code_text(kind, f.got);
-  t.accepted = f.low == f.high ? enclosed::code_text(kind, f.low) : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
-  t.expected = enclosed::code_text(kind, f.expected);
+  const auto text = [&](std::int64_t code, bool negative_zero) { return negative_zero ? negative_zero_text(kind) : enclosed::code_text(kind, code); };
+  t.got = text(f.got, f.got_is_negative_zero);
+  t.expected = text(f.expected, f.expected_is_negative_zero);
+  t.accepted = f.low == f.high && f.low == f.expected ? t.expected : f.low == f.high ? enclosed::code_text(kind, f.low) : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
   return t;
 }

@@ -29,7 +29,7 @@ std::string share_text(std::int64_t part, std::int64_t of);
 std::string width_text(double codes);
 /// "rgba16f 35x21", "6 records".
 std::string shape_text(const OutputJudgement& output);
-/// "elements" or "records": what its counts count.
+/// "elements", "fields" or "records": what its counts count.
 const char* element_word(const OutputJudgement& output);
 /// "records" or "texels": what a cause explains.
 const char* element_word(const Cause& cause);

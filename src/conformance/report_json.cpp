@@ -13,9 +13,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Value, bits and ordered code; the library writes null for what is not finite.
-Json code_json(FormatInfo::Kind kind, std::int64_t code) {
+Json code_json(FormatInfo::Kind kind, std::int64_t code, bool negative_zero = false) {
   const int digits = kind == FormatInfo::float32 || kind == FormatInfo::uint32 ? 8 : kind == FormatInfo::float16 ? 4 : 2;
-  return {{"value", enclosed::code_value(kind, code)}, {"bits", fmt::format("0x{:0{}x}", enclosed::code_bits(kind, code), digits)}, {"code", code}};
+  const std::uint32_t bits = negative_zero ? 1u << (4 * digits - 1) : enclosed::code_bits(kind, code);
+  return {{"value", negative_zero ? -0.0 : enclosed::code_value(kind, code)}, {"bits", fmt::format("0x{:0{}x}", bits, digits)}, {"code", code}};
 }
 
 Json failure_json(const OutputJudgement& o, const Failure& f) {
@@ -24,10 +25,10 @@ Json failure_json(const OutputJudgement& o, const Failure& f) {
   // A vacuous range has no ends; the codes of its end would be none of the format.
   const bool bounded = f.low != INT64_MIN;
   Json out = o.records ? Json{{"record", f.x}, {"field", f.field}} : Json{{"x", f.x}, {"y", f.y}, {"channel", f.channel}};
-  out["got"] = code_json(kind, f.got);
+  out["got"] = code_json(kind, f.got, f.got_is_negative_zero);
   out["low"] = bounded ? code_json(kind, f.low) : Json();
   out["high"] = bounded ? code_json(kind, f.high) : Json();
-  if (!o.records) out["expected"] = code_json(kind, f.expected);
+  if (!o.records) out["expected"] = code_json(kind, f.expected, f.expected_is_negative_zero);
   out["distance"] = f.not_a_number ? Json() : Json(f.distance);
   out["not_a_number"] = f.not_a_number;
   return out;
@@ -53,6 +54,7 @@ Json output_json(const OutputJudgement& o) {
     out["height"] = o.height;
   }
   out["elements"] = o.elements;
+  out["counted"] = name(o.counted);
   out["failing"] = o.failing;
   out["differing"] = o.differing;
   out["bounded"] = figures_of(o).bounded();

@@ -66,8 +66,12 @@ class Shadow {
     result.variant = plan_.variant;
     result.scene = plan_.scene;
     describe_port(files_.info(), result);
+    std::vector<PassTask> tasks;
     for (const capture::PackPass& pass : plan_.passes)
-      if (is_wanted(pass.name)) result.passes.push_back(judge(pass));
+      if (is_wanted(pass.name)) tasks.push_back(task_of(pass));
+    const enclosed::Profile& chosen = profile(options_.profile);
+    result.passes = judge_passes(tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())});
+    for (PassJudgement& judged : result.passes) settle(judged);
     set_first_bad(result);
     result.notes.insert(result.notes.end(), files_.notes().begin(), files_.notes().end());
     for (const Tally* tally : {&differing_, &unchecked_})
@@ -171,7 +175,8 @@ class Shadow {
   }
 
   // ---- a pass --------------------------------------------------------------------------------------------------------
-  PassJudgement judge(const capture::PackPass& pass) {
+  /// What was dumped of a pass; without any run nothing that was not dumped is listed.
+  PassTask task_of(const capture::PackPass& pass) {
     std::vector<const Run*> own;
     bool any = false;
     for (const Run& run : runs_) {
@@ -180,29 +185,27 @@ class Shadow {
       any |= run.is_dumped;
     }
     std::stable_sort(own.begin(), own.end(), [](const Run* a, const Run* b) { return a->order() < b->order(); });
-    if (!any) {
-      PassJudgement none;
-      none.pass = pass.name;
-      none.formula = pass.formula;
-      none.reason = "the port has dumped no run of this pass";
-      return none;
-    }
     PassRuns runs;
-    runs.count = own.size();
+    runs.count = any ? own.size() : 0;
     runs.diagnose = options_.diagnose;
-    runs.load = [&](std::size_t k) { return load(*own[k]); };
-    runs.settle = [&](PortRun& run, const capture::PassModel* model) { settle(pass, run, model); };
-    runs.done_one = [&] {
+    runs.load = [this, own](std::size_t k) { return load(*own[k]); };
+    runs.settle = [this, &pass](PortRun& run, const capture::PassModel* model) { settle(pass, run, model); };
+    runs.done_one = [this] {
       if (options_.progress) options_.progress(++done_, static_cast<int>(runs_.size()));
     };
-    const enclosed::Profile& chosen = profile(options_.profile);
-    const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())};
-    PassJudgement judged = judge_pass(pass, binder(plan_.effect, pass.name), runs, how);
-    judged.inputs_are_good = !links_broken_.contains(pass.name);
+    return {&pass, binder(plan_.effect, pass.name), std::move(runs)};
+  }
+
+  /// What the passes before it mean for a pass; they come in the order of execution.
+  void settle(PassJudgement& judged) {
+    if (judged.cases.empty()) {
+      judged.reason = "the port has dumped no run of this pass";
+      return;
+    }
+    judged.inputs_are_good = !links_broken_.contains(judged.pass);
     for (const capture::PackEdge& e : plan_.edges)
-      if (e.pass == pass.name && not_good_.contains(e.from) && e.from != pass.name) judged.inputs_are_good = false;
-    if (judged.status == Status::fail || !judged.inputs_are_good) not_good_.insert(pass.name);
-    return judged;
+      if (e.pass == judged.pass && not_good_.contains(e.from) && e.from != judged.pass) judged.inputs_are_good = false;
+    if (judged.status == Status::fail || !judged.inputs_are_good) not_good_.insert(judged.pass);
   }
 
   PortRun load(const Run& run) {

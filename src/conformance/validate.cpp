@@ -123,6 +123,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
 
   const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info())};
   int done = 0;
+  std::vector<PassTask> tasks;
   for (const PackPass& pass : pack.passes) {
     if (!options.only.empty() && pass.name != options.only) continue;
     std::vector<const PackCase*> cases;
@@ -131,7 +132,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     PassRuns runs;
     runs.count = cases.size();
     runs.diagnose = options.diagnose;
-    runs.load = [&](std::size_t k) {
+    runs.load = [&, cases](std::size_t k) {
       PortRun run;
       run.c = read_case(pack, *cases[k]);
       run.stored = read_outputs(port, run.c);
@@ -143,8 +144,9 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     runs.done_one = [&] {
       if (options.progress) options.progress(++done, static_cast<int>(pack.cases.size()));
     };
-    result.passes.push_back(judge_pass(pass, binder(pack.effect, pass.name), runs, how));
+    tasks.push_back({&pass, binder(pack.effect, pass.name), std::move(runs)});
   }
+  result.passes = judge_passes(tasks, how);
   result.notes = port.notes();
   conclude(result);
   return result;

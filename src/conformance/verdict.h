@@ -34,25 +34,37 @@ struct Failure {
   std::int64_t got = 0, low = 0, high = 0, expected = 0;
   std::uint64_t distance = 0;  ///< codes between got and the range; the largest number for NaN
   bool not_a_number = false;
+  bool got_is_negative_zero = false, expected_is_negative_zero = false;  ///< -0, whose code is that of +0
   /// Of a record, whose number or id is x: the first member that is wrong, "y" or "velocity.z", and what it holds. "": the
   /// record is in one of the lists alone.
   std::string field = "";
   FormatInfo::Kind field_kind = FormatInfo::uint32;
 };
 
+/// What an output's elements are.
+enum class Counted : std::uint8_t {
+  values,  ///< channels of texels
+  texels,  ///< judged by bits
+  fields,  ///< of records matched by id
+  records  ///< judged by bits
+};
+/// "values", "texels", "fields", "records".
+const char* name(Counted counted);
+
 /// One output of a pass over one case.
 struct OutputJudgement {
   std::string name;
   Format format = Format::r8;
   bool records = false;
-  int width = 0, height = 0;
-  std::int64_t elements = 0;      ///< channel values judged
+  Counted counted = Counted::values;
+  int width = 0, height = 0;      ///< of records their expected number and 1
+  std::int64_t elements = 0;      ///< as `counted` says; of keyed lists the fields of every record in either list
   std::int64_t failing = 0;
   std::int64_t differing = 0;     ///< not the reference's bits
-  std::int64_t vacuous = 0;       ///< envelope wider than 1/16 of the declared range
+  std::int64_t vacuous = 0;       ///< envelope wider than 1/16 of the declared range; of a record's field of its own
   std::int64_t loose = 0;         ///< wider than 1/256
   std::int64_t atypical = 0;      ///< inside the profile, outside what real devices do
-  std::int64_t free = 0;          ///< declared as not reproducible: only its range is checked
+  std::int64_t free = 0;          ///< declared as not reproducible: held to a range of its own
   std::string known;              ///< why the baseline lets it fail; "": it does not
   double median_width = 0, p99_width = 0;  ///< of the accepted codes, in codes: 0 where one code is accepted
   std::vector<Failure> worst;     ///< in order of distance, then of place; at most max_failures

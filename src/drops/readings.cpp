@@ -81,7 +81,7 @@ std::unique_ptr<capture::PassModel> bind_integrate(const PassCase& c) {
   const std::vector<GlassFrame> glass = capture::records_of<GlassFrame>(capture::record_input(c, "glass_frame"));
   if (glass.size() != 1) throw Error(ExitCode::port_files, fmt::format("{}/in.glass_frame: expected one record, found {}", c.folder(), glass.size()));
   Integrate pass{capture::uniforms_of<IntegrateUniforms>(c), glass.front(), c.corrected()};
-  return std::make_unique<capture::ListPass>("drops", std::make_unique<DropByDrop<Integrate>>(pass, drops_input(c)));
+  return std::make_unique<capture::ListPass>("drops", std::make_unique<DropByDrop<Integrate>>(pass, drops_input(c), c.corrected()));
 }
 
 std::vector<capture::Array> recompute_spawn(const PassCase& c) {

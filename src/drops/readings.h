@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/pass_model.h"
+#include "drops/ranges.h"
 #include "drops/records.h"
 
 namespace rainref::drops {
@@ -30,8 +31,9 @@ std::vector<std::byte> bytes_of(const std::vector<Drop>& drops);
 template <class Pass>
 class DropByDrop : public capture::KeyedModel {
  public:
-  DropByDrop(Pass pass, std::vector<Drop> drops) : pass_(std::move(pass)), drops_(std::move(drops)) {}
+  DropByDrop(Pass pass, std::vector<Drop> drops, bool corrected) : pass_(std::move(pass)), drops_(std::move(drops)), corrected_(corrected) {}
   int groups() const override { return static_cast<int>(drops_.size()); }
+  const std::vector<capture::FieldRange>& ranges() const override { return drop_ranges(corrected_); }
   void enclose(int group, std::vector<capture::KeyedRecord>& out) const override {
     const Drop& d = drops_[static_cast<std::size_t>(group)];
     out.push_back(enclosed_record(pass_.template operator()<enclosed::Enclosure>(d), d.id));
@@ -51,6 +53,7 @@ class DropByDrop : public capture::KeyedModel {
   }
   Pass pass_;
   std::vector<Drop> drops_;
+  bool corrected_;
 };
 
 /// The input "drops". Throws Error(port_files) where an id is there twice.

@@ -228,6 +228,7 @@ class MergedDrops : public capture::KeyedModel {
  public:
   explicit MergedDrops(const Merging& merging) : m_(merging) {}
   int groups() const override { return m_.groups(); }
+  const std::vector<capture::FieldRange>& ranges() const override { return drop_ranges(true); }
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
     for (Merging::Member<Enclosure>& one : m_.merged<Enclosure>(group)) {
       if (one.lives) m_.take_trail(one.state);

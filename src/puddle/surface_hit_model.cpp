@@ -444,7 +444,10 @@ class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
  public:
   using ModelOf::ModelOf;
   bool needs_port() const override { return true; }
-  bool is_free(int v) const override { return v == 3 && pass().corrected; }
+  std::optional<std::array<double, 2>> free_range(int v) const override {
+    if (v != 3 || !pass().corrected) return std::nullopt;
+    return std::array<double, 2>{0, static_cast<double>(pass().uniforms.max_steps)};
+  }
 
   void enclose(int x, int y, const float* port, Enclosure* out) const override {
     const SurfaceHitPass& p = pass();

@@ -31,6 +31,7 @@ class Frame : public capture::KeyedModel {
  public:
   Frame(const WindshieldFrameUniforms& uniforms, bool corrected) : uniforms_(uniforms), corrected_(corrected) {}
   int groups() const override { return 1; }
+  const std::vector<capture::FieldRange>& ranges() const override { return drops::frame_ranges(); }
   void enclose(int, std::vector<KeyedRecord>& out) const override {
     const auto f = forces<Enclosure>();
     KeyedRecord r;
@@ -167,6 +168,7 @@ class SweptDrops : public capture::KeyedModel {
     make_groups();
   }
   int groups() const override { return static_cast<int>(groups_.size()); }
+  const std::vector<capture::FieldRange>& ranges() const override { return drops::drop_ranges(true); }
 
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
     std::map<Place, std::size_t> takers;  // of the lowest id
@@ -345,7 +347,7 @@ std::unique_ptr<PassModel> bind_wipe_drops(const PassCase& c) {
   std::vector<Wiper> wipers = wipers_input(c, u);
   if (!c.corrected()) {
     WipePublished pass{u, std::move(wipers)};
-    return std::make_unique<capture::ListPass>("drops", std::make_unique<drops::DropByDrop<WipePublished>>(std::move(pass), drops::drops_input(c)));
+    return std::make_unique<capture::ListPass>("drops", std::make_unique<drops::DropByDrop<WipePublished>>(std::move(pass), drops::drops_input(c), false));
   }
   const capture::Array& film = capture::image_input(c, "film").array;
   if (u.columns != film.width || u.rows != film.height || u.bin_count < 1 || u.bin_count > 4096) {

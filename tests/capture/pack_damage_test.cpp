@@ -51,6 +51,11 @@ class DamagedPack : public testing::Test {
   std::string in_manifest(const std::string& what) const { return fmt::format("3 {}: {}", (pack() / "manifest.json").string(), what); }
   std::string in_file(const std::string& file, const std::string& what) const { return fmt::format("3 {}: {}", (pack() / file).string(), what); }
 
+  void write_again() const {
+    std::filesystem::remove_all(pack());
+    write_example(pack());
+  }
+
   TemporaryFolder folder;
 };
 
@@ -144,6 +149,7 @@ TEST_F(DamagedPack, ArraysThatAreSomethingElse) {
   m["cases"][2]["outputs"][0]["format"] = "records";
   m["cases"][2]["outputs"][0]["record"] = "DripRecord";
   m["cases"][2]["outputs"][0]["count"] = 1;
+  m["cases"][2]["outputs"][0]["judge"] = "bits";
   put_manifest(m);
   EXPECT_THAT(error(), HasSubstr("out.picture.npy: expected records DripRecord of 2 fields and 8 bytes"));
 }
@@ -154,6 +160,36 @@ TEST_F(DamagedPack, CasesUnderAnotherName) {
   m["cases"].push_back(m["cases"][0]);
   put_manifest(m);
   EXPECT_EQ(error(), in_manifest("cases[8].id: 'puddle.drip/0000.0' is there twice"));
+}
+
+// Judged against nothing, a port would pass or fail by nothing.
+TEST_F(DamagedPack, NoCasesAndCasesWithoutOutputs) {
+  EXPECT_EQ(error_with("/cases", ordered_json::array()), in_manifest("cases: expected one run of a pass or more, found none"));
+  EXPECT_EQ(error_with("/cases/1/outputs", ordered_json::array()), in_manifest("cases[1].outputs: expected one output or more, found none"));
+}
+
+// An output that its rule cannot judge would pass unseen, or break the judge.
+TEST_F(DamagedPack, RulesThatDoNotFitTheirOutput) {
+  EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "envelope"), in_manifest("cases[0].outputs[0].judge: expected bits, keyed or input_only for records, found \"envelope\""));
+  EXPECT_EQ(error_with("/cases/1/outputs/0/judge", "keyed"),
+            in_manifest("cases[1].outputs[0].judge: expected bits, envelope or input_only for what is no list of records with a uint 'id', found \"keyed\""));
+  EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "keyed"), "none");
+}
+
+// One manifest would say three things of a uniform: a value, its bits, and a file.
+TEST_F(DamagedPack, UniformsUnlikeTheirFileOrTheirBits) {
+  ordered_json m = manifest();
+  m["cases"][1]["uniforms"][1]["value"] = 7;
+  m["cases"][1]["uniforms"][1]["bits"] = "0x00000007";
+  put_manifest(m);
+  const std::string file = m["cases"][1]["uniform_block"]["file"];
+  EXPECT_EQ(error(), in_file(file, "puddle.blur/0000.0: uniform reach: expected 7 0x00000007 as the manifest says, found -3 0xfffffffd"));
+  write_again();
+  EXPECT_EQ(error_with("/cases/1/uniforms/0/value", 0.75), in_manifest("cases[1].uniforms[0].value: expected 0.5 0x3f000000, as its bits say, found 0.75"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/0/value", nullptr), in_manifest("cases[1].uniforms[0].value: expected 0.5 0x3f000000, as its bits say, found null"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/1/value", 3), in_manifest("cases[1].uniforms[1].value: expected -3 0xfffffffd, as its bits say, found 3"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/2/value", -2147483648), in_manifest("cases[1].uniforms[2].value: expected 2147483648 0x80000000, as its bits say, found -2147483648"));
+  EXPECT_EQ(error_with("/cases/1/dt/value", 0.5), in_manifest("cases[1].dt.value: expected 0.25 0x3e800000, as its bits say, found 0.5"));
 }
 
 }  // namespace

@@ -156,12 +156,14 @@ inline void expect_honest(const std::vector<BoundPass>& passes) {
   }
 }
 
-/// What vulkan allows lies outside of cuda without a sampler, in every pass; of so many devices for each case.
-inline void expect_looser_outside(const std::vector<BoundPass>& passes, int devices = 2000) {
+/// What vulkan allows lies outside of cuda without a sampler, in every pass.
+inline void expect_looser_outside(const std::vector<BoundPass>& passes) {
   enclosed::Profile narrow = profile("cuda");
   narrow.subtexel_bits = narrow.coordinate_bits = narrow.lod_bits = 0;
   for (const BoundPass& pass : passes) {
     Tally tally;
+    // Halves of the windshield's textures hide more.
+    const int devices = pass.pack.starts_with("windshield") ? 6000 : 2000;
     for (const BoundCase& b : pass.cases) judge_devices(b, profile("vulkan"), narrow, 0, devices, tally);
     if (pass.is_of_quanta()) continue;
     EXPECT_GT(tally.outside, 20) << pass.name();

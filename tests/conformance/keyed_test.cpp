@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "conformance/judge.h"
 #include "conformance/keyed.h"
 #include "conformance/support.h"
+#include "math/replay.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -51,6 +55,10 @@ class Beads : public capture::KeyedModel {
  public:
   explicit Beads(std::vector<Bead> beads) : beads_(std::move(beads)) {}
   int groups() const override { return static_cast<int>(beads_.size() / 2); }
+  const std::vector<capture::FieldRange>& ranges() const override {
+    static const std::vector<capture::FieldRange> all{{"x", 0, 100}, {"speed", -9, 9}, {"mass", 0, 4}};
+    return all;
+  }
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
     using enclosed::Enclosure;
     const auto pair = moved_pair<Enclosure>(first(group), second(group));
@@ -187,6 +195,101 @@ TEST_F(Keyed, EventsAreNamed) {
   EXPECT_EQ(j.output.worst[0].channel, 3);  // x, speed, mass, is_large
 }
 
+// Fields, the id left out, of every record in either list; of one that should not be there, or should be, all are outside.
+TEST_F(Keyed, FieldsAreCounted) {
+  const auto records = static_cast<std::int64_t>(port.size());
+  constexpr std::int64_t fields = 4;
+  OutputJudgement o = judged().output;
+  EXPECT_EQ(o.counted, Counted::fields);
+  EXPECT_EQ(std::tuple(o.elements, o.failing, o.differing), std::tuple(fields * records, 0, 0));
+  EXPECT_EQ(o.width, records);
+  port[3].speed += 1;
+  o = judged().output;
+  EXPECT_EQ(std::tuple(o.elements, o.failing, o.differing), std::tuple(fields * records, 1, 1));
+  port.pop_back();
+  o = judged().output;
+  EXPECT_EQ(std::tuple(o.elements, o.failing, o.differing), std::tuple(fields * records, 1 + fields, 1 + fields));
+  port.push_back({99999, 1, 1, 1, 0});
+  port.push_back(port[0]);
+  o = judged().output;
+  EXPECT_EQ(std::tuple(o.elements, o.failing, o.differing), std::tuple(fields * (records + 2), 1 + 3 * fields, 1 + 3 * fields));
+  port.clear();
+  o = judged().output;
+  EXPECT_EQ(std::tuple(o.elements, o.failing), std::tuple(fields * records, fields * records));
+}
+
+// x and mass are computed, speed and the flag are handed on.
+TEST_F(Keyed, WidthsAreInCodes) {
+  const OutputJudgement exact = judged("ieee").output, open = judged().output;
+  EXPECT_EQ(std::tuple(exact.median_width, exact.p99_width), std::tuple(0, 0));
+  EXPECT_GT(open.p99_width, 0);
+  EXPECT_LT(open.p99_width, 1e4);  // sums that nearly cancel are wide in codes of what is left
+}
+
+/// A speed that is bounded within this only.
+class Uncertain : public Beads {
+ public:
+  Uncertain(std::vector<Bead> beads, float extent) : Beads(std::move(beads)), extent_(extent) {}
+  void enclose(int group, std::vector<KeyedRecord>& out) const override {
+    const std::size_t first = out.size();
+    Beads::enclose(group, out);
+    for (std::size_t k = first; k < out.size(); ++k) out[k].floats[1] = enclosed::Enclosure(out[k].floats[1].lo - extent_ / 2, out[k].floats[1].hi + extent_ / 2);
+  }
+
+ private:
+  float extent_;
+};
+// The speed's own range, from -9 to 9, counts, not that of the list, whose places reach 100.
+TEST_F(Keyed, ABoundIsVacuousByItsFieldsOwnRange) {
+  const auto counts = [&](float extent) {
+    const Uncertain wide(some_beads(200), extent);
+    const OutputJudgement o = judge_keyed(expected, array_of(port), &wide, profile("vulkan")).output;
+    EXPECT_EQ(o.failing, 0);
+    return std::pair(o.vacuous, o.loose);
+  };
+  const auto records = static_cast<std::int64_t>(port.size());
+  EXPECT_EQ(counts(18.0f / 256 * 0.99f), std::pair(std::int64_t{0}, std::int64_t{0}));
+  EXPECT_EQ(counts(18.0f / 256 * 1.01f), std::pair(std::int64_t{0}, records));
+  EXPECT_EQ(counts(18.0f / 16 * 0.99f), std::pair(std::int64_t{0}, records));
+  EXPECT_EQ(counts(18.0f / 16 * 1.01f), std::pair(records, records));
+}
+/// Nobody follows its decisions.
+class Hopeless : public Beads {
+ public:
+  using Beads::Beads;
+  void enclose(int group, std::vector<KeyedRecord>& out) const override {
+    Beads::enclose(group, out);
+    enclosed::give_up();
+  }
+};
+TEST_F(Keyed, NotANumberFailsEvenWhereAnythingElsePasses) {
+  const Hopeless hopeless(some_beads(200));
+  const auto judge = [&] { return judge_keyed(expected, array_of(port), &hopeless, profile("vulkan")); };
+  port[4].speed = 77;
+  expect(judge(), "");
+  EXPECT_EQ(judge().output.vacuous, judge().output.elements);
+  port[4].speed = std::numeric_limits<float>::quiet_NaN();
+  expect(judge(), "outside: " + std::to_string(port[4].id));
+}
+TEST_F(Keyed, AFieldWithoutARangeIsADefect) {
+  EXPECT_EQ(extents_of(expected.array.record, *model), (std::vector<double>{100, 18, 4}));
+  expected.array.record.members[1].name = "place";
+  EXPECT_THROW(judged(), Error);
+}
+
+TEST_F(Keyed, NegativeZeroIsAnotherZeroUnderIeeeAlone) {
+  std::vector<Bead> beads = some_beads(3);
+  beads[0].speed = 0;
+  beads[0].mass = 4;
+  set(beads);
+  with_id(beads[0].id).speed = -0.0f;
+  expect(judged(), "");
+  EXPECT_EQ(judged().output.differing, 1);
+  expect(judged("ieee"), "outside: " + std::to_string(beads[0].id));
+  expect(judged("vulkan", false), "outside: " + std::to_string(beads[0].id));
+  EXPECT_TRUE(judged("ieee").output.worst[0].got_is_negative_zero);
+}
+
 TEST_F(Keyed, AFloatIsHeldToItsEnvelope) {
   Bead& b = port[3];
   const float x = b.x;
@@ -252,7 +355,9 @@ TEST_F(Keyed, JudgeCaseTakesIt) {
   c.outputs = {expected};
   const parallel::Executor executor(1);
   const JudgeOptions options{&profile("vulkan"), nullptr, &executor, std::nullopt};
-  EXPECT_EQ(judge_case(c, nullptr, {array_of(port)}, options).judgements[0].status, Status::pass);
+  const CaseJudgement passed = judge_case(c, nullptr, {array_of(port)}, options).judgements[0];
+  EXPECT_EQ(passed.status, Status::pass);
+  EXPECT_EQ(passed.outputs.size(), 1u);
   const std::uint32_t id = port[0].id;
   port.erase(port.begin());
   const CaseJudgement failed = judge_case(c, nullptr, {array_of(port)}, options).judgements[0];

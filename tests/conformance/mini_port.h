@@ -44,6 +44,7 @@ struct MiniPort {
 
   capture::Pack pack;
   HalfMode stores = HalfMode::either;  ///< how it rounds half stores; either: as the reference does
+  std::string stores_only;             ///< the pass that rounds so, the others as the reference does; "": each
   deviant::Behaviour behaviour;        ///< of its arithmetic
   std::string only;                    ///< the pass that behaves so; "": each
   bool free_running = false;           ///< inputs are the outputs of its own runs before, and are dumped too
@@ -73,7 +74,7 @@ struct MiniPort {
         model->evaluate(x, y, values.data());
         for (std::size_t v = 0; v < slots.size(); ++v) {
           const Slot& s = slots[v];
-          store_value(s, values[v].v, rounding_of(s, stores), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+          store_value(s, values[v].v, rounding_of(s, stores_only.empty() || stores_only == c.pass ? stores : HalfMode::either), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
         }
       }
     }

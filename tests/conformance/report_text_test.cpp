@@ -157,6 +157,19 @@ TEST(ReportText, ARecordsFirstWrongFieldIsShown) {
                                         "    record 6  is in one of the lists alone\n"));
 }
 
+TEST(ReportText, OfAKeyedListRecordsAreRecordsAndFieldsAreFields) {
+  PortJudgement j = example_judgement();
+  OutputJudgement& o = j.passes[3].cases[0].outputs[0];
+  o.records = true;
+  o.counted = Counted::fields;
+  o.map.clear();
+  o.width = 167;
+  o.elements = 1002;
+  o.failing = 8;
+  o.worst.clear();
+  EXPECT_THAT(report_text(j), HasSubstr("out.colour (167 records): 8 of 1002 fields outside (0.80 %)\n"));
+}
+
 TEST(ReportText, KnownFailuresKeepTheirReason) {
   PortJudgement j = example_judgement();
   j.passes[3].status = j.passes[3].cases[0].status = Status::known;

@@ -7,7 +7,15 @@ namespace {
 
 using namespace test;
 
-TEST(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) { expect_tight(enveloped_passes()); }
+class Tightness : public testing::TestWithParam<std::string> {};
+
+TEST_P(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) { expect_tight(enveloped_passes({GetParam()})); }
+
+INSTANTIATE_TEST_SUITE_P(Packs, Tightness, testing::ValuesIn(packs), [](const auto& tested) {
+  std::string name = tested.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 }  // namespace
 }  // namespace rainref::conformance

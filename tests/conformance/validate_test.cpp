@@ -3,6 +3,8 @@
 #include "conformance/profiles.h"
 
 #include <cstring>
+#include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -157,6 +159,43 @@ TEST(SurfaceHit, ANormalThatIsNotANumberIsNamed) {
   EXPECT_EQ(normal.worst[0].x, 30);
   EXPECT_EQ(normal.worst[0].y, 3);
   EXPECT_TRUE(normal.worst[0].not_a_number);
+}
+
+// The steps of the corrected march are free, but a count: finite, and of a march that the pass may make.
+TEST(SurfaceHit, StepsThatNoMarchHasFail) {
+  for (const float steps : {-7.0f, 1e30f, std::numeric_limits<float>::infinity()}) {
+    MiniPort port("puddle-corrected");
+    port.after = [&](const PassCase& c, std::vector<Array>& out) {
+      if (c.folder() == "puddle.surface_hit/0012.0") std::memcpy(out[0].levels[0].data() + 16 * (3 * 35 + 30) + 12, &steps, 4);
+    };
+    TemporaryFolder folder;
+    port.run(folder.path());
+    const PortJudgement j = judge(port.pack, folder.path());
+    EXPECT_EQ(j.first_bad_pass, "surface_hit") << steps << why(j);
+    const OutputJudgement& hit = pass_of(j, "surface_hit").cases.at(1).outputs.at(0);
+    ASSERT_EQ(hit.failing, 1) << steps;
+    EXPECT_EQ(std::tuple(hit.worst[0].x, hit.worst[0].y, hit.worst[0].channel), std::tuple(30, 3, 3)) << steps;
+  }
+}
+
+// Each judged output stands once in a judgement, in the case's order, whatever rule judges it.
+TEST(Outputs, EachIsListedOnce) {
+  for (const char* pack : {"windshield-corrected", "puddle-corrected", "rainy_glass-corrected"}) {
+    const MiniPort port(pack);
+    TemporaryFolder folder;
+    port.run(folder.path());
+    const PortJudgement j = judge(port.pack, folder.path());
+    for (const capture::PackCase& entry : port.pack.cases) {
+      const PassJudgement& pass = pass_of(j, entry.pass);
+      const auto found = std::find_if(pass.cases.begin(), pass.cases.end(), [&](const CaseJudgement& c) { return c.id == entry.id; });
+      ASSERT_NE(found, pass.cases.end());
+      std::vector<std::string> judged, listed;
+      for (const capture::PackOutput& o : entry.outputs)
+        if (o.rules.judge != capture::Judge::input_only) judged.push_back(o.name);
+      for (const OutputJudgement& o : found->outputs) listed.push_back(o.name);
+      EXPECT_EQ(listed, judged) << entry.id;
+    }
+  }
 }
 
 class Files : public testing::Test {

@@ -1,17 +1,17 @@
-// The windshield's passes that draw textures and pictures: their envelopes are honest and tight, and hold the small packs' own
-// outputs.
+// The windshield's passes that draw textures and pictures: their envelopes hold the small packs' own outputs, and a device to
+// one rounding.
 #include <cstdlib>
 
-#include "conformance/devices.h"
 #include "conformance/example_judgement.h"
 #include "conformance/mini_port.h"
-#include "conformance/spread.h"
-#include "conformance/windshield_surface.h"
+#include "conformance/support.h"
 
 namespace rainref::conformance {
 namespace {
 
 using namespace test;
+
+const std::vector<std::string> surface_names{"splat", "wipe_texture", "normals", "blur_pyramid", "composite", "display"};
 
 /// A port that stored what the pack expects, under a profile.
 void expect_own_outputs_pass(const std::string& profile_name, bool may_warn) {
@@ -62,11 +62,6 @@ TEST(WindshieldSurface, SplatHoldsADeviceToOneRounding) {
   EXPECT_GT(differing, 0);
   EXPECT_GT(2 * rejected, differing);
 }
-
-TEST(WindshieldSurface, WithoutLibertiesADeviantIsTheReference) { expect_reference(surface_passes()); }
-TEST(WindshieldSurface, NoConformingDeviceIsOutside) { expect_honest(surface_passes()); }
-TEST(WindshieldSurface, DevicesOfALooserProfileAreOutside) { expect_looser_outside(surface_passes(), 6000); }
-TEST(WindshieldSurface, TheMedianEnvelopeIsAtMostFourTimesTheSpread) { expect_tight(surface_passes()); }
 
 }  // namespace
 }  // namespace rainref::conformance

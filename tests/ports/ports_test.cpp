@@ -86,6 +86,25 @@ TEST(Port, SeededBugsGetTheirVerdicts) {
   EXPECT_EQ(all.code, 0) << all.text;
 }
 
+// What a label says of the outputs is held to: 101 changes bits by a code, 139 by three, 113 none.
+TEST(Port, FalseLabelsOfMutantsAreFound) {
+  const auto outcome = [](int id, const std::string& label) {
+    const TemporaryFolder folder;
+    auto all = nlohmann::json::parse(contents(source + "/tests/ports/mutants.json"));
+    for (auto& m : all["mutants"])
+      if (m["id"] == id) m["expected"] = label;
+    put(folder / "mutants.json", all.dump());
+    return call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + (folder / "mutants.json").string() + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
+                "/glsl' --ids " + std::to_string(id));
+  };
+  for (const auto& [id, label] : {std::pair{101, "equivalent"}, {139, "equivalent"}, {139, "below-storage-ulp"}}) {
+    const Outcome run = outcome(id, label);
+    EXPECT_EQ(run.code, 1) << run.text;
+    EXPECT_THAT(run.text, testing::HasSubstr("1 outputs are not what their label says"));
+  }
+  for (const auto& [id, label] : {std::pair{113, "equivalent"}, {101, "below-storage-ulp"}, {139, "inside-envelope"}}) EXPECT_EQ(outcome(id, label).code, 0);
+}
+
 TEST(Port, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants(source + "/tests/ports/mutants.json", source + "/tests/ports/glsl"), 40u); }
 
 // The blocks in the shaders are what describe prints for this version.
