@@ -12,7 +12,16 @@ namespace rainref::cli {
 nlohmann::ordered_json Simulation::compare_truth(const std::filesystem::path&) { return nullptr; }
 
 const std::vector<EffectEntry>& effects() {
-  static const std::vector<EffectEntry> all{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};
+  static const std::vector<EffectEntry> all = [] {
+    std::vector<EffectEntry> entries{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};
+    for (EffectEntry& e : entries) {
+      e.make = [make = e.make, memory = e.memory](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) {
+        require_memory(memory(config));
+        return make(config, executor, inputs);
+      };
+    }
+    return entries;
+  }();
   return all;
 }
 

@@ -96,6 +96,10 @@ int run(const RunOptions& options) {
   OutputFolder made(folder);
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
+  RunMemory memory = effect(config.effect()).memory(config);
+  add_pictures(memory, options.png, options.exr);
+  if (options.capture != RunOptions::none) add_captures(memory);
+  require_memory(memory);
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
   if (options.compare_truth && !simulation->has_truth()) {

@@ -11,6 +11,7 @@
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
+#include "rainy_glass/memory.h"
 #include "rainy_glass/storage.h"
 #include "scene/display.h"
 
@@ -111,6 +112,7 @@ struct RainyGlass::State {
 RainyGlass::RainyGlass(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor) {
   check(settings);
   check(settings, surroundings);
+  check_memory(settings, sizes_of(surroundings));
   state_ = std::make_unique<State>(settings, surroundings, executor);
 }
 RainyGlass::~RainyGlass() = default;

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
 #include "rainref/error.h"
@@ -13,6 +15,7 @@
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/kernels.h"
+#include "screen_drops/memory.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -96,6 +99,7 @@ struct ScreenDrops::State {
 ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow) {
   check(settings);
   check(settings, inputs);
+  require_memory(fmt::format("run.size {}x{}{}", settings.width, settings.height, flow ? fmt::format(" with {} drops", flow->drops.capacity) : ""), memory(settings, flow).peak());
   if (flow != nullptr && settings.variant != Variant::corrected) throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
   state_ = std::make_unique<State>(settings, inputs, executor, flow);
 }

@@ -78,6 +78,19 @@ TEST_F(BadScene, AHugeSizeNamesTheMemoryItNeedsAndTakesNone) {
   }
 }
 
+TEST_F(BadScene, TheProcesssOwnLimitIsNamed) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer reserves terabytes";
+#endif
+  Circumstances c;
+  c.memory_bytes = rlim_t{600} << 20;
+  const Outcome o = rainref({"hash", "corrected.toml", "--threads", "1", "--set", "puddle.grid=[8192, 8192]"}, c);
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_LT(o.peak_kib, 256 * 1024);
+  EXPECT_THAT(o.err, MatchesRegex("rainref: run\\.size 24x16 with a wave of 8192x8192 needs [78][0-9]+\\.[0-9] MiB of memory; the limit RLIMIT_AS \\(ulimit -v\\) allows [0-9.]+ MiB\n"));
+}
+
 TEST_F(BadScene, AnUnstableWaveNamesTheLimit) {
   const auto message = AllOf(HasSubstr("puddle.wave_speed"), HasSubstr("puddle.step_rate"), HasSubstr("puddle.cell_size"), HasSubstr("sqrt(1/2) = 0.707107"));
   expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
