@@ -114,6 +114,6 @@ RunMemory windshield_memory(const scene::Config& config) {
   return m;
 }
 
-void require_memory(const RunMemory& memory) { require_memory(memory.subject, memory.peak.peak()); }
+void require_memory(const RunMemory& memory) { rainref::require_memory(memory.subject, memory.peak.peak()); }
 
 }  // namespace rainref::cli
