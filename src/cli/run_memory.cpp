@@ -48,8 +48,11 @@ RunMemory puddle_memory(const scene::Config& config) {
   const bool corrected = s.variant == puddle::Variant::corrected;
   const std::array<int, 2> grid = corrected ? s.grid : std::array{s.width, s.height};
   RunMemory m = run_of(fmt::format("run.size {}x{} with a wave of {}x{}", s.width, s.height, grid[0], grid[1]), s.width, s.height, 8 + 8 + 16, 6 + 6 + 12);
-  if (!is_named(config, "environment.image")) m.peak.then(night_street::panorama_memory(1024, 512));
-  m.peak.then(puddle::memory(s));
+  puddle::PictureSizes sizes;
+  if (is_named(config, "environment.image")) sizes.environment = {1, 1};
+  else m.peak.then(night_street::panorama_memory(sizes.environment[0], sizes.environment[1]));
+  if (is_named(config, "puddle.ground_image")) sizes.ground = {1, 1};
+  m.peak.then(puddle::memory(s, sizes));
   hold_traced(m, config, s.width, s.height);
   return m;
 }

@@ -49,15 +49,11 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const bool moves = own && s.scene_moves;
   if (own && !moves) m.pass(rendered.peak());
   m.hold(view);
-  // Two pictures of the street, of which the view is made. A car that comes to the next one has three, and the levels, while that is rendered.
+  // Two pictures of the street, of which the view is made: at the start one alone, for there is no way yet. A car that comes to the next one has both while that is rendered.
   const double apart = StreetDrive::spacing / s.keyframes, way = vehicle.at((frames - 1) / s.fps).distance;
   if (moves) {
     m.pass(rendered.peak());
     m.hold(view);
-    if (way > 0) {
-      m.pass(rendered.peak());
-      m.hold(view);
-    }
   }
   std::size_t texels = 0;
   for (int l = 0; l < std::min(s.blur.levels, blur_pyramid::level_count(width, height)); ++l) {
@@ -68,6 +64,10 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   m.hold(4 * sizeof(Half) * texels);  // as they are looked up
   m.pass(wet.peak() - dry.held());
   m.hold(wet.held() - dry.held());
+  if (moves && way > 0) {
+    m.pass(rendered.peak());
+    m.hold(view);
+  }
   if (moves && way > apart) m.pass(rendered.peak());
   return m;
 }
