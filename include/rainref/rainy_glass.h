@@ -106,7 +106,7 @@ double seam(const Image& map);
 /// Above this a map does not tile.
 inline constexpr double worst_seam = 4;
 
-/// Bytes of memory that settings need, images aside.
+/// Bytes that settings take at their peak, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp. The caller's images are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::rainy_glass

@@ -85,7 +85,7 @@ class ScreenDrops {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes of memory that settings need, images aside.
+/// Bytes that settings take at their peak, within 10 %: every buffer, level and scratch of src/screen_drops/memory.cpp. The caller's images and flowing water are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::screen_drops

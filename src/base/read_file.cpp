@@ -38,9 +38,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   if (!S_ISREG(status.st_mode)) fail(path, "not a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > physical_memory()) {
-    fail(path, fmt::format("its {} are more than this machine's memory", memory_text(size)));
-  }
+  if (const MemoryLimit limit = memory_limit(); size > limit.bytes) fail(path, fmt::format("its {} are too many; {} {} of memory", memory_text(size), limit.owner, memory_text(limit.bytes)));
   std::vector<std::byte> bytes(size);
   std::size_t done = 0;
   while (done < bytes.size()) {

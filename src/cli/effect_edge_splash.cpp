@@ -83,7 +83,8 @@ EffectEntry edge_splash_entry() {
   return {"edge_splash", {"as-published", "corrected"}, edge_splash::parameters(), &edge_splash::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<EdgeSplashSimulation>(config, executor, inputs);
-          }};
+          },
+          edge_splash_memory};
 }
 
 }  // namespace rainref::cli

@@ -138,7 +138,8 @@ EffectEntry puddle_entry() {
   return {"puddle", {"as-published", "corrected"}, all_parameters(), &puddle::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<PuddleSimulation>(config, executor, inputs);
-          }};
+          },
+          puddle_memory};
 }
 
 }  // namespace rainref::cli

@@ -117,7 +117,8 @@ EffectEntry rainy_glass_entry() {
   return {"rainy_glass", {"as-published", "corrected"}, parameters, &rainy_glass::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<RainyGlassSimulation>(config, executor, inputs);
-          }};
+          },
+          rainy_glass_memory};
 }
 
 }  // namespace rainref::cli

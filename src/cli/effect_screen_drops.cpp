@@ -82,7 +82,8 @@ EffectEntry screen_drops_entry() {
   return {"screen_drops", {"as-published", "corrected"}, parameters, &screen_drops::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<ScreenDropsSimulation>(config, executor, inputs);
-          }};
+          },
+          screen_drops_memory};
 }
 
 }  // namespace rainref::cli

@@ -127,7 +127,8 @@ EffectEntry windshield_entry() {
   return {"windshield", {"as-published", "corrected"}, all_parameters(), &windshield::effect_info(),
           [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
             return std::make_unique<WindshieldSimulation>(config, executor, inputs);
-          }};
+          },
+          windshield_memory};
 }
 
 }  // namespace rainref::cli

@@ -40,6 +40,9 @@ int pack(const PackOptions& options) {
   const std::vector<std::string> passes = chosen_passes(*entry.info, config.variant(), options.passes);
   const parallel::Executor executor(options.scene.threads);
   capture::PackWriter writer(options.output, *entry.info, config, options.scene.scene.filename().string(), true, passes);
+  RunMemory memory = entry.memory(config);
+  add_captures(memory);
+  require_memory(memory);
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
   for (const InputFile& input : inputs) {

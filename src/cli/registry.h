@@ -12,6 +12,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "capture/pass_info.h"
+#include "cli/run_memory.h"
 #include "rainref/executor.h"
 #include "rainref/recorder.h"
 #include "scene/effect_table.h"
@@ -53,6 +54,8 @@ struct EffectEntry {
   const capture::EffectInfo* info;
   /// Reads the scene's input files, which are added to `inputs`, and builds the effect, whatever floating-point state the caller has.
   std::function<std::unique_ptr<Simulation>(const scene::Config&, const parallel::Executor&, std::vector<InputFile>& inputs)> make;
+  /// What that takes, and the frames of the run. `make` refuses what does not fit.
+  RunMemory (*memory)(const scene::Config&) = nullptr;
 };
 
 /// The name under which a simulation reports what it traced; no pass of an effect, so no pack holds it.

@@ -1,6 +1,7 @@
 // `rainref run` and `rainref hash`.
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <optional>
 #include <system_error>
@@ -89,6 +90,16 @@ struct Capture {
                  [this](const capture::PassCase& c) { writer.add(c); }) {}
 };
 
+/// Most bytes of this process that have lain in memory.
+std::size_t most_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string key; status >> key; status.ignore(1 << 10, '\n')) {
+    std::size_t kib = 0;
+    if (key == "VmHWM:" && status >> kib) return kib << 10;
+  }
+  return 0;
+}
+
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<InputFile>& inputs, const parallel::Executor& executor,
                                const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds, int frames) {
   nlohmann::ordered_json out{{"rainref", version()}, {"golden_generation", golden_generation}, {"config", scene::config_json(config)}, {"origins", scene::origins_json(config)}};
@@ -116,6 +127,11 @@ int run(const RunOptions& options) {
   OutputFolder made(folder);
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
+  RunMemory memory = effect(config.effect()).memory(config);
+  add_pictures(memory, options.png, options.exr);
+  if (options.capture != RunOptions::none) add_captures(memory);
+  require_memory(memory);
+  const std::size_t stated = memory.peak.peak() + resident_memory();
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
   if (options.compare_truth && !simulation->has_truth()) {
@@ -155,6 +171,7 @@ int run(const RunOptions& options) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
+  report["memory"] = {{"stated", stated}, {"taken", most_memory()}};
   if (options.compare_truth) report["truth"] = truth;
   made.forget_older_run();
   if (capture) capture->writer.finish();

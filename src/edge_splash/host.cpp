@@ -70,8 +70,7 @@ void check(const Settings& s) {
   if (s.variant == Variant::corrected && !(s.smallest_band <= s.largest_band)) {
     throw Error(ExitCode::usage, fmt::format("edge_splash.smallest_band: expected no more than edge_splash.largest_band, found {} and {}", s.smallest_band, s.largest_band));
   }
-  const std::size_t need = memory_bytes(s), have = physical_memory();
-  if (need > have) throw Error(ExitCode::usage, fmt::format("run.size {}x{} needs {} of memory; this machine has {}", s.width, s.height, memory_text(need), memory_text(have)));
+  require_memory(fmt::format("run.size {}x{}", s.width, s.height), memory_bytes(s));
   if (s.up[0] == 0 && s.up[1] == 0 && s.up[2] == 0) throw Error(ExitCode::usage, "edge_splash.up: expected a direction, found [0, 0, 0]");
   camera(s).basis();  // throws for a camera that looks nowhere
   camera(s).half_height();
@@ -211,12 +210,6 @@ std::string seam_warning(const Image& noise) {
   inside /= std::max(w, h) - 1;
   if (seam <= 6 * inside + 2.0 / 255) return "";
   return fmt::format("scene.noise_image does not tile: neighbours over its seams differ by {:.3f}, others by {:.3f}; the seams will show", seam / 2, inside / 2);
-}
-
-std::size_t memory_bytes(const Settings& s) {
-  const FloatingPointGuard guard;
-  const auto bytes = [&](Format f) { return Image::memory_bytes(f, s.width, s.height); };
-  return 2 * bytes(Format::rgba16f) + 2 * bytes(Format::r32f) + 4 * bytes(Format::r8) + bytes(Format::rgba8);
 }
 
 }  // namespace rainref::edge_splash

@@ -48,10 +48,8 @@ std::string reason(std::string text) {
 void check_memory(std::string_view file, const StoredPicture& spec, std::size_t texel_bytes) {
   const std::size_t bytes = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                             (texel_bytes + info(Format::rgba32f).texel_bytes());
-  if (bytes > physical_memory()) {
-    refuse(file, fmt::format("{}x{} needs {} of memory; this machine has {}", spec.width, spec.height,
-                             memory_text(bytes), memory_text(physical_memory())));
-  }
+  const MemoryLimit limit = memory_limit();
+  if (bytes > limit.bytes) refuse(file, fmt::format("{}x{} needs {} of memory; {} {}", spec.width, spec.height, memory_text(bytes), limit.owner, memory_text(limit.bytes)));
 }
 
 void check_shape(std::string_view file, FileKind kind, const StoredPicture& spec) {

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "base/floating_point.h"
-#include "base/memory.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 #include "scene/camera.h"
@@ -60,11 +58,6 @@ void check(const Settings& s) {
                 fmt::format("puddle.wave_speed / (puddle.step_rate * puddle.cell_size) = {:.6g}: the wave step is unstable above the Courant "
                             "number sqrt(1/2) = 0.707107; raise puddle.step_rate to {:.0f} or more",
                             courant, std::ceil(s.wave_speed / (stability_limit * s.cell_size))));
-  }
-  const std::size_t need = memory_bytes(s), have = physical_memory();
-  if (need > have) {
-    throw Error(ExitCode::usage, fmt::format("run.size {}x{} with a wave of {}x{} needs {} of memory; this machine has {}", s.width, s.height,
-                                             wave_size(s)[0], wave_size(s)[1], memory_text(need), memory_text(have)));
   }
   camera_uniforms(s);  // throws for a camera that looks nowhere
 }
@@ -182,17 +175,6 @@ DisplayUniforms display_uniforms(const Settings& s) {
 
 float ground_footprint(const Settings& s, int tile_texels) {
   return static_cast<float>(static_cast<double>(camera_uniforms(s).pixel_scale) * s.ground_scale * tile_texels);
-}
-
-std::size_t memory_bytes(const Settings& s) {
-  const FloatingPointGuard guard;
-  const auto [columns, rows] = wave_size(s);
-  const Format channel = s.storage == Format::rgba8 ? Format::r8 : s.storage == Format::rg32f ? Format::r32f : Format::r16f;
-  const std::size_t wave = 2 * Image::memory_bytes(channel, columns, rows) + static_cast<std::size_t>(columns) * rows * sizeof(float);
-  const std::size_t picture = Image::memory_bytes(Format::rgba32f, s.width, s.height) + 2 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +
-                              Image::memory_bytes(Format::rgba8, s.width, s.height) +
-                              (corrected(s) ? 0 : Image::memory_bytes(Format::r32f, s.width, s.height));
-  return wave + picture;
 }
 
 }  // namespace rainref::puddle

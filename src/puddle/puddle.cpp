@@ -12,6 +12,7 @@
 #include "puddle/ground.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
+#include "puddle/memory.h"
 #include "puddle/rainfall.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
@@ -138,6 +139,7 @@ struct Puddle::State {
 Puddle::Puddle(const Settings& settings, const Surroundings& surroundings, const parallel::Executor& executor) {
   const FloatingPointGuard guard;
   check(settings);
+  check_memory(settings, sizes_of(surroundings));
   state_ = std::make_unique<State>(settings, surroundings, executor);
 }
 Puddle::~Puddle() = default;

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "base/floating_point.h"
-#include "base/memory.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
@@ -46,10 +44,6 @@ void check(const Settings& s) {
     throw Error(ExitCode::usage, fmt::format("maps.smallest_droplet: expected a radius above 0 and at most maps.largest_droplet = {}, found {}", s.largest_droplet, s.smallest_droplet));
   }
   if (!(s.impact > 0 && s.impact < 1)) throw Error(ExitCode::usage, fmt::format("rain.impact: expected a share between 0 and 1, found {}", s.impact));
-  const std::size_t need = memory_bytes(s), have = physical_memory();
-  if (need > have) {
-    throw Error(ExitCode::usage, fmt::format("run.size {}x{} with maps.size {} needs {} of memory; this machine has {}", s.width, s.height, s.map_size, memory_text(need), memory_text(have)));
-  }
   camera(s).basis();  // throws for a camera that looks nowhere
 }
 
@@ -139,14 +133,6 @@ RainOnGlassUniforms rain_on_glass_uniforms(const Settings& s, int frame, Code ra
   u.half_height = static_cast<float>(eye.half_height());
   u.half_width = static_cast<float>(eye.half_height() * s.width / s.height);
   return u;
-}
-
-std::size_t memory_bytes(const Settings& s) {
-  const FloatingPointGuard guard;
-  const std::size_t maps = 2 * (Image::memory_bytes(s.map_storage, s.map_size, s.map_size) + static_cast<std::size_t>(s.map_size) * s.map_size * 16);
-  const std::size_t picture = Image::memory_bytes(Format::rgba32f, s.width, s.height) + 3 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +
-                              Image::memory_bytes(Format::rgba8, s.width, s.height) + static_cast<std::size_t>(s.width) * s.height * 28;
-  return maps + picture;
 }
 
 }  // namespace rainref::rainy_glass

@@ -12,6 +12,7 @@
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
+#include "rainy_glass/memory.h"
 #include "rainy_glass/storage.h"
 #include "scene/display.h"
 
@@ -113,6 +114,7 @@ RainyGlass::RainyGlass(const Settings& settings, const Surroundings& surrounding
   const FloatingPointGuard guard;
   check(settings);
   check(settings, surroundings);
+  check_memory(settings, sizes_of(surroundings));
   state_ = std::make_unique<State>(settings, surroundings, executor);
 }
 RainyGlass::~RainyGlass() = default;

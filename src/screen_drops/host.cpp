@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "base/floating_point.h"
-#include "base/memory.h"
 #include "image/texture.h"
 #include "math/half.h"
 #include "math/real64.h"
@@ -72,8 +70,6 @@ void check(const Settings& s) {
     positive(s.grid, "drops.grid");
     positive(s.noise_size, "noise.size");
   }
-  const std::size_t need = memory_bytes(s), have = physical_memory();
-  if (need > have) throw Error(ExitCode::usage, fmt::format("run.size {}x{} needs {} of memory; this machine has {}", s.width, s.height, memory_text(need), memory_text(have)));
   camera(s).basis();  // throws for a camera that looks nowhere
   scene_camera(s).half_height();
 }
@@ -242,19 +238,6 @@ std::vector<Image> scene_levels(const Image& colour) {
     levels.push_back(std::move(level));
   }
   return levels;
-}
-
-std::size_t memory_bytes(const Settings& s) {
-  const FloatingPointGuard guard;
-  const std::size_t pixels = static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
-  std::size_t bytes = pixels * (8 + 8 + 1 + 4 + (8 + 16) * 4 / 3);
-  if (corrected(s)) {
-    const std::array<int, 2> size = cells_size(make_layers(s));
-    bytes += Image::memory_bytes(Format::rgba32f, size[0], size[1]) * 2 + static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * sizeof(DrawnCell);
-  } else {
-    bytes += Image::memory_bytes(Format::rgba8, s.noise_size, s.noise_size) * 5;
-  }
-  return bytes;
 }
 
 }  // namespace rainref::screen_drops

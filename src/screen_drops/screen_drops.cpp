@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
@@ -15,6 +17,7 @@
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
 #include "screen_drops/kernels.h"
+#include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 
 namespace rainref::screen_drops {
@@ -25,6 +28,10 @@ using capture::records;
 using capture::Stopwatch;
 
 constexpr int tile_rows = 8, cell_rows = 4;
+
+void check_memory(const Settings& s, const FlowSettings* flow) {
+  require_memory(fmt::format("run.size {}x{}{}", s.width, s.height, flow ? fmt::format(" with {} drops", flow->drops.capacity) : ""), memory(s, flow).peak());
+}
 
 }  // namespace
 
@@ -104,12 +111,14 @@ ScreenDrops::ScreenDrops(const SceneText& scene, const Inputs& inputs, const par
   check(settings);
   check(settings, inputs);
   const std::optional<FlowSettings> flow = flow_from(config, settings);
+  check_memory(settings, flow ? &*flow : nullptr);
   state_ = std::make_unique<State>(settings, inputs, executor, flow ? &*flow : nullptr);
 }
 ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow) {
   const FloatingPointGuard guard;
   check(settings);
   check(settings, inputs);
+  check_memory(settings, flow);
   if (flow != nullptr && settings.variant != Variant::corrected) throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
   state_ = std::make_unique<State>(settings, inputs, executor, flow);
 }

@@ -11,6 +11,7 @@
 #include "drops/wet_glass.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "windshield/memory.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
 #include "windshield/wipe_drops.h"
@@ -22,6 +23,13 @@ using capture::records;
 using capture::Stopwatch;
 
 constexpr int picture_tile_rows = 8;
+
+/// Refuses what does not fit before the drops, the first large thing, are made.
+Settings fitting(Settings s, const scene::Config& config, const Surroundings& around) {
+  require_memory(fmt::format("windshield.height_size {}x{} with scene.size {}x{} for {} drops", s.surface.width, s.surface.height, s.scene_size[0], s.scene_size[1], s.drops.capacity),
+                 memory(s, static_cast<int>(config.integer("run.frames")), {around.colour.width(), around.colour.height()}).peak());
+  return s;
+}
 
 template <class T>
 RecordView record(const T& one) {
@@ -63,7 +71,7 @@ struct Windshield::State {
   std::vector<Glint> lights;
 
   State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
-      : settings(settings_from(config)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
+      : settings(fitting(settings_from(config), config, surroundings)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
         plane(corrected ? glass.plane() : glass.axes()), vehicle(settings.vehicle),
         water(settings.drops, plane.frame, glass.area, settings.fps * settings.substeps, settings.surface.width, settings.surface.height, e) {
     check(settings.wipers, glass);

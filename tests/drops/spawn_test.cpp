@@ -1,6 +1,7 @@
 // W9: how many drops arrive, where, how heavy, and what happens when there is no room.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "rain/rain.h"
@@ -101,6 +102,33 @@ TEST(Spawn, PlacesAreUniformAndIdsAscend) {
   const double chi = rainref::test::chi_square(cells);
   EXPECT_GT(chi, rainref::test::chi_square_99_low);
   EXPECT_LT(chi, rainref::test::chi_square_99_high);
+}
+
+// x, y and mass are drawn from words of their own: no two of them know of each other. Both variants.
+TEST(Spawn, PlacesAndMassesAreIndependent) {
+  for (const bool corrected : {true, false}) {
+    Settings s = rain(20);
+    s.corrected = corrected;
+    s.spawn_rate = 30000;
+    Arrivals a(s);
+    std::vector<int> x_mass(100, 0), y_mass(100, 0);
+    for (int n = 0; n < 60; ++n) {
+      const SpawnPlan& plan = a.plan(exposure(50), n, 60, 0, 1 << 20);
+      std::vector<float> masses;  // equally many drops in each, lightest first
+      for (const SpawnMass& m : plan.masses) masses.push_back(m.mass);
+      for (const Drop& d : arrivals(plan)) {
+        const auto [first, last] = std::equal_range(masses.begin(), masses.end(), d.mass);
+        const double rank = 0.5 * static_cast<double>((first - masses.begin()) + (last - masses.begin())) / 1024;
+        ++x_mass[rainref::test::cell_of(d.position[0], rank)];
+        ++y_mass[rainref::test::cell_of(d.position[1], rank)];
+      }
+    }
+    for (const std::vector<int>* cells : {&x_mass, &y_mass}) {
+      const double chi = rainref::test::chi_square(*cells);
+      EXPECT_GT(chi, rainref::test::chi_square_99_low) << corrected;
+      EXPECT_LT(chi, rainref::test::chi_square_99_high) << corrected;
+    }
+  }
 }
 
 // Boolean model: discs of radius R with n on area A cover 1 - exp(-n pi R^2 / A). Measured on a grid inside the glass.

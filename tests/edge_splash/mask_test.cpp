@@ -18,15 +18,15 @@ TEST(EdgeSplashMask, PublishedRowsAboveAnEdge) {
   }
 }
 
-// The threshold .166 of a sum 2 D1 with near plane .3 m ends at 3.61 m; true sums of distance reach on.
+// The threshold .166 of a sum 2 D1 with near plane .3 m ends at 2 * .3 / .166 = 3.614 m; true sums of distance reach on.
 TEST(EdgeSplashMask, HowFarAwayAnEdgeShows) {
-  for (const double z : {3.0, 3.60, 3.63, 7.0, 50.0}) {
+  for (const double z : {3.0, 3.613, 3.616, 7.0, 50.0}) {
     const auto scene = [&] { return inputs_of_distance(48, 40, [&](int, int y) { return y < 20 ? z : 1e6; }); };
     Settings s = published();
     s.depth.far_plane = 1e6;
     EdgeSplash as_published(s, scene(), executor());
     as_published.render();
-    EXPECT_EQ(painted(as_published, 24, 21), z < 3.61) << z;
+    EXPECT_EQ(painted(as_published, 24, 21), z < 3.614) << z;
     Settings c = corrected();
     c.depth = s.depth;
     EdgeSplash corrected_one(c, scene(), executor());

@@ -1,9 +1,12 @@
 // Corrected raindrops: how many, where, how large, and the energy of the crater each leaves.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "puddle/rainfall.h"
 #include "puddle/scene_support.h"
 #include "rain/rain.h"
+#include "random/statistics.h"
 
 namespace rainref::puddle::test {
 namespace {
@@ -79,6 +82,52 @@ TEST(PuddleRainfall, CountsArePoissonWithTheFluxOfTheRain) {
   EXPECT_NEAR((squares / steps - sum / steps * (sum / steps)) / (sum / steps), 1, 4 * std::sqrt(2.0 / steps));
   EXPECT_NEAR(x / sum, 20, 4 * 40 / std::sqrt(12 * sum));
   EXPECT_NEAR(y / sum, 15, 4 * 30 / std::sqrt(12 * sum));
+}
+
+/// Counts of points of the unit square in a 10 x 10 grid are those of a fair generator: places along a diagonal, or on few columns, are not.
+void expect_uniform(const std::vector<int>& cells, const char* what) {
+  const double chi = rainref::test::chi_square(cells);
+  EXPECT_GT(chi, rainref::test::chi_square_99_low) << what;
+  EXPECT_LT(chi, rainref::test::chi_square_99_high) << what;
+}
+
+// x, y and size are drawn from words of their own: no two of them know of each other.
+TEST(PuddleRainfall, PlacesAndSizesAreIndependentAndUniform) {
+  Settings s = raining(30, 0.2);
+  s.boundary = Boundary::fixed;
+  const Rainfall rain(s, 1);
+  std::vector<float> depths;  // of the size classes, equally many drops in each
+  for (const Drop& d : rain.craters()) depths.push_back(-d.amplitude);
+  ASSERT_TRUE(std::is_sorted(depths.begin(), depths.end()));
+  std::vector<int> x_y(100, 0), x_size(100, 0), y_size(100, 0), neighbours(100, 0);
+  for (int k = 0; k < 4000; ++k) {
+    double before = -1;
+    for (const Drop& d : rain.drops(k)) {
+      const double x = d.x / 40, y = d.y / 30, size = (static_cast<double>(std::lower_bound(depths.begin(), depths.end(), -d.amplitude) - depths.begin()) + 0.5) / Rainfall::sizes;
+      ++x_y[rainref::test::cell_of(x, y)];
+      ++x_size[rainref::test::cell_of(x, size)];
+      ++y_size[rainref::test::cell_of(y, size)];
+      if (before >= 0) ++neighbours[rainref::test::cell_of(before, x)];
+      before = x;
+    }
+  }
+  expect_uniform(x_y, "x, y");
+  expect_uniform(x_size, "x, size");
+  expect_uniform(y_size, "y, size");
+  expect_uniform(neighbours, "x of two drops of a step");
+}
+
+// The article's hash does as well: ten drops a second, a thousand seconds.
+TEST(PuddleRainfall, PublishedPlacesAreUniform) {
+  RaindropsUniforms u = raindrops_uniforms(as_published(1280, 720), 0);
+  u.rain_speed = 1;
+  u.drop_count = 10;
+  std::vector<int> cells(100, 0);
+  for (int t = 0; t < 1000; ++t) {
+    u.time = static_cast<float>(t);
+    for (const Drop& d : raindrops_as_published(u)) ++cells[rainref::test::cell_of(d.x / 1280, d.y / 720)];
+  }
+  expect_uniform(cells, "x, y");
 }
 
 // A crater that an edge cuts would take water away; its images bring back what the edge cuts off.

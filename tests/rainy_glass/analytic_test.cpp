@@ -196,6 +196,22 @@ TEST(RainyGlassRefraction, IsThatOfAThinPrism) {
     EXPECT_NEAR(p.moved()[1], 0, 1e-6);
   }
 }
+// How far the prism of small angles is off where angles are not small: the numbers of docs/effects/rainy_glass.md and compositor.md. Light through flat glass
+// leaves a sheet of slope tan a at asin(n sin a) - a.
+TEST(RainyGlassRefraction, FallsShortOfSnellsLawAsTheDocumentsSay) {
+  struct Known {
+    double slope, snell, prism, share;  ///< degrees; what the prism is short by
+  };
+  for (const Known& k : {Known{0.3, 5.82, 5.71, 0.02}, {0.5, 10.03, 9.45, 0.06}, {1, 25.5, 18.4, 0.28}}) {
+    const double a = std::atan(k.slope), degree = pi / 180;
+    EXPECT_NEAR((std::asin(1.333 * std::sin(a)) - a) / degree, k.snell, 0.05);
+    RainOnGlassUniforms u = rain_on_glass_uniforms(settings(Variant::corrected, 8, 8), 0, {0.5, 0.5}, {0.5, 0.5});
+    const scalar::Two<Double> moved = scalar::prism(u, plain::Vec3<Double>(Double(0.0), Double(0.0), Double(1.0)), Double(1.0), scalar::Two<Double>(Double(k.slope), Double(0.0)));
+    const double bent = std::atan(std::hypot(moved.a.v, moved.b.v)) / degree;
+    EXPECT_NEAR(bent, k.prism, 0.05);
+    EXPECT_NEAR(1 - bent / k.snell, k.share, 0.006);
+  }
+}
 // The same droplet moves the picture by the same angle in both directions, whatever the aspect.
 TEST(RainyGlassRefraction, IsTheSameInBothDirections) {
   for (const int width : {64, 128, 227}) {

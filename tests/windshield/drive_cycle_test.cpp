@@ -12,7 +12,7 @@ namespace {
 const std::string cycles = RAINREF_SOURCE_DIR "/scenes/windshield/cycles/";
 using testing::HasSubstr;
 
-/// What is published of a cycle, to the digits that were.
+/// What is published of a cycle, to the digits that were; of the NEDC the distances of its parts, which its own operations pass by 6 m.
 struct Known {
   const char* file;
   double seconds, metres, published, tolerance, top;  ///< metres: sum of the samples; top: [m/s]
@@ -21,7 +21,7 @@ constexpr double mile = 1609.344, mph = 0.44704, kmh = 1 / 3.6;
 constexpr Known known_cycles[] = {{"wltc_3b.csv", 1800, 23266.3, 23266, 0.5, 131.3 * kmh},
                                   {"us06.csv", 600, 12887.6, 8.01 * mile, 0.005 * mile, 80.3 * mph},
                                   {"udds.csv", 1369, 11990.4, 7.45 * mile, 0.005 * mile, 56.7 * mph},
-                                  {"nedc.csv", 1180, 11013.2, 11000, 50, 120 * kmh}};
+                                  {"nedc.csv", 1180, 11013.2, 4 * 1013 + 6955, 7, 120 * kmh}};
 
 // The samples are h = 1 s apart. Between two of them the cubic's integral is the trapezoid's and h^2 (m0 - m1) / 12 of the
 // slopes at its ends: the sum over the table telescopes, and a cycle begins and ends at rest, so nothing of it is left.

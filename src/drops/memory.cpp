@@ -1,0 +1,26 @@
+#include "drops/memory.h"
+
+#include <cstdint>
+
+#include "drops/drops.h"
+#include "drops/kernels.h"
+#include "drops/splat_kernels.h"
+#include "image/memory.h"
+#include "rainref/image.h"
+
+namespace rainref::drops {
+
+MemoryPeak memory(const Settings& s, int columns, int rows, std::int64_t live) {
+  const auto drops = static_cast<std::size_t>(live);
+  MemoryPeak m;
+  m.hold(DropArrays::memory_bytes(s.capacity));
+  m.hold(drops * (sizeof(Drop) + sizeof(StampRecord)));  // listed, and to be drawn
+  if (!s.corrected) return m;
+  m.hold(Image::memory_bytes(Format::r32f, columns, rows));
+  // merge: place, radius and cell by slot; cell and slot; place, radius, mass, id and slot by cell; the larger one; the cells.
+  m.hold(drops * (3 * sizeof(float) + sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) + 4 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int32_t) + sizeof(std::uint32_t)));
+  m.pass(drops * sizeof(Deposit));
+  return m;
+}
+
+}  // namespace rainref::drops

@@ -1,0 +1,30 @@
+// What pictures of the street take.
+#pragma once
+
+#include "base/memory.h"
+#include "rainref/image.h"
+
+namespace rainref::night_street {
+
+/// One ray for each texel, before neighbours are compared: radiance, tone, object, ground.
+inline std::size_t centres_bytes(int width, int height) { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * (24 + 4 + 4 + 1); }
+
+/// Street::view. Holds colour, depth and normal.
+inline MemoryPeak view_memory(int width, int height) {
+  MemoryPeak memory;
+  memory.hold(Image::memory_bytes(Format::r32f, width, height) + 2 * Image::memory_bytes(Format::rgba32f, width, height));
+  memory.pass(centres_bytes(width, height));
+  return memory;
+}
+/// What a View keeps besides its normals, which most leave.
+inline std::size_t normal_bytes(int width, int height) { return Image::memory_bytes(Format::rgba32f, width, height); }
+
+/// Street::panorama. Holds the picture.
+inline MemoryPeak panorama_memory(int width, int height) {
+  MemoryPeak memory;
+  memory.hold(Image::memory_bytes(Format::rgba32f, width, height));
+  memory.pass(centres_bytes(width, height));
+  return memory;
+}
+
+}  // namespace rainref::night_street

@@ -1,0 +1,76 @@
+#include "puddle/memory.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/floating_point.h"
+#include "image/memory.h"
+#include "puddle/host.h"
+#include "puddle/kernels.h"
+
+namespace rainref::puddle {
+namespace {
+
+constexpr int own_ground = 512;             // make_asphalt
+constexpr std::array<int, 2> bed{768, 768};  // make_bed, at most
+
+/// recode and the texture made of it.
+void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool has_mips) {
+  const std::size_t texels = texel_bytes(size[0], size[1], 4);
+  m.pass(2 * texels);  // decoded, and in the pass's code
+  m.hold(texels);
+  if (has_mips) hold_mips(m, size[0], size[1], 4);
+}
+
+}  // namespace
+
+PictureSizes sizes_of(const Surroundings& s) {
+  return {{s.environment.width(), s.environment.height()}, {s.ground.width(), s.ground.height()}};
+}
+
+MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
+  const bool corrected = s.variant == Variant::corrected;
+  const auto [columns, rows] = wave_size(s);
+  const std::size_t wave_floats = texel_bytes(columns, rows, 1);
+  const Format channel = s.storage == Format::rgba8 ? Format::r8 : s.storage == Format::rg32f ? Format::r32f : Format::r16f;
+  MemoryPeak m;
+  m.hold(2 * Image::memory_bytes(channel, columns, rows));
+  m.pass(wave_floats);  // level water
+  hold_picture(m, sizes.environment, corrected);
+  const bool makes_ground = sizes.ground[0] == 0;
+  const int own_side = !corrected && s.use_checkerboard ? 1 : own_ground;
+  const std::array<int, 2> ground = makes_ground ? std::array{own_side, own_side} : sizes.ground;
+  const std::size_t made = makes_ground ? Image::memory_bytes(Format::rgba32f, own_side, own_side) : 0;
+  m.hold(made);
+  hold_picture(m, ground, corrected);
+  if (corrected) {
+    m.hold(texel_bytes(ground[0], ground[1], 2));
+    hold_mips(m, ground[0], ground[1], 2);
+    if (s.shape == Shape::natural) {
+      m.hold(texel_bytes(bed[0], std::clamp(static_cast<int>(bed[0] * static_cast<double>(rows) / columns), 1, bed[1]), 1));
+      m.hold(Image::memory_bytes(Format::r32f, columns, rows));
+    }
+  }
+  m.hold(Image::memory_bytes(Format::rgba32f, s.width, s.height) + 2 * Image::memory_bytes(Format::rgba16f, s.width, s.height) + Image::memory_bytes(Format::rgba8, s.width, s.height));
+  if (!corrected) m.hold(Image::memory_bytes(Format::r32f, s.width, s.height));
+  m.hold(wave_floats);  // decoded for lookups
+  m.release(made);
+  if (corrected) {
+    const std::size_t blocks = static_cast<std::size_t>((columns + extent_block - 1) / extent_block) * static_cast<std::size_t>((rows + extent_block - 1) / extent_block);
+    m.pass(blocks * (sizeof(Extent) + 2 * sizeof(float)));
+  }
+  return m;
+}
+
+void check_memory(const Settings& s, const PictureSizes& sizes) {
+  const auto [columns, rows] = wave_size(s);
+  require_memory(fmt::format("run.size {}x{} with a wave of {}x{}", s.width, s.height, columns, rows), memory(s, sizes).peak());
+}
+
+std::size_t memory_bytes(const Settings& settings) {
+  const FloatingPointGuard guard;
+  return memory(settings).peak();
+}
+
+}  // namespace rainref::puddle

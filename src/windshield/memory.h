@@ -1,0 +1,15 @@
+// What a windshield takes.
+#pragma once
+
+#include <array>
+
+#include "base/memory.h"
+#include "windshield/scene_keys.h"
+
+namespace rainref::windshield {
+
+/// Of the constructor and of so many frames. scene: columns and rows of a picture that takes the street's place, which the windshield then
+/// owns; 0: the street.
+MemoryPeak memory(const Settings& settings, int frames, std::array<int, 2> scene = {0, 0});
+
+}  // namespace rainref::windshield
