@@ -147,8 +147,8 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
   const int last = frames.empty() ? -1 : *frames.rbegin();
   // A folder's name must not have a simulation run for days.
   if (const std::int64_t own = config.integer("run.frames"); last >= own) {
-    throw Error(ExitCode::port_files, fmt::format("{}: expected the frames 0 to {} that {} has, found {}; if the port ran that far, --set run.frames={}", request.shadow.string(), own - 1,
-                                                  request.scene.scene.string(), last, std::int64_t{last} + 1));
+    throw Error(ExitCode::port_files, fmt::format("{}: expected the frames 0 to {} that {} has, found {}; where the port ran longer, --set run.frames says so", request.shadow.string(),
+                                                  own - 1, request.scene.scene.string(), last));
   }
   Progress progress(config.effect(), last + 1);
   for (int frame = 0; frame <= last; ++frame) {
