@@ -213,10 +213,12 @@ Config parse(const SceneText& scene, const Effect& effect, std::span<const char*
   const FloatingPointGuard guard;
   std::vector<std::string> overrides;
   const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);
-  for (const auto& [key, value] : {std::pair<std::string, std::string>{"effect", effect.name}, {"variant", effect.variants.back()}}) {
+  const auto add_unless_said = [&](const std::string& key, const std::string& value) {
     const bool is_said = std::any_of(entries.begin(), entries.end(), [&](const RawEntry& e) { return e.key == key; });
     if (!is_said) overrides.push_back(key + "=" + value);  // before the caller's own, which win
-  }
+  };
+  add_unless_said("effect", effect.name);
+  add_unless_said("variant", effect.variants.back());
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
   const Config config = parse(scene.toml, scene.file, overrides, {{effect}});
   for (const char* key : pictures) {
