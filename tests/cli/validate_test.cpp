@@ -294,7 +294,8 @@ TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3, HasSubstr("corrected.toml runs shade 1 time in frame 0"));
   // A folder's name had 10^8 frames simulated.
   std::filesystem::create_directories(folder / "late/puddle.shade/99999999.0");
-  expect_refusal({"validate", "--shadow", "late", "corrected.toml"}, 3, HasSubstr("that corrected.toml has, found 99999999; where the port ran longer, --set run.frames says so"));
+  before = folder.names();
+  expect_refusal({"validate", "--shadow", "late", "corrected.toml"}, 3, HasSubstr("late: expected frames below 3600, found 99999999; where the port ran longer, --set run.frames says so"));
 }
 
 }  // namespace
