@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/floating_point.h"
 #include "drops/host.h"
 #include "drops/memory.h"
 #include "night_street/memory.h"
@@ -72,6 +73,9 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   return m;
 }
 
-std::size_t memory_bytes(const scene::Config& config) { return memory(settings_from(config), static_cast<int>(config.integer("run.frames"))).peak(); }
+std::size_t memory_bytes(const scene::Config& config) {
+  const FloatingPointGuard guard;
+  return memory(settings_from(config), static_cast<int>(config.integer("run.frames"))).peak();
+}
 
 }  // namespace rainref::windshield
