@@ -1,5 +1,7 @@
 #include "math/unorm.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -29,6 +31,7 @@ TEST(Unorm8, Clamps) {
     for (const float x : {-0.0f, -0x1p-149f, -0.5f, -1.0f, -0x1.fffffep127f}) EXPECT_EQ(to_unorm8(x, r).code, 0) << x;
     for (const float x : {1.0f, 1.0000001f, 2.0f, 0x1.fffffep127f}) EXPECT_EQ(to_unorm8(x, r).code, 255) << x;
     EXPECT_EQ(to_unorm8(0x1p-149f, r).code, 0);
+    EXPECT_EQ(to_unorm8(std::numeric_limits<float>::quiet_NaN(), r).code, 0);  // as Direct3D and Vulkan convert it
   }
 }
 
