@@ -1,11 +1,10 @@
 #include "math/unorm.h"
 
-#include <limits>
-
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace rainref {
 namespace {
