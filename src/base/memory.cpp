@@ -84,7 +84,6 @@ MemoryLimit memory_limit(const std::filesystem::path& root) {
   return least;
 }
 
-std::size_t physical_memory() { return memory_limit().bytes; }
 std::size_t resident_memory() { return pages().resident * page(); }
 
 void require_memory(std::string_view subject, std::size_t bytes) {

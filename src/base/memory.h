@@ -17,8 +17,6 @@ struct MemoryLimit {
 /// Of: physical memory; memory.max (cgroup v2) and memory.limit_in_bytes (v1) of this process's cgroup and all above it; RLIMIT_AS and
 /// RLIMIT_DATA, less what is reserved and not resident. root: where proc and sys/fs/cgroup lie.
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");
-/// memory_limit().bytes.
-std::size_t physical_memory();
 /// Bytes of this process that lie in memory now.
 std::size_t resident_memory();
 

@@ -49,7 +49,7 @@ nlohmann::ordered_json parse_manifest(const fs::path& path, const std::vector<st
 }
 
 std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
-  if (bytes > physical_memory()) refuse(path, fmt::format("{} do not fit into the {} of this machine", memory_text(bytes), memory_text(physical_memory())));
+  if (const MemoryLimit limit = memory_limit(); bytes > limit.bytes) refuse(path, fmt::format("its {} are too many; {} {} of memory", memory_text(bytes), limit.owner, memory_text(limit.bytes)));
   const auto unreadable = [&] { throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno))); };
   const auto close = [](std::FILE* f) { std::fclose(f); };
   const std::unique_ptr<std::FILE, decltype(close)> in(std::fopen(path.c_str(), "rbe"), close);
@@ -153,7 +153,7 @@ Array Pack::read(const PackArray& array) const {
   return out;
 }
 
-PassCase Pack::read(const PackCase& entry) const {
+PassCase Pack::described(const PackCase& entry) const {
   PassCase c;
   c.effect = effect;
   c.variant = variant;
@@ -163,16 +163,24 @@ PassCase Pack::read(const PackCase& entry) const {
   c.level = entry.level;
   c.time = entry.time;
   c.dt = entry.dt;
-  c.uniforms = read_file(entry.uniforms);
-  require_uniforms(folder_ / entry.uniforms.path, entry, pass(entry.pass).block, c.uniforms);
+  c.uniforms = entry.block;
   for (const PackInput& input : entry.inputs) {
     c.inputs.push_back(input.rules);
-    c.inputs.back().array = read(input);
+    c.inputs.back().array.levels.resize(input.levels.size());
   }
   for (const PackOutput& output : entry.outputs) {
     c.outputs.push_back(output.rules);
-    c.outputs.back().array = read(output);
+    c.outputs.back().array.levels.resize(output.levels.size());
   }
+  return c;
+}
+
+PassCase Pack::read(const PackCase& entry) const {
+  PassCase c = described(entry);
+  c.uniforms = read_file(entry.uniforms);
+  require_uniforms(folder_ / entry.uniforms.path, entry, pass(entry.pass).block, c.uniforms);
+  for (std::size_t i = 0; i < entry.inputs.size(); ++i) c.inputs[i].array = read(entry.inputs[i]);
+  for (std::size_t o = 0; o < entry.outputs.size(); ++o) c.outputs[o].array = read(entry.outputs[o]);
   return c;
 }
 

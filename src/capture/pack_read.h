@@ -76,6 +76,8 @@ class Pack {
 
   /// The pass of this name; Error(usage) naming the nearest one.
   const PackPass& pass(std::string_view name) const;
+  /// A case as the manifest describes it: shapes and rules without values, a level for each file, the uniforms as their values say.
+  PassCase described(const PackCase& entry) const;
   /// Reads a case with all its values, each file verified.
   PassCase read(const PackCase& entry) const;
   /// Reads one array.

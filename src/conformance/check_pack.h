@@ -10,7 +10,7 @@ namespace rainref::conformance {
 /// build does not know.
 void check_pack(const capture::Pack& pack);
 
-/// A case of a checked pack with its values: uniforms in range, records of finite numbers, or else Error(port_files).
+/// A case of a checked pack with its values; Error(port_files) where a record holds a float that is no finite number.
 capture::PassCase read_case(const capture::Pack& pack, const capture::PackCase& entry);
 
 }  // namespace rainref::conformance

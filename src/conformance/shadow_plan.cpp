@@ -78,21 +78,9 @@ ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files)
   plan.edges = pack.edges;
   for (const capture::PackCase& from : pack.cases) {
     PlannedRun& run = plan.runs.emplace_back();
-    PassCase& c = run.c;
-    c.effect = pack.effect;
-    c.variant = pack.variant;
-    c.pass = from.pass;
-    c.frame = from.frame;
-    c.step = from.step;
-    c.level = from.level;
-    c.time = from.time;
-    c.dt = from.dt;
-    c.uniforms = from.block;
+    run.c = pack.described(from);
     if (shares_files) run.uniform_file = from.uniforms.path;
     for (const capture::PackInput& input : from.inputs) {
-      c.inputs.push_back(input.rules);
-      c.inputs.back().array = input.shape;
-      c.inputs.back().array.levels.resize(input.levels.size());
       Hasher hasher(0);
       for (const capture::PackFileEntry& level : input.levels) hasher.add(level.xxh3);
       run.input_hashes.push_back(hasher.finish().text());
@@ -100,12 +88,7 @@ ShadowPlan ShadowPlan::of_manifest(const capture::Pack& pack, bool shares_files)
       for (const capture::PackFileEntry& level : input.levels)
         if (shares_files) stems.push_back(stem_of(level.path));
     }
-    for (const capture::PackOutput& output : from.outputs) {
-      c.outputs.push_back(output.rules);
-      c.outputs.back().array = output.shape;
-      c.outputs.back().array.levels.resize(output.levels.size());
-    }
-    plan.frames.insert(c.frame);
+    plan.frames.insert(run.c.frame);
   }
   return plan;
 }

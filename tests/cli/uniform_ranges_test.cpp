@@ -13,30 +13,18 @@
 
 #include "capture/pass_info.h"
 #include "cli/registry.h"
+#include "conformance/support.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 
 namespace rainref::cli {
 namespace {
 
-/// splitmix64 (Steele, Lea, Flood 2014).
-class Words {
- public:
-  explicit Words(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t operator()() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-  }
-  double share() { return static_cast<double>((*this)() >> 11) * 0x1p-53; }
+using conformance::test::Words;
 
- private:
-  std::uint64_t state_;
-};
-
+double share(Words& words) { return static_cast<double>(words() >> 11) * 0x1p-53; }
 double drawn(double low, double high, Words& words) {
-  const double t = words.share();
+  const double t = share(words);
   switch (words() % 5) {
     case 0: return low;
     case 1: return high;

@@ -126,7 +126,7 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
     }
     case 6: {  // rules
       if (c.inputs.empty()) return;
-      capture::CaseInput& input = p.one_of<capture::CaseInput>(c.inputs).name.empty() ? c.inputs.front() : c.inputs[p.below(c.inputs.size())];
+      capture::CaseInput& input = c.inputs[p.below(c.inputs.size())];
       input.address_u = static_cast<Address>(p.below(4));
       input.address_v = static_cast<Address>(p.below(4));
       input.filter = static_cast<Filter>(p.below(3));
