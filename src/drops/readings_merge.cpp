@@ -5,6 +5,7 @@
 // thousands of them that is open for most drops, so it is no alternative but an interval of the drop's mass, and of the
 // texel's water. That both agree is not judged.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -14,6 +15,7 @@
 #include "drops/every_reading.h"
 #include "drops/readings.h"
 #include "drops/uniforms.h"
+#include "math/whole.h"
 #include "rainref/error.h"
 
 namespace rainref::drops {
@@ -110,16 +112,16 @@ class Merging {
       return out;
     }
     const auto whole = [&](float left) {
-      const double below = static_cast<double>(static_cast<std::int64_t>(std::clamp(static_cast<double>(left), 0.0, 0x1p40)));
-      return static_cast<std::int64_t>(std::max(std::min(static_cast<double>(d.mass.lo) - 1, below), 0.0));
+      const double below = left > 0 ? std::floor(std::min(static_cast<double>(left), 0x1p40)) : 0;
+      const double most = static_cast<double>(d.mass.lo) - 1;
+      return most > 0 ? static_cast<std::int64_t>(std::min(most, below)) : 0;
     };
     out.quanta = {whole(t.quanta.lo), whole(t.quanta.hi)};
     if (out.quanta.most == 0) return out;
     const auto texels = [](Enclosure x, int size, int& from, int& last) {
       x = x * Enclosure(static_cast<float>(size));
-      const auto texel = [&](float at) { return static_cast<int>(std::clamp(static_cast<double>(at), 0.0, size - 1.0)); };
-      from = texel(x.lo);
-      last = texel(x.hi);
+      from = whole_within(x.lo, 0, size - 1);
+      last = whole_within(x.hi, 0, size - 1);
     };
     texels(t.u, u_.film[0], out.x0, out.x1);
     texels(t.v, u_.film[1], out.y0, out.y1);
@@ -208,7 +210,7 @@ class Merging {
       const auto total = static_cast<float>(mass);
       const double radius = 1.01 * every::base_radius(u_, Number(total)).v, shear = u_.frame[1] / u_.frame[2];
       const double reach_v = radius / u_.frame[2], reach_u = radius * (1 + (shear < 0 ? -shear : shear)) / u_.frame[0];
-      const auto texel = [](double at, int size) { return static_cast<int>(std::clamp(at * size, 0.0, size - 1.0)); };
+      const auto texel = [](double at, int size) { return whole_within(at * size, 0, size - 1); };
       // A texel more on each side, for rounding.
       const int x0 = std::max(0, texel(u0 - reach_u, u_.film[0]) - 1), x1 = std::min(u_.film[0] - 1, texel(u1 + reach_u, u_.film[0]) + 1);
       const int y0 = std::max(0, texel(v0 - reach_v, u_.film[1]) - 1), y1 = std::min(u_.film[1] - 1, texel(v1 + reach_v, u_.film[1]) + 1);
@@ -302,7 +304,7 @@ class MergeModel : public capture::PassModel {
     const MergeUniforms& u = merging_.uniforms();
     double sum = every::dried(u, N::load(&merging_.film(texel))).v;
     const auto falls_here = [](N at, int size, int here) {
-      return static_cast<int>(std::clamp(static_cast<double>((at * N(static_cast<float>(size))).v), 0.0, size - 1.0)) == here;
+      return whole_within((at * N(static_cast<float>(size))).v, 0, size - 1) == here;
     };
     for (const int group : merging_.groups_over(texel)) {
       for (const Merging::Member<N>& one : merging_.merged<N>(group)) {

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "capture/bound_texture.h"
+#include "math/whole.h"
 #include "puddle/every_reading.h"
 #include "puddle/readings.h"
 
@@ -208,7 +209,7 @@ class PublishedMarch {
     int first[2], last[2];
     for (int k = 0; k < 2; ++k) {
       const auto texel = [&](float x, double slack) {
-        return static_cast<int>(std::floor((x / half[k] + 1.0) * 0.5 * size[k] - 0.5 + slack));
+        return whole_within(std::floor((x / half[k] + 1.0) * 0.5 * size[k] - 0.5 + slack), -1'000'000'000, 1'000'000'000);
       };
       if (!(std::abs(at[k].lo) < 1e6f && std::abs(at[k].hi) < 1e6f)) return {-1e9, 1e9};
       first[k] = texel(at[k].lo, -0.01);

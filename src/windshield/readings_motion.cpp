@@ -9,6 +9,7 @@
 
 #include "capture/bound_texture.h"
 #include "drops/readings.h"
+#include "math/whole.h"
 #include "rainref/error.h"
 #include "windshield/motion_every_reading.h"
 #include "windshield/readings.h"
@@ -137,7 +138,8 @@ std::uint64_t quanta_of(float x) { return x > 0 ? static_cast<std::uint64_t>(std
 using Place = int;
 constexpr Place none = -1;
 Place place_of(const WipeDropsUniforms& u, float wiper, float bin) {
-  return wiper < 0 ? none : static_cast<int>(wiper) * u.bin_count + static_cast<int>(bin);
+  if (!(wiper >= 0)) return none;
+  return whole_within(wiper, 0, u.wiper_count - 1) * u.bin_count + whole_within(bin, 0, u.bin_count - 1);
 }
 /// The place of a drop or texel in one run of a replay.
 template <class Swept>
