@@ -5,6 +5,7 @@
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/kernels.h"
+#include "pass/moment.h"
 #include "rainref/error.h"
 #include "scene/display.h"
 
@@ -48,16 +49,6 @@ struct EdgeSplash::State {
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
   }
-
-  template <class Uniforms>
-  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, std::initializer_list<PassInput> inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, 0, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps),
-                      static_cast<float>(1 / settings.fps), settings.rounding});
-  }
-  void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
-    if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
-  }
 };
 
 EdgeSplash::EdgeSplash(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor) {
@@ -84,16 +75,17 @@ void EdgeSplash::render(Recorder* recorder) {
     splash_time.add([&] { s.corrected ? splash_rows(corrected, rounding, in, out, tile) : splash_rows(published, rounding, in, out, tile); });
     display_time.add([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
   });
-  // What these passes read, none of them overwrites: they may be announced after both have run.
+  // What these passes read, none of them overwrites: their starts may be recorded after both have run.
   const int threads = s.executor.threads();
+  const pass::Moment now{recorder, s.frame, 0, s.frame / s.settings.fps, 1 / s.settings.fps, rounding};
   if (s.corrected) {
-    s.announce(recorder, "splash", corrected, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view(), Filter::linear}, {"layer", s.layer}});
+    now.before("splash", corrected, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view(), Filter::linear}, {"layer", s.layer}});
   } else {
-    s.announce(recorder, "splash", published, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view()}});
+    now.before("splash", published, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view()}});
   }
-  s.report(recorder, "splash", {{"edge", s.edge}, {"angle", s.angle}, {"noise", s.noise}, {"colour", s.colour}}, splash_time.seconds(threads));
-  s.announce(recorder, "display", shown, {{"colour", s.colour}});
-  s.report(recorder, "display", {{"picture", s.picture}}, display_time.seconds(threads));
+  now.after("splash", {{"edge", s.edge}, {"angle", s.angle}, {"noise", s.noise}, {"colour", s.colour}}, splash_time.seconds(threads));
+  now.before("display", shown, {{"colour", s.colour}});
+  now.after("display", {{"picture", s.picture}}, display_time.seconds(threads));
   ++s.frame;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
+#include "pass/moment.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
@@ -74,35 +75,28 @@ struct RainyGlass::State {
     display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
-  template <class Uniforms>
-  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, 0, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps), static_cast<float>(1 / settings.fps), settings.rounding});
-  }
-  void report(Recorder* recorder, std::string_view pass, const PassOutput& output, double seconds) const {
-    if (recorder) recorder->pass({frame, 0, pass, {&output, 1}, seconds});
-  }
+  pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
 
-  void bake(Recorder* recorder) {
+  void bake(const pass::Moment& now) {
     if (bakes_raindrops) {
       const BakeRaindropsUniforms u = bake_raindrops_uniforms(settings, static_cast<int>(droplets.size()));
-      announce(recorder, "bake_raindrops", u, std::vector<PassInput>{{"droplets", records(droplets)}});
+      now.before("bake_raindrops", u, {{"droplets", records(droplets)}});
       const Stopwatch watch;
       executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
         const std::vector<Droplet> near = droplets_near(droplets, corrected, settings.map_size, t.x0, t.y0, t.x1, t.y1);
         bake_raindrops_rows(u, corrected, settings.rounding, near, raindrops, t);
       });
-      report(recorder, "bake_raindrops", {"raindrops", raindrops}, watch.seconds());
+      now.after("bake_raindrops", {{"raindrops", raindrops}}, watch.seconds());
     }
     if (bakes_rivulets) {
       const BakeRivuletsUniforms u = bake_rivulets_uniforms(settings, static_cast<int>(trails.size()));
-      announce(recorder, "bake_rivulets", u, std::vector<PassInput>{{"trails", records(trails)}, {"lattice", &lattice.view()}});
+      now.before("bake_rivulets", u, {{"trails", records(trails)}, {"lattice", &lattice.view()}});
       const Stopwatch watch;
       executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
         const std::vector<Trail> near = trails_near(trails, settings.map_size, t.x0, t.y0, t.x1, t.y1);
         bake_rivulets_rows(u, settings.rounding, near, lattice.view(), rivulets, t);
       });
-      report(recorder, "bake_rivulets", {"rivulets", rivulets}, watch.seconds());
+      now.after("bake_rivulets", {{"rivulets", rivulets}}, watch.seconds());
     }
     if (raindrops.format() == Format::rgba16f && rivulets.format() == Format::rgba16f) return;
     raindrop_texture = TextureData(raindrops, Address::repeat, Address::repeat);
@@ -123,7 +117,8 @@ RainyGlass::RainyGlass(RainyGlass&&) noexcept = default;
 void RainyGlass::frame(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  if (s.frame == 0) s.bake(recorder);
+  const pass::Moment now = s.moment(recorder);
+  if (s.frame == 0) s.bake(now);
   const RainOnGlassUniforms u = rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code);
   const scene::DisplayUniforms d = scene::display_uniforms(s.settings.exposure);
   std::vector<PassInput> inputs{{"surface", s.surface}, {"orientation", s.orientation}};
@@ -143,11 +138,11 @@ void RainyGlass::frame(Recorder* recorder) {
     rain.add([&] { rain_on_glass_rows(u, s.corrected, rounding, in, s.colour, t); });
     shown.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
-  // What these passes read, neither of them overwrites: they may be announced after both have run.
-  s.announce(recorder, "rain_on_glass", u, inputs);
-  s.report(recorder, "rain_on_glass", {"colour", s.colour}, rain.seconds(s.executor.threads()));
-  s.announce(recorder, "display", d, std::vector<PassInput>{{"colour", s.colour}});
-  s.report(recorder, "display", {"picture", s.picture}, shown.seconds(s.executor.threads()));
+  // What these passes read, neither of them overwrites: their starts may be recorded after both have run.
+  now.before("rain_on_glass", u, inputs);
+  now.after("rain_on_glass", {{"colour", s.colour}}, rain.seconds(s.executor.threads()));
+  now.before("display", d, {{"colour", s.colour}});
+  now.after("display", {{"picture", s.picture}}, shown.seconds(s.executor.threads()));
   ++s.frame;
 }
 

@@ -10,6 +10,7 @@
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
+#include "pass/moment.h"
 #include "rainref/error.h"
 #include "scene/display.h"
 #include "scene/toml.h"
@@ -73,33 +74,26 @@ struct ScreenDrops::State {
 
   const Image& height() const { return flow ? flow->height() : no_height; }
 
-  template <class Uniforms>
-  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, const std::vector<PassInput>& inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, 0, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps), static_cast<float>(1 / settings.fps), settings.rounding});
-  }
-  void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
-    if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
-  }
+  pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
   PassInput scene_input(bool with_mips) const { return {"scene", std::span<const Image>(levels), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
 
-  void blur(Recorder* recorder) {
+  void blur(const pass::Moment& now) {
     const BackgroundUniforms u = background_uniforms(settings);
     std::vector<PassInput> inputs{scene_input(true)};
     if (corrected) inputs.push_back({"taps", records(taps)});
-    announce(recorder, "background", u, inputs);
+    now.before("background", u, inputs);
     const Stopwatch watch;
     executor.for_tiles(settings.width, settings.height, settings.width, tile_rows, [&](const parallel::Tile& t) { background_rows(u, corrected, settings.rounding, scene.view(), taps, background, t); });
-    report(recorder, "background", {{"background", background}}, watch.seconds());
+    now.after("background", {{"background", background}}, watch.seconds());
   }
-  void fill_cells(Recorder* recorder) {
+  void fill_cells(const pass::Moment& now) {
     const CellsUniforms u = cells_uniforms(settings, grids, frame);
-    announce(recorder, "cells", u, {});
+    now.before("cells", u, {});
     const Stopwatch watch;
     executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
       cells_rows(u, drawn_cells, cells, static_cast<int>(begin), static_cast<int>(end));
     });
-    report(recorder, "cells", {{"cells", cells}}, watch.seconds());
+    now.after("cells", {{"cells", cells}}, watch.seconds());
   }
 };
 
@@ -129,8 +123,9 @@ void ScreenDrops::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   if (s.flow) s.flow->simulate(recorder);
-  if (s.frame == 0) s.blur(recorder);
-  if (s.corrected) s.fill_cells(recorder);
+  const pass::Moment now = s.moment(recorder);
+  if (s.frame == 0) s.blur(now);
+  if (s.corrected) s.fill_cells(now);
   const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
   const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
   const scene::DisplayUniforms shown = scene::display_uniforms(s.settings.exposure);
@@ -142,16 +137,16 @@ void ScreenDrops::render(Recorder* recorder) {
     drops_time.add([&] { s.corrected ? drops_rows(corrected, rounding, in, s.water, s.colour, t) : drops_rows(published, rounding, in, s.water, s.colour, t); });
     display_time.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
-  // What these passes read, neither of them overwrites: they may be announced after both have run.
+  // What these passes read, neither of them overwrites: their starts may be recorded after both have run.
   if (s.corrected) {
-    s.announce(recorder, "drops", corrected, {{"background", s.background}, s.scene_input(true), {"cells", s.cells}, {"height", s.height(), Filter::linear}});
+    now.before("drops", corrected, {{"background", s.background}, s.scene_input(true), {"cells", s.cells}, {"height", s.height(), Filter::linear}});
   } else {
-    s.announce(recorder, "drops", published, {{"background", s.background}, s.scene_input(false), {"noise", s.noise_image, Filter::linear, Filter::none, Address::repeat}});
+    now.before("drops", published, {{"background", s.background}, s.scene_input(false), {"noise", s.noise_image, Filter::linear, Filter::none, Address::repeat}});
   }
   const int threads = s.executor.threads();
-  s.report(recorder, "drops", {{"water", s.water}, {"colour", s.colour}}, drops_time.seconds(threads));
-  s.announce(recorder, "display", shown, {{"colour", s.colour}});
-  s.report(recorder, "display", {{"picture", s.picture}}, display_time.seconds(threads));
+  now.after("drops", {{"water", s.water}, {"colour", s.colour}}, drops_time.seconds(threads));
+  now.before("display", shown, {{"colour", s.colour}});
+  now.after("display", {{"picture", s.picture}}, display_time.seconds(threads));
   ++s.frame;
 }
 

@@ -1,18 +1,22 @@
-// Shells of wipe_texture and normals; compiled once for each SIMD target.
+// wipe_texture and normals in lanes; compiled once for each SIMD target.
 #include <algorithm>
 #include <vector>
 
+#include "pass/run.h"
 #include "windshield/surface.h"
 
 #define RAINREF_KERNELS "windshield/kernels_surface.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
+#include "pass/rows-inl.h"
 
 RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "windshield/normals.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #undef RAINREF_FN
+#undef RAINREF_LAMBDA
 
 // What a wiper may cover, in the plane [m]; outside, its coverage is exactly 0.
 struct Reach {
@@ -69,54 +73,19 @@ void WipeTextureRows(const WipeTextureUniforms& uniforms, bool corrected, Roundi
   }
 }
 
-// Columns [x - 1, x + n] of a row, the nearest texel standing where there is none.
-HWY_INLINE const Half* with_ends(const Half* row, int x, int width, Half* copy) {
-  for (int k = -1; k <= Lanes::size(); ++k) copy[k + 1] = row[std::clamp(x + k, 0, width - 1)];
-  return copy + 1 - x;
-}
-template <bool corrected>
-void normals_of(const NormalsUniforms& u, Rounding rounding, const Image& height, const Image& mask, Image& normal, const parallel::Tile& tile) {
-  const int n = Lanes::size(), width = height.width();
-  Half ends[6][HWY_MAX_BYTES / sizeof(float) + 2];
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const int below = std::max(y - 1, 0), above = std::min(y + 1, height.height() - 1);
-    const SurfaceRows<Half> rows{height.row<Half>(below), height.row<Half>(y), height.row<Half>(above),
-                                 mask.row<Half>(below),   mask.row<Half>(y),   mask.row<Half>(above)};
-    Half* out = normal.row<Half>(y);
-    for (int x = tile.x0; x < tile.x1; x += n) {
-      SurfaceRows<Half> in = rows;
-      if (x == 0 || x + n >= width) {
-        in = {with_ends(rows.below, x, width, ends[0]),      with_ends(rows.here, x, width, ends[1]),
-              with_ends(rows.above, x, width, ends[2]),      with_ends(rows.mask_below, x, width, ends[3]),
-              with_ends(rows.mask_here, x, width, ends[4]), with_ends(rows.mask_above, x, width, ends[5])};
-      }
-      const Vec3<Lanes> v = corrected ? normal_corrected<Lanes>(u, in, x) : normal_as_published<Lanes>(u, in, x);
-      const Lanes rgba[4] = {v.x, v.y, v.z, Lanes(1.0f)};
-      store4(out + 4 * x, rgba, rounding);
-    }
-  }
-}
-void NormalsRows(const NormalsUniforms& u, bool corrected, Rounding rounding, const Image& height, const Image& mask, Image& normal,
-                 const parallel::Tile& tile) {
-  if (corrected) return normals_of<true>(u, rounding, height, mask, normal, tile);
-  normals_of<false>(u, rounding, height, mask, normal, tile);
-}
+RAINREF_PASS_ROWS(NormalsPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 namespace rainref::windshield {
 
 RAINREF_EXPORT(WipeTextureRows);
-RAINREF_EXPORT(NormalsRows);
 
 void wipe_texture_rows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* wipers,
                        const WipedTextures& textures, const parallel::Tile& tile) {
   RAINREF_DISPATCH(WipeTextureRows)(uniforms, corrected, rounding, wipers, textures, tile);
 }
-void normals_rows(const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height, const Image& mask, Image& normal,
-                  const parallel::Tile& tile) {
-  RAINREF_DISPATCH(NormalsRows)(uniforms, corrected, rounding, height, mask, normal, tile);
-}
 
 }  // namespace rainref::windshield
+RAINREF_PASS_DISPATCH(windshield, NormalsPass)
 #endif

@@ -4,6 +4,7 @@
 #include "blur_pyramid/every_reading.h"
 #include "capture/bound_texture.h"
 #include "drops/framed.h"
+#include "pass/model.h"
 #include "windshield/readings.h"
 #include "windshield/surface_every_reading.h"
 
@@ -13,7 +14,6 @@ namespace {
 using capture::BoundTexture;
 using capture::PassCase;
 using capture::PassModel;
-using drops::Framed;
 using drops::sized_input;
 
 /// As many as the uniform says, but no more than there are.
@@ -45,24 +45,6 @@ struct WipeTexture {
       out[0] = every::wiped_height_as_published(uniforms, before, coverage);
       out[1] = every::wiped_mask_as_published(uniforms, N::load(mask.view().texels + at), coverage);
     }
-  }
-};
-
-// ---- normals -------------------------------------------------------------------------------------------------------
-struct Normals {
-  int width, height, values = 4;
-  NormalsUniforms uniforms;
-  bool corrected;
-  Framed water, mask;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    const every::SurfaceRows<float> rows{water.row(y - 1), water.row(y), water.row(y + 1), mask.row(y - 1), mask.row(y), mask.row(y + 1)};
-    const plain::Vec3<N> n = corrected ? every::normal_corrected<N>(uniforms, rows, x) : every::normal_as_published<N>(uniforms, rows, x);
-    out[0] = n.x;
-    out[1] = n.y;
-    out[2] = n.z;
-    out[3] = N(1.0f);
   }
 };
 
@@ -119,16 +101,7 @@ std::unique_ptr<PassModel> bind_wipe_texture(const PassCase& c) {
   return capture::model_of(std::move(m));
 }
 
-std::unique_ptr<PassModel> bind_normals(const PassCase& c) {
-  Normals m;
-  m.width = c.outputs.front().array.width;
-  m.height = c.outputs.front().array.height;
-  m.uniforms = capture::uniforms_of<NormalsUniforms>(c);
-  m.corrected = c.corrected();
-  m.water = Framed(sized_input(c, "height"));
-  m.mask = Framed(sized_input(c, "mask"));
-  return capture::model_of(std::move(m));
-}
+std::unique_ptr<PassModel> bind_normals(const PassCase& c) { return pass::bind<NormalsPass, every::NormalsPassText>(c); }
 
 std::unique_ptr<PassModel> bind_blur_pyramid(const PassCase& c) {
   const int width = c.outputs.front().array.width, height = c.outputs.front().array.height;

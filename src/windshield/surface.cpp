@@ -93,14 +93,6 @@ void wipe_texture(const parallel::Executor& executor, WipeTextureUniforms unifor
   executor.for_tiles(height.width(), height.height(), height.width(), tile_rows,
                      [&](const parallel::Tile& tile) { wipe_texture_rows(uniforms, corrected, rounding, wipers.data(), t, tile); });
 }
-void normals(const parallel::Executor& executor, const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height,
-             const Image& mask, Image& normal) {
-  if (height.format() != Format::r16f || !is(mask, Format::r16f, height) || !is(normal, Format::rgba16f, height)) {
-    throw Error(ExitCode::internal, "normals: the textures do not fit");
-  }
-  executor.for_tiles(height.width(), height.height(), height.width(), tile_rows,
-                     [&](const parallel::Tile& tile) { normals_rows(uniforms, corrected, rounding, height, mask, normal, tile); });
-}
 
 capture::PassInfo wipe_texture_info() {
   using capture::per_texel;
@@ -126,27 +118,9 @@ capture::PassInfo wipe_texture_info() {
           "gather",
           {"dot", "length"}};
 }
-capture::PassInfo normals_info() {
-  using capture::per_texel;
-  using scene::member;
-  using U = NormalsUniforms;
-  const scene::UniformBlock block = scene::uniform_block<U>(
-      "NormalsUniforms", {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
-                          member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
-                          member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
-  return {"normals",
-          "The normal of the water in axes of the glass, z outward.",
-          {{published, 1, capture::Judge::envelope, "NormalsUniforms"}, {correct, 1, capture::Judge::envelope, "NormalsUniforms"}},
-          {per_texel({"height", "wipe_texture"}), per_texel({"mask", "wipe_texture"})},
-          {"normal"},
-          {block},
-          "gather",
-          {"length", "normalize"}};
-}
 std::vector<capture::BufferInfo> surface_buffers() {
   return {{"mask", "r16f", "Freshly wiped glass: 1, and falling.", "1", {0, 1}},
-          {"wiped", "r32f", "Time since the last wipe, to about 32 time constants of the mask.", "s", {0, 16384}, "none", "none", "none", "", "", correct},
-          {"normal", "rgba16f", "Unit normal in axes of the glass, alpha 1.", "1", {-1, 1}, "none", "none", "1"}};
+          {"wiped", "r32f", "Time since the last wipe, to about 32 time constants of the mask.", "s", {0, 16384}, "none", "none", "none", "", "", correct}};
 }
 
 }  // namespace rainref::windshield

@@ -1,5 +1,4 @@
-// The passes on the windshield's textures: wipe_texture and normals. What they take, the host's values, the passes
-// themselves, their declarations.
+// The passes on the windshield's textures, wipe_texture and normals: the host's values, and wipe_texture with its declaration.
 #pragma once
 
 #include <array>
@@ -13,6 +12,7 @@
 #include "rainref/image.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
+#include "windshield/normals.pass.h"
 #include "windshield/uniforms.h"
 
 namespace rainref::windshield {
@@ -28,13 +28,7 @@ struct WipeTextureUniforms {
   float wiped_limit;     ///< corrected: what `wiped` grows to at most; never wiped [s]
   std::int32_t wiper_count;
 };
-struct NormalsUniforms {
-  float slope_x;      ///< slope along x for a difference of 1 mm across two columns
-  float slope_shear;  ///< corrected: slope along y for the same
-  float slope_y;      ///< slope along y for a difference of 1 mm across two rows
-  float padding0;
-};
-static_assert(sizeof(WipeTextureUniforms) == 48 && sizeof(NormalsUniforms) == 16);
+static_assert(sizeof(WipeTextureUniforms) == 48);
 
 /// What both passes need to know.
 struct SurfaceSettings {
@@ -74,19 +68,13 @@ Image make_wiped(const SurfaceSettings& settings);
 /// The pass, in place. uniforms.wiper_count is taken from the wipers.
 void wipe_texture(const parallel::Executor& executor, WipeTextureUniforms uniforms, bool corrected, Rounding rounding,
                   std::span<const Wiper> wipers, const WipedTextures& textures);
-/// The pass: normal (rgba16f, alpha 1) from height and mask (r16f) of its size.
-void normals(const parallel::Executor& executor, const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height,
-             const Image& mask, Image& normal);
 
 capture::PassInfo wipe_texture_info();
-capture::PassInfo normals_info();
-/// mask, wiped and normal; height is splat's, wipers another's.
+/// mask and wiped; height is splat's, wipers another's.
 std::vector<capture::BufferInfo> surface_buffers();
 
 // The shells; tiles of whole rows.
 void wipe_texture_rows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* wipers,
                        const WipedTextures& textures, const parallel::Tile& tile);
-void normals_rows(const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height, const Image& mask, Image& normal,
-                  const parallel::Tile& tile);
 
 }  // namespace rainref::windshield

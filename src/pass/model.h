@@ -1,0 +1,109 @@
+// A pass bound to a captured case from its definition: what the judge evaluates.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "capture/bound_texture.h"
+#include "capture/pass_model.h"
+#include "pass/number_cursors.h"
+
+namespace rainref::pass {
+
+/// The arrays of a case, decoded.
+struct Captured {
+  template <Format f, int around = 0>
+  struct Texels {
+    In is;
+    std::vector<DecodedOf<f>> texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
+    int width = 0, height = 0;
+    static constexpr int channels = StorageOf<f>::channels;
+
+    Texels(In in) : is(in) {}
+    void read(const capture::CaseInput& input) {
+      width = input.array.width;
+      height = input.array.height;
+      texels.resize(static_cast<std::size_t>(channels) * static_cast<std::size_t>(width + 2 * around) * static_cast<std::size_t>(height));
+      if constexpr (std::is_same_v<DecodedOf<f>, Unorm8>) frame(reinterpret_cast<const Unorm8*>(input.array.levels.at(0).data()));
+      else frame(capture::decoded(input.array).data());
+    }
+    /// Column x of the row y or the nearest one.
+    const DecodedOf<f>* at(int x, int y) const {
+      return texels.data() + channels * (static_cast<std::ptrdiff_t>(std::clamp(y, 0, height - 1)) * (width + 2 * around) + around + x);
+    }
+
+   private:
+    void frame(const DecodedOf<f>* from) {
+      auto to = texels.begin();
+      for (int y = 0; y < height; ++y)
+        for (int x = -around; x < width + around; ++x)
+          to = std::copy_n(from + channels * (static_cast<std::ptrdiff_t>(y) * width + std::clamp(x, 0, width - 1)), channels, to);
+    }
+  };
+  struct Sampled {
+    In is;
+    capture::BoundTexture bound;
+    Texture texture;
+    Sampled(In in) : is(in) {}
+    void read(const capture::CaseInput& input) {
+      bound = capture::BoundTexture(input);
+      texture = bound.view();
+    }
+  };
+  template <Format f>
+  struct Result {
+    static constexpr int channels = StorageOf<f>::channels;
+    Result(Out) {}
+    Result(Out, Out) {}
+  };
+};
+
+/// Text: the arithmetic of P in the namespace that holds every number but lanes.
+template <class P, class Text>
+struct Bound {
+  int width, height, values = 0;
+  typename P::Uniforms uniforms;
+  bool corrected;
+  typename P::template Io<Captured> captured;
+
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    typename P::template Io<NumberCursors<N>> io;
+    each<P>(captured, io, [&](const auto& from, auto& to) {
+      if constexpr (requires { to.out; }) {
+        to.out = out;
+        out += from.channels;
+      } else if constexpr (requires { to.texture; }) {
+        to.texture = &from.texture;
+      } else {
+        to.x = x;
+        if (from.width == 0) return;  // not of this variant
+        for (int k = 0; k < to.rows; ++k) to.row[k] = from.at(0, y + k - to.reach);
+      }
+    });
+    if constexpr (P::about.corrected.revision != 0)
+      if (corrected) return Text::template run<N, true>(uniforms, io, x, y);
+    if constexpr (P::about.as_published.revision != 0) Text::template run<N, false>(uniforms, io, x, y);
+  }
+};
+/// Throws Error(port_files) where the case lacks an input of its variant. Shapes and formats capture::check_case has checked.
+template <class P, class Text>
+Bound<P, Text> bound(const capture::PassCase& c) {
+  Bound<P, Text> m{c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
+  each<P>(m.captured, [&](auto& member) {
+    if constexpr (requires { member.is; }) {
+      const bool is_read = member.is.variant.empty() || member.is.variant == c.variant;
+      if (is_read && (!member.is.optional || c.input(member.is.name))) member.read(capture::image_input(c, member.is.name));
+    } else {
+      m.values += member.channels;
+    }
+  });
+  return m;
+}
+template <class P, class Text>
+std::unique_ptr<capture::PassModel> bind(const capture::PassCase& c) {
+  return capture::model_of(bound<P, Text>(c));
+}
+
+}  // namespace rainref::pass
