@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -42,6 +43,8 @@ struct In {
   bool previous = false;          ///< from the run of that pass before this one
   std::string_view variant = "";  ///< the one that reads it; "": both
   bool optional = false;          ///< the host may leave it out
+  bool same_size = false;         ///< as the pass's outputs, though it is looked up by coordinates
+  std::string_view count = "";    ///< of records: the uniform that says how many of them count
   Filter filter = Filter::none, mip_filter = Filter::none;
 };
 /// A buffer that a pass writes.
@@ -116,6 +119,15 @@ struct Declared {
   struct Sampled : In {
     constexpr Sampled(In in) : In(in) {}
   };
+  /// The same of an image and its mip levels that lanes need not have decoded.
+  template <Format f>
+  struct Stored : In {
+    constexpr Stored(In in) : In(in) {}
+  };
+  template <class Record>
+  struct Records : In {
+    constexpr Records(In in) : In(in) {}
+  };
   template <Format f>
   struct Result {
     Out outs[2];  ///< as published, corrected: its meaning may differ
@@ -166,6 +178,36 @@ struct Host {
     const BufferView* recorded = nullptr;  ///< the buffer that the texture was decoded from; null: the texture itself
     constexpr Sampled(In in) : is(in) {}
     void operator=(const Texture& t) { texture = &t; }
+  };
+  template <Format f>
+  struct Stored {
+    static constexpr Format format = f;
+    using Storage = typename StorageOf<f>::type;
+    In is;
+    StoredTexture<Storage> view;
+    const Image* image = nullptr;
+    std::span<const Image> levels{};
+    constexpr Stored(In in) : is(in) {}
+    void operator=(const Image& i) {
+      view = stored_texture<Storage>(i);
+      image = &i;
+    }
+    /// All levels of one image.
+    void set(const StoredTexture<Storage>& all, std::span<const Image> images) {
+      view = all;
+      levels = images;
+    }
+  };
+  template <class Record>
+  struct Records {
+    In is;
+    std::span<const Record> records{};
+    bool is_set = false;
+    constexpr Records(In in) : is(in) {}
+    void operator=(std::span<const Record> all) {
+      records = all;
+      is_set = true;
+    }
   };
   template <Format f>
   struct Result {

@@ -8,6 +8,7 @@
 #include "capture/bound_texture.h"
 #include "capture/pass_model.h"
 #include "pass/number_cursors.h"
+#include "scene/uniform_block.h"
 
 namespace rainref::pass {
 
@@ -51,6 +52,15 @@ struct Captured {
       texture = bound.view();
     }
   };
+  template <Format>
+  using Stored = Sampled;
+  template <class Record>
+  struct Records {
+    In is;
+    std::vector<Record> records;
+    Records(In in) : is(in) {}
+    void read(const capture::CaseInput& input) { records = capture::records_of<Record>(input); }
+  };
   template <Format f>
   struct Result {
     static constexpr int channels = StorageOf<f>::channels;
@@ -58,6 +68,9 @@ struct Captured {
     Result(Out, Out) {}
   };
 };
+
+/// Throws Error(port_files) where the uniform counts more records than there are.
+void require_count(const capture::PassCase& c, const scene::UniformBlock& block, const In& list, std::size_t records);
 
 /// Text: the arithmetic of P in the namespace that holds every number but lanes.
 template <class P, class Text>
@@ -67,8 +80,9 @@ struct Bound {
   bool corrected;
   typename P::template Io<Captured> captured;
 
-  template <class N>
-  void operator()(int x, int y, N* out) const {
+  /// f(io) with the cursors of an invocation, which give to out.
+  template <class N, class F>
+  void with_cursors(int x, int y, N* out, const F& f) const {
     typename P::template Io<NumberCursors<N>> io;
     each<P>(captured, io, [&](const auto& from, auto& to) {
       if constexpr (requires { to.out; }) {
@@ -76,25 +90,40 @@ struct Bound {
         out += from.channels;
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
+      } else if constexpr (requires { to.records; }) {
+        to.records = from.records.data();
       } else {
         to.x = x;
         if (from.width == 0) return;  // not of this variant
         for (int k = 0; k < to.rows; ++k) to.row[k] = from.at(0, y + k - to.reach);
       }
     });
-    if constexpr (P::about.corrected.revision != 0)
-      if (corrected) return Text::template run<N, true>(uniforms, io, x, y);
-    if constexpr (P::about.as_published.revision != 0) Text::template run<N, false>(uniforms, io, x, y);
+    f(io);
+  }
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    with_cursors(x, y, out, [&](const auto& io) {
+      if constexpr (P::about.corrected.revision != 0)
+        if (corrected) return Text::template run<N, true>(uniforms, io, x, y);
+      if constexpr (P::about.as_published.revision != 0) Text::template run<N, false>(uniforms, io, x, y);
+    });
   }
 };
 /// Throws Error(port_files) where the case lacks an input of its variant. Shapes and formats capture::check_case has checked.
 template <class P, class Text>
 Bound<P, Text> bound(const capture::PassCase& c) {
   Bound<P, Text> m{c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
+  const scene::UniformBlock block = P::uniforms();
   each<P>(m.captured, [&](auto& member) {
     if constexpr (requires { member.is; }) {
       const bool is_read = member.is.variant.empty() || member.is.variant == c.variant;
-      if (is_read && (!member.is.optional || c.input(member.is.name))) member.read(capture::image_input(c, member.is.name));
+      if (!is_read || (member.is.optional && !c.input(member.is.name))) return;
+      if constexpr (requires { member.records; }) {
+        member.read(capture::record_input(c, member.is.name));
+        if (!member.is.count.empty()) require_count(c, block, member.is, member.records.size());
+      } else {
+        member.read(capture::image_input(c, member.is.name));
+      }
     } else {
       m.values += member.channels;
     }

@@ -26,6 +26,10 @@ struct NumberCursors {
   template <Format f, int reach = 0>
   using Texels = number_text::TexelCursor<N, DecodedOf<f>, StorageOf<f>::channels, reach>;
   using Sampled = SampledPointer;
+  template <Format>
+  using Stored = SampledPointer;
+  template <class Record>
+  using Records = RecordPointer<Record>;
   template <Format f>
   struct Result {
     N* out = nullptr;

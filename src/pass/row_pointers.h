@@ -43,6 +43,26 @@ struct SampledPointer {
   const Texture* texture = nullptr;
   constexpr SampledPointer(In) {}
   operator const Texture&() const { return *texture; }
+  /// Address rules and channels as the pass knows them.
+  template <Address u, Address v, int count>
+  RAINREF_FLAT FixedTexture<u, v, count> fixed() const {
+    return fixed_texture<u, v, count>(*texture);
+  }
+};
+template <class Storage>
+struct StoredPointer {
+  const StoredTexture<Storage>* stored = nullptr;
+  constexpr StoredPointer(In) {}
+  template <Address u, Address v, int count>
+  RAINREF_FLAT FixedStoredTexture<Storage, u, v, count> fixed() const {
+    return fixed_texture<u, v, count>(*stored);
+  }
+};
+template <class Record>
+struct RecordPointer {
+  const Record* records = nullptr;
+  constexpr RecordPointer(In) {}
+  const Record* data() const { return records; }
 };
 template <class Storage_, int channels_>
 struct ResultPointers {
@@ -63,6 +83,10 @@ RAINREF_FLAT void begin_row(const HostIo<P>& host, Io& io, int y, Rounding round
       to.rounding = rounding;
     } else if constexpr (requires { to.texture; }) {
       to.texture = from.texture;
+    } else if constexpr (requires { to.stored; }) {
+      to.stored = &from.view;
+    } else if constexpr (requires { to.records; }) {
+      to.records = from.records.data();
     } else {
       if (from.image) to.begin_row(*from.image, y);
     }
@@ -100,7 +124,7 @@ template <class P>
 int width_of(const HostIo<P>& host) {
   int width = 0;
   each<P>(host, [&](const auto& member) {
-    if constexpr (requires { member.image; })
+    if constexpr (requires { member.image; } && !requires { member.view; })
       if (member.image) width = member.image->width();
   });
   return width;

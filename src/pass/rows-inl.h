@@ -23,6 +23,10 @@ struct LaneCursors {
   template <Format f, int reach = 0>
   using Texels = TexelCursor<Lanes, typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels, reach>;
   using Sampled = pass::SampledPointer;
+  template <Format f>
+  using Stored = pass::StoredPointer<typename pass::StorageOf<f>::type>;
+  template <class Record>
+  using Records = pass::RecordPointer<Record>;
   /// Stores when it is called: to hold the lanes instead would need a constructor of this target.
   template <Format f>
   struct Result : pass::ResultPointers<typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels> {

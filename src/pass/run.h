@@ -29,7 +29,11 @@ class Run {
       const auto misfit = [&](const char* why) { throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why)); };
       bool is_needed = true;
       if constexpr (requires { member.is.variant; }) is_needed = !member.is.optional && (member.is.variant.empty() || (member.is.variant == "corrected") == corrected);
-      if constexpr (requires { member.image; }) {
+      if constexpr (requires { member.view; }) {
+        if (is_needed && !member.view.texels) misfit("is missing");
+      } else if constexpr (requires { member.records; }) {
+        if (is_needed && !member.is_set) misfit("is missing");
+      } else if constexpr (requires { member.image; }) {
         if (!member.image) return is_needed ? misfit("is missing") : void();
         if (!first) first = member.image;
         if (member.image->format() != member.format) misfit("has another format");
@@ -46,13 +50,18 @@ class Run {
   void tile(const parallel::Tile& t) {
     clock_.add([&] { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
   }
+  /// The same, by what computes them in the place of the pass's own rows; body() gives the same values.
+  template <class Body>
+  void tile(const Body& body) {
+    clock_.add(body);
+  }
   /// All of them.
   void tiles(const parallel::Executor& executor, int tile_rows) {
     const capture::Stopwatch watch;
     executor.for_tiles(width_, height_, width_, tile_rows, [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
     seconds_ += watch.seconds();
   }
-  void start(const Moment& m) const {
+  void start(const Moment& m, int level = -1) const {
     if (!m.recorder) return;
     std::vector<PassInput> inputs;
     each<P>(io_, [&](const auto& member) {
@@ -60,20 +69,25 @@ class Run {
         if (!member.texture) return;
         if (member.recorded) inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, member.texture->address_u});
         else inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
+      } else if constexpr (requires { member.view; }) {
+        if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
+        else if (!member.levels.empty()) inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
+      } else if constexpr (requires { member.records; }) {
+        if (member.is_set) inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});
       } else if constexpr (requires { member.is.variant; }) {
         if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
       }
     });
-    m.before(P::about.name, uniforms_, inputs);
+    m.before(P::about.name, uniforms_, std::span<const PassInput>(inputs), level);
   }
   /// more: seconds that the host spent on it besides; threads: that worked on its tiles.
-  void finish(const Moment& m, int threads = 1, double more = 0) const {
+  void finish(const Moment& m, int threads = 1, double more = 0, int level = -1) const {
     if (!m.recorder) return;
     std::vector<PassOutput> outputs;
     each<P>(io_, [&](const auto& member) {
       if constexpr (requires { member.is.sentence; }) outputs.push_back({member.is.name, BufferView(*member.image)});
     });
-    m.after(P::about.name, outputs, seconds_ + clock_.seconds(threads) + more);
+    m.after(P::about.name, std::span<const PassOutput>(outputs), seconds_ + clock_.seconds(threads) + more, level);
   }
 
  private:

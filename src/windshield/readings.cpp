@@ -2,6 +2,9 @@
 
 #include "capture/display.h"
 #include "drops/readings.h"
+#include "pass/model.h"
+#include "windshield/every_reading.h"
+#include "windshield/surface_every_reading.h"
 
 namespace rainref::windshield {
 
@@ -13,9 +16,9 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"merge", drops::bind_merge},
                                                       {"splat", drops::bind_splat},
                                                       {"wipe_texture", bind_wipe_texture},
-                                                      {"normals", bind_normals},
+                                                      {"normals", pass::bind<NormalsPass, every::NormalsPassText>},
                                                       {"blur_pyramid", bind_blur_pyramid},
-                                                      {"composite", bind_composite},
+                                                      {"composite", pass::bind<CompositePass, every::CompositePassText>},
                                                       {"display", capture::bind_display}};
   return all;
 }

@@ -1,10 +1,9 @@
-// wipe_texture, normals and blur_pyramid bound to captured cases.
+// wipe_texture and blur_pyramid bound to captured cases.
 #include <algorithm>
 
 #include "blur_pyramid/every_reading.h"
 #include "capture/bound_texture.h"
 #include "drops/framed.h"
-#include "pass/model.h"
 #include "windshield/readings.h"
 #include "windshield/surface_every_reading.h"
 
@@ -100,8 +99,6 @@ std::unique_ptr<PassModel> bind_wipe_texture(const PassCase& c) {
   (m.corrected ? m.wiped : m.mask) = BoundTexture(sized_input(c, m.corrected ? "wiped" : "mask"));
   return capture::model_of(std::move(m));
 }
-
-std::unique_ptr<PassModel> bind_normals(const PassCase& c) { return pass::bind<NormalsPass, every::NormalsPassText>(c); }
 
 std::unique_ptr<PassModel> bind_blur_pyramid(const PassCase& c) {
   const int width = c.outputs.front().array.width, height = c.outputs.front().array.height;

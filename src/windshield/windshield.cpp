@@ -244,27 +244,26 @@ void Windshield::render(Recorder* recorder) {
     if (anew && level > 0) blur_pyramid::halve_level(executor, blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]);
     now.after("blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
   }
-  Stopwatch composite_clock;
+  Stopwatch pyramid_clock;
   if (anew) s.pyramid->refresh(executor, s.levels);
-  const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners);
-  const CompositeInputs in{s.pyramid->view(), stored_texture<float>(s.scene.depth), stored_texture<Half>(s.height), stored_texture<Half>(s.normal), stored_texture<Half>(s.mask), s.lights};
-  const PassInput pyramid{"blurred", std::span<const Image>(s.levels), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
-      lights{"glints", records(s.lights)};
-  if (s.corrected) {
-    now.before("composite", composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, water, normal, mask, lights});
-  } else {
-    now.before("composite", composite, {pyramid, water, normal, mask, lights});
-  }
-  const auto tiles = [&](const std::function<void(const parallel::Tile&)>& body) {
-    executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows, body);
-  };
-  tiles([&](const parallel::Tile& tile) { composite_rows(composite, s.corrected, rounding, in, s.colour, tile); });
-  now.after("composite", {{"colour", s.colour}}, composite_clock.seconds());
+  pass::HostIo<CompositePass> seen;
+  seen.blurred.set(s.pyramid->view(), s.levels);
+  if (s.corrected) seen.scene_depth = s.scene.depth;
+  seen.height = s.height;
+  seen.normal = s.normal;
+  seen.mask = s.mask;
+  seen.glints = s.lights;
+  seen.colour = s.colour;
+  const double refreshed = pyramid_clock.seconds();
+  pass::Run<CompositePass> composite(composite_uniforms(settings.picture, settings.corners), s.corrected, rounding, seen);
+  composite.start(now);
+  composite.tiles(executor, tile_rows);
+  composite.finish(now, 1, refreshed);
 
   const scene::DisplayUniforms display = scene::display_uniforms(settings.picture.exposure);
   now.before("display", display, {{"colour", s.colour}});
   Stopwatch display_clock;
-  tiles([&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
+  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows, [&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
   now.after("display", {{"picture", s.picture}}, display_clock.seconds());
   s.frame = recorded_frame;
 }

@@ -11,6 +11,7 @@
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "math/unorm.h"
+#include "pass/run.h"
 #include "scene/display_every_reading.h"
 #include "windshield/picture.h"
 #include "windshield/plain.h"
@@ -96,9 +97,17 @@ struct Scene {
   }
   View by_lanes(bool corrected, const parallel::Executor& executor) const {
     View v = make();
-    const CompositeInputs in{pyramid.stored->view(), stored_texture<float>(depth), stored_texture<Half>(water), stored_texture<Half>(normal), stored_texture<Half>(mask), lights};
+    pass::HostIo<CompositePass> io;
+    io.blurred.set(pyramid.stored->view(), {});
+    io.scene_depth = depth;
+    io.height = water;
+    io.normal = normal;
+    io.mask = mask;
+    io.glints = lights;
+    io.colour = v.colour;
+    pass::Run<CompositePass> seen(composite, corrected, Rounding::rne, io);
     executor.for_tiles(settings.width, height, settings.width, 2, [&](const parallel::Tile& tile) {
-      composite_rows(composite, corrected, Rounding::rne, in, v.colour, tile);
+      seen.tile(tile);
       scene::display_rows(display, Rounding::rne, v.colour, v.picture, tile);
       reproject_rows(reproject, behind, ahead, v.street, tile);
     });
