@@ -167,8 +167,10 @@ void wipe_texture(benchmark::State& state, bool corrected, int threads) {
   windshield::Wiper second = w;
   second.pivot[0] = 0.9f;
   const std::vector<windshield::Wiper> both{w, second};
-  const windshield::WipeTextureUniforms u = windshield::wipe_texture_uniforms(s, 0);
-  timed(state, executor, {0, corrected ? 8 : 4}, mask, [&] { windshield::wipe_texture(executor, u, corrected, Rounding::rne, both, {&height, &mask, &wiped}); });
+  windshield::WipeTextureUniforms u = windshield::wipe_texture_uniforms(s, 0);
+  u.wiper_count = static_cast<std::int32_t>(both.size());
+  pass::Run<windshield::WipeTexturePass> wiping(u, corrected, Rounding::rne, windshield::wipe_texture_io(corrected, both, {&height, &mask, &wiped}));
+  timed(state, executor, {0, corrected ? 8 : 4}, mask, [&] { wiping.tiles(executor, 8); });
   state.SetLabel("");  // it goes on from what it left
 }
 void blur(benchmark::State& state, bool corrected, int level, int threads) {

@@ -35,6 +35,8 @@ struct About {
   VariantOf as_published, corrected;
   std::array<std::string_view, 4> order_free_sums{};  ///< sums whose terms a port may add in any order
 };
+/// Whether a variant has a buffer that is of this one alone, or of both ("").
+constexpr bool is_of(std::string_view variant, bool corrected) { return variant.empty() || (variant == "corrected") == corrected; }
 
 /// A buffer that a pass reads.
 struct In {
@@ -47,11 +49,12 @@ struct In {
   std::string_view count = "";    ///< of records: the uniform that says how many of them count
   Filter filter = Filter::none, mip_filter = Filter::none;
 };
-/// A buffer that a pass writes.
+/// A buffer that a pass writes. Without a sentence it is one that another pass declares, and this one writes anew.
 struct Out {
-  std::string_view name, sentence, unit = "1";
+  std::string_view name, sentence = "", unit = "1";
   std::array<double, 2> range{0, 1};
   std::string_view encoding = "none", colour_space = "none", alpha = "none";
+  std::string_view variant = "";  ///< the one that writes it; "": both
   bool operator==(const Out&) const = default;
 };
 

@@ -57,14 +57,16 @@ capture::PassInfo info_of() {
 template <class P>
 std::vector<capture::BufferInfo> buffers_of() {
   std::vector<capture::BufferInfo> all;
-  const auto add = [&](const Out& o, Format format, const char* variant) {
+  const auto add = [&](const Out& o, Format format, std::string_view variant) {
+    if (o.sentence.empty()) return;
     const auto text = [](std::string_view s) { return std::string(s); };
-    all.push_back({text(o.name), text(info(format).name), text(o.sentence), text(o.unit), o.range, text(o.encoding), text(o.colour_space), text(o.alpha), "", "", variant});
+    all.push_back({text(o.name), text(info(format).name), text(o.sentence), text(o.unit), o.range, text(o.encoding), text(o.colour_space), text(o.alpha), "", "", text(variant)});
   };
   const bool published = P::about.as_published.revision != 0, corrected = P::about.corrected.revision != 0;
   const typename P::template Io<Declared> io;
   each<P>(io, [&](const auto& m) {
     if constexpr (requires { m.outs; }) {
+      if (!m.outs[0].variant.empty()) return add(m.outs[0], m.format, m.outs[0].variant);
       if (published && corrected && m.outs[0] == m.outs[1]) return add(m.outs[0], m.format, "");
       if (published) add(m.outs[0], m.format, "as-published");
       if (corrected) add(m.outs[1], m.format, "corrected");

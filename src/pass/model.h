@@ -64,8 +64,10 @@ struct Captured {
   template <Format f>
   struct Result {
     static constexpr int channels = StorageOf<f>::channels;
-    Result(Out) {}
-    Result(Out, Out) {}
+    Out is;
+    bool is_given = true;
+    Result(Out both) : is(both) {}
+    Result(Out as_published, Out) : is(as_published) {}
   };
 };
 
@@ -87,7 +89,7 @@ struct Bound {
     each<P>(captured, io, [&](const auto& from, auto& to) {
       if constexpr (requires { to.out; }) {
         to.out = out;
-        out += from.channels;
+        if (from.is_given) out += from.channels;
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
@@ -115,9 +117,8 @@ Bound<P, Text> bound(const capture::PassCase& c) {
   Bound<P, Text> m{c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
   const scene::UniformBlock block = P::uniforms();
   each<P>(m.captured, [&](auto& member) {
-    if constexpr (requires { member.is; }) {
-      const bool is_read = member.is.variant.empty() || member.is.variant == c.variant;
-      if (!is_read || (member.is.optional && !c.input(member.is.name))) return;
+    if constexpr (requires { member.is.from; }) {
+      if (!is_of(member.is.variant, c.corrected()) || (member.is.optional && !c.input(member.is.name))) return;
       if constexpr (requires { member.records; }) {
         member.read(capture::record_input(c, member.is.name));
         if (!member.is.count.empty()) require_count(c, block, member.is, member.records.size());
@@ -125,7 +126,8 @@ Bound<P, Text> bound(const capture::PassCase& c) {
         member.read(capture::image_input(c, member.is.name));
       }
     } else {
-      m.values += member.channels;
+      member.is_given = is_of(member.is.variant, c.corrected());
+      if (member.is_given) m.values += member.channels;
     }
   });
   return m;

@@ -79,7 +79,7 @@ template <class P, class Io>
 RAINREF_FLAT void begin_row(const HostIo<P>& host, Io& io, int y, Rounding rounding) {
   each<P>(host, io, [&](const auto& from, auto& to) RAINREF_FLAT_LAMBDA {
     if constexpr (requires { to.rounding; }) {
-      to.row = from.image->template row<typename std::remove_reference_t<decltype(to)>::Storage>(y);
+      if (from.image) to.row = from.image->template row<typename std::remove_reference_t<decltype(to)>::Storage>(y);
       to.rounding = rounding;
     } else if constexpr (requires { to.texture; }) {
       to.texture = from.texture;

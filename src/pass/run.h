@@ -27,8 +27,8 @@ class Run {
     const Image* first = nullptr;
     each<P>(io_, [&](const auto& member) {
       const auto misfit = [&](const char* why) { throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why)); };
-      bool is_needed = true;
-      if constexpr (requires { member.is.variant; }) is_needed = !member.is.optional && (member.is.variant.empty() || (member.is.variant == "corrected") == corrected);
+      bool is_needed = is_of(member.is.variant, corrected);
+      if constexpr (requires { member.is.optional; }) is_needed = is_needed && !member.is.optional;
       if constexpr (requires { member.view; }) {
         if (is_needed && !member.view.texels) misfit("is missing");
       } else if constexpr (requires { member.records; }) {
@@ -74,7 +74,7 @@ class Run {
         else if (!member.levels.empty()) inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
       } else if constexpr (requires { member.records; }) {
         if (member.is_set) inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});
-      } else if constexpr (requires { member.is.variant; }) {
+      } else if constexpr (requires { member.is.from; }) {
         if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
       }
     });
@@ -85,7 +85,9 @@ class Run {
     if (!m.recorder) return;
     std::vector<PassOutput> outputs;
     each<P>(io_, [&](const auto& member) {
-      if constexpr (requires { member.is.sentence; }) outputs.push_back({member.is.name, BufferView(*member.image)});
+      if constexpr (requires { member.is.sentence; }) {
+        if (member.image) outputs.push_back({member.is.name, BufferView(*member.image)});
+      }
     });
     m.after(P::about.name, std::span<const PassOutput>(outputs), seconds_ + clock_.seconds(threads) + more, level);
   }

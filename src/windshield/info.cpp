@@ -29,14 +29,14 @@ EffectInfo make() {
                  wipe_drops_info("integrate"),
                  drops::merge_info("wipe_drops", "wipe_drops"),
                  drops::splat_info({"wipe_drops", "merge"}, "merge"),
-                 wipe_texture_info(),
+                 pass::info_of<WipeTexturePass>(),
                  pass::info_of<NormalsPass>(),
                  blur_pyramid::blur_info("", "")};
   append(info.passes, picture_passes());
   append(info.buffers, drops::buffers());
   append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
-  append(info.buffers, surface_buffers());
+  append(info.buffers, pass::buffers_of<WipeTexturePass>());
   append(info.buffers, pass::buffers_of<NormalsPass>());
   append(info.buffers, blur_pyramid::blur_buffers());
   append(info.buffers, picture_buffers());

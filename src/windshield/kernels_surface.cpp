@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "pass/run.h"
-#include "windshield/surface.h"
+#include "windshield/normals.pass.h"
+#include "windshield/wipe_texture.pass.h"
 
 #define RAINREF_KERNELS "windshield/kernels_surface.cpp"
 #include "math/foreach_target.h"
@@ -38,19 +39,19 @@ Reach reach_of(const WipeTextureUniforms& u, bool corrected, const Wiper& w) {
   return {r.x0 - more, r.y0 - more, r.x1 + more, r.y1 + more};
 }
 
-void WipeTextureRows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* all, const WipedTextures& textures,
-                     const parallel::Tile& tile) {
+template <bool corrected>
+HWY_ATTR void wiped_rows(const WipeTextureUniforms& uniforms, Rounding rounding, const pass::HostIo<WipeTexturePass>& host, const parallel::Tile& tile) {
   WipeTextureUniforms u = uniforms;
   const int n = Lanes::size();
+  const std::span<const Wiper> all = host.wipers.records;
   std::vector<Reach> reaches;
-  for (int i = 0; i < uniforms.wiper_count; ++i) reaches.push_back(reach_of(u, corrected, all[i]));
+  for (int i = 0; i < uniforms.wiper_count; ++i) reaches.push_back(reach_of(u, corrected, all[static_cast<std::size_t>(i)]));
   std::vector<Wiper> near(reaches.size());
-  const Wiper* wipers = near.data();
   for (int y = tile.y0; y < tile.y1; ++y) {
-    Half *height = textures.height->row<Half>(y), *mask = textures.mask->row<Half>(y);
-    float* wiped = corrected ? textures.wiped->row<float>(y) : nullptr;
+    WipeTexturePass::Io<LaneCursors> io;
+    pass::begin_row<WipeTexturePass>(host, io, y, rounding);
+    io.wipers.records = near.data();
     for (int x = tile.x0; x < tile.x1; x += n) {
-      const int count = std::min(n, tile.x1 - x);
       const float row = static_cast<float>(y) + 0.5f, py = u.frame[2] * row;
       const float px0 = u.frame[0] * static_cast<float>(x) + u.frame[1] * row, px1 = px0 + u.frame[0] * static_cast<float>(n);
       u.wiper_count = 0;
@@ -58,34 +59,18 @@ void WipeTextureRows(const WipeTextureUniforms& uniforms, bool corrected, Roundi
         const Reach& r = reaches[i];
         if (r.x0 <= px1 && px0 <= r.x1 && r.y0 <= py && py <= r.y1) near[static_cast<std::size_t>(u.wiper_count++)] = all[i];
       }
-      if (corrected) {
-        const Lanes coverage = wipe_coverage_corrected<Lanes>(u, wipers, x, y);
-        const Lanes since = time_since_wipe(u, Lanes::load(wiped + x), coverage);
-        store(height + x, wiped_height_corrected(Lanes::load(height + x), coverage), rounding, count);
-        store(wiped + x, since, rounding, count);
-        store(mask + x, wiped_mask_corrected(u, since), rounding, count);
-      } else {
-        const Lanes coverage = wipe_coverage_as_published<Lanes>(u, wipers, x, y);
-        store(height + x, wiped_height_as_published(u, Lanes::load(height + x), coverage), rounding, count);
-        store(mask + x, wiped_mask_as_published(u, Lanes::load(mask + x), coverage), rounding, count);
-      }
+      pass::move_to<WipeTexturePass>(io, x, std::min(n, tile.x1 - x));
+      WipeTexturePassText::run<Lanes, corrected>(u, io, x, y);
     }
   }
 }
-
+void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<WipeTexturePass>& io, const parallel::Tile& tile) {
+  corrected ? wiped_rows<true>(u, rounding, io, tile) : wiped_rows<false>(u, rounding, io, tile);
+}
 RAINREF_PASS_ROWS(NormalsPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
-namespace rainref::windshield {
-
-RAINREF_EXPORT(WipeTextureRows);
-
-void wipe_texture_rows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* wipers,
-                       const WipedTextures& textures, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(WipeTextureRows)(uniforms, corrected, rounding, wipers, textures, tile);
-}
-
-}  // namespace rainref::windshield
+RAINREF_PASS_DISPATCH(windshield, WipeTexturePass)
 RAINREF_PASS_DISPATCH(windshield, NormalsPass)
 #endif

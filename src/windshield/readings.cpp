@@ -15,7 +15,7 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"wipe_drops", bind_wipe_drops},
                                                       {"merge", drops::bind_merge},
                                                       {"splat", drops::bind_splat},
-                                                      {"wipe_texture", bind_wipe_texture},
+                                                      {"wipe_texture", pass::bind<WipeTexturePass, every::WipeTexturePassText>},
                                                       {"normals", pass::bind<NormalsPass, every::NormalsPassText>},
                                                       {"blur_pyramid", bind_blur_pyramid},
                                                       {"composite", pass::bind<CompositePass, every::CompositePassText>},

@@ -201,18 +201,10 @@ void Windshield::render(Recorder* recorder) {
 
   WipeTextureUniforms wipe = wipe_texture_uniforms(settings.surface, s.frame);
   wipe.wiper_count = static_cast<std::int32_t>(s.wipers.size());
-  if (s.corrected) {
-    now.before("wipe_texture", wipe, {{"height", s.height}, {"wiped", s.wiped}, {"wipers", records(s.wipers)}});
-  } else {
-    now.before("wipe_texture", wipe, {{"height", s.height}, {"mask", s.mask}, {"wipers", records(s.wipers)}});
-  }
-  Stopwatch wipe_clock;
-  wipe_texture(executor, wipe, s.corrected, rounding, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr});
-  if (s.corrected) {
-    now.after("wipe_texture", {{"height", s.height}, {"mask", s.mask}, {"wiped", s.wiped}}, wipe_clock.seconds());
-  } else {
-    now.after("wipe_texture", {{"height", s.height}, {"mask", s.mask}}, wipe_clock.seconds());
-  }
+  pass::Run<WipeTexturePass> wiping(wipe, s.corrected, rounding, wipe_texture_io(s.corrected, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr}));
+  wiping.start(now);
+  wiping.tiles(executor, tile_rows);
+  wiping.finish(now);
 
   const NormalsUniforms slopes = normals_uniforms(settings.surface);
   pass::HostIo<NormalsPass> io;

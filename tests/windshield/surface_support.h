@@ -81,8 +81,10 @@ struct Glass {
     if (s.corrected) wiped = make_wiped(s);
   }
   void wipe(const std::vector<Wiper>& wipers, int frame = 0, const parallel::Executor& executor = two_threads()) {
-    wipe_texture(executor, wipe_texture_uniforms(settings, frame), settings.corrected, settings.rounding, wipers,
-                 {&height, &mask, settings.corrected ? &wiped : nullptr});
+    WipeTextureUniforms u = wipe_texture_uniforms(settings, frame);
+    u.wiper_count = static_cast<std::int32_t>(wipers.size());
+    const auto io = wipe_texture_io(settings.corrected, wipers, {&height, &mask, settings.corrected ? &wiped : nullptr});
+    pass::Run<WipeTexturePass>(u, settings.corrected, settings.rounding, io).tiles(executor, 8);
   }
   /// Share of the water that is gone, as an area of the real glass [m^2].
   double cleared(double water) const {

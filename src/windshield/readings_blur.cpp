@@ -1,11 +1,10 @@
-// wipe_texture and blur_pyramid bound to captured cases.
+// blur_pyramid bound to captured cases.
 #include <algorithm>
 
 #include "blur_pyramid/every_reading.h"
 #include "capture/bound_texture.h"
 #include "drops/framed.h"
 #include "windshield/readings.h"
-#include "windshield/surface_every_reading.h"
 
 namespace rainref::windshield {
 namespace {
@@ -14,38 +13,6 @@ using capture::BoundTexture;
 using capture::PassCase;
 using capture::PassModel;
 using drops::sized_input;
-
-/// As many as the uniform says, but no more than there are.
-template <class Record>
-void limit(std::int32_t& count, const std::vector<Record>& records) {
-  const auto most = static_cast<std::int32_t>(records.size());
-  if (count < 0 || count > most) count = most;
-}
-
-// ---- wipe_texture --------------------------------------------------------------------------------------------------
-struct WipeTexture {
-  int width, height, values;
-  WipeTextureUniforms uniforms;
-  bool corrected;
-  std::vector<Wiper> wipers;
-  BoundTexture water, mask, wiped;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * width + x;
-    const N before = N::load(water.view().texels + at);
-    if (corrected) {
-      const N coverage = every::wipe_coverage_corrected<N>(uniforms, wipers.data(), x, y);
-      out[0] = every::wiped_height_corrected(before, coverage);
-      out[2] = every::time_since_wipe(uniforms, N::load(wiped.view().texels + at), coverage);
-      out[1] = every::wiped_mask_corrected(uniforms, out[2]);
-    } else {
-      const N coverage = every::wipe_coverage_as_published<N>(uniforms, wipers.data(), x, y);
-      out[0] = every::wiped_height_as_published(uniforms, before, coverage);
-      out[1] = every::wiped_mask_as_published(uniforms, N::load(mask.view().texels + at), coverage);
-    }
-  }
-};
 
 // ---- blur_pyramid --------------------------------------------------------------------------------------------------
 struct FogLevel {
@@ -85,20 +52,6 @@ struct HalvedLevel {
 };
 
 }  // namespace
-
-std::unique_ptr<PassModel> bind_wipe_texture(const PassCase& c) {
-  WipeTexture m;
-  m.width = c.outputs.front().array.width;
-  m.height = c.outputs.front().array.height;
-  m.corrected = c.corrected();
-  m.values = m.corrected ? 3 : 2;
-  m.uniforms = capture::uniforms_of<WipeTextureUniforms>(c);
-  m.wipers = capture::records_of<Wiper>(capture::record_input(c, "wipers"));
-  limit(m.uniforms.wiper_count, m.wipers);
-  m.water = BoundTexture(sized_input(c, "height"));
-  (m.corrected ? m.wiped : m.mask) = BoundTexture(sized_input(c, m.corrected ? "wiped" : "mask"));
-  return capture::model_of(std::move(m));
-}
 
 std::unique_ptr<PassModel> bind_blur_pyramid(const PassCase& c) {
   const int width = c.outputs.front().array.width, height = c.outputs.front().array.height;
