@@ -244,6 +244,10 @@ TEST(Definition, ACodeIsLoadedAsDevicesMayLoadIt) {
   p.grow.gain = 0;
   p.grow.rate = 0;
   const auto model = pass::bind<GrowPass, every::GrowPassText>(captured(p, false)[0]);
+  enclosed::Profile loose;
+  loose.reference = false;
+  loose.unorm_load.ulp = 1;
+  const enclosed::ProfileScope scope(loose);
   int wide = 0;
   for (int x = 0; x < 9; ++x) {
     enclosed::Enclosure e;
