@@ -179,6 +179,7 @@ struct Host {
     In is;
     const Texture* texture = nullptr;
     const BufferView* recorded = nullptr;  ///< the buffer that the texture was decoded from; null: the texture itself
+    Address address = Address::clamp;      ///< of the recorded buffer where no texture was made of it
     constexpr Sampled(In in) : is(in) {}
     void operator=(const Texture& t) { texture = &t; }
   };

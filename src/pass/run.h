@@ -38,7 +38,7 @@ class Run {
         if (!first) first = member.image;
         if (member.image->format() != member.format) misfit("has another format");
         if (member.image->width() != first->width() || member.image->height() != first->height()) misfit("has another size");
-      } else if (is_needed && !member.texture) {
+      } else if (is_needed && !member.texture && !member.recorded) {
         misfit("is missing");
       }
     });
@@ -66,9 +66,9 @@ class Run {
     std::vector<PassInput> inputs;
     each<P>(io_, [&](const auto& member) {
       if constexpr (requires { member.texture; }) {
-        if (!member.texture) return;
-        if (member.recorded) inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, member.texture->address_u});
-        else inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
+        const Address address = member.texture ? member.texture->address_u : member.address;
+        if (member.recorded) inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, address});
+        else if (member.texture) inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
       } else if constexpr (requires { member.view; }) {
         if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
         else if (!member.levels.empty()) inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});

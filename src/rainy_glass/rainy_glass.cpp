@@ -9,11 +9,12 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
-#include "pass/moment.h"
+#include "pass/run.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
 #include "rainy_glass/memory.h"
+#include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/storage.h"
 #include "scene/display.h"
 
@@ -119,29 +120,36 @@ void RainyGlass::frame(Recorder* recorder) {
   State& s = *state_;
   const pass::Moment now = s.moment(recorder);
   if (s.frame == 0) s.bake(now);
-  const RainOnGlassUniforms u = rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code);
-  const scene::DisplayUniforms d = scene::display_uniforms(s.settings.exposure);
-  std::vector<PassInput> inputs{{"surface", s.surface}, {"orientation", s.orientation}};
-  inputs.push_back({"raindrops", s.raindrops, Filter::linear, Filter::none, Address::repeat});
-  inputs.push_back({"rivulets", s.rivulets, Filter::linear, Filter::none, Address::repeat});
-  inputs.push_back({"scene", s.scene, Filter::linear});
-  if (s.corrected) {
-    inputs.push_back({"scene_depth", s.depth});
-    inputs.push_back({"near_depth", s.least_depth, Filter::linear});
-  }
-  if (s.settings.use_probe) inputs.push_back({"probe", &s.probe.view(), Filter::linear, Filter::linear});
-  const GlassInputs in{&s.raindrops, &s.rivulets, &s.raindrop_texture.view(), &s.rivulet_texture.view(), &s.least_depth, &s.probe.view(), &s.surface, &s.orientation, &s.scene, &s.depth};
   const Rounding rounding = s.settings.rounding;
+  const BufferView raindrops(s.raindrops), rivulets(s.rivulets);
+  pass::HostIo<RainOnGlassPass> io;
+  io.surface = s.surface;
+  io.orientation = s.orientation;
+  const auto set_map = [](auto& member, const BufferView& map, const TextureData& decoded) {
+    member.recorded = &map;
+    member.address = Address::repeat;
+    if (!decoded.empty()) member = decoded.view();
+  };
+  set_map(io.raindrops, raindrops, s.raindrop_texture);
+  set_map(io.rivulets, rivulets, s.rivulet_texture);
+  io.scene = s.scene;
+  if (s.corrected) {
+    io.scene_depth = s.depth;
+    io.near_depth = s.least_depth;
+  }
+  if (s.settings.use_probe) io.probe = s.probe.view();
+  io.colour = s.colour;
+  pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code), s.corrected, rounding, io);
   // A tile goes through both passes while it lies in the cache.
-  PassClock rain, shown;
+  PassClock shown;
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& t) {
-    rain.add([&] { rain_on_glass_rows(u, s.corrected, rounding, in, s.colour, t); });
+    rain.tile(t);
     shown.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
   // What these passes read, neither of them overwrites: their starts may be recorded after both have run.
-  now.before("rain_on_glass", u, inputs);
-  now.after("rain_on_glass", {{"colour", s.colour}}, rain.seconds(s.executor.threads()));
-  now.before("display", d, {{"colour", s.colour}});
+  rain.start(now);
+  rain.finish(now, s.executor.threads());
+  now.before("display", scene::display_uniforms(s.settings.exposure), {{"colour", s.colour}});
   now.after("display", {{"picture", s.picture}}, shown.seconds(s.executor.threads()));
   ++s.frame;
 }
