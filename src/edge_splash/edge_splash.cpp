@@ -5,14 +5,12 @@
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/splash.pass.h"
-#include "pass/run.h"
+#include "pass/display.h"
 #include "rainref/error.h"
-#include "scene/display.h"
 
 namespace rainref::edge_splash {
 namespace {
 
-using capture::PassClock;
 
 constexpr int tile_rows = 8;
 
@@ -45,7 +43,7 @@ struct EdgeSplash::State {
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
-    display = scene::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
+    display = pass::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
   }
@@ -77,16 +75,16 @@ void EdgeSplash::render(Recorder* recorder) {
   // display reads no neighbours, so that a tile goes through both passes while it lies in the cache. What they read, neither
   // overwrites: their starts may be recorded after both have run.
   const auto run = [&](auto splash) {
-    PassClock display_time;
+    pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
     s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& tile) {
       splash.tile(tile);
-      display_time.add([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
+      display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
     });
     const int threads = s.executor.threads();
     splash.start(now);
     splash.finish(now, threads);
-    now.before("display", scene::display_uniforms(s.settings.exposure), {{"colour", s.colour}});
-    now.after("display", {{"picture", s.picture}}, display_time.seconds(threads));
+    display.start(now);
+    display.finish(now, threads);
   };
   const int noise_columns = s.noise_image.width(), noise_rows = s.noise_image.height();
   if (s.corrected) {

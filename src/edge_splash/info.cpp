@@ -1,7 +1,7 @@
 #include "edge_splash/info.h"
 
-#include "capture/display.h"
 #include "edge_splash/splash.pass.h"
+#include "pass/display.h"
 #include "pass/info.h"
 
 namespace rainref::edge_splash {
@@ -15,7 +15,7 @@ constexpr const char *published = "as-published", *correct = "corrected";
 EffectInfo make() {
   EffectInfo info;
   info.name = "edge_splash";
-  info.passes = {pass::info_of<PublishedSplashPass, SplashPass>(), display_info("splash")};
+  info.passes = {pass::info_of<PublishedSplashPass, SplashPass>(), pass::display_info("splash")};
   const std::array<double, 2> one{0, 1};
   info.buffers = {
       {"scene", "rgba16f", "Linear radiance and alpha of the picture that rain falls on.", "1", one, "none", "linear Rec. 709", "straight"},

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "capture/display.h"
 #include "edge_splash/every_reading.h"
+#include "pass/display.h"
 #include "pass/model.h"
 
 namespace rainref::edge_splash {
@@ -69,7 +69,7 @@ std::unique_ptr<PassModel> bind_splash(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
-  static const std::vector<capture::PassReadings> all{{"splash", bind_splash}, {"display", capture::bind_display}};
+  static const std::vector<capture::PassReadings> all{{"splash", bind_splash}, {"display", pass::bind_display}};
   return all;
 }
 

@@ -8,6 +8,14 @@
 
 namespace rainref::pass {
 
+void require_texels(const capture::PassCase& c, const capture::CaseInput& image, Format format) {
+  const FormatInfo &expected = info(format), &found = info(image.array.format);
+  const capture::Array& like = c.outputs.front().array;
+  const bool is_code = expected.kind == FormatInfo::unorm8;
+  if (expected.channels == found.channels && is_code == (found.kind == FormatInfo::unorm8) && image.array.width == like.width && image.array.height == like.height) return;
+  throw Error(ExitCode::port_files, fmt::format("{}: in.{}: expected {} {}x{}, found {} {}x{}", c.folder(), image.name, expected.name, like.width, like.height, found.name, image.array.width, image.array.height));
+}
+
 void require_count(const capture::PassCase& c, const scene::UniformBlock& block, const In& list, std::size_t records) {
   for (const scene::Member& member : block.members) {
     if (member.name != list.count) continue;

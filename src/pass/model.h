@@ -19,6 +19,7 @@ struct Captured {
     In is;
     std::vector<DecodedOf<f>> texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
     int width = 0, height = 0;
+    static constexpr Format format = f;
     static constexpr int channels = StorageOf<f>::channels;
 
     Texels(In in) : is(in) {}
@@ -71,6 +72,8 @@ struct Captured {
   };
 };
 
+/// Throws Error(port_files) unless the image can be loaded texel by texel as one of this format, and has the size of the outputs.
+void require_texels(const capture::PassCase& c, const capture::CaseInput& image, Format format);
 /// Throws Error(port_files) where the uniform counts more records than there are.
 void require_count(const capture::PassCase& c, const scene::UniformBlock& block, const In& list, std::size_t records);
 
@@ -111,7 +114,7 @@ struct Bound {
     });
   }
 };
-/// Throws Error(port_files) where the case lacks an input of its variant. Shapes and formats capture::check_case has checked.
+/// Throws Error(port_files) where the case lacks an input of its variant, or has one of another shape.
 template <class P, class Text>
 Bound<P, Text> bound(const capture::PassCase& c) {
   Bound<P, Text> m{c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
@@ -123,7 +126,9 @@ Bound<P, Text> bound(const capture::PassCase& c) {
         member.read(capture::record_input(c, member.is.name));
         if (!member.is.count.empty()) require_count(c, block, member.is, member.records.size());
       } else {
-        member.read(capture::image_input(c, member.is.name));
+        const capture::CaseInput& image = capture::image_input(c, member.is.name);
+        if constexpr (requires { member.format; }) require_texels(c, image, member.format);
+        member.read(image);
       }
     } else {
       member.is_given = is_of(member.is.variant, c.corrected());

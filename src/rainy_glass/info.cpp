@@ -1,6 +1,6 @@
 #include "rainy_glass/info.h"
 
-#include "capture/display.h"
+#include "pass/display.h"
 #include "pass/info.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 
@@ -48,7 +48,7 @@ EffectInfo make() {
       {"bake_rivulets", "The rivulet map: normals of rivulets, and their flow. Once, before frame 0.", both("BakeRivuletsUniforms"), {{"trails"}, {"lattice"}}, {"rivulets"}, {bake_rivulets}, "gather",
        {"1 + slope squared"}},
       pass::info_of<RainOnGlassPass>(),
-      display_info("rain_on_glass"),
+      pass::display_info("rain_on_glass"),
   };
   const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
   info.buffers = {

@@ -9,21 +9,19 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
-#include "pass/run.h"
+#include "pass/display.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
 #include "rainy_glass/memory.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/storage.h"
-#include "scene/display.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
 using capture::records;
 using capture::Stopwatch;
-using capture::PassClock;
 
 constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 8;
 
@@ -73,7 +71,7 @@ struct RainyGlass::State {
     make_surface(s, around.normals, surface, orientation);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
+    display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
   pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
@@ -141,16 +139,16 @@ void RainyGlass::frame(Recorder* recorder) {
   io.colour = s.colour;
   pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code), s.corrected, rounding, io);
   // A tile goes through both passes while it lies in the cache.
-  PassClock shown;
+  pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& t) {
     rain.tile(t);
-    shown.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
+    display.tile([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
   // What these passes read, neither of them overwrites: their starts may be recorded after both have run.
   rain.start(now);
   rain.finish(now, s.executor.threads());
-  now.before("display", scene::display_uniforms(s.settings.exposure), {{"colour", s.colour}});
-  now.after("display", {{"picture", s.picture}}, shown.seconds(s.executor.threads()));
+  display.start(now);
+  display.finish(now, s.executor.threads());
   ++s.frame;
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "capture/display.h"
+#include "pass/display.h"
 #include "pass/model.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
@@ -136,7 +136,7 @@ std::string doubt_near_depth(const PassCase& c) {
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all{
-      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", capture::bind_display}};
+      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", pass::bind_display}};
   return all;
 }
 

@@ -1,6 +1,6 @@
 #include "screen_drops/info.h"
 
-#include "capture/display.h"
+#include "pass/display.h"
 #include "pass/info.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/drops.pass.h"
@@ -32,7 +32,7 @@ EffectInfo make() {
       pass::info_of<BackgroundPass>(),
       {"cells", "The drop that each cell of four grids holds now.", {{correct, 1, envelope, "CellsUniforms"}}, {}, {"cells"}, {cells}},
       pass::info_of<PublishedDropsPass, DropsPass>(),
-      display_info("drops"),
+      pass::display_info("drops"),
        }) {
     info.passes.push_back(pass);
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "capture/display.h"
+#include "pass/display.h"
 #include "pass/model.h"
 #include "rainref/error.h"
 #include "screen_drops/cells.h"
@@ -56,7 +56,7 @@ std::unique_ptr<PassModel> bind_drops(const PassCase& c) {
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all = [] {
     std::vector<capture::PassReadings> passes = flow_readings();
-    for (const capture::PassReadings& own : {capture::PassReadings{"background", pass::bind<BackgroundPass, scalar::BackgroundPassText>}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", capture::bind_display}}) passes.push_back(own);
+    for (const capture::PassReadings& own : {capture::PassReadings{"background", pass::bind<BackgroundPass, scalar::BackgroundPassText>}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", pass::bind_display}}) passes.push_back(own);
     return passes;
   }();
   return all;

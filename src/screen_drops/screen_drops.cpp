@@ -10,9 +10,8 @@
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
-#include "pass/run.h"
+#include "pass/display.h"
 #include "rainref/error.h"
-#include "scene/display.h"
 #include "scene/toml.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.h"
@@ -25,7 +24,6 @@
 namespace rainref::screen_drops {
 namespace {
 
-using capture::PassClock;
 using capture::Stopwatch;
 
 constexpr int tile_rows = 8, cell_rows = 4;
@@ -69,7 +67,7 @@ struct ScreenDrops::State {
     water = Image(Format::r8, s.width, s.height);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
+    display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
   const Image& height() const { return flow ? flow->height() : no_height; }
@@ -125,6 +123,7 @@ void ScreenDrops::render(Recorder* recorder) {
   const pass::Moment now = s.moment(recorder);
   if (s.frame == 0) s.blur(now);
   if (s.corrected) s.fill_cells(now);
+  const Rounding rounding = s.settings.rounding;
   const auto bound = [&](auto io) {
     io.background = s.background;
     io.scene.set(s.scene.view(), s.levels);
@@ -135,18 +134,17 @@ void ScreenDrops::render(Recorder* recorder) {
   // display reads no neighbours, so that a tile goes through both passes while it lies in the cache. What they read, neither
   // overwrites: their starts may be recorded after both have run.
   const auto run = [&](auto drops) {
-    PassClock display_time;
+    pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
     s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& t) {
       drops.tile(t);
-      display_time.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
+      display.tile([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
     });
     const int threads = s.executor.threads();
     drops.start(now);
     drops.finish(now, threads);
-    now.before("display", scene::display_uniforms(s.settings.exposure), {{"colour", s.colour}});
-    now.after("display", {{"picture", s.picture}}, display_time.seconds(threads));
+    display.start(now);
+    display.finish(now, threads);
   };
-  const Rounding rounding = s.settings.rounding;
   if (s.corrected) {
     auto io = bound(pass::HostIo<DropsPass>());
     io.cells = s.cells;

@@ -8,7 +8,6 @@
 #include "rainref/image.h"
 #include "rainref/storage.h"
 #include "scene/camera.h"
-#include "scene/display.h"
 #include "windshield/composite.pass.h"
 
 namespace rainref::windshield {

@@ -1,6 +1,6 @@
 #include "windshield/picture_info.h"
 
-#include "capture/display.h"
+#include "pass/display.h"
 #include "pass/info.h"
 #include "windshield/composite.pass.h"
 
@@ -15,7 +15,7 @@ constexpr const char *published = "as-published", *correct = "corrected";
 }  // namespace
 
 std::vector<PassInfo> picture_passes() {
-  return {pass::info_of<CompositePass>(), display_info("composite")};
+  return {pass::info_of<CompositePass>(), pass::display_info("composite")};
 }
 
 std::vector<BufferInfo> picture_buffers() {

@@ -1,7 +1,7 @@
 #include "windshield/readings.h"
 
-#include "capture/display.h"
 #include "drops/readings.h"
+#include "pass/display.h"
 #include "pass/model.h"
 #include "windshield/every_reading.h"
 #include "windshield/surface_every_reading.h"
@@ -19,7 +19,7 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"normals", pass::bind<NormalsPass, every::NormalsPassText>},
                                                       {"blur_pyramid", bind_blur_pyramid},
                                                       {"composite", pass::bind<CompositePass, every::CompositePassText>},
-                                                      {"display", capture::bind_display}};
+                                                      {"display", pass::bind_display}};
   return all;
 }
 

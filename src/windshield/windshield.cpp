@@ -9,7 +9,7 @@
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "drops/wet_glass.h"
-#include "pass/run.h"
+#include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/memory.h"
@@ -84,7 +84,7 @@ struct Windshield::State {
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
-    display = scene::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
+    display = pass::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     check_pictures(surroundings);
@@ -252,11 +252,12 @@ void Windshield::render(Recorder* recorder) {
   composite.tiles(executor, tile_rows);
   composite.finish(now, 1, refreshed);
 
-  const scene::DisplayUniforms display = scene::display_uniforms(settings.picture.exposure);
-  now.before("display", display, {{"colour", s.colour}});
-  Stopwatch display_clock;
-  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows, [&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
-  now.after("display", {{"picture", s.picture}}, display_clock.seconds());
+  pass::Run<pass::DisplayPass> display = pass::display_run(settings.picture.exposure, rounding, s.colour, s.picture);
+  display.start(now);
+  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows, [&](const parallel::Tile& tile) {
+    display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
+  });
+  display.finish(now, executor.threads());
   s.frame = recorded_frame;
 }
 
