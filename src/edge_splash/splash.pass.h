@@ -265,18 +265,31 @@ RAINREF_FN void give(const Io& io, const Splash<N>& s) {
   io.noise(s.noise);
   io.colour(Vec3<N>(s.colour[0], s.colour[1], s.colour[2]), s.colour[3]);
 }
+template <class Depth, class Noise>
+struct SplashTextures {
+  Depth depth;
+  Noise noise_map;
+};
 struct PublishedSplashPassText {
-  template <class N, bool, class Io>
-  static RAINREF_FN void run(const PublishedSplashUniforms& u, const Io& io, int x, int y) {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
     constexpr Address none = Address::border;
-    give(io, splash_as_published<N>(u, io.depth.template fixed<none, none, 1>(), io.noise_map.template fixed<none, none, 1>(), scene_of<N>(io), x, y));
+    return SplashTextures{io.depth.template fixed<none, none, 1>(), io.noise_map.template fixed<none, none, 1>()};
+  }
+  template <class N, bool, class Io, class Textures>
+  static RAINREF_FN void run(const PublishedSplashUniforms& u, const Io& io, const Textures& t, int x, int y) {
+    give(io, splash_as_published<N>(u, t.depth, t.noise_map, scene_of<N>(io), x, y));
   }
 };
 struct SplashPassText {
-  template <class N, bool, class Io>
-  static RAINREF_FN void run(const SplashUniforms& u, const Io& io, int x, int y) {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
     constexpr Address edge = Address::clamp, tile = Address::repeat;
-    give(io, splash_corrected<N>(u, io.depth.template fixed<edge, edge, 1>(), io.noise_map.template fixed<tile, tile, 1>(), io.layer(), scene_of<N>(io), x, y));
+    return SplashTextures{io.depth.template fixed<edge, edge, 1>(), io.noise_map.template fixed<tile, tile, 1>()};
+  }
+  template <class N, bool, class Io, class Textures>
+  static RAINREF_FN void run(const SplashUniforms& u, const Io& io, const Textures& t, int x, int y) {
+    give(io, splash_corrected<N>(u, t.depth, t.noise_map, io.layer(), scene_of<N>(io), x, y));
   }
 };
 #endif

@@ -1,7 +1,8 @@
 // A pass as one definition. Its file has two parts, which a room includes where it needs them:
 //
 //   outside every namespace        what the pass is: a struct with `about`, `Uniforms`, uniforms() and Io<B>
-//   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y)
+//   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y);
+//                                                                with views(io), which is asked once a row: run(u, io, views, x, y)
 //
 // Io<B> names each buffer once. The binding B says what a buffer is: its declaration (Declared), the host's images (Host), the
 // arrays of a captured case (model.h), or a cursor over rows of lanes or of another number (cursor-inl.h). Everything here is

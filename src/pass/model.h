@@ -108,9 +108,13 @@ struct Bound {
   template <class N>
   void operator()(int x, int y, N* out) const {
     with_cursors(x, y, out, [&](const auto& io) {
+      const auto run = [&](auto is_corrected) {
+        if constexpr (requires { Text::views(io); }) Text::template run<N, is_corrected()>(uniforms, io, Text::views(io), x, y);
+        else Text::template run<N, is_corrected()>(uniforms, io, x, y);
+      };
       if constexpr (P::about.corrected.revision != 0)
-        if (corrected) return Text::template run<N, true>(uniforms, io, x, y);
-      if constexpr (P::about.as_published.revision != 0) Text::template run<N, false>(uniforms, io, x, y);
+        if (corrected) return run(std::true_type());
+      if constexpr (P::about.as_published.revision != 0) run(std::false_type());
     });
   }
 };

@@ -46,7 +46,7 @@ struct SampledPointer {
   /// Address rules and channels as the pass knows them.
   template <Address u, Address v, int count>
   RAINREF_FLAT FixedTexture<u, v, count> fixed() const {
-    return fixed_texture<u, v, count>(*texture);
+    return texture ? fixed_texture<u, v, count>(*texture) : FixedTexture<u, v, count>();
   }
 };
 template <class Storage>

@@ -44,6 +44,14 @@ struct LaneCursors {
   };
 };
 
+/// What a text makes of its textures once for a row: views(io), where it has them.
+struct NoViews {};
+template <class Text, class Io>
+HWY_INLINE HWY_ATTR auto views_of(const Io& io) {
+  if constexpr (requires { Text::views(io); }) return Text::views(io);
+  else return NoViews();
+}
+
 /// The vector at x, whose neighbours lie beyond an end of the row. It makes cursors of its own: were those of the row handed to
 /// it, they would live in memory.
 template <class P, class Text, bool corrected>
@@ -55,7 +63,9 @@ HWY_NOINLINE HWY_ATTR void at_an_end(const typename P::Uniforms& u, Rounding rou
   pass::begin_row<P>(host, io, y, rounding);
   pass::move_to<P>(io, x, x1 - x < n ? x1 - x : n);
   pass::copy_ends<P>(host, io, room, pass::width_of<P>(host), n);
-  Text::template run<Lanes, corrected>(u, io, x, y);
+  const auto views = views_of<Text>(io);
+  if constexpr (std::is_same_v<decltype(views), const NoViews>) Text::template run<Lanes, corrected>(u, io, x, y);
+  else Text::template run<Lanes, corrected>(u, io, views, x, y);
 }
 template <class P, class Text, bool corrected>
 HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, const pass::HostIo<P>& host, const parallel::Tile& tile) {
@@ -65,12 +75,14 @@ HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, c
   for (int y = tile.y0; y < tile.y1; ++y) {
     typename P::template Io<LaneCursors> io;
     pass::begin_row<P>(host, io, y, rounding);
+    const auto views = views_of<Text>(io);
     for (int x = tile.x0; x < x1; x += n) {
       if (reach != 0 && (x < reach || x + n + reach > width)) {
         at_an_end<P, Text, corrected>(uniforms, rounding, host, x, y, x1);
       } else {
         pass::move_to<P>(io, x, x1 - x < n ? x1 - x : n);
-        Text::template run<Lanes, corrected>(u, io, x, y);
+        if constexpr (std::is_same_v<decltype(views), const NoViews>) Text::template run<Lanes, corrected>(u, io, x, y);
+        else Text::template run<Lanes, corrected>(u, io, views, x, y);
       }
     }
   }

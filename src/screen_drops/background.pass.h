@@ -57,9 +57,10 @@ RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& sc
 }
 
 struct BackgroundPassText {
-  template <class N, bool corrected, class Io>
-  static RAINREF_FN void run(const BackgroundUniforms& u, const Io& io, int column, int row) {
-    const auto scene = io.scene.template fixed<Address::clamp, Address::clamp, 4>();
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) { return io.scene.template fixed<Address::clamp, Address::clamp, 4>(); }
+  template <class N, bool corrected, class Io, class Scene>
+  static RAINREF_FN void run(const BackgroundUniforms& u, const Io& io, const Scene& scene, int column, int row) {
     if constexpr (corrected) io.background(background_corrected<N>(u, scene, io.taps.data(), column, row), N(1.0f));
     else io.background(background_as_published<N>(u, scene, column, row), N(1.0f));
   }

@@ -232,12 +232,19 @@ RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, con
   return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background), s.cover};
 }
 
+template <class Scene, class Noise>
+struct PublishedDropsTextures {
+  Scene scene;
+  Noise noise;
+};
 struct PublishedDropsPassText {
-  template <class N, bool, class Io>
-  static RAINREF_FN void run(const PublishedDropsUniforms& u, const Io& io, int column, int row) {
-    const auto scene = io.scene.template fixed<Address::clamp, Address::clamp, 4>();
-    const auto noise = io.noise.template fixed<Address::repeat, Address::repeat, 4>();
-    const Window<N> w = drops_as_published<N>(u, scene, noise, io.background.rgb(), column, row);
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
+    return PublishedDropsTextures{io.scene.template fixed<Address::clamp, Address::clamp, 4>(), io.noise.template fixed<Address::repeat, Address::repeat, 4>()};
+  }
+  template <class N, bool, class Io, class Textures>
+  static RAINREF_FN void run(const PublishedDropsUniforms& u, const Io& io, const Textures& t, int column, int row) {
+    const Window<N> w = drops_as_published<N>(u, t.scene, t.noise, io.background.rgb(), column, row);
     io.water(w.water);
     io.colour(w.colour, N(1.0f));
   }

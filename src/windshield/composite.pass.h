@@ -203,18 +203,23 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }
 
+template <class Colours, class Depths, class Values>
+struct CompositeTextures {
+  Colours blurred, normal;
+  Depths depth;
+  Values height, mask;
+};
 struct CompositePassText {
-  template <class N, bool corrected, class Io>
-  static RAINREF_FN void run(const CompositeUniforms& u, const Io& io, int column, int row) {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
     constexpr Address edge = Address::clamp;
-    const auto blurred = io.blurred.template fixed<edge, edge, 4>(), normal = io.normal.template fixed<edge, edge, 4>();
-    const auto height = io.height.template fixed<edge, edge, 1>(), mask = io.mask.template fixed<edge, edge, 1>();
-    if constexpr (corrected) {
-      const auto depth = io.scene_depth.template fixed<edge, edge, 1>();
-      io.colour(composite_corrected<N>(u, blurred, depth, height, normal, mask, io.glints.data(), column, row), N(1.0f));
-    } else {
-      io.colour(composite_as_published<N>(u, blurred, height, normal, mask, io.glints.data(), column, row), N(1.0f));
-    }
+    return CompositeTextures{io.blurred.template fixed<edge, edge, 4>(), io.normal.template fixed<edge, edge, 4>(), io.scene_depth.template fixed<edge, edge, 1>(),
+                             io.height.template fixed<edge, edge, 1>(), io.mask.template fixed<edge, edge, 1>()};
+  }
+  template <class N, bool corrected, class Io, class Textures>
+  static RAINREF_FN void run(const CompositeUniforms& u, const Io& io, const Textures& t, int column, int row) {
+    if constexpr (corrected) io.colour(composite_corrected<N>(u, t.blurred, t.depth, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
+    else io.colour(composite_as_published<N>(u, t.blurred, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
   }
 };
 #endif

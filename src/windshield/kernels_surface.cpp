@@ -47,17 +47,21 @@ HWY_ATTR void wiped_rows(const WipeTextureUniforms& uniforms, Rounding rounding,
   std::vector<Reach> reaches;
   for (int i = 0; i < uniforms.wiper_count; ++i) reaches.push_back(reach_of(u, corrected, all[static_cast<std::size_t>(i)]));
   std::vector<Wiper> near(reaches.size());
+  std::vector<std::size_t> of_row;
   for (int y = tile.y0; y < tile.y1; ++y) {
     WipeTexturePass::Io<LaneCursors> io;
     pass::begin_row<WipeTexturePass>(host, io, y, rounding);
     io.wipers.records = near.data();
+    const float row = static_cast<float>(y) + 0.5f, py = u.frame[2] * row;
+    of_row.clear();
+    for (std::size_t i = 0; i < reaches.size(); ++i)
+      if (reaches[i].y0 <= py && py <= reaches[i].y1) of_row.push_back(i);
     for (int x = tile.x0; x < tile.x1; x += n) {
-      const float row = static_cast<float>(y) + 0.5f, py = u.frame[2] * row;
       const float px0 = u.frame[0] * static_cast<float>(x) + u.frame[1] * row, px1 = px0 + u.frame[0] * static_cast<float>(n);
       u.wiper_count = 0;
-      for (std::size_t i = 0; i < reaches.size(); ++i) {
+      for (const std::size_t i : of_row) {
         const Reach& r = reaches[i];
-        if (r.x0 <= px1 && px0 <= r.x1 && r.y0 <= py && py <= r.y1) near[static_cast<std::size_t>(u.wiper_count++)] = all[i];
+        if (r.x0 <= px1 && px0 <= r.x1) near[static_cast<std::size_t>(u.wiper_count++)] = all[i];
       }
       pass::move_to<WipeTexturePass>(io, x, std::min(n, tile.x1 - x));
       WipeTexturePassText::run<Lanes, corrected>(u, io, x, y);
