@@ -12,6 +12,7 @@
 #include "drops/splat.h"
 #include "drops/splat_plain.h"
 #include "math/half.h"
+#include "pass/run.h"
 #include "stream.h"
 #include "windshield/surface.h"
 
@@ -126,7 +127,7 @@ Image filled(Format format, double scale) {
   }
   return image;
 }
-void pass(benchmark::State& state, const parallel::Executor& executor, bench::Traffic traffic, const Image& out, const auto& run) {
+void timed(benchmark::State& state, const parallel::Executor& executor, bench::Traffic traffic, const Image& out, const auto& run) {
   run();
   const double bound = bench::stream_seconds(executor, out.width(), out.height(), tile_rows, traffic);
   double best = 1e9;
@@ -151,8 +152,12 @@ void normals(benchmark::State& state, bool corrected, int threads) {
   const parallel::Executor executor(threads);
   const Image height = filled(Format::r16f, 2), mask = filled(Format::r16f, 1);
   Image normal(Format::rgba16f, columns, rows);
-  const windshield::NormalsUniforms u = windshield::normals_uniforms(surface(corrected));
-  pass(state, executor, {4, 8}, normal, [&] { windshield::normals(executor, u, corrected, Rounding::rne, height, mask, normal); });
+  pass::HostIo<windshield::NormalsPass> io;
+  io.height = height;
+  io.mask = mask;
+  io.normal = normal;
+  pass::Run<windshield::NormalsPass> normals(windshield::normals_uniforms(surface(corrected)), corrected, Rounding::rne, io);
+  timed(state, executor, {4, 8}, normal, [&] { normals.tiles(executor, 8); });
 }
 void wipe_texture(benchmark::State& state, bool corrected, int threads) {
   const parallel::Executor executor(threads);
@@ -162,8 +167,10 @@ void wipe_texture(benchmark::State& state, bool corrected, int threads) {
   windshield::Wiper second = w;
   second.pivot[0] = 0.9f;
   const std::vector<windshield::Wiper> both{w, second};
-  const windshield::WipeTextureUniforms u = windshield::wipe_texture_uniforms(s, 0);
-  pass(state, executor, {0, corrected ? 8 : 4}, mask, [&] { windshield::wipe_texture(executor, u, corrected, Rounding::rne, both, {&height, &mask, &wiped}); });
+  windshield::WipeTextureUniforms u = windshield::wipe_texture_uniforms(s, 0);
+  u.wiper_count = static_cast<std::int32_t>(both.size());
+  pass::Run<windshield::WipeTexturePass> wiping(u, corrected, Rounding::rne, windshield::wipe_texture_io(corrected, both, {&height, &mask, &wiped}));
+  timed(state, executor, {0, corrected ? 8 : 4}, mask, [&] { wiping.tiles(executor, 8); });
   state.SetLabel("");  // it goes on from what it left
 }
 void blur(benchmark::State& state, bool corrected, int level, int threads) {
@@ -175,10 +182,10 @@ void blur(benchmark::State& state, bool corrected, int level, int threads) {
   if (level == 0) {
     const Image depth = filled(Format::r32f, 100);
     Image out(Format::rgba16f, columns, rows);
-    pass(state, executor, {12, 8}, out, [&] { blur_pyramid::fog_level(executor, u, Rounding::rne, colour, depth, out); });
+    timed(state, executor, {12, 8}, out, [&] { blur_pyramid::fog_level(executor, u, Rounding::rne, colour, depth, out); });
   } else {
     Image out(Format::rgba16f, columns / 2, rows / 2);
-    pass(state, executor, {32, 8}, out, [&] { blur_pyramid::halve_level(executor, u, corrected, Rounding::rne, colour, out); });
+    timed(state, executor, {32, 8}, out, [&] { blur_pyramid::halve_level(executor, u, corrected, Rounding::rne, colour, out); });
   }
 }
 

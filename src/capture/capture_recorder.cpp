@@ -137,7 +137,7 @@ void CaptureRecorder::before(const PassStart& start) {
 void CaptureRecorder::pass(const PassCall& call) {
   if (!wanted_(call.frame, call.pass)) return;
   if (!open_ || open_->pass != call.pass || open_->frame != call.frame || open_->step != call.step || open_->level != call.level) {
-    throw Error(ExitCode::internal, fmt::format("pass {} of frame {} was not announced", call.pass, call.frame));
+    throw Error(ExitCode::internal, fmt::format("pass {} of frame {} did not start", call.pass, call.frame));
   }
   const PassVariant* declared = effect_.pass(call.pass).variant(variant_);
   if (!declared) throw Error(ExitCode::internal, fmt::format("pass {} is not declared for {}", call.pass, variant_));

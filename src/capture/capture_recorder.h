@@ -27,7 +27,7 @@ class CaptureRecorder : public Recorder {
 
   bool reads(int frame, std::string_view pass) const override { return wanted_(frame, pass); }
   void before(const PassStart& start) override;
-  /// Throws Error(internal) for a run that was not announced, and for a buffer that the effect does not declare.
+  /// Throws Error(internal) for a run whose start was not recorded, and for a buffer that the effect does not declare.
   void pass(const PassCall& call) override;
 
  private:

@@ -45,7 +45,7 @@ class CaseCheck {
     if (std::find(writes.begin(), writes.end(), output.name) == writes.end()) refuse(what, fmt::format("one of the outputs {}", fmt::join(writes, ", ")), fmt::format("'{}'", output.name));
     for (std::size_t k = 0; k < o; ++k)
       if (c_.outputs[k].name == output.name) refuse(what, "one output of this name", "two");
-    check_type(what, output.name, output.array, false);
+    check_type(what, output.name, output.array, true);
     if (output.array.levels.size() > 1) refuse(what, "one mip level", fmt::format("{}", output.array.levels.size()));
     const Judge declared = pass.variant(c_.variant)->judge, own = declared == Judge::keyed && !output.array.is_records ? Judge::envelope : declared;
     if (output.judge != own) refuse(what, fmt::format("judge \"{}\"", name(own)), fmt::format("\"{}\"", name(output.judge)));
@@ -67,7 +67,7 @@ class CaseCheck {
     if (!read) refuse(what, fmt::format("one of the inputs {}", fmt::join(reads, ", ")), fmt::format("'{}'{}", input.name, did_you_mean(input.name, reads)));
     for (std::size_t k = 0; k < i; ++k)
       if (c_.inputs[k].name == input.name) refuse(what, "one input of this name", "two");
-    check_type(what, input.name, input.array, true);
+    check_type(what, input.name, input.array, read->per_texel);
     if (input.array.is_records) return;
     if (input.array.width < 1 || input.array.height < 1) refuse(what, "at least one texel", shape(input.array));
     if (read->per_texel && first_image_) check_size(what, input.array);
@@ -77,9 +77,9 @@ class CaseCheck {
     if (a.width != first.width || a.height != first.height) refuse(what, fmt::format("{} as out.{} has", shape(first), first_image_->name), shape(a));
   }
 
-  /// The format that the buffer's declaration names, those that its scene key offers, or records. An input may come as floats
-  /// of as many channels: textures are captured so.
-  void check_type(const std::string& what, const std::string& buffer_name, const Array& a, bool is_input) {
+  /// The format that the buffer's declaration names, those that its scene key offers, or records. What is looked up by
+  /// coordinates may come as floats of as many channels: textures are captured so.
+  void check_type(const std::string& what, const std::string& buffer_name, const Array& a, bool is_exact) {
     const BufferInfo& buffer = effect_.buffer(buffer_name, c_.variant);
     if (buffer.format == "records") {
       const scene::UniformBlock& record = effect_.record(buffer.record);
@@ -91,7 +91,7 @@ class CaseCheck {
     const std::vector<std::string> formats = has_key ? key->choices : std::vector<std::string>{buffer.format};
     const auto fits = [&](const std::string& format) {
       const Format declared = format_from_name(format);
-      return a.format == declared || (is_input && info(a.format).kind == FormatInfo::float32 && info(a.format).channels == info(declared).channels);
+      return a.format == declared || (!is_exact && info(a.format).kind == FormatInfo::float32 && info(a.format).channels == info(declared).channels);
     };
     if (a.is_records || std::none_of(formats.begin(), formats.end(), fits)) refuse(what, fmt::format("{}", fmt::join(formats, " or ")), type(a));
     if (!has_key) return;

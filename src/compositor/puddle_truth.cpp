@@ -5,9 +5,10 @@
 
 #include "compositor/interface.h"
 #include "math/real64.h"
+#include "pass/run.h"
+#include "puddle/display.pass.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
-#include "puddle/kernels.h"
 
 namespace rainref::compositor {
 namespace {
@@ -31,10 +32,10 @@ Vec ground_of_passes(const Vec& point, const Vec& view, const Vec& normal, doubl
 
 Image display(const puddle::Settings& settings, const Image& radiance, const parallel::Executor& executor) {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const puddle::DisplayUniforms uniforms = puddle::display_uniforms(settings);
-  executor.for_tiles(radiance.width(), radiance.height(), radiance.width(), 8, [&](const parallel::Tile& tile) {
-    puddle::display_rows(uniforms, settings.variant == puddle::Variant::corrected, settings.rounding, radiance, picture, tile);
-  });
+  pass::HostIo<puddle::DisplayPass> io;
+  io.colour = radiance;
+  io.picture = picture;
+  pass::Run<puddle::DisplayPass>(puddle::display_uniforms(settings), settings.variant == puddle::Variant::corrected, settings.rounding, io).tiles(executor, 8);
   return picture;
 }
 

@@ -11,7 +11,7 @@
 #include "rainy_glass/backdrop.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/storage.h"
-#include "scene/display.h"
+#include "pass/display.h"
 
 namespace rainref::compositor {
 namespace {
@@ -175,8 +175,7 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
 
 Image RainyGlassView::display(const Image& radiance, const parallel::Executor& executor) const {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const scene::DisplayUniforms uniforms = scene::display_uniforms(settings_.exposure);
-  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8, [&](const parallel::Tile& tile) { scene::display_rows(uniforms, settings_.rounding, radiance, picture, tile); });
+  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
   return picture;
 }
 

@@ -6,7 +6,7 @@
 
 #include "compositor/optics.h"
 #include "rainref/error.h"
-#include "scene/display.h"
+#include "pass/display.h"
 #include "screen_drops/host.h"
 #include "screen_drops/shown.h"
 
@@ -81,8 +81,7 @@ std::unique_ptr<Scene> ScreenDropsView::scene(const screen_drops::ScreenDrops& r
 
 Image ScreenDropsView::display(const Image& radiance, const parallel::Executor& executor) const {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const scene::DisplayUniforms uniforms = scene::display_uniforms(settings_.exposure);
-  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8, [&](const parallel::Tile& tile) { scene::display_rows(uniforms, settings_.rounding, radiance, picture, tile); });
+  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
   return picture;
 }
 

@@ -5,16 +5,14 @@
 
 #include "compositor/straight_path.h"
 #include "compositor/truth_pixels.h"
-#include "scene/display.h"
+#include "pass/display.h"
 #include "windshield/shown.h"
 #include "windshield/street.h"
 
 namespace rainref::compositor {
 Image display(const windshield::Settings& settings, const Image& radiance, const parallel::Executor& executor) {
   Image picture(Format::rgba8, radiance.width(), radiance.height());
-  const scene::DisplayUniforms uniforms = scene::display_uniforms(settings.picture.exposure);
-  executor.for_tiles(picture.width(), picture.height(), picture.width(), 8,
-                     [&](const parallel::Tile& tile) { scene::display_rows(uniforms, settings.surface.rounding, radiance, picture, tile); });
+  pass::display_run(settings.picture.exposure, settings.surface.rounding, radiance, picture).tiles(executor, 8);
   return picture;
 }
 

@@ -11,27 +11,12 @@
 #include "drops/host.h"
 #include "drops/passes.h"
 #include "drops/splat.h"
+#include "pass/moment.h"
 #include "rainref/recorder.h"
 
 namespace rainref::drops {
 
-/// A run of a pass as recorders are told of it. time and dt [s] as in PassStart.
-struct Run {
-  Recorder* recorder;  ///< or null
-  int frame, step;
-  double time, dt;
-  Rounding rounding;
-
-  template <class Uniforms>
-  void before(std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, step, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(time), static_cast<float>(dt), rounding, -1});
-  }
-  void after(std::string_view pass, std::span<const PassOutput> outputs, double seconds) const {
-    if (recorder) recorder->pass({frame, step, pass, outputs, seconds, -1});
-  }
-  bool is_read(std::string_view pass) const { return recorder && recorder->reads(frame, pass); }
-};
+using Run = pass::Moment;
 
 class WetGlass {
  public:

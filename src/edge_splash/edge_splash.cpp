@@ -4,14 +4,13 @@
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
-#include "edge_splash/kernels.h"
+#include "edge_splash/splash.pass.h"
+#include "pass/display.h"
 #include "rainref/error.h"
-#include "scene/display.h"
 
 namespace rainref::edge_splash {
 namespace {
 
-using capture::PassClock;
 
 constexpr int tile_rows = 8;
 
@@ -44,19 +43,9 @@ struct EdgeSplash::State {
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
-    display = scene::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
+    display = pass::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
-  }
-
-  template <class Uniforms>
-  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, std::initializer_list<PassInput> inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, 0, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps),
-                      static_cast<float>(1 / settings.fps), settings.rounding});
-  }
-  void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
-    if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
   }
 };
 
@@ -71,29 +60,40 @@ EdgeSplash::EdgeSplash(EdgeSplash&&) noexcept = default;
 void EdgeSplash::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  const auto published = published_splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
-  const auto corrected = splash_uniforms(s.settings, s.frame, s.noise_image.width(), s.noise_image.height());
-  const scene::DisplayUniforms shown = scene::display_uniforms(s.settings.exposure);
-  const SplashInputs in{&s.scene, &s.depth.view(), &s.noise_map.view(), &s.layer};
-  const SplashOutputs out{&s.edge, &s.angle, &s.noise, &s.colour};
   const Rounding rounding = s.settings.rounding;
-
-  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.
-  PassClock splash_time, display_time;
-  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& tile) {
-    splash_time.add([&] { s.corrected ? splash_rows(corrected, rounding, in, out, tile) : splash_rows(published, rounding, in, out, tile); });
-    display_time.add([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
-  });
-  // What these passes read, none of them overwrites: they may be announced after both have run.
-  const int threads = s.executor.threads();
+  const pass::Moment now{recorder, s.frame, 0, s.frame / s.settings.fps, 1 / s.settings.fps, rounding};
+  const auto bound = [&](auto io) {
+    io.scene = s.scene;
+    io.depth = s.depth.view();
+    io.noise_map = s.noise_map.view();
+    io.edge = s.edge;
+    io.angle = s.angle;
+    io.noise = s.noise;
+    io.colour = s.colour;
+    return io;
+  };
+  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache. What they read, neither
+  // overwrites: their starts may be recorded after both have run.
+  const auto run = [&](auto splash) {
+    pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
+    s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& tile) {
+      splash.tile(tile);
+      display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
+    });
+    const int threads = s.executor.threads();
+    splash.start(now);
+    splash.finish(now, threads);
+    display.start(now);
+    display.finish(now, threads);
+  };
+  const int noise_columns = s.noise_image.width(), noise_rows = s.noise_image.height();
   if (s.corrected) {
-    s.announce(recorder, "splash", corrected, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view(), Filter::linear}, {"layer", s.layer}});
+    auto io = bound(pass::HostIo<SplashPass>());
+    io.layer = s.layer;
+    run(pass::Run<SplashPass>(splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), true, rounding, io));
   } else {
-    s.announce(recorder, "splash", published, {{"scene", s.scene}, {"depth", &s.depth.view()}, {"noise_map", &s.noise_map.view()}});
+    run(pass::Run<PublishedSplashPass>(published_splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), false, rounding, bound(pass::HostIo<PublishedSplashPass>())));
   }
-  s.report(recorder, "splash", {{"edge", s.edge}, {"angle", s.angle}, {"noise", s.noise}, {"colour", s.colour}}, splash_time.seconds(threads));
-  s.announce(recorder, "display", shown, {{"colour", s.colour}});
-  s.report(recorder, "display", {{"picture", s.picture}}, display_time.seconds(threads));
   ++s.frame;
 }
 

@@ -2,7 +2,7 @@
 // own, like edge_splash::scalar.
 #pragma once
 
-#include "edge_splash/uniforms.h"
+#include "edge_splash/splash.pass.h"
 #include "image/footprint.h"
 #include "image/texture.h"
 #include "math/deviant.h"

@@ -1,7 +1,7 @@
 // The scalar readings of the passes of edge_splash: for the oracle and the tests.
 #pragma once
 
-#include "edge_splash/uniforms.h"
+#include "edge_splash/splash.pass.h"
 #include "image/texture.h"
 #include "math/plain.h"
 

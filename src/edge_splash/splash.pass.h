@@ -1,4 +1,94 @@
 // Pass splash: masks of edge, angle and noise, and the scene with drops blended over it.
+#ifndef RAINREF_FN
+#ifndef RAINREF_EDGE_SPLASH_SPLASH_PASS_H_
+#define RAINREF_EDGE_SPLASH_SPLASH_PASS_H_
+#include "edge_splash/uniforms.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::edge_splash {
+
+inline constexpr std::string_view splash_sentence = "Masks of edge, angle and noise, and the scene with drops blended over it.";
+template <class B>
+struct SplashResults {
+  using Mask = typename B::template Result<Format::r8>;
+  using Colour = typename B::template Result<Format::rgba16f>;
+  static constexpr pass::Out edge{.name = "edge", .sentence = "1 at an edge of the depth."}, angle{.name = "angle", .sentence = "1 where the edge faces up."},
+      noise{.name = "noise", .sentence = "1 where a drop is."},
+      colour{.name = "colour", .sentence = "Linear radiance with drops; the scene's alpha, as published blended like a colour.", .colour_space = "linear Rec. 709", .alpha = "straight"};
+};
+
+/// As published. A read outside the depth or the noise is 0.
+struct PublishedSplashPass {
+  static constexpr pass::About about{"splash", splash_sentence, {1}, {}, {"sobel", "length"}};
+  using Uniforms = PublishedSplashUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("PublishedSplashUniforms",
+                                   {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
+                                   member<&U::width>("width", "texel", {1, 65536}, "Columns of the picture."),
+                                   member<&U::height>("height", "texel", {1, 65536}, "Rows of the picture."),
+                                   member<&U::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
+                                   member<&U::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
+                                   member<&U::edge_threshold>("edge_threshold", "1", {0, 16}, "Sobel sum of device depths that counts as an edge."),
+                                   member<&U::rain_drop_scale>("rain_drop_scale", "1", scene::share, "Threshold of the noise."),
+                                   member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                                   member<&U::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
+                                   member<&U::thickness>("thickness", "texel", {0, 20}, "Distance of the taps where the depth is 1.")});
+  }
+  template <class B>
+  struct Io {
+    using R = SplashResults<B>;
+    typename B::template Texels<Format::rgba16f> scene = pass::In{.name = "scene"};
+    typename B::Sampled depth = pass::In{.name = "depth", .same_size = true};
+    typename B::Sampled noise_map = pass::In{.name = "noise_map"};
+    typename R::Mask edge = R::edge, angle = R::angle, noise = R::noise;
+    typename R::Colour colour = R::colour;
+  };
+};
+struct SplashPass {
+  static constexpr pass::About about{"splash", splash_sentence, {}, {1}, {"sobel", "length"}};
+  using Uniforms = SplashUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("SplashUniforms",
+                                   {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
+                                   member<&U::up>("up", "1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
+                                   member<&U::reach>("reach", "texel", {0, 1e9}, "Texels that the band covers at 1 m."),
+                                   member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                                   member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                                   member<&U::depth_scale>("depth_scale", "1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
+                                   member<&U::depth_bias>("depth_bias", "1/m", {0, 1e4}, "See depth_scale."),
+                                   member<&U::reach_min>("reach_min", "texel", scene::whole(1, 4096), "Smallest reach of the taps."),
+                                   member<&U::reach_max>("reach_max", "texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
+                                   member<&U::step_low>("step_low", "m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
+                                   member<&U::step_high>("step_high", "m", {0, 1e5}, "Sobel sum from which it is whole."),
+                                   member<&U::bend_low>("bend_low", "1", {0, 11}, "Bend at which an edge begins."),
+                                   member<&U::bend_high>("bend_high", "1", {0, 11}, "Bend from which it is whole."),
+                                   member<&U::cosine_low>("cosine_low", "1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
+                                   member<&U::cosine_high>("cosine_high", "1", {0, 11}, "Cosine from which it is whole."),
+                                   member<&U::noise_low>("noise_low", "1", {0, 11}, "Noise at which a drop begins."),
+                                   member<&U::noise_high>("noise_high", "1", {0, 11}, "Noise from which it is whole."),
+                                   member<&U::noise_scale>("noise_scale", "1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
+                                   member<&U::noise_offset>("noise_offset", "1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
+  }
+  template <class B>
+  struct Io {
+    using R = SplashResults<B>;
+    typename B::template Texels<Format::rgba16f> scene = pass::In{.name = "scene"};
+    typename B::Sampled depth = pass::In{.name = "depth", .same_size = true};
+    typename B::Sampled noise_map = pass::In{.name = "noise_map", .filter = Filter::linear};
+    typename B::template Texels<Format::r8> layer = pass::In{.name = "layer"};
+    typename R::Mask edge = R::edge, angle = R::angle, noise = R::noise;
+    typename R::Colour colour = R::colour;
+  };
+};
+
+}  // namespace rainref::edge_splash
+#endif
+#else
 
 template <class N>
 struct Splash {
@@ -159,3 +249,47 @@ RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, c
   out.colour[3] = scene[3];
   return out;
 }
+
+template <class N, class Io>
+RAINREF_FN Channels<N, 4> scene_of(const Io& io) {
+  N in[4];
+  io.scene.load(in);
+  Channels<N, 4> out;
+  for (int k = 0; k < 4; ++k) out[k] = in[k];
+  return out;
+}
+template <class N, class Io>
+RAINREF_FN void give(const Io& io, const Splash<N>& s) {
+  io.edge(s.edge);
+  io.angle(s.angle);
+  io.noise(s.noise);
+  io.colour(Vec3<N>(s.colour[0], s.colour[1], s.colour[2]), s.colour[3]);
+}
+template <class Depth, class Noise>
+struct SplashTextures {
+  Depth depth;
+  Noise noise_map;
+};
+struct PublishedSplashPassText {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
+    constexpr Address none = Address::border;
+    return SplashTextures{io.depth.template fixed<none, none, 1>(), io.noise_map.template fixed<none, none, 1>()};
+  }
+  template <class N, bool, class Io, class Textures>
+  static RAINREF_FN void run(const PublishedSplashUniforms& u, const Io& io, const Textures& t, int x, int y) {
+    give(io, splash_as_published<N>(u, t.depth, t.noise_map, scene_of<N>(io), x, y));
+  }
+};
+struct SplashPassText {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
+    constexpr Address edge = Address::clamp, tile = Address::repeat;
+    return SplashTextures{io.depth.template fixed<edge, edge, 1>(), io.noise_map.template fixed<tile, tile, 1>()};
+  }
+  template <class N, bool, class Io, class Textures>
+  static RAINREF_FN void run(const SplashUniforms& u, const Io& io, const Textures& t, int x, int y) {
+    give(io, splash_corrected<N>(u, t.depth, t.noise_map, io.layer(), scene_of<N>(io), x, y));
+  }
+};
+#endif

@@ -1,4 +1,37 @@
 // Pass display: linear radiance to display code values in [0, 1].
+#ifndef RAINREF_FN
+#ifndef RAINREF_PUDDLE_DISPLAY_PASS_H_
+#define RAINREF_PUDDLE_DISPLAY_PASS_H_
+#include "pass/definition.h"
+#include "puddle/uniforms.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::puddle {
+
+struct DisplayPass {
+  static constexpr pass::About about{"display", "Vignette and display code.", {1}, {1}, {"length"}};
+  using Uniforms = DisplayUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("DisplayUniforms", {member<&U::vignette>("vignette", "1", {0, 1.5}, "Loss at distance 1 from the centre."),
+                                                       member<&U::exposure>("exposure", "1", scene::exposure_factor, "corrected: factor of the radiance."),
+                                                       member<&U::width>("width", "pixel", scene::whole(1, 65536), "Columns of the picture."),
+                                                       member<&U::height>("height", "pixel", scene::whole(1, 65536), "Rows of the picture.")});
+  }
+  template <class B>
+  struct Io {
+    static constexpr std::string_view meaning = "Display code, alpha 1. Row 0 is the bottom of the picture.";
+    typename B::template Texels<Format::rgba16f> colour = pass::In{.name = "colour", .from = "shade"};
+    typename B::template Result<Format::rgba8> picture = {
+        pass::Out{.name = "picture", .sentence = meaning, .encoding = "code = power 0.4545 of the radiance", .colour_space = "Rec. 709 primaries", .alpha = "1"},
+        pass::Out{.name = "picture", .sentence = meaning, .encoding = "sRGB (IEC 61966-2-1)", .colour_space = "sRGB", .alpha = "1"}};
+  };
+};
+
+}  // namespace rainref::puddle
+#endif
+#else
 
 template <class N>
 RAINREF_FN N vignette(const DisplayUniforms& u, int px, int py) {
@@ -16,3 +49,10 @@ template <class N>
 RAINREF_FN Vec3<N> display_corrected(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
   return display_code((max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour);
 }
+struct DisplayPassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const DisplayUniforms& u, const Io& io, int px, int py) {
+    io.picture(corrected ? display_corrected<N>(u, io.colour.rgb(), px, py) : display_as_published<N>(u, io.colour.rgb(), px, py), N(1.0f));
+  }
+};
+#endif

@@ -7,6 +7,9 @@
 #include "math/deviant.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "puddle/display.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/surface_hit.pass.h"
 #include "puddle/uniforms.h"
 
 namespace rainref::puddle::every {

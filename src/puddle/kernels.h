@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "image/texture.h"
 #include "rainref/executor.h"
 #include "puddle/uniforms.h"
 #include "rainref/image.h"
@@ -45,23 +44,5 @@ void extents_of_rows(const float* decoded, int width, int height, float rest, co
 
 /// as published: drop i of the frame for i in [0, uniforms.drop_count).
 std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms);
-
-/// bounds: see bounds.h; as-published does not look at it. hit: rgba32f, normal: rgba16f (flag in alpha).
-void surface_hit_rows(const SurfaceHitUniforms& uniforms, bool corrected, Rounding rounding, const Texture& wave, const Texture& bounds, Image& hit,
-                      Image& normal, const parallel::Tile& tile);
-/// noise: r32f.
-void ground_noise_rows(const GroundNoiseUniforms& uniforms, Rounding rounding, const Image& hit, const Image& normal, Image& noise,
-                       const parallel::Tile& tile);
-
-struct ShadeInputs {
-  const Texture *environment, *ground, *relief, *bed;
-  const Image *hit, *normal, *noise;
-};
-/// colour: rgba16f, alpha 1.
-void shade_rows(const ShadeUniforms& uniforms, bool corrected, Rounding rounding, const ShadeInputs& in, Image& colour,
-                const parallel::Tile& tile);
-/// picture: rgba8, alpha 1.
-void display_rows(const DisplayUniforms& uniforms, bool corrected, Rounding rounding, const Image& colour, Image& picture,
-                  const parallel::Tile& tile);
 
 }  // namespace rainref::puddle

@@ -4,6 +4,9 @@
 
 #include "image/texture.h"
 #include "math/plain.h"
+#include "puddle/display.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/surface_hit.pass.h"
 #include "puddle/uniforms.h"
 
 namespace rainref::puddle::scalar {

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
+#include "pass/run.h"
+#include "puddle/display.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/surface_hit.pass.h"
 #include "puddle/bounds.h"
 #include "puddle/environment.h"
 #include "puddle/ground.h"
@@ -22,7 +27,6 @@ namespace {
 
 using capture::records;
 using capture::Stopwatch;
-using capture::PassClock;
 
 constexpr int wave_tile_rows = 32, picture_tile_rows = 8;
 
@@ -105,34 +109,15 @@ struct Puddle::State {
   void wave_tiles(const std::function<void(const parallel::Tile&)>& body) const {
     executor.for_tiles(newest.width(), newest.height(), newest.width(), wave_tile_rows, body);
   }
-  void picture_tiles(const std::function<void(const parallel::Tile&)>& body) const {
-    executor.for_tiles(settings.width, settings.height, settings.width, picture_tile_rows, body);
-  }
 
   double frame_time() const { return 1 / settings.fps; }
   double step_time() const { return corrected ? 1 / settings.step_rate : frame_time(); }
-  /// Uniforms and inputs of a pass that advances by dt.
-  template <class Uniforms>
-  void announce(Recorder* recorder, int step, std::string_view pass, double dt, const Uniforms& uniforms, std::initializer_list<PassInput> inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, step, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)),
-                      static_cast<float>(frame / settings.fps), static_cast<float>(dt), settings.rounding});
-  }
+  /// Of a pass of this frame that advances by dt.
+  pass::Moment moment(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.rounding}; }
   /// The wave as wave_step loads it: the boundary rule is an address rule, the border the stored rest value.
   PassInput loaded_wave(BufferView wave) const {
     constexpr Address rules[] = {Address::clamp, Address::repeat, Address::border};
     return {"wave", std::move(wave), Filter::none, Filter::none, rules[static_cast<int>(settings.boundary)], {stored_rest, stored_rest, 0, 0}};
-  }
-  PassInput sampled_wave(BufferView wave) const {
-    return {"wave", std::move(wave), Filter::linear, Filter::none, water.view().address_u};
-  }
-  PassInput environment_input() const {
-    // A cube's level is the nearest one.
-    return {"environment", &environment.view(), Filter::linear, !corrected ? Filter::none : environment_is_cube ? Filter::nearest : Filter::linear};
-  }
-  PassInput ground_input() const { return {"ground", &ground.view(), Filter::linear, corrected ? Filter::nearest : Filter::none}; }
-  void report(Recorder* recorder, int step, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
-    if (recorder) recorder->pass({frame, step, pass, {outputs.begin(), outputs.size()}, seconds});
   }
 };
 
@@ -150,35 +135,33 @@ void Puddle::simulate(Recorder* recorder) {
   State& s = *state_;
   const std::int64_t end = steps_until(s.settings, s.frame + 1);
   for (int step = 0; s.steps < end; ++step, ++s.steps) {
+    const pass::Moment now = s.moment(recorder, step, s.step_time());
     if (s.corrected) {
       const std::vector<Drop>& craters = s.rainfall.craters();
       const std::vector<std::uint32_t>& thresholds = s.rainfall.count_thresholds();
-      s.announce(recorder, step, "raindrops", s.step_time(), s.rainfall.uniforms(s.steps),
-                 {{"craters", records(craters)}, {"count_thresholds", records(thresholds)}});
+      now.before("raindrops", s.rainfall.uniforms(s.steps), std::array{PassInput{"craters", records(craters)}, PassInput{"count_thresholds", records(thresholds)}});
     } else {
-      s.announce(recorder, step, "raindrops", s.step_time(), raindrops_uniforms(s.settings, s.frame), {});
+      now.before("raindrops", raindrops_uniforms(s.settings, s.frame), {});
     }
     Stopwatch rain_time;
     const std::vector<Drop> drops =
         s.corrected ? s.rainfall.drops(s.steps) : raindrops_as_published(raindrops_uniforms(s.settings, s.frame));
-    s.report(recorder, step, "raindrops", {{"drops", records(drops)}}, rain_time.seconds());
+    now.after("raindrops", std::array{PassOutput{"drops", records(drops)}}, rain_time.seconds());
 
     WaveJob job{wave_step_uniforms(s.settings), s.corrected, s.settings.rounding, s.settings.boundary,
                 &s.newest,                      &s.previous, &s.rest_row,         s.shore.empty() ? nullptr : &s.shore,
                 drops};
     job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
-    if (job.shore) {
-      s.announce(recorder, step, "wave_step", s.step_time(), job.uniforms, {s.loaded_wave(wave()), {"drops", records(drops)}, {"shore", s.shore}});
-    } else {
-      s.announce(recorder, step, "wave_step", s.step_time(), job.uniforms, {s.loaded_wave(wave()), {"drops", records(drops)}});
-    }
+    std::vector<PassInput> inputs{s.loaded_wave(wave()), {"drops", records(drops)}};
+    if (job.shore) inputs.push_back({"shore", s.shore});
+    now.before("wave_step", job.uniforms, inputs);
     Stopwatch wave_time;
     s.wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
     if (s.corrected && !drops.empty()) {
       s.wave_tiles([&](const parallel::Tile& tile) { wave_previous_rows(job, s.newest, tile); });
     }
     std::swap(s.newest, s.previous);
-    s.report(recorder, step, "wave_step", {{"wave", wave()}}, wave_time.seconds());
+    now.after("wave_step", std::array{PassOutput{"wave", wave()}}, wave_time.seconds());
   }
   ++s.frame;
 }
@@ -188,7 +171,6 @@ void Puddle::render(Recorder* recorder) {
   State& s = *state_;
   const int recorded_frame = s.frame;
   s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
-  const int last_step = 0;
 
   Stopwatch hit_time;
   SurfaceHitUniforms u = surface_hit_uniforms(s.settings);
@@ -200,46 +182,72 @@ void Puddle::render(Recorder* recorder) {
   if (s.corrected) bounds = surface_bounds(s.settings, decoded, s.executor, u);
   const double prepared = hit_time.seconds();
 
-  const GroundNoiseUniforms noise = ground_noise_uniforms(s.settings);
-  ShadeUniforms shade = shade_uniforms(s.settings);
-  shade.environment_is_cube = s.environment_is_cube;
-  shade.ground_footprint = ground_footprint(s.settings, s.ground.view().width[0]);
-  for (int k = 0; k < 3; ++k) shade.ambient[k] = shade.fog_colour[k] = s.ambient[k];
-  const DisplayUniforms display = display_uniforms(s.settings);
-  const ShadeInputs in{&s.environment.view(), &s.ground.view(), &s.relief.view(), &s.bed.view(), &s.hit, &s.normal, &s.noise};
+  const bool corrected = s.corrected;
   const Rounding rounding = s.settings.rounding;
+  const BufferView stored_wave = wave();
+  pass::HostIo<SurfaceHitPass> at_hit;
+  at_hit.wave = s.water.view();
+  at_hit.wave.recorded = &stored_wave;
+  if (corrected) at_hit.bounds = bounds.view();
+  at_hit.hit = s.hit;
+  at_hit.normal = s.normal;
+  pass::Run<SurfaceHitPass> surface_hit(u, corrected, rounding, at_hit);
+
+  std::optional<pass::Run<GroundNoisePass>> ground_noise;
+  if (!corrected) {
+    pass::HostIo<GroundNoisePass> io;
+    io.hit = s.hit;
+    io.normal = s.normal;
+    io.noise = s.noise;
+    ground_noise.emplace(ground_noise_uniforms(s.settings), corrected, rounding, io);
+  }
+
+  ShadeUniforms of_shade = shade_uniforms(s.settings);
+  of_shade.environment_is_cube = s.environment_is_cube;
+  of_shade.ground_footprint = ground_footprint(s.settings, s.ground.view().width[0]);
+  for (int k = 0; k < 3; ++k) of_shade.ambient[k] = of_shade.fog_colour[k] = s.ambient[k];
+  pass::HostIo<ShadePass> at_shade;
+  at_shade.hit = s.hit;
+  at_shade.normal = s.normal;
+  at_shade.environment = s.environment.view();
+  at_shade.ground = s.ground.view();
+  if (corrected) {
+    // A cube's level is the nearest one.
+    at_shade.environment.is.mip_filter = s.environment_is_cube ? Filter::nearest : Filter::linear;
+    at_shade.ground.is.mip_filter = Filter::nearest;
+    at_shade.relief = s.relief.view();
+    at_shade.bed = s.bed.view();
+  } else {
+    at_shade.noise = s.noise;
+  }
+  at_shade.colour = s.colour;
+  pass::Run<ShadePass> shade(of_shade, corrected, rounding, at_shade);
+
+  pass::HostIo<DisplayPass> at_display;
+  at_display.colour = s.colour;
+  at_display.picture = s.picture;
+  pass::Run<DisplayPass> display(display_uniforms(s.settings), corrected, rounding, at_display);
 
   // These passes read no neighbours, so that a tile goes through all of them while it lies in the cache.
-  std::array<PassClock, 4> clocks;
-  s.picture_tiles([&](const parallel::Tile& tile) {
-    clocks[0].add([&] { surface_hit_rows(u, s.corrected, rounding, s.water.view(), bounds.view(), s.hit, s.normal, tile); });
-    if (!s.corrected) clocks[1].add([&] { ground_noise_rows(noise, rounding, s.hit, s.normal, s.noise, tile); });
-    clocks[2].add([&] { shade_rows(shade, s.corrected, rounding, in, s.colour, tile); });
-    clocks[3].add([&] { display_rows(display, s.corrected, rounding, s.colour, s.picture, tile); });
+  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& tile) {
+    surface_hit.tile(tile);
+    if (ground_noise) ground_noise->tile(tile);
+    shade.tile(tile);
+    display.tile(tile);
   });
+  // What they read, none of them overwrites: their starts may be recorded after all have run.
   const int threads = s.executor.threads();
-
-  // What these passes read, none of them overwrites: they may be announced after all have run.
-  const double dt = s.frame_time();
-  if (s.corrected) {
-    s.announce(recorder, last_step, "surface_hit", dt, u, {s.sampled_wave(wave()), {"bounds", &bounds.view(), Filter::nearest}});
-  } else {
-    s.announce(recorder, last_step, "surface_hit", dt, u, {s.sampled_wave(wave())});
+  const pass::Moment now = s.moment(recorder, 0, s.frame_time());
+  surface_hit.start(now);
+  surface_hit.finish(now, threads, prepared);
+  if (ground_noise) {
+    ground_noise->start(now);
+    ground_noise->finish(now, threads);
   }
-  s.report(recorder, last_step, "surface_hit", {{"hit", s.hit}, {"normal", s.normal}}, prepared + clocks[0].seconds(threads));
-  if (s.corrected) {
-    s.announce(recorder, last_step, "shade", dt, shade,
-               {{"hit", s.hit}, {"normal", s.normal}, s.environment_input(), s.ground_input(),
-                {"relief", &s.relief.view(), Filter::linear, Filter::nearest}, {"bed", &s.bed.view(), Filter::linear}});
-  } else {
-    s.announce(recorder, last_step, "ground_noise", dt, noise, {{"hit", s.hit}, {"normal", s.normal}});
-    s.report(recorder, last_step, "ground_noise", {{"noise", s.noise}}, clocks[1].seconds(threads));
-    s.announce(recorder, last_step, "shade", dt, shade,
-               {{"hit", s.hit}, {"normal", s.normal}, {"noise", s.noise}, s.environment_input(), s.ground_input()});
-  }
-  s.report(recorder, last_step, "shade", {{"colour", s.colour}}, clocks[2].seconds(threads));
-  s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
-  s.report(recorder, last_step, "display", {{"picture", s.picture}}, clocks[3].seconds(threads));
+  shade.start(now);
+  shade.finish(now, threads);
+  display.start(now);
+  display.finish(now, threads);
   s.frame = recorded_frame;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "pass/model.h"
 #include "puddle/bounds.h"
 #include "puddle/every_reading.h"
 #include "puddle/kernels.h"
@@ -112,91 +113,13 @@ std::unique_ptr<PassModel> bind_wave_step(const PassCase& c) {
 }
 
 // ---- shade ---------------------------------------------------------------------------------------------------------
-/// One texel of an image of four channels.
-template <class N>
-void load_texel_of(const Texture& t, int x, int y, N* out) {
-  const float* texel = t.texels + 4 * (static_cast<std::ptrdiff_t>(y) * t.width[0] + x);
-  for (int c = 0; c < 4; ++c) out[c] = N::load(texel + c);
-}
-
-struct Shade {
-  int width, height, values = 4;
-  ShadeUniforms uniforms;
-  bool corrected;
-  BoundTexture hit, normal, noise, environment, ground, relief, bed;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    N p[4], n[4];
-    load_texel_of(hit.view(), x, y, p);
-    load_texel_of(normal.view(), x, y, n);
-    const every::Surface<N> s{plain::Vec3<N>(p[0], p[1], p[2]), plain::Vec3<N>(n[0], n[1], n[2]), n[3]};
-    plain::Vec3<N> c;
-    if (corrected) {
-      c = every::shade_corrected<N>(uniforms, environment.view(), ground.view(), relief.view(), bed.view(), s, x, y);
-    } else {
-      const N grain = N::load(noise.view().texels + static_cast<std::ptrdiff_t>(y) * width + x);
-      c = every::shade_as_published<N>(uniforms, environment.view(), ground.view(), s, grain, x, y);
-    }
-    out[0] = c.x;
-    out[1] = c.y;
-    out[2] = c.z;
-    out[3] = N(1.0f);
-  }
-};
 std::unique_ptr<PassModel> bind_shade(const PassCase& c) {
-  const auto texture = [&](const char* name) { return BoundTexture(capture::image_input(c, name)); };
-  Shade m;
-  const capture::Array& hit = capture::image_input(c, "hit").array;
-  m.width = hit.width;
-  m.height = hit.height;
-  m.uniforms = capture::uniforms_of<ShadeUniforms>(c);
-  m.corrected = c.corrected();
-  m.hit = texture("hit");
-  m.normal = texture("normal");
-  m.environment = texture("environment");
-  m.ground = texture("ground");
-  const Texture around = m.environment.view();
+  auto m = pass::bound<ShadePass, every::ShadePassText>(c);
+  const Texture& around = m.captured.environment.texture;
   if (m.uniforms.environment_is_cube != 0 && around.height[0] != 6 * around.width[0]) {
     throw Error(ExitCode::port_files, fmt::format("{}: uniform environment_is_cube is {}, but in.environment is {}x{}: six faces below each other were expected", c.folder(),
                                                   m.uniforms.environment_is_cube, around.width[0], around.height[0]));
   }
-  if (m.corrected) {
-    m.relief = texture("relief");
-    m.bed = texture("bed");
-  } else {
-    m.noise = texture("noise");
-  }
-  return capture::model_of(std::move(m));
-}
-
-// ---- display -------------------------------------------------------------------------------------------------------
-struct Display {
-  int width, height, values = 4;
-  DisplayUniforms uniforms;
-  bool corrected;
-  BoundTexture colour;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    N in[4];
-    load_texel_of(colour.view(), x, y, in);
-    const plain::Vec3<N> linear(in[0], in[1], in[2]);
-    const plain::Vec3<N> c = corrected ? every::display_corrected<N>(uniforms, linear, x, y) : every::display_as_published<N>(uniforms, linear, x, y);
-    out[0] = c.x;
-    out[1] = c.y;
-    out[2] = c.z;
-    out[3] = N(1.0f);
-  }
-};
-std::unique_ptr<PassModel> bind_display(const PassCase& c) {
-  const capture::CaseInput& colour = capture::image_input(c, "colour");
-  Display m;
-  m.width = colour.array.width;
-  m.height = colour.array.height;
-  m.uniforms = capture::uniforms_of<DisplayUniforms>(c);
-  m.corrected = c.corrected();
-  m.colour = BoundTexture(colour);
   return capture::model_of(std::move(m));
 }
 
@@ -217,7 +140,7 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all{
-      {"raindrops", nullptr, recompute_raindrops}, {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit, nullptr, doubt_bounds}, {"shade", bind_shade}, {"display", bind_display}};
+      {"raindrops", nullptr, recompute_raindrops}, {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit, nullptr, doubt_bounds}, {"shade", bind_shade}, {"display", pass::bind<DisplayPass, every::DisplayPassText>}};
   return all;
 }
 

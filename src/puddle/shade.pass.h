@@ -1,4 +1,72 @@
-// Passes ground_noise and shade: from hit and normal to linear radiance. Needs surface_hit.pass.h for the view ray.
+// Passes ground_noise and shade: from hit and normal to linear radiance. Their arithmetic needs surface_hit.pass.h for the view ray.
+#ifndef RAINREF_FN
+#ifndef RAINREF_PUDDLE_SHADE_PASS_H_
+#define RAINREF_PUDDLE_SHADE_PASS_H_
+#include "pass/definition.h"
+#include "puddle/camera_members.h"
+
+namespace rainref::puddle {
+
+/// The sine hash as published, which no GPU reproduces.
+struct GroundNoisePass {
+  static constexpr pass::About about{"ground_noise", "The sine hash of the ground point, which shade takes as data.", {1, capture::Judge::input_only}, {}, {"dot", "length", "normalize"}};
+  using Uniforms = GroundNoiseUniforms;
+  static scene::UniformBlock uniforms() {
+    return scene::uniform_block<Uniforms>("GroundNoiseUniforms", with_camera<Uniforms>({scene::member<&Uniforms::puddle_depth>("puddle_depth", "m", {0, 100}, "Depth of the ground under y = 0.")}));
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba32f> hit = pass::In{.name = "hit", .from = "surface_hit"};
+    typename B::template Texels<Format::rgba16f> normal = pass::In{.name = "normal", .from = "surface_hit"};
+    typename B::template Result<Format::r32f> noise = pass::Out{.name = "noise", .sentence = "Noise of the ground point in [0, 1)."};
+  };
+};
+
+struct ShadePass {
+  static constexpr pass::About about{"shade", "Reflection, refraction, water and ground: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
+  using Uniforms = ShadeUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "ShadeUniforms",
+        with_camera<U>(
+            {member<&U::tint>("tint", "1", scene::share, "Colour of the water's body, linear RGB."),
+              member<&U::reflectivity>("reflectivity", "1", scene::share, "Weight of the reflection."),
+              member<&U::rotation>("rotation", "1", scene::component, "Cosine and sine of env_rotation."),
+              member<&U::ground_scale>("ground_scale", "1/m", {0, 100}, "Tiles of the ground in a metre."),
+              member<&U::water_turbidity>("water_turbidity", "1/m", {0, 1000}, "Extinction of light in the water."),
+              member<&U::puddle_depth>("puddle_depth", "m", {0, 100}, "as-published: depth of the ground under y = 0."),
+              member<&U::fog_depth>("fog_depth", "1/m", {0, 10}, "Extinction of the fog."),
+              member<&U::use_checkerboard>("use_checkerboard", "1", scene::flag, "1: checkerboard ground, 0: image."),
+              member<&U::environment_is_cube>("environment_is_cube", "1", scene::flag, "1: cube faces, 0: latitude/longitude."),
+              member<&U::ambient>("ambient", "1", scene::radiance, "corrected: radiance of a white diffuse level ground."),
+              member<&U::gloss_level>("gloss_level", "1", scene::mip_level, "corrected: mip level of the environment in wet ground."),
+              member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+              member<&U::shore_width>("shore_width", "m", scene::share, "corrected: depth over which wet ground turns into water."),
+              member<&U::ground_footprint>("ground_footprint", "1/m", {0, 1e9}, "corrected: texels of the ground under a pixel at distance 1."),
+              member<&U::fog_colour>("fog_colour", "1", scene::radiance, "corrected: radiance of the fog."),
+              member<&U::exact_fresnel>("exact_fresnel", "1", scene::flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
+              member<&U::wetness>("wetness", "1", scene::share, "corrected: reflectance of the wet ground over that of water."),
+              member<&U::background_level>("background_level", "1", scene::mip_level, "corrected: mip level of the environment behind the scene."),
+              member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water.")}));
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba32f> hit = pass::In{.name = "hit", .from = "surface_hit"};
+    typename B::template Texels<Format::rgba16f> normal = pass::In{.name = "normal", .from = "surface_hit"};
+    typename B::template Texels<Format::r32f> noise = pass::In{.name = "noise", .from = "ground_noise", .variant = "as-published"};
+    typename B::Sampled environment = pass::In{.name = "environment", .filter = Filter::linear};
+    typename B::Sampled ground = pass::In{.name = "ground", .filter = Filter::linear};
+    typename B::Sampled relief = pass::In{.name = "relief", .variant = "corrected", .filter = Filter::linear, .mip_filter = Filter::nearest};
+    typename B::Sampled bed = pass::In{.name = "bed", .variant = "corrected", .filter = Filter::linear};
+    typename B::template Result<Format::rgba16f> colour = pass::Out{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+  };
+};
+
+}  // namespace rainref::puddle
+#endif
+#else
 
 constexpr float water_ior = 1.333f;
 
@@ -8,6 +76,13 @@ struct Surface {
   Vec3<N> position, normal;
   N flag;
 };
+template <class N, class Io>
+RAINREF_FN Surface<N> surface_of(const Io& io) {
+  N p[4], n[4];
+  io.hit.load(p);
+  io.normal.load(n);
+  return {Vec3<N>(p[0], p[1], p[2]), Vec3<N>(n[0], n[1], n[2]), n[3]};
+}
 
 // ---- as published --------------------------------------------------------------------------------------------------
 /// Distance along d from p to the plane y = height, or -1.
@@ -148,3 +223,19 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
   return select(hit, surface, reflected);
 }
+
+struct GroundNoisePassText {
+  template <class N, bool, class Io>
+  static RAINREF_FN void run(const GroundNoiseUniforms& u, const Io& io, int px, int py) {
+    io.noise(ground_noise_as_published<N>(u, surface_of<N>(io), px, py));
+  }
+};
+struct ShadePassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const ShadeUniforms& u, const Io& io, int px, int py) {
+    const Surface<N> s = surface_of<N>(io);
+    if constexpr (corrected) io.colour(shade_corrected<N>(u, io.environment, io.ground, io.relief, io.bed, s, px, py), N(1.0f));
+    else io.colour(shade_as_published<N>(u, io.environment, io.ground, s, io.noise(), px, py), N(1.0f));
+  }
+};
+#endif

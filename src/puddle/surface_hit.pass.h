@@ -1,4 +1,48 @@
 // Pass surface_hit: where the view ray of a pixel meets the water, and the normal there.
+#ifndef RAINREF_FN
+#ifndef RAINREF_PUDDLE_SURFACE_HIT_PASS_H_
+#define RAINREF_PUDDLE_SURFACE_HIT_PASS_H_
+#include "pass/definition.h"
+#include "puddle/camera_members.h"
+
+namespace rainref::puddle {
+
+struct SurfaceHitPass {
+  static constexpr pass::About about{"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {1}, {2}, {"dot", "length", "normalize"}};
+  using Uniforms = SurfaceHitUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "SurfaceHitUniforms",
+        with_camera<U>(
+           {member<&U::half_size>("half_size", "m", {0, 1e5}, "Half the puddle's extent."),
+            member<&U::epsilon>("epsilon", "m", {1e-5, 1}, "Distance that counts as a hit."),
+            member<&U::texel>("texel", "1", scene::share, "1 over the wave's columns and rows."),
+            member<&U::max_steps>("max_steps", "1", {1, 4096}, "Most steps of the march."),
+            member<&U::normal_gain>("normal_gain", "1", {0, 1e5}, "Factor from a height difference to a slope."),
+            member<&U::height_scale>("height_scale", "m", {0, 2}, "corrected: height = scale * stored + bias."),
+            member<&U::height_bias>("height_bias", "m", {-1, 0}, "corrected: see height_scale."),
+            member<&U::surface_top>("surface_top", "m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
+            member<&U::surface_slope>("surface_slope", "1", {0, 1e9}, "corrected: no slope of the surface is above this."),
+            member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+            member<&U::bounds_scale>("bounds_scale", "1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
+            member<&U::bounds_reach>("bounds_reach", "m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
+  }
+  template <class B>
+  struct Io {
+    static constexpr std::string_view position = "Position x y z [m], march steps.", units = "m, m, m, 1";
+    typename B::Sampled wave = pass::In{.name = "wave", .from = "wave_step", .filter = Filter::linear};
+    typename B::Sampled bounds = pass::In{.name = "bounds", .variant = "corrected", .filter = Filter::nearest};  // bounds.h
+    typename B::template Result<Format::rgba32f> hit = {pass::Out{.name = "hit", .sentence = position, .unit = units, .range = {-42, 42}},
+                                                        pass::Out{.name = "hit", .sentence = position, .unit = units, .range = {-2, 2}}};
+    typename B::template Result<Format::rgba16f> normal = pass::Out{.name = "normal", .sentence = "Unit normal x y z; 1 where the ray hit, 0 where not.", .range = {-1, 1}};
+  };
+};
+
+}  // namespace rainref::puddle
+#endif
+#else
 
 /// From the eye to the pixel's centre on the image plane.
 template <class N>
@@ -227,3 +271,15 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
   });
   return landed(u, wave, ray, over, state);
 }
+
+struct SurfaceHitPassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const SurfaceHitUniforms& u, const Io& io, int px, int py) {
+    SurfaceHit<N> s;
+    if constexpr (corrected) s = surface_hit_corrected<N>(u, io.wave, io.bounds, px, py);
+    else s = surface_hit_as_published<N>(u, io.wave, px, py);
+    io.hit(s.position, s.iterations);
+    io.normal(s.normal, s.flag);
+  }
+};
+#endif

@@ -25,7 +25,7 @@ using capture::PassCase;
 using enclosed::Enclosure;
 using Vector = plain::Vec3<Enclosure>;
 
-struct SurfaceHitPass {
+struct MarchedPass {
   int width, height, values = 8;
   SurfaceHitUniforms uniforms;
   bool corrected;
@@ -441,7 +441,7 @@ class CorrectedDescent {
   FixedTexture<Address::clamp, Address::clamp, 1> wave_;
 };
 
-class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
+class SurfaceHitModel : public capture::ModelOf<MarchedPass> {
  public:
   using ModelOf::ModelOf;
   bool needs_port() const override { return true; }
@@ -451,23 +451,23 @@ class SurfaceHitModel : public capture::ModelOf<SurfaceHitPass> {
   }
 
   void enclose(int x, int y, const float* port, Enclosure* out) const override {
-    const SurfaceHitPass& p = pass();
+    const MarchedPass& p = pass();
     // Under exact rules the march itself is the only result.
     if (enclosed::profile().reference) return p(x, y, out);
     const Texture wave = p.wave.view();
     if (p.corrected)
-      return SurfaceHitPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
+      return MarchedPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
     const PublishedMarch march(p.uniforms, wave, p.lowest, x, y);
     const std::vector<PublishedMarch::End> ends = march.ends();
     if (ends.empty()) return enclosed::give_up();
-    SurfaceHitPass::write(march.at(PublishedMarch::nearest(ends, port), port), out);
+    MarchedPass::write(march.at(PublishedMarch::nearest(ends, port), port), out);
   }
 };
 
 }  // namespace
 
 std::unique_ptr<capture::PassModel> bind_surface_hit(const PassCase& c) {
-  SurfaceHitPass p;
+  MarchedPass p;
   const capture::CaseOutput* hit = c.output("hit");
   p.width = hit->array.width;
   p.height = hit->array.height;

@@ -1,7 +1,8 @@
 #include "rainy_glass/info.h"
 
-#include "capture/display.h"
-#include "rainy_glass/uniforms.h"
+#include "pass/display.h"
+#include "pass/info.h"
+#include "rainy_glass/rain_on_glass.pass.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -27,38 +28,6 @@ EffectInfo make() {
                                member<&R::neutral>("neutral", "1", share, "Stored value of 0."), member<&R::span>("span", "1", share, "Stored value of 1 less neutral."),
                                member<&R::flow_cells>("flow_cells", "1", {1, 256}, "Cells of the flow's coarser octave along a side."),
                                member<&R::flow_gain>("flow_gain", "1", {0, 10}, "Factor of the noise before it is held in [-1, 1].")});
-  using G = RainOnGlassUniforms;
-  const UniformBlock rain_on_glass = uniform_block<G>(
-      "RainOnGlassUniforms",
-      {member<&G::pixel>("pixel", "1", share, "1 over the picture's columns and rows."),
-       member<&G::time>("time", "s", frame_time, "as-published: frame number over frame rate, rounded once."),
-       member<&G::rain_amount>("rain_amount", "1", share, "1: every droplet shows."),
-       member<&G::drop_tiles>("drop_tiles", "1/m", {0, 1000}, "Tiles of the raindrop map in a metre."),
-       member<&G::rivulet_tiles>("rivulet_tiles", "1/m", {0, 1000}, "Tiles of the rivulet map in a metre."),
-       member<&G::drop_rate>("drop_rate", "1/s", {0, 1000}, "as-published: cycles of a droplet in a second."),
-       member<&G::flow_rate>("flow_rate", "1/s", {0, 1000}, "as-published: cycles of the flow in a second."),
-       member<&G::flow_strength>("flow_strength", "1", {0, 10}, "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
-       member<&G::distortion>("distortion", "1", component, "as-published: pictures per unit of the summed channels."),
-       member<&G::use_probe>("use_probe", "1", flag, "1: the reflection probe, 0: the scene's picture."),
-       member<&G::probe_level>("probe_level", "1", {0, 16}, "Mip level of the probe."),
-       member<&G::drop_phase>("drop_phase", "1", share, "corrected: fraction of the droplets' cycle."),
-       member<&G::flow_phase>("flow_phase", "1", share, "corrected: fraction of the flow's cycle."),
-       member<&G::scroll>("scroll", "1", share, "corrected: way of the rivulets down the glass, fraction of a tile."),
-       member<&G::run_strength>("run_strength", "1", {0, 1e11}, "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
-       member<&G::drop_neutral>("drop_neutral", "1", share, "corrected: stored value of 0 in the raindrop map."),
-       member<&G::drop_scale>("drop_scale", "1", {1, 3}, "corrected: normal over stored value less neutral."),
-       member<&G::rivulet_neutral>("rivulet_neutral", "1", share, "corrected: stored value of 0 in the rivulet map."),
-       member<&G::rivulet_scale>("rivulet_scale", "1", {1, 3}, "corrected: as drop_scale."),
-       member<&G::sharpness>("sharpness", "1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
-       member<&G::impact>("impact", "1", share, "corrected: share of the cycle in which a droplet spreads."),
-       member<&G::bend>("bend", "1", share, "corrected: refractive index of water less 1."),
-       member<&G::rivulet_amount>("rivulet_amount", "1", {0, 4}, "corrected: weight of the rivulets' slopes."),
-       member<&G::rain_to>("rain_to", "1", {-300, 300}, "corrected: its product with the normal is the share of the rain that the glass meets."),
-       member<&G::right>("right", "1", component, "Unit vector to the right of the picture, world."),
-       member<&G::half_width>("half_width", "1", {0, 1e6}, "Half the width of the image plane at distance 1."),
-       member<&G::up>("up", "1", component, "Unit vector to the top of the picture."),
-       member<&G::half_height>("half_height", "1", {0, 12}, "Half the height of the image plane at distance 1."),
-       member<&G::forward>("forward", "1", component, "Unit vector into the picture.")});
   const UniformBlock droplet = record<Droplet>(
       "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."), member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
                   member<&Droplet::height>("height", "1", "At the centre."), member<&Droplet::m00>("m00", "1", "q = M d is 1 long at the rim."),
@@ -78,11 +47,8 @@ EffectInfo make() {
        "gather", {"1 + slope squared"}},
       {"bake_rivulets", "The rivulet map: normals of rivulets, and their flow. Once, before frame 0.", both("BakeRivuletsUniforms"), {{"trails"}, {"lattice"}}, {"rivulets"}, {bake_rivulets}, "gather",
        {"1 + slope squared"}},
-      {"rain_on_glass", "The scene seen through the wet glass: linear radiance.", both("RainOnGlassUniforms"),
-       {per_texel({"surface"}), per_texel({"orientation"}), {"raindrops", "bake_raindrops"}, {"rivulets", "bake_rivulets"}, per_texel({"scene"}), per_texel({"scene_depth", "", false, correct}),
-        per_texel({"near_depth", "", false, correct}), {"probe"}},
-       {"colour"}, {rain_on_glass}, "gather", {"dot", "1 - normal squared"}},
-      display_info("rain_on_glass"),
+      pass::info_of<RainOnGlassPass>(),
+      pass::display_info("rain_on_glass"),
   };
   const std::array<double, 2> one{0, 1}, signed_one{-1, 1};
   info.buffers = {
@@ -100,9 +66,9 @@ EffectInfo make() {
       {"near_depth", "r32f", "Least depth of a texel and its eight neighbours, times 1 - 2^-16.", "m", {0, 1000}, "none", "none", "none", "", "", correct},
       {"probe", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused",
        "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
-      {"colour", "rgba16f", "Linear radiance, alpha 1.", "1", one, "none", "linear Rec. 709", "1"},
-      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"},
   };
+  for (const BufferInfo& written : pass::buffers_of<RainOnGlassPass>()) info.buffers.push_back(written);
+  info.buffers.push_back({"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
   info.records = {droplet, trail};
   return info;
 }

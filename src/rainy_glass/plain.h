@@ -7,6 +7,7 @@
 #include "math/deviant.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/uniforms.h"
 
 namespace rainref::rainy_glass::scalar {

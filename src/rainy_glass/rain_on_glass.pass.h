@@ -1,4 +1,68 @@
 // Pass rain_on_glass: the scene behind wet glass.
+#ifndef RAINREF_FN
+#ifndef RAINREF_RAINY_GLASS_RAIN_ON_GLASS_PASS_H_
+#define RAINREF_RAINY_GLASS_RAIN_ON_GLASS_PASS_H_
+#include "pass/definition.h"
+#include "rainy_glass/uniforms.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::rainy_glass {
+
+/// Its lanes are written by hand, because a scene key chooses how the maps are stored: see kernels_picture.cpp.
+struct RainOnGlassPass {
+  static constexpr pass::About about{"rain_on_glass", "The scene seen through the wet glass: linear radiance.", {1}, {1}, {"dot", "1 - normal squared"}};
+  using Uniforms = RainOnGlassUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("RainOnGlassUniforms",
+                                   {member<&U::pixel>("pixel", "1", scene::share, "1 over the picture's columns and rows."),
+                                   member<&U::time>("time", "s", scene::frame_time, "as-published: frame number over frame rate, rounded once."),
+                                   member<&U::rain_amount>("rain_amount", "1", scene::share, "1: every droplet shows."),
+                                   member<&U::drop_tiles>("drop_tiles", "1/m", {0, 1000}, "Tiles of the raindrop map in a metre."),
+                                   member<&U::rivulet_tiles>("rivulet_tiles", "1/m", {0, 1000}, "Tiles of the rivulet map in a metre."),
+                                   member<&U::drop_rate>("drop_rate", "1/s", {0, 1000}, "as-published: cycles of a droplet in a second."),
+                                   member<&U::flow_rate>("flow_rate", "1/s", {0, 1000}, "as-published: cycles of the flow in a second."),
+                                   member<&U::flow_strength>("flow_strength", "1", {0, 10}, "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
+                                   member<&U::distortion>("distortion", "1", scene::component, "as-published: pictures per unit of the summed channels."),
+                                   member<&U::use_probe>("use_probe", "1", scene::flag, "1: the reflection probe, 0: the scene's picture."),
+                                   member<&U::probe_level>("probe_level", "1", {0, 16}, "Mip level of the probe."),
+                                   member<&U::drop_phase>("drop_phase", "1", scene::share, "corrected: fraction of the droplets' cycle."),
+                                   member<&U::flow_phase>("flow_phase", "1", scene::share, "corrected: fraction of the flow's cycle."),
+                                   member<&U::scroll>("scroll", "1", scene::share, "corrected: way of the rivulets down the glass, fraction of a tile."),
+                                   member<&U::run_strength>("run_strength", "1", {0, 1e11}, "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
+                                   member<&U::drop_neutral>("drop_neutral", "1", scene::share, "corrected: stored value of 0 in the raindrop map."),
+                                   member<&U::drop_scale>("drop_scale", "1", {1, 3}, "corrected: normal over stored value less neutral."),
+                                   member<&U::rivulet_neutral>("rivulet_neutral", "1", scene::share, "corrected: stored value of 0 in the rivulet map."),
+                                   member<&U::rivulet_scale>("rivulet_scale", "1", {1, 3}, "corrected: as drop_scale."),
+                                   member<&U::sharpness>("sharpness", "1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
+                                   member<&U::impact>("impact", "1", scene::share, "corrected: share of the cycle in which a droplet spreads."),
+                                   member<&U::bend>("bend", "1", scene::share, "corrected: refractive index of water less 1."),
+                                   member<&U::rivulet_amount>("rivulet_amount", "1", {0, 4}, "corrected: weight of the rivulets' slopes."),
+                                   member<&U::rain_to>("rain_to", "1", {-300, 300}, "corrected: its product with the normal is the share of the rain that the glass meets."),
+                                   member<&U::right>("right", "1", scene::component, "Unit vector to the right of the picture, world."),
+                                   member<&U::half_width>("half_width", "1", {0, 1e6}, "Half the width of the image plane at distance 1."),
+                                   member<&U::up>("up", "1", scene::component, "Unit vector to the top of the picture."),
+                                   member<&U::half_height>("half_height", "1", {0, 12}, "Half the height of the image plane at distance 1."),
+                                   member<&U::forward>("forward", "1", scene::component, "Unit vector into the picture.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba32f> surface = pass::In{.name = "surface"};
+    typename B::template Texels<Format::rgba16f> orientation = pass::In{.name = "orientation"};
+    typename B::Sampled raindrops = pass::In{.name = "raindrops", .from = "bake_raindrops", .filter = Filter::linear};
+    typename B::Sampled rivulets = pass::In{.name = "rivulets", .from = "bake_rivulets", .filter = Filter::linear};
+    typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .same_size = true, .filter = Filter::linear};
+    typename B::template Texels<Format::r32f> scene_depth = pass::In{.name = "scene_depth", .variant = "corrected"};
+    typename B::template Stored<Format::r32f> near_depth = pass::In{.name = "near_depth", .variant = "corrected", .same_size = true, .filter = Filter::linear};
+    typename B::Sampled probe = pass::In{.name = "probe", .optional = true, .filter = Filter::linear, .mip_filter = Filter::linear};
+    typename B::template Result<Format::rgba16f> colour = pass::Out{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+  };
+};
+
+}  // namespace rainref::rainy_glass
+#endif
+#else
 
 /// What a pixel sees of the glass and of the scene, as stored.
 template <class N>
@@ -151,3 +215,16 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const M
   const N nearest = sample_bilinear<0, 1, N>(fixed_texture<Address::clamp, Address::clamp, 1>(*m.near_depth), su, sv)[0];
   return select(seen & (nearest > p.distance), scene_at(m, su, sv), p.own);
 }
+
+/// own: the scene's texel here; maps: the textures that it is looked up in.
+template <class N, bool corrected, class Io, class Maps>
+RAINREF_FN void give_glass(const RainOnGlassUniforms& u, const Io& io, const Vec3<N>& own, const Maps& maps, int column, int row) {
+  N s[4], n[4], depth(0.0f);
+  io.surface.load(s);
+  io.orientation.load(n);
+  if constexpr (corrected) depth = io.scene_depth();
+  const GlassPixel<N> p{s[0], s[1], s[2], n[3], Vec3<N>(n[0], n[1], n[2]), own, depth};
+  if constexpr (corrected) io.colour(rain_on_glass_corrected<N>(u, maps, p, column, row), N(1.0f));
+  else io.colour(rain_on_glass_as_published<N>(u, maps, p, column, row), N(1.0f));
+}
+#endif

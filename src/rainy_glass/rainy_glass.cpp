@@ -9,19 +9,19 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
+#include "pass/display.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
 #include "rainy_glass/memory.h"
+#include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/storage.h"
-#include "scene/display.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
 using capture::records;
 using capture::Stopwatch;
-using capture::PassClock;
 
 constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 8;
 
@@ -71,38 +71,31 @@ struct RainyGlass::State {
     make_surface(s, around.normals, surface, orientation);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
+    display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
-  template <class Uniforms>
-  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, 0, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps), static_cast<float>(1 / settings.fps), settings.rounding});
-  }
-  void report(Recorder* recorder, std::string_view pass, const PassOutput& output, double seconds) const {
-    if (recorder) recorder->pass({frame, 0, pass, {&output, 1}, seconds});
-  }
+  pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
 
-  void bake(Recorder* recorder) {
+  void bake(const pass::Moment& now) {
     if (bakes_raindrops) {
       const BakeRaindropsUniforms u = bake_raindrops_uniforms(settings, static_cast<int>(droplets.size()));
-      announce(recorder, "bake_raindrops", u, std::vector<PassInput>{{"droplets", records(droplets)}});
+      now.before("bake_raindrops", u, {{"droplets", records(droplets)}});
       const Stopwatch watch;
       executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
         const std::vector<Droplet> near = droplets_near(droplets, corrected, settings.map_size, t.x0, t.y0, t.x1, t.y1);
         bake_raindrops_rows(u, corrected, settings.rounding, near, raindrops, t);
       });
-      report(recorder, "bake_raindrops", {"raindrops", raindrops}, watch.seconds());
+      now.after("bake_raindrops", {{"raindrops", raindrops}}, watch.seconds());
     }
     if (bakes_rivulets) {
       const BakeRivuletsUniforms u = bake_rivulets_uniforms(settings, static_cast<int>(trails.size()));
-      announce(recorder, "bake_rivulets", u, std::vector<PassInput>{{"trails", records(trails)}, {"lattice", &lattice.view()}});
+      now.before("bake_rivulets", u, {{"trails", records(trails)}, {"lattice", &lattice.view()}});
       const Stopwatch watch;
       executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
         const std::vector<Trail> near = trails_near(trails, settings.map_size, t.x0, t.y0, t.x1, t.y1);
         bake_rivulets_rows(u, settings.rounding, near, lattice.view(), rivulets, t);
       });
-      report(recorder, "bake_rivulets", {"rivulets", rivulets}, watch.seconds());
+      now.after("bake_rivulets", {{"rivulets", rivulets}}, watch.seconds());
     }
     if (raindrops.format() == Format::rgba16f && rivulets.format() == Format::rgba16f) return;
     raindrop_texture = TextureData(raindrops, Address::repeat, Address::repeat);
@@ -123,31 +116,39 @@ RainyGlass::RainyGlass(RainyGlass&&) noexcept = default;
 void RainyGlass::frame(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  if (s.frame == 0) s.bake(recorder);
-  const RainOnGlassUniforms u = rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code);
-  const scene::DisplayUniforms d = scene::display_uniforms(s.settings.exposure);
-  std::vector<PassInput> inputs{{"surface", s.surface}, {"orientation", s.orientation}};
-  inputs.push_back({"raindrops", s.raindrops, Filter::linear, Filter::none, Address::repeat});
-  inputs.push_back({"rivulets", s.rivulets, Filter::linear, Filter::none, Address::repeat});
-  inputs.push_back({"scene", s.scene, Filter::linear});
-  if (s.corrected) {
-    inputs.push_back({"scene_depth", s.depth});
-    inputs.push_back({"near_depth", s.least_depth, Filter::linear});
-  }
-  if (s.settings.use_probe) inputs.push_back({"probe", &s.probe.view(), Filter::linear, Filter::linear});
-  const GlassInputs in{&s.raindrops, &s.rivulets, &s.raindrop_texture.view(), &s.rivulet_texture.view(), &s.least_depth, &s.probe.view(), &s.surface, &s.orientation, &s.scene, &s.depth};
+  const pass::Moment now = s.moment(recorder);
+  if (s.frame == 0) s.bake(now);
   const Rounding rounding = s.settings.rounding;
+  const BufferView raindrops(s.raindrops), rivulets(s.rivulets);
+  pass::HostIo<RainOnGlassPass> io;
+  io.surface = s.surface;
+  io.orientation = s.orientation;
+  const auto set_map = [](auto& member, const BufferView& map, const TextureData& decoded) {
+    member.recorded = &map;
+    member.address = Address::repeat;
+    if (!decoded.empty()) member = decoded.view();
+  };
+  set_map(io.raindrops, raindrops, s.raindrop_texture);
+  set_map(io.rivulets, rivulets, s.rivulet_texture);
+  io.scene = s.scene;
+  if (s.corrected) {
+    io.scene_depth = s.depth;
+    io.near_depth = s.least_depth;
+  }
+  if (s.settings.use_probe) io.probe = s.probe.view();
+  io.colour = s.colour;
+  pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code), s.corrected, rounding, io);
   // A tile goes through both passes while it lies in the cache.
-  PassClock rain, shown;
+  pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& t) {
-    rain.add([&] { rain_on_glass_rows(u, s.corrected, rounding, in, s.colour, t); });
-    shown.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
+    rain.tile(t);
+    display.tile([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
   });
-  // What these passes read, neither of them overwrites: they may be announced after both have run.
-  s.announce(recorder, "rain_on_glass", u, inputs);
-  s.report(recorder, "rain_on_glass", {"colour", s.colour}, rain.seconds(s.executor.threads()));
-  s.announce(recorder, "display", d, std::vector<PassInput>{{"colour", s.colour}});
-  s.report(recorder, "display", {"picture", s.picture}, shown.seconds(s.executor.threads()));
+  // What these passes read, neither of them overwrites: their starts may be recorded after both have run.
+  rain.start(now);
+  rain.finish(now, s.executor.threads());
+  display.start(now);
+  display.finish(now, s.executor.threads());
   ++s.frame;
 }
 

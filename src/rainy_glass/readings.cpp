@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "capture/display.h"
+#include "pass/display.h"
+#include "pass/model.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/plain.h"
@@ -98,57 +99,18 @@ std::unique_ptr<PassModel> bind_bake_rivulets(const PassCase& c) {
 }
 
 // ---- rain_on_glass ---------------------------------------------------------------------------------------------------
-struct RainOnGlass {
-  int width, height, values = 4;
-  RainOnGlassUniforms uniforms;
-  bool corrected;
-  BoundTexture surface, orientation, raindrops, rivulets, scene, depth, near, probe;
-
-  template <class N>
-  void operator()(int x, int y, N* out) const {
-    const std::ptrdiff_t texel = static_cast<std::ptrdiff_t>(y) * width + x;
-    const float *s = surface.view().texels + 4 * texel, *n = orientation.view().texels + 4 * texel, *c = scene.view().texels + 4 * texel;
-    const scalar::GlassPixel<N> p{N::load(s),
-                                  N::load(s + 1),
-                                  N::load(s + 2),
-                                  N::load(n + 3),
-                                  plain::Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)),
-                                  plain::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)),
-                                  corrected ? N::load(depth.view().texels + texel) : N(0.0f)};
-    const Texture drops = raindrops.view(), streaks = rivulets.view(), behind = scene.view(), least = near.view(), around = probe.view();
-    const scalar::GlassMaps<Texture, Texture, Texture> maps{&drops, &streaks, &behind, &least, &around};
-    const plain::Vec3<N> seen = corrected ? scalar::rain_on_glass_corrected<N>(uniforms, maps, p, x, y) : scalar::rain_on_glass_as_published<N>(uniforms, maps, p, x, y);
-    out[0] = seen.x;
-    out[1] = seen.y;
-    out[2] = seen.z;
-    out[3] = N(1.0f);
+struct RainOnGlassText {
+  template <class N, bool corrected, class Io>
+  static void run(const RainOnGlassUniforms& u, const Io& io, int x, int y) {
+    const Texture& scene = *io.scene.texture;
+    const float* c = scene.texels + 4 * (static_cast<std::ptrdiff_t>(y) * scene.width[0] + x);
+    const scalar::GlassMaps<Texture, Texture, Texture> maps{io.raindrops.texture, io.rivulets.texture, io.scene.texture, io.near_depth.texture, io.probe.texture};
+    scalar::give_glass<N, corrected>(u, io, plain::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)), maps, x, y);
   }
 };
 std::unique_ptr<PassModel> bind_rain_on_glass(const PassCase& c) {
-  RainOnGlass m;
-  const capture::Array& surface = capture::image_input(c, "surface").array;
-  m.width = surface.width;
-  m.height = surface.height;
-  m.uniforms = capture::uniforms_of<RainOnGlassUniforms>(c);
-  m.corrected = c.corrected();
-  const auto texture = [&](const char* name) { return BoundTexture(capture::image_input(c, name)); };
-  const auto picture = [&](const char* name) {
-    const capture::Array& a = capture::image_input(c, name).array;
-    if (a.width != m.width || a.height != m.height) {
-      throw Error(ExitCode::port_files, fmt::format("{}: in.{}: expected {}x{} like in.surface, found {}x{}", c.folder(), name, m.width, m.height, a.width, a.height));
-    }
-    return texture(name);
-  };
-  m.surface = texture("surface");
-  m.orientation = picture("orientation");
-  m.raindrops = texture("raindrops");
-  m.rivulets = texture("rivulets");
-  m.scene = picture("scene");
-  if (m.corrected) {
-    m.depth = picture("scene_depth");
-    m.near = picture("near_depth");
-  }
-  if (m.uniforms.use_probe != 0) m.probe = texture("probe");
+  auto m = pass::bound<RainOnGlassPass, RainOnGlassText>(c);
+  if (m.uniforms.use_probe != 0) capture::image_input(c, "probe");  // needed then
   return capture::model_of(std::move(m));
 }
 
@@ -174,7 +136,7 @@ std::string doubt_near_depth(const PassCase& c) {
 
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all{
-      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", capture::bind_display}};
+      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", pass::bind_display}};
   return all;
 }
 

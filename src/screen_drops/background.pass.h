@@ -1,4 +1,39 @@
 // Pass background: the scene out of focus, without water.
+#ifndef RAINREF_FN
+#ifndef RAINREF_SCREEN_DROPS_BACKGROUND_PASS_H_
+#define RAINREF_SCREEN_DROPS_BACKGROUND_PASS_H_
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+#include "screen_drops/uniforms.h"
+
+namespace rainref::screen_drops {
+
+struct BackgroundPass {
+  static constexpr pass::About about{"background", "The scene out of focus, without water. Once, before frame 0.", {1}, {1}};
+  using Uniforms = BackgroundUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("BackgroundUniforms",
+                                   {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "as-published: columns and rows of the picture."),
+                                   member<&U::level>("level", "1", {0, 16}, "Mip level of the lookups."),
+                                   member<&U::weight>("weight", "1", scene::share, "corrected: of a tap."),
+                                   member<&U::scale>("scale", "1", scene::share, "corrected: texture coordinates of the scene in a pixel."),
+                                   member<&U::offset>("offset", "1", scene::share, "corrected: those of the picture's corner."),
+                                   member<&U::tap_count>("tap_count", "1", {0, 4096}, "corrected: taps in the list.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear, .mip_filter = Filter::linear};
+    typename B::template Records<Tap> taps = pass::In{.name = "taps", .variant = "corrected", .count = "tap_count"};
+    typename B::template Result<Format::rgba16f> background =
+        pass::Out{.name = "background", .sentence = "The scene out of focus: linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+  };
+};
+
+}  // namespace rainref::screen_drops
+#endif
+#else
 
 template <class N, class T>
 RAINREF_FN Vec3<N> scene_at(const T& scene, N u, N v, N level) {
@@ -20,3 +55,14 @@ RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& sc
   for (int k = 0; k < b.tap_count; ++k) sum = sum + scene_at<N>(scene, u + N(taps[k].x), v + N(taps[k].y), N(b.level));
   return N(b.weight) * sum;
 }
+
+struct BackgroundPassText {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) { return io.scene.template fixed<Address::clamp, Address::clamp, 4>(); }
+  template <class N, bool corrected, class Io, class Scene>
+  static RAINREF_FN void run(const BackgroundUniforms& u, const Io& io, const Scene& scene, int column, int row) {
+    if constexpr (corrected) io.background(background_corrected<N>(u, scene, io.taps.data(), column, row), N(1.0f));
+    else io.background(background_as_published<N>(u, scene, column, row), N(1.0f));
+  }
+};
+#endif

@@ -1,4 +1,81 @@
 // Pass drops: the scene refracted by the water on the window. Needs background.pass.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_SCREEN_DROPS_DROPS_PASS_H_
+#define RAINREF_SCREEN_DROPS_DROPS_PASS_H_
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+#include "screen_drops/uniforms.h"
+
+namespace rainref::screen_drops {
+
+inline constexpr std::string_view drops_sentence = "The scene through the drops on the window: linear radiance, and where water is.";
+inline constexpr pass::Out drops_colour{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+
+struct PublishedDropsPass {
+  static constexpr pass::About about{"drops", drops_sentence, {1}, {}, {"dot", "length", "normalize"}};
+  using Uniforms = PublishedDropsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("PublishedDropsUniforms",
+                                   {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
+                                   member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                                   member<&U::grid>("grid", "cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
+                                   member<&U::keep>("keep", "1", scene::share, "Times 5 - layer: the noise below which a cell holds a drop."),
+                                   member<&U::refraction>("refraction", "1", scene::component, "Pictures per unit of the normal."),
+                                   member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba16f> background = pass::In{.name = "background", .from = "background"};
+    typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear};
+    typename B::Sampled noise = pass::In{.name = "noise", .filter = Filter::linear};
+    typename B::template Result<Format::r8> water = pass::Out{.name = "water", .sentence = "A quarter of the layer whose drop shows; 0: none."};
+    typename B::template Result<Format::rgba16f> colour = drops_colour;
+  };
+};
+/// corrected. Its lanes are written by hand: see kernels.cpp.
+struct DropsPass {
+  static constexpr pass::About about{"drops", drops_sentence, {}, {1}, {"dot", "length", "normalize"}};
+  using Uniforms = DropsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("DropsUniforms",
+                                   {member<&U::cells_per_pixel>("cells_per_pixel", "cell/pixel", {0, 1e6}, "Of each layer."),
+                                   member<&U::offset_x>("offset_x", "cell", scene::share, "Place of the picture's corner in each layer."),
+                                   member<&U::offset_y>("offset_y", "cell", scene::share, "Place of the picture's corner in each layer."),
+                                   member<&U::pixels_per_cell>("pixels_per_cell", "pixel/cell", {0, 1e9}, "Of each layer."),
+                                   member<&U::level>("level", "1", {0, 32}, "Mip level at which each layer's drops see the scene."),
+                                   member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins."),
+                                   member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+                                   member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+                                   member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+                                   member<&U::sine>("sine", "1", scene::share, "Of the contact angle."),
+                                   member<&U::water_ior>("water_ior", "1", {1, 2}, "Refractive index of water."),
+                                   member<&U::inner>("inner", "1", scene::share, "Share of the background that the water's surface mirrors."),
+                                   member<&U::has_flow>("has_flow", "1", scene::flag, "1: height counts."),
+                                   member<&U::flow_slope>("flow_slope", "1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
+                                   member<&U::flow_pixel>("flow_pixel", "1", scene::share, "1 over the picture's columns and rows."),
+                                   member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which flowing water begins to show."),
+                                   member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
+                                   member<&U::flow_level>("flow_level", "1", {0, 32}, "Mip level at which flowing water sees the scene."),
+                                   member<&U::flow_texel>("flow_texel", "1", scene::share, "1 over the columns and rows of height.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba16f> background = pass::In{.name = "background", .from = "background"};
+    typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear, .mip_filter = Filter::linear};
+    typename B::template Stored<Format::rgba32f> cells = pass::In{.name = "cells", .from = "cells"};
+    typename B::template Stored<Format::r16f> height = pass::In{.name = "height", .from = "splat", .filter = Filter::linear};
+    typename B::template Result<Format::r8> water = pass::Out{.name = "water", .sentence = "Share of the pixel that water covers."};
+    typename B::template Result<Format::rgba16f> colour = drops_colour;
+  };
+};
+
+}  // namespace rainref::screen_drops
+#endif
+#else
 
 /// What a pixel shows, and how much of it is water.
 template <class N>
@@ -154,3 +231,31 @@ RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, con
   if (!any(wet)) return {background, zero};
   return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background), s.cover};
 }
+
+template <class Scene, class Noise>
+struct PublishedDropsTextures {
+  Scene scene;
+  Noise noise;
+};
+struct PublishedDropsPassText {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
+    return PublishedDropsTextures{io.scene.template fixed<Address::clamp, Address::clamp, 4>(), io.noise.template fixed<Address::repeat, Address::repeat, 4>()};
+  }
+  template <class N, bool, class Io, class Textures>
+  static RAINREF_FN void run(const PublishedDropsUniforms& u, const Io& io, const Textures& t, int column, int row) {
+    const Window<N> w = drops_as_published<N>(u, t.scene, t.noise, io.background.rgb(), column, row);
+    io.water(w.water);
+    io.colour(w.colour, N(1.0f));
+  }
+};
+struct DropsPassText {
+  template <class N, bool, class Io>
+  static RAINREF_FN void run(const DropsUniforms& u, const Io& io, int column, int row) {
+    constexpr Address edge = Address::clamp;
+    const Window<N> w = drops_corrected<N>(u, io.scene.template fixed<edge, edge, 4>(), io.cells.template fixed<edge, edge, 4>(), io.height.template fixed<edge, edge, 1>(), io.background.rgb(), column, row);
+    io.water(w.water);
+    io.colour(w.colour, N(1.0f));
+  }
+};
+#endif

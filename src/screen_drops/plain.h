@@ -8,6 +8,8 @@
 #include "math/enclosure.h"
 #include "math/in_parts.h"
 #include "math/plain.h"
+#include "screen_drops/background.pass.h"
+#include "screen_drops/drops.pass.h"
 #include "screen_drops/uniforms.h"
 
 namespace rainref::screen_drops::scalar {

@@ -10,21 +10,20 @@
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/pass_clock.h"
+#include "pass/display.h"
 #include "rainref/error.h"
-#include "scene/display.h"
 #include "scene/toml.h"
+#include "screen_drops/background.pass.h"
 #include "screen_drops/cells.h"
+#include "screen_drops/drops.pass.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
-#include "screen_drops/kernels.h"
 #include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
 
 namespace rainref::screen_drops {
 namespace {
 
-using capture::PassClock;
-using capture::records;
 using capture::Stopwatch;
 
 constexpr int tile_rows = 8, cell_rows = 4;
@@ -68,38 +67,30 @@ struct ScreenDrops::State {
     water = Image(Format::r8, s.width, s.height);
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
-    display = scene::display_table(s.width, s.height, s.exposure, s.rounding);
+    display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
   const Image& height() const { return flow ? flow->height() : no_height; }
 
-  template <class Uniforms>
-  void announce(Recorder* recorder, std::string_view pass, const Uniforms& uniforms, const std::vector<PassInput>& inputs) const {
-    if (!recorder) return;
-    recorder->before({frame, 0, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps), static_cast<float>(1 / settings.fps), settings.rounding});
+  pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
+  void blur(const pass::Moment& now) {
+    pass::HostIo<BackgroundPass> io;
+    io.scene.set(scene.view(), levels);
+    if (corrected) io.taps = taps;
+    io.background = background;
+    pass::Run<BackgroundPass> run(background_uniforms(settings), corrected, settings.rounding, io);
+    run.start(now);
+    run.tiles(executor, tile_rows);
+    run.finish(now);
   }
-  void report(Recorder* recorder, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
-    if (recorder) recorder->pass({frame, 0, pass, {outputs.begin(), outputs.size()}, seconds});
-  }
-  PassInput scene_input(bool with_mips) const { return {"scene", std::span<const Image>(levels), Filter::linear, with_mips ? Filter::linear : Filter::none}; }
-
-  void blur(Recorder* recorder) {
-    const BackgroundUniforms u = background_uniforms(settings);
-    std::vector<PassInput> inputs{scene_input(true)};
-    if (corrected) inputs.push_back({"taps", records(taps)});
-    announce(recorder, "background", u, inputs);
-    const Stopwatch watch;
-    executor.for_tiles(settings.width, settings.height, settings.width, tile_rows, [&](const parallel::Tile& t) { background_rows(u, corrected, settings.rounding, scene.view(), taps, background, t); });
-    report(recorder, "background", {{"background", background}}, watch.seconds());
-  }
-  void fill_cells(Recorder* recorder) {
+  void fill_cells(const pass::Moment& now) {
     const CellsUniforms u = cells_uniforms(settings, grids, frame);
-    announce(recorder, "cells", u, {});
+    now.before("cells", u, {});
     const Stopwatch watch;
     executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
       cells_rows(u, drawn_cells, cells, static_cast<int>(begin), static_cast<int>(end));
     });
-    report(recorder, "cells", {{"cells", cells}}, watch.seconds());
+    now.after("cells", {{"cells", cells}}, watch.seconds());
   }
 };
 
@@ -129,29 +120,44 @@ void ScreenDrops::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   if (s.flow) s.flow->simulate(recorder);
-  if (s.frame == 0) s.blur(recorder);
-  if (s.corrected) s.fill_cells(recorder);
-  const PublishedDropsUniforms published = published_drops_uniforms(s.settings, s.frame);
-  const DropsUniforms corrected = drops_uniforms(s.settings, s.grids, s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0});
-  const scene::DisplayUniforms shown = scene::display_uniforms(s.settings.exposure);
-  const DropsInputs in{s.scene.view(), &s.noise.view(), s.corrected ? stored_texture<float>(s.cells) : StoredTexture<float>(), s.corrected ? stored_texture<Half>(s.height()) : StoredTexture<Half>(), &s.background};
+  const pass::Moment now = s.moment(recorder);
+  if (s.frame == 0) s.blur(now);
+  if (s.corrected) s.fill_cells(now);
   const Rounding rounding = s.settings.rounding;
-  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache.
-  PassClock drops_time, display_time;
-  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& t) {
-    drops_time.add([&] { s.corrected ? drops_rows(corrected, rounding, in, s.water, s.colour, t) : drops_rows(published, rounding, in, s.water, s.colour, t); });
-    display_time.add([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
-  });
-  // What these passes read, neither of them overwrites: they may be announced after both have run.
+  const auto bound = [&](auto io) {
+    io.background = s.background;
+    io.scene.set(s.scene.view(), s.levels);
+    io.water = s.water;
+    io.colour = s.colour;
+    return io;
+  };
+  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache. What they read, neither
+  // overwrites: their starts may be recorded after both have run.
+  const auto run = [&](auto drops) {
+    pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
+    s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& t) {
+      drops.tile(t);
+      display.tile([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
+    });
+    const int threads = s.executor.threads();
+    drops.start(now);
+    drops.finish(now, threads);
+    display.start(now);
+    display.finish(now, threads);
+  };
   if (s.corrected) {
-    s.announce(recorder, "drops", corrected, {{"background", s.background}, s.scene_input(true), {"cells", s.cells}, {"height", s.height(), Filter::linear}});
+    auto io = bound(pass::HostIo<DropsPass>());
+    io.cells = s.cells;
+    io.height = s.height();
+    const std::array<int, 2> flow_size = s.flow ? std::array{s.height().width(), s.height().height()} : std::array{0, 0};
+    run(pass::Run<DropsPass>(drops_uniforms(s.settings, s.grids, flow_size), true, rounding, io));
   } else {
-    s.announce(recorder, "drops", published, {{"background", s.background}, s.scene_input(false), {"noise", s.noise_image, Filter::linear, Filter::none, Address::repeat}});
+    const BufferView noise(s.noise_image);
+    auto io = bound(pass::HostIo<PublishedDropsPass>());
+    io.noise = s.noise.view();
+    io.noise.recorded = &noise;
+    run(pass::Run<PublishedDropsPass>(published_drops_uniforms(s.settings, s.frame), false, rounding, io));
   }
-  const int threads = s.executor.threads();
-  s.report(recorder, "drops", {{"water", s.water}, {"colour", s.colour}}, drops_time.seconds(threads));
-  s.announce(recorder, "display", shown, {{"colour", s.colour}});
-  s.report(recorder, "display", {{"picture", s.picture}}, display_time.seconds(threads));
   ++s.frame;
 }
 

@@ -2,7 +2,8 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "screen_drops/host.h"
-#include "screen_drops/kernels.h"
+#include "pass/run.h"
+#include "screen_drops/background.pass.h"
 #include "screen_drops/plain.h"
 
 namespace rainref::screen_drops {
@@ -37,7 +38,11 @@ Image defocused_scene(const Settings& settings, const Image& colour, const paral
   u.offset[0] = u.offset[1] = 0;
   const std::vector<Tap> taps = make_taps(settings);
   Image out(Format::rgba16f, colour.width(), colour.height());
-  executor.for_tiles(out.width(), out.height(), out.width(), 8, [&](const parallel::Tile& t) { background_rows(u, true, Rounding::rne, scene.view(), taps, out, t); });
+  pass::HostIo<BackgroundPass> io;
+  io.scene.set(scene.view(), levels);
+  io.taps = taps;
+  io.background = out;
+  pass::Run<BackgroundPass>(u, true, Rounding::rne, io).tiles(executor, 8);
   return out;
 }
 

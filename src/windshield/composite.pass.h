@@ -1,4 +1,58 @@
 // Pass composite: what the eye sees through the wet glass.
+#ifndef RAINREF_FN
+#ifndef RAINREF_WINDSHIELD_COMPOSITE_PASS_H_
+#define RAINREF_WINDSHIELD_COMPOSITE_PASS_H_
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+#include "windshield/uniforms.h"
+
+namespace rainref::windshield {
+
+struct CompositePass {
+  static constexpr pass::About about{"composite", "The scene through film and drops, with glints: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
+  using Uniforms = CompositeUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "CompositeUniforms",
+        {member<&U::u_row>("u_row", "1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
+             member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9}, "The glass lies glass_distance / w_row . (x, y, 1) along the view axis."),
+             member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
+             member<&U::blur_lod>("blur_lod", "1", scene::mip_level, "Mip level of the picture behind the film."),
+             member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+             member<&U::wetness>("wetness", "1", scene::share, "Weight of the blurred picture where the glass was not wiped."),
+             member<&U::plane_x>("plane_x", "1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
+             member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which water begins to show as a drop."),
+             member<&U::plane_y>("plane_y", "1", scene::component, "Second axis."),
+             member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
+             member<&U::outward>("outward", "1", scene::component, "Normal of the glass, away from the car."),
+             member<&U::refraction>("refraction", "1", scene::component, "as-published: offset in pictures per unit of n.xy."),
+             member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+             member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+             member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+             member<&U::shininess>("shininess", "1", {1, 4096}, "Power of a highlight."),
+             member<&U::glint_strength>("glint_strength", "1", {0, 10}, "Weight of the highlights."),
+             member<&U::cabin>("cabin", "1", scene::radiance, "Radiance beside the glass."),
+             member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list."),
+             member<&U::water_ior>("water_ior", "1", {0, 2}, "corrected: refractive index of the water."),
+             member<&U::inner>("inner", "1", scene::share, "corrected: share of the blurred scene that the water's surface mirrors.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Stored<Format::rgba16f> blurred = pass::In{.name = "blurred", .from = "blur_pyramid", .filter = Filter::linear, .mip_filter = Filter::linear};
+    typename B::template Stored<Format::r32f> scene_depth = pass::In{.name = "scene_depth", .variant = "corrected", .filter = Filter::linear};
+    typename B::template Stored<Format::r16f> height = pass::In{.name = "height", .from = "wipe_texture", .filter = Filter::linear};
+    typename B::template Stored<Format::rgba16f> normal = pass::In{.name = "normal", .from = "normals", .filter = Filter::linear};
+    typename B::template Stored<Format::r16f> mask = pass::In{.name = "mask", .from = "wipe_texture", .filter = Filter::linear};
+    typename B::template Records<Glint> glints = pass::In{.name = "glints", .count = "glint_count"};
+    typename B::template Result<Format::rgba16f> colour = pass::Out{.name = "colour", .sentence = "Linear radiance; alpha 1.", .colour_space = "linear Rec. 709", .alpha = "opaque"};
+  };
+};
+
+}  // namespace rainref::windshield
+#endif
+#else
 
 /// The pixel's view ray and where it meets the glass. The ray is (x, y, 1) in camera axes: right, up, forward.
 template <class N>
@@ -148,3 +202,24 @@ RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours
   }
   return mix(Vec3<N>(c.cabin), colour, g.on_glass);
 }
+
+template <class Colours, class Depths, class Values>
+struct CompositeTextures {
+  Colours blurred, normal;
+  Depths depth;
+  Values height, mask;
+};
+struct CompositePassText {
+  template <class Io>
+  static RAINREF_FN auto views(const Io& io) {
+    constexpr Address edge = Address::clamp;
+    return CompositeTextures{io.blurred.template fixed<edge, edge, 4>(), io.normal.template fixed<edge, edge, 4>(), io.scene_depth.template fixed<edge, edge, 1>(),
+                             io.height.template fixed<edge, edge, 1>(), io.mask.template fixed<edge, edge, 1>()};
+  }
+  template <class N, bool corrected, class Io, class Textures>
+  static RAINREF_FN void run(const CompositeUniforms& u, const Io& io, const Textures& t, int column, int row) {
+    if constexpr (corrected) io.colour(composite_corrected<N>(u, t.blurred, t.depth, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
+    else io.colour(composite_as_published<N>(u, t.blurred, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
+  }
+};
+#endif

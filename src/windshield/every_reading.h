@@ -7,7 +7,7 @@
 #include "math/deviant.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
-#include "windshield/uniforms.h"
+#include "windshield/composite.pass.h"
 
 namespace rainref::windshield::every {
 using namespace rainref::plain;

@@ -3,6 +3,7 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
 #include "drops/splat.h"
+#include "pass/info.h"
 #include "windshield/motion_info.h"
 #include "windshield/picture_info.h"
 #include "windshield/surface.h"
@@ -28,14 +29,15 @@ EffectInfo make() {
                  wipe_drops_info("integrate"),
                  drops::merge_info("wipe_drops", "wipe_drops"),
                  drops::splat_info({"wipe_drops", "merge"}, "merge"),
-                 wipe_texture_info(),
-                 normals_info(),
+                 pass::info_of<WipeTexturePass>(),
+                 pass::info_of<NormalsPass>(),
                  blur_pyramid::blur_info("", "")};
   append(info.passes, picture_passes());
   append(info.buffers, drops::buffers());
   append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
-  append(info.buffers, surface_buffers());
+  append(info.buffers, pass::buffers_of<WipeTexturePass>());
+  append(info.buffers, pass::buffers_of<NormalsPass>());
   append(info.buffers, blur_pyramid::blur_buffers());
   append(info.buffers, picture_buffers());
   append(info.records, drops::records());

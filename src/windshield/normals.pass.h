@@ -3,33 +3,59 @@
 //   normal = normalize(-slope_x, -slope_y, 1) in axes of the glass: x along u, y in the glass across it, z outward
 //
 // as-published reduces each tap by the wiper mask there, which makes a slope of the mask's own edge (-height grad mask);
-// corrected reduces the slope. Rows are readable one texel to both sides, where the nearest texel stands again.
+// corrected reduces the slope.
+#ifndef RAINREF_FN
+#ifndef RAINREF_WINDSHIELD_NORMALS_PASS_H_
+#define RAINREF_WINDSHIELD_NORMALS_PASS_H_
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
 
-/// Stored heights [mm] and masks of three rows.
-template <class Storage>
-struct SurfaceRows {
-  const Storage *below, *here, *above;
-  const Storage *mask_below, *mask_here, *mask_above;
+namespace rainref::windshield {
+
+struct NormalsUniforms {
+  float slope_x;      ///< slope along x for a difference of 1 mm across two columns
+  float slope_shear;  ///< corrected: slope along y for the same
+  float slope_y;      ///< slope along y for a difference of 1 mm across two rows
+  float padding0;
+};
+static_assert(sizeof(NormalsUniforms) == 16);
+
+struct NormalsPass {
+  static constexpr pass::About about{"normals", "The normal of the water in axes of the glass, z outward.", {1}, {1}, {"length", "normalize"}};
+  using Uniforms = NormalsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("NormalsUniforms", {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
+                                                       member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
+                                                       member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::r16f, 1> height = pass::In{.name = "height", .from = "wipe_texture"};  // [mm]
+    typename B::template Texels<Format::r16f, 1> mask = pass::In{.name = "mask", .from = "wipe_texture"};
+    typename B::template Result<Format::rgba16f> normal = pass::Out{.name = "normal", .sentence = "Unit normal in axes of the glass, alpha 1.", .range = {-1, 1}, .alpha = "1"};
+  };
 };
 
-/// From differences across two texels.
-template <class N>
-RAINREF_FN Vec3<N> normal_of(const NormalsUniforms& u, N across_columns, N across_rows, N kept) {
+}  // namespace rainref::windshield
+#endif
+#else
+
+/// io has height and mask (dx, dy) around the texel.
+template <class N, bool corrected, class Io>
+RAINREF_FN Vec3<N> normal_of(const NormalsUniforms& u, const Io& io) {
+  const auto tap = [&](int dx, int dy) RAINREF_LAMBDA { return corrected ? io.height(dx, dy) : io.height(dx, dy) * (N(1.0f) - io.mask(dx, dy)); };
+  const N across_columns = tap(1, 0) - tap(-1, 0), across_rows = tap(0, 1) - tap(0, -1);
+  const N kept = corrected ? N(1.0f) - io.mask(0, 0) : N(1.0f);
   const N slope_x = kept * (N(u.slope_x) * across_columns);
   const N slope_y = kept * (N(u.slope_shear) * across_columns + N(u.slope_y) * across_rows);
   return normalize(Vec3<N>(-slope_x, -slope_y, N(1.0f)));
 }
-template <class N, class Storage>
-RAINREF_FN N masked_tap(const Storage* height, const Storage* mask, int x) { return N::load(height + x) * (N(1.0f) - N::load(mask + x)); }
-template <class N, class Storage>
-RAINREF_FN Vec3<N> normal_as_published(const NormalsUniforms& u, const SurfaceRows<Storage>& in, int x) {
-  const N across_columns = masked_tap<N>(in.here, in.mask_here, x + 1) - masked_tap<N>(in.here, in.mask_here, x - 1);
-  const N across_rows = masked_tap<N>(in.above, in.mask_above, x) - masked_tap<N>(in.below, in.mask_below, x);
-  return normal_of(u, across_columns, across_rows, N(1.0f));
-}
-template <class N, class Storage>
-RAINREF_FN Vec3<N> normal_corrected(const NormalsUniforms& u, const SurfaceRows<Storage>& in, int x) {
-  const N across_columns = N::load(in.here + x + 1) - N::load(in.here + x - 1);
-  const N across_rows = N::load(in.above + x) - N::load(in.below + x);
-  return normal_of(u, across_columns, across_rows, N(1.0f) - N::load(in.mask_here + x));
-}
+struct NormalsPassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const NormalsUniforms& u, const Io& io, int, int) {
+    io.normal(normal_of<N, corrected>(u, io), N(1.0f));
+  }
+};
+#endif

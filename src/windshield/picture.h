@@ -1,17 +1,14 @@
-// The picture's passes: the shell of composite, and the host's part of it and of display.
+// The host's part of the picture's passes, composite and display.
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
-#include "image/stored_texture.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/storage.h"
 #include "scene/camera.h"
-#include "scene/display.h"
-#include "windshield/uniforms.h"
+#include "windshield/composite.pass.h"
 
 namespace rainref::windshield {
 
@@ -43,14 +40,5 @@ std::vector<Glint> glints(const PictureSettings& settings);
 scene::Camera camera(const PictureSettings& settings);
 /// Vertical field of view of the picture of the scene [deg].
 double widened_fov(const PictureSettings& settings);
-
-struct CompositeInputs {
-  StoredTexture<Half> pyramid;
-  StoredTexture<float> depth;  ///< as-published does not look at it
-  StoredTexture<Half> height, normal, mask;
-  std::span<const Glint> glints;
-};
-/// colour: rgba16f, alpha 1.
-void composite_rows(const CompositeUniforms& uniforms, bool corrected, Rounding rounding, const CompositeInputs& in, Image& colour, const parallel::Tile& tile);
 
 }  // namespace rainref::windshield

@@ -1,6 +1,8 @@
 #include "windshield/picture_info.h"
 
-#include "capture/display.h"
+#include "pass/display.h"
+#include "pass/info.h"
+#include "windshield/composite.pass.h"
 
 namespace rainref::windshield {
 namespace {
@@ -13,46 +15,16 @@ constexpr const char *published = "as-published", *correct = "corrected";
 }  // namespace
 
 std::vector<PassInfo> picture_passes() {
-  using U = CompositeUniforms;
-  const UniformBlock composite = uniform_block<U>(
-      "CompositeUniforms",
-      {member<&U::u_row>("u_row", "1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-       member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9}, "The glass lies glass_distance / w_row . (x, y, 1) along the view axis."),
-       member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
-       member<&U::blur_lod>("blur_lod", "1", mip_level, "Mip level of the picture behind the film."),
-       member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-       member<&U::wetness>("wetness", "1", share, "Weight of the blurred picture where the glass was not wiped."),
-       member<&U::plane_x>("plane_x", "1", component, "First axis of the glass's plane, camera axes: right, up, forward."),
-       member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which water begins to show as a drop."),
-       member<&U::plane_y>("plane_y", "1", component, "Second axis."),
-       member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
-       member<&U::outward>("outward", "1", component, "Normal of the glass, away from the car."),
-       member<&U::refraction>("refraction", "1", component, "as-published: offset in pictures per unit of n.xy."),
-       member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-       member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-       member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-       member<&U::shininess>("shininess", "1", {1, 4096}, "Power of a highlight."),
-       member<&U::glint_strength>("glint_strength", "1", {0, 10}, "Weight of the highlights."),
-       member<&U::cabin>("cabin", "1", radiance, "Radiance beside the glass."),
-       member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list."),
-       member<&U::water_ior>("water_ior", "1", {0, 2}, "corrected: refractive index of the water."),
-       member<&U::inner>("inner", "1", share, "corrected: share of the blurred scene that the water's surface mirrors.")});
-  const std::vector<std::string> lengths{"dot", "length", "normalize"};
-  constexpr auto envelope = Judge::envelope;
-  return {
-      {"composite", "The scene through film and drops, with glints: linear radiance.", {{published, 1, envelope, "CompositeUniforms"}, {correct, 1, envelope, "CompositeUniforms"}},
-       {{"blurred", "blur_pyramid"}, {"scene_depth", "", false, correct}, {"height", "wipe_texture"}, {"normal", "normals"}, {"mask", "wipe_texture"}, {"glints"}}, {"colour"}, {composite}, "gather", lengths},
-      display_info("composite"),
-  };
+  return {pass::info_of<CompositePass>(), pass::display_info("composite")};
 }
 
 std::vector<BufferInfo> picture_buffers() {
   const std::array<double, 2> one{0, 1};
-  return {
-      {"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"},
-      {"colour", "rgba16f", "Linear radiance; alpha 1.", "1", one, "none", "linear Rec. 709", "opaque"},
-      {"picture", "rgba8", "Display code; alpha 1.", "1", one, "sRGB", "sRGB", "opaque"},
-  };
+  std::vector<BufferInfo> all{{"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"}};
+  const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
+  all.insert(all.end(), colour.begin(), colour.end());
+  all.push_back({"picture", "rgba8", "Display code; alpha 1.", "1", one, "sRGB", "sRGB", "opaque"});
+  return all;
 }
 
 std::vector<UniformBlock> picture_records() {

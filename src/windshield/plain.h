@@ -4,7 +4,7 @@
 
 #include "image/texture.h"
 #include "math/plain.h"
-#include "windshield/uniforms.h"
+#include "windshield/composite.pass.h"
 
 namespace rainref::windshield::scalar {
 using namespace rainref::plain;

@@ -1,7 +1,10 @@
 #include "windshield/readings.h"
 
-#include "capture/display.h"
 #include "drops/readings.h"
+#include "pass/display.h"
+#include "pass/model.h"
+#include "windshield/every_reading.h"
+#include "windshield/surface_every_reading.h"
 
 namespace rainref::windshield {
 
@@ -12,11 +15,11 @@ const std::vector<capture::PassReadings>& readings() {
                                                       {"wipe_drops", bind_wipe_drops},
                                                       {"merge", drops::bind_merge},
                                                       {"splat", drops::bind_splat},
-                                                      {"wipe_texture", bind_wipe_texture},
-                                                      {"normals", bind_normals},
+                                                      {"wipe_texture", pass::bind<WipeTexturePass, every::WipeTexturePassText>},
+                                                      {"normals", pass::bind<NormalsPass, every::NormalsPassText>},
                                                       {"blur_pyramid", bind_blur_pyramid},
-                                                      {"composite", bind_composite},
-                                                      {"display", capture::bind_display}};
+                                                      {"composite", pass::bind<CompositePass, every::CompositePassText>},
+                                                      {"display", pass::bind_display}};
   return all;
 }
 

@@ -13,9 +13,6 @@ const std::vector<capture::PassReadings>& readings();
 
 std::unique_ptr<capture::PassModel> bind_windshield_frame(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
-std::unique_ptr<capture::PassModel> bind_wipe_texture(const capture::PassCase& c);
-std::unique_ptr<capture::PassModel> bind_normals(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_blur_pyramid(const capture::PassCase& c);
-std::unique_ptr<capture::PassModel> bind_composite(const capture::PassCase& c);
 
 }  // namespace rainref::windshield

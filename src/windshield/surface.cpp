@@ -4,17 +4,12 @@
 #include <bit>
 
 #include "math/real64.h"
-#include "rainref/error.h"
 
 namespace rainref::windshield {
 namespace {
 
-constexpr int tile_rows = 8;
 constexpr const char *published = "as-published", *correct = "corrected";
 
-bool is(const Image& image, Format format, const Image& like) {
-  return image.format() == format && image.width() == like.width() && image.height() == like.height();
-}
 /// A multiple of the grid, a power of two: the quotient is exact and below 2^51.
 double nearest(double time, double grid) {
   const double biased = time / grid + whole_bias;
@@ -83,70 +78,18 @@ Image make_wiped(const SurfaceSettings& s) {
   return wiped;
 }
 
-void wipe_texture(const parallel::Executor& executor, WipeTextureUniforms uniforms, bool corrected, Rounding rounding,
-                  std::span<const Wiper> wipers, const WipedTextures& t) {
-  const Image& height = *t.height;
-  if (height.format() != Format::r16f || !is(*t.mask, Format::r16f, height) || (corrected && !(t.wiped && is(*t.wiped, Format::r32f, height)))) {
-    throw Error(ExitCode::internal, "wipe_texture: the textures do not fit");
+pass::HostIo<WipeTexturePass> wipe_texture_io(bool corrected, std::span<const Wiper> wipers, const WipedTextures& t) {
+  pass::HostIo<WipeTexturePass> io;
+  io.height = *t.height;
+  io.new_height = *t.height;
+  if (!corrected) io.mask = *t.mask;
+  io.new_mask = *t.mask;
+  if (corrected && t.wiped) {
+    io.wiped = *t.wiped;
+    io.new_wiped = *t.wiped;
   }
-  uniforms.wiper_count = static_cast<std::int32_t>(wipers.size());
-  executor.for_tiles(height.width(), height.height(), height.width(), tile_rows,
-                     [&](const parallel::Tile& tile) { wipe_texture_rows(uniforms, corrected, rounding, wipers.data(), t, tile); });
-}
-void normals(const parallel::Executor& executor, const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height,
-             const Image& mask, Image& normal) {
-  if (height.format() != Format::r16f || !is(mask, Format::r16f, height) || !is(normal, Format::rgba16f, height)) {
-    throw Error(ExitCode::internal, "normals: the textures do not fit");
-  }
-  executor.for_tiles(height.width(), height.height(), height.width(), tile_rows,
-                     [&](const parallel::Tile& tile) { normals_rows(uniforms, corrected, rounding, height, mask, normal, tile); });
-}
-
-capture::PassInfo wipe_texture_info() {
-  using capture::per_texel;
-  using scene::member;
-  using U = WipeTextureUniforms;
-  const scene::UniformBlock block = scene::uniform_block<U>(
-      "WipeTextureUniforms", {member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-                              member<&U::edge_width>("edge_width", "m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
-                              member<&U::axis_length>("axis_length", "m", {0, 1e4}, "as-published: lengths of the axes u and v."),
-                              member<&U::strength>("strength", "mm", {0, 1000}, "as-published: what full coverage takes off the height."),
-                              member<&U::keep>("keep", "1", scene::share, "as-published: share of the mask that a frame leaves."),
-                              member<&U::dt>("dt", "s", {0, 1}, "corrected: time since the frame before, so rounded that sums are exact."),
-                              member<&U::inverse_tau>("inverse_tau", "1/s", {0, 100}, "corrected: 1 over the time constant of the mask."),
-                              member<&U::wiped_limit>("wiped_limit", "s", {0, 1 << 15}, "corrected: the time since a wipe grows to this and no further."),
-                              member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Wipers in the list.")});
-  constexpr bool from_previous_run = true;
-  return {"wipe_texture",
-          "What the blades take off the height, and the mask of freshly wiped glass.",
-          {{published, 1, capture::Judge::envelope, "WipeTextureUniforms"}, {correct, 1, capture::Judge::envelope, "WipeTextureUniforms"}},
-          {per_texel({"height", "splat"}), per_texel({"mask", "wipe_texture", from_previous_run, published}), per_texel({"wiped", "wipe_texture", from_previous_run, correct}), {"wipers"}},
-          {"height", "mask", "wiped"},
-          {block},
-          "gather",
-          {"dot", "length"}};
-}
-capture::PassInfo normals_info() {
-  using capture::per_texel;
-  using scene::member;
-  using U = NormalsUniforms;
-  const scene::UniformBlock block = scene::uniform_block<U>(
-      "NormalsUniforms", {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
-                          member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
-                          member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
-  return {"normals",
-          "The normal of the water in axes of the glass, z outward.",
-          {{published, 1, capture::Judge::envelope, "NormalsUniforms"}, {correct, 1, capture::Judge::envelope, "NormalsUniforms"}},
-          {per_texel({"height", "wipe_texture"}), per_texel({"mask", "wipe_texture"})},
-          {"normal"},
-          {block},
-          "gather",
-          {"length", "normalize"}};
-}
-std::vector<capture::BufferInfo> surface_buffers() {
-  return {{"mask", "r16f", "Freshly wiped glass: 1, and falling.", "1", {0, 1}},
-          {"wiped", "r32f", "Time since the last wipe, to about 32 time constants of the mask.", "s", {0, 16384}, "none", "none", "none", "", "", correct},
-          {"normal", "rgba16f", "Unit normal in axes of the glass, alpha 1.", "1", {-1, 1}, "none", "none", "1"}};
+  io.wipers = wipers;
+  return io;
 }
 
 }  // namespace rainref::windshield

@@ -1,40 +1,19 @@
-// The passes on the windshield's textures: wipe_texture and normals. What they take, the host's values, the passes
-// themselves, their declarations.
+// The passes on the windshield's textures, wipe_texture and normals: the host's values and state.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "capture/pass_info.h"
-#include "rainref/executor.h"
 #include "rainref/image.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
+#include "windshield/normals.pass.h"
 #include "windshield/uniforms.h"
+#include "windshield/wipe_texture.pass.h"
 
 namespace rainref::windshield {
-
-struct WipeTextureUniforms {
-  float frame[3];    ///< plane coordinates of a step in the texture: x of a column, x and y of a row [m/texel]
-  float edge_width;  ///< over which coverage falls at a blade's edge [m]
-  float axis_length[2];  ///< as-published: |e_u|, |e_v| [m]
-  float strength;        ///< as-published: what full coverage takes off [mm]
-  float keep;            ///< as-published: share of the mask that a frame leaves
-  float dt;              ///< corrected: time since the frame before, whole on the grid of wiped_grid [s]
-  float inverse_tau;     ///< corrected [1/s]
-  float wiped_limit;     ///< corrected: what `wiped` grows to at most; never wiped [s]
-  std::int32_t wiper_count;
-};
-struct NormalsUniforms {
-  float slope_x;      ///< slope along x for a difference of 1 mm across two columns
-  float slope_shear;  ///< corrected: slope along y for the same
-  float slope_y;      ///< slope along y for a difference of 1 mm across two rows
-  float padding0;
-};
-static_assert(sizeof(WipeTextureUniforms) == 48 && sizeof(NormalsUniforms) == 16);
 
 /// What both passes need to know.
 struct SurfaceSettings {
@@ -71,22 +50,7 @@ struct WipedTextures {
 Image make_mask(const SurfaceSettings& settings);
 Image make_wiped(const SurfaceSettings& settings);
 
-/// The pass, in place. uniforms.wiper_count is taken from the wipers.
-void wipe_texture(const parallel::Executor& executor, WipeTextureUniforms uniforms, bool corrected, Rounding rounding,
-                  std::span<const Wiper> wipers, const WipedTextures& textures);
-/// The pass: normal (rgba16f, alpha 1) from height and mask (r16f) of its size.
-void normals(const parallel::Executor& executor, const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height,
-             const Image& mask, Image& normal);
-
-capture::PassInfo wipe_texture_info();
-capture::PassInfo normals_info();
-/// mask, wiped and normal; height is splat's, wipers another's.
-std::vector<capture::BufferInfo> surface_buffers();
-
-// The shells; tiles of whole rows.
-void wipe_texture_rows(const WipeTextureUniforms& uniforms, bool corrected, Rounding rounding, const Wiper* wipers,
-                       const WipedTextures& textures, const parallel::Tile& tile);
-void normals_rows(const NormalsUniforms& uniforms, bool corrected, Rounding rounding, const Image& height, const Image& mask, Image& normal,
-                  const parallel::Tile& tile);
+/// One run of the pass, in place. uniforms.wiper_count is that of the wipers.
+pass::HostIo<WipeTexturePass> wipe_texture_io(bool corrected, std::span<const Wiper> wipers, const WipedTextures& textures);
 
 }  // namespace rainref::windshield

@@ -11,8 +11,10 @@ namespace rainref::windshield::every {
 using namespace rainref::plain;
 
 #define RAINREF_FN inline
+#define RAINREF_LAMBDA
 #include "windshield/normals.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #undef RAINREF_FN
+#undef RAINREF_LAMBDA
 
 }  // namespace rainref::windshield::every

@@ -9,6 +9,7 @@
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "drops/wet_glass.h"
+#include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/memory.h"
@@ -22,7 +23,7 @@ namespace {
 using capture::records;
 using capture::Stopwatch;
 
-constexpr int picture_tile_rows = 8;
+constexpr int tile_rows = 8;
 
 /// Refuses what does not fit before the drops, the first large thing, are made.
 Settings fitting(Settings s, const scene::Config& config, const Surroundings& around) {
@@ -83,7 +84,7 @@ struct Windshield::State {
     normal = Image(Format::rgba16f, w, h);
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
-    display = scene::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
+    display = pass::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
     check_pictures(surroundings);
@@ -100,16 +101,7 @@ struct Windshield::State {
   double step_time() const { return 1 / (settings.fps * settings.substeps); }
   double frame_time() const { return 1 / settings.fps; }
 
-  drops::Run run(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding}; }
-  template <class Uniforms>
-  void announce(Recorder* recorder, int step, std::string_view pass, double dt, const Uniforms& uniforms, std::initializer_list<PassInput> inputs, int level = -1) const {
-    if (!recorder) return;
-    recorder->before({frame, step, pass, {inputs.begin(), inputs.size()}, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(frame / settings.fps),
-                      static_cast<float>(dt), settings.surface.rounding, level});
-  }
-  void report(Recorder* recorder, int step, std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds, int level = -1) const {
-    if (recorder) recorder->pass({frame, step, pass, {outputs.begin(), outputs.size()}, seconds, level});
-  }
+  pass::Moment moment(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding}; }
 
   void step(Recorder* recorder, int substep);
   bool look();
@@ -119,19 +111,19 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const double dt = step_time(), t = static_cast<double>(steps) * dt;
   const VehicleState car = vehicle.at(t);
 
+  const pass::Moment now = moment(recorder, substep, dt);
   const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass, car, settings.wind, settings.gravity, corrected);
-  announce(recorder, substep, "windshield_frame", dt, frame_uniforms, {});
+  now.before("windshield_frame", frame_uniforms, {});
   Stopwatch frame_clock;
   const drops::GlassFrame moving = windshield_frame(frame_uniforms, corrected);
-  report(recorder, substep, "windshield_frame", {{"glass_frame", record(moving)}}, frame_clock.seconds());
+  now.after("windshield_frame", {{"glass_frame", record(moving)}}, frame_clock.seconds());
 
   // The wind of the car's axes along the glass's normal.
   const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
   const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
   const drops::Exposure exposure{glass.area, glass.normal[2], dot(in_car, glass.normal)};
-  const drops::Run told = run(recorder, substep, dt);
-  water.spawn(told, exposure, steps);
-  water.integrate(told, moving);
+  water.spawn(now, exposure, steps);
+  water.integrate(now, moving);
 
   // As published the first frame has no frame before it: the blades stand.
   const std::vector<Wiper> swept = steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
@@ -140,9 +132,9 @@ void Windshield::State::step(Recorder* recorder, int substep) {
                                                      corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
   if (recorder) {
     if (corrected) {
-      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list_for(told, "wipe_drops")}, {"wipers", records(swept)}, {"film", water.film}});
+      now.before("wipe_drops", wipe, {{"drops", water.list_for(now, "wipe_drops")}, {"wipers", records(swept)}, {"film", water.film}});
     } else {
-      announce(recorder, substep, "wipe_drops", dt, wipe, {{"drops", water.list_for(told, "wipe_drops")}, {"wipers", records(swept)}});
+      now.before("wipe_drops", wipe, {{"drops", water.list_for(now, "wipe_drops")}, {"wipers", records(swept)}});
     }
   }
   Stopwatch wipe_clock;
@@ -157,13 +149,13 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const double wiped_time = wipe_clock.seconds();
   if (recorder) {
     if (corrected) {
-      report(recorder, substep, "wipe_drops", {{"drops", water.list_for(told, "wipe_drops")}, {"film", water.film}}, wiped_time);
+      now.after("wipe_drops", {{"drops", water.list_for(now, "wipe_drops")}, {"film", water.film}}, wiped_time);
     } else {
-      report(recorder, substep, "wipe_drops", {{"drops", water.list_for(told, "wipe_drops")}}, wiped_time);
+      now.after("wipe_drops", {{"drops", water.list_for(now, "wipe_drops")}}, wiped_time);
     }
   }
 
-  if (corrected) water.merge(told, steps);
+  if (corrected) water.merge(now, steps);
   ++steps;
 }
 
@@ -202,32 +194,27 @@ void Windshield::render(Recorder* recorder) {
   s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
   const parallel::Executor& executor = s.executor;
   const Settings& settings = s.settings;
-  const double dt = s.frame_time();
-  constexpr int last_step = 0;
+  const pass::Moment now = s.moment(recorder, 0, s.frame_time());
   const Rounding rounding = settings.surface.rounding;
 
-  s.water.splat(s.run(recorder, last_step, dt), settings.splat, s.height);
+  s.water.splat(now, settings.splat, s.height);
 
   WipeTextureUniforms wipe = wipe_texture_uniforms(settings.surface, s.frame);
   wipe.wiper_count = static_cast<std::int32_t>(s.wipers.size());
-  if (s.corrected) {
-    s.announce(recorder, last_step, "wipe_texture", dt, wipe, {{"height", s.height}, {"wiped", s.wiped}, {"wipers", records(s.wipers)}});
-  } else {
-    s.announce(recorder, last_step, "wipe_texture", dt, wipe, {{"height", s.height}, {"mask", s.mask}, {"wipers", records(s.wipers)}});
-  }
-  Stopwatch wipe_clock;
-  wipe_texture(executor, wipe, s.corrected, rounding, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr});
-  if (s.corrected) {
-    s.report(recorder, last_step, "wipe_texture", {{"height", s.height}, {"mask", s.mask}, {"wiped", s.wiped}}, wipe_clock.seconds());
-  } else {
-    s.report(recorder, last_step, "wipe_texture", {{"height", s.height}, {"mask", s.mask}}, wipe_clock.seconds());
-  }
+  pass::Run<WipeTexturePass> wiping(wipe, s.corrected, rounding, wipe_texture_io(s.corrected, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr}));
+  wiping.start(now);
+  wiping.tiles(executor, tile_rows);
+  wiping.finish(now);
 
   const NormalsUniforms slopes = normals_uniforms(settings.surface);
-  s.announce(recorder, last_step, "normals", dt, slopes, {{"height", s.height}, {"mask", s.mask}});
-  Stopwatch normals_clock;
-  normals(executor, slopes, s.corrected, rounding, s.height, s.mask, s.normal);
-  s.report(recorder, last_step, "normals", {{"normal", s.normal}}, normals_clock.seconds());
+  pass::HostIo<NormalsPass> io;
+  io.height = s.height;
+  io.mask = s.mask;
+  io.normal = s.normal;
+  pass::Run<NormalsPass> normals(slopes, s.corrected, rounding, io);
+  normals.start(now);
+  normals.tiles(executor, tile_rows);
+  normals.finish(now);
 
   // A scene that stands still has its pyramid already.
   const bool anew = s.look();
@@ -240,37 +227,37 @@ void Windshield::render(Recorder* recorder) {
     const std::size_t l = static_cast<std::size_t>(level);
     const blur_pyramid::BlurUniforms blur = blur_pyramid::blur_uniforms(settings.blur, width, height, level);
     if (level == 0) {
-      s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"scene_colour", s.scene.colour}, {"scene_depth", s.scene.depth}}, 0);
+      now.before("blur_pyramid", blur, {{"scene_colour", s.scene.colour}, {"scene_depth", s.scene.depth}}, 0);
     } else {
-      s.announce(recorder, last_step, "blur_pyramid", dt, blur, {{"blurred", s.levels[l - 1]}}, level);
+      now.before("blur_pyramid", blur, {{"blurred", s.levels[l - 1]}}, level);
     }
     Stopwatch blur_clock;
     if (anew && level == 0) blur_pyramid::fog_level(executor, blur, rounding, s.scene.colour, s.scene.depth, s.levels[0]);
     if (anew && level > 0) blur_pyramid::halve_level(executor, blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]);
-    s.report(recorder, last_step, "blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
+    now.after("blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
   }
-  Stopwatch composite_clock;
+  Stopwatch pyramid_clock;
   if (anew) s.pyramid->refresh(executor, s.levels);
-  const CompositeUniforms composite = composite_uniforms(settings.picture, settings.corners);
-  const CompositeInputs in{s.pyramid->view(), stored_texture<float>(s.scene.depth), stored_texture<Half>(s.height), stored_texture<Half>(s.normal), stored_texture<Half>(s.mask), s.lights};
-  const PassInput pyramid{"blurred", std::span<const Image>(s.levels), Filter::linear, Filter::linear}, water{"height", s.height, Filter::linear}, normal{"normal", s.normal, Filter::linear}, mask{"mask", s.mask, Filter::linear},
-      lights{"glints", records(s.lights)};
-  if (s.corrected) {
-    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, {"scene_depth", s.scene.depth, Filter::linear}, water, normal, mask, lights});
-  } else {
-    s.announce(recorder, last_step, "composite", dt, composite, {pyramid, water, normal, mask, lights});
-  }
-  const auto tiles = [&](const std::function<void(const parallel::Tile&)>& body) {
-    executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), picture_tile_rows, body);
-  };
-  tiles([&](const parallel::Tile& tile) { composite_rows(composite, s.corrected, rounding, in, s.colour, tile); });
-  s.report(recorder, last_step, "composite", {{"colour", s.colour}}, composite_clock.seconds());
+  pass::HostIo<CompositePass> seen;
+  seen.blurred.set(s.pyramid->view(), s.levels);
+  if (s.corrected) seen.scene_depth = s.scene.depth;
+  seen.height = s.height;
+  seen.normal = s.normal;
+  seen.mask = s.mask;
+  seen.glints = s.lights;
+  seen.colour = s.colour;
+  const double refreshed = pyramid_clock.seconds();
+  pass::Run<CompositePass> composite(composite_uniforms(settings.picture, settings.corners), s.corrected, rounding, seen);
+  composite.start(now);
+  composite.tiles(executor, tile_rows);
+  composite.finish(now, 1, refreshed);
 
-  const scene::DisplayUniforms display = scene::display_uniforms(settings.picture.exposure);
-  s.announce(recorder, last_step, "display", dt, display, {{"colour", s.colour}});
-  Stopwatch display_clock;
-  tiles([&](const parallel::Tile& tile) { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
-  s.report(recorder, last_step, "display", {{"picture", s.picture}}, display_clock.seconds());
+  pass::Run<pass::DisplayPass> display = pass::display_run(settings.picture.exposure, rounding, s.colour, s.picture);
+  display.start(now);
+  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows, [&](const parallel::Tile& tile) {
+    display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
+  });
+  display.finish(now, executor.threads());
   s.frame = recorded_frame;
 }
 

@@ -119,13 +119,13 @@ TEST(CaptureRecorder, RefusesWhatTheEffectDoesNotDeclare) {
   };
   const Image image(Format::r8, 2, 2);
   const PassOutput unknown[] = {{"fog", image}}, known[] = {{"picture", image}};
-  EXPECT_EQ(capture("corrected", [&](Recorder& r) { r.pass({0, 0, "blur", known, 0}); }), "5 pass blur of frame 0 was not announced");
+  EXPECT_EQ(capture("corrected", [&](Recorder& r) { r.pass({0, 0, "blur", known, 0}); }), "5 pass blur of frame 0 did not start");
   EXPECT_EQ(capture("corrected",
                     [&](Recorder& r) {
                       r.before({0, 0, "blur", {}, {}, 0, 0});
                       r.pass({0, 1, "blur", known, 0});
                     }),
-            "5 pass blur of frame 0 was not announced");
+            "5 pass blur of frame 0 did not start");
   EXPECT_EQ(capture("corrected",
                     [&](Recorder& r) {
                       r.before({0, 0, "blur", {}, {}, 0, 0});

@@ -6,7 +6,8 @@
 #include "edge_splash/shapes.h"
 #include "edge_splash/support.h"
 #include "math/simd_target.h"
-#include "scene/display_every_reading.h"
+#include "pass/display.h"
+#include "pass/display_every_reading.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -133,7 +134,7 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
           ASSERT_EQ(effect.colour().row<Half>(y)[4 * x + k].bits, stored.bits) << target << " " << x << "," << y;
         }
         const Half* colour = effect.colour().row<Half>(y) + 4 * x;
-        const auto shown = scene::every::display<F>(scene::display_uniforms(reading.s.exposure), {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
+        const auto shown = pass::every::display<F>(pass::display_uniforms(reading.s.exposure), {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x].code, to_unorm8(shown.x.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 2].code, to_unorm8(shown.z.v).code);

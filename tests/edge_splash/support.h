@@ -11,7 +11,7 @@
 
 #include "base/error_of.h"
 #include "edge_splash/host.h"
-#include "edge_splash/kernels.h"
+#include "edge_splash/splash.pass.h"
 #include "edge_splash/plain.h"
 #include "math/half.h"
 #include "math/unorm.h"

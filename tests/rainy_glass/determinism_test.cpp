@@ -5,7 +5,8 @@
 #include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "rainy_glass/support.h"
-#include "scene/display_every_reading.h"
+#include "pass/display.h"
+#include "pass/display_every_reading.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -131,7 +132,7 @@ TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
         expect_same(stored[0], c.x, "colour.r", x, y);
         expect_same(stored[1], c.y, "colour.g", x, y);
         expect_same(stored[2], c.z, "colour.b", x, y);
-        const auto shown = scene::every::display<Single>(scene::display_uniforms(s.exposure), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+        const auto shown = pass::every::display<Single>(pass::display_uniforms(s.exposure), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         const Unorm8* code_value = glass.picture().row<Unorm8>(y) + 4 * x;
         ASSERT_EQ(code_value[0].code, to_unorm8(shown.x.v).code) << target << " " << x << "," << y;
         ASSERT_EQ(code_value[2].code, to_unorm8(shown.z.v).code) << target << " " << x << "," << y;

@@ -15,7 +15,8 @@
 #include "screen_drops/cells.h"
 #include "screen_drops/flow_support.h"
 #include "screen_drops/host.h"
-#include "screen_drops/kernels.h"
+#include "screen_drops/background.pass.h"
+#include "screen_drops/drops.pass.h"
 #include "screen_drops/plain.h"
 
 namespace rainref::screen_drops::test {

@@ -11,7 +11,9 @@
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "math/unorm.h"
-#include "scene/display_every_reading.h"
+#include "pass/run.h"
+#include "pass/display.h"
+#include "pass/display_every_reading.h"
 #include "windshield/picture.h"
 #include "windshield/plain.h"
 #include "windshield/street.h"
@@ -76,7 +78,7 @@ struct Scene {
       ahead{pattern<Half>(Format::rgba16f, 19, 13, 0.5f), pattern<float>(Format::r32f, 19, 13, 50)};
   PictureSettings settings;
   CompositeUniforms composite;
-  scene::DisplayUniforms display;
+  pass::DisplayUniforms display;
   ReprojectUniforms reproject{{0.6f, 0.3f}, {0.05f, 0.05f}, {0.01f, -0.02f, 0.99f}, 2.5f, -5.5f, 0.4f};
   std::vector<Glint> lights;
 
@@ -87,7 +89,7 @@ struct Scene {
     settings.vertical_fov_deg = 60;  // beyond the glass, too
     settings.lights = {{{-0.9, 0.2, 0.4}, {1, 0.9, 0.8}}, {{0.1, 0.9, 0.2}, {0.2, 0.3, 0.9}}};
     composite = composite_uniforms(settings, raked);
-    display = scene::display_uniforms(settings.exposure);
+    display = pass::display_uniforms(settings.exposure);
     lights = glints(settings);
   }
   View make() const {
@@ -96,10 +98,19 @@ struct Scene {
   }
   View by_lanes(bool corrected, const parallel::Executor& executor) const {
     View v = make();
-    const CompositeInputs in{pyramid.stored->view(), stored_texture<float>(depth), stored_texture<Half>(water), stored_texture<Half>(normal), stored_texture<Half>(mask), lights};
+    pass::HostIo<CompositePass> io;
+    io.blurred.set(pyramid.stored->view(), {});
+    io.scene_depth = depth;
+    io.height = water;
+    io.normal = normal;
+    io.mask = mask;
+    io.glints = lights;
+    io.colour = v.colour;
+    auto shown = pass::display_run(settings.exposure, Rounding::rne, v.colour, v.picture);
+    pass::Run<CompositePass> seen(composite, corrected, Rounding::rne, io);
     executor.for_tiles(settings.width, height, settings.width, 2, [&](const parallel::Tile& tile) {
-      composite_rows(composite, corrected, Rounding::rne, in, v.colour, tile);
-      scene::display_rows(display, Rounding::rne, v.colour, v.picture, tile);
+      seen.tile(tile);
+      shown.tile(tile);
       reproject_rows(reproject, behind, ahead, v.street, tile);
     });
     return v;
@@ -138,7 +149,7 @@ TEST_P(PictureDeterminism, LanesEqualThePlainReading) {
         Half* colour = plain.colour.row<Half>(y) + 4 * x;
         const float rgba[4] = {c.x.v, c.y.v, c.z.v, 1};
         for (int k = 0; k < 4; ++k) colour[k] = to_half(rgba[k] + 0.0f);
-        const plain::Vec3<F> code = scene::every::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
+        const plain::Vec3<F> code = pass::every::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
         const float codes[4] = {code.x.v, code.y.v, code.z.v, 1};
         for (int k = 0; k < 4; ++k) plain.picture.row<Unorm8>(y)[4 * x + k] = to_unorm8(codes[k], Rounding::rne);
       }

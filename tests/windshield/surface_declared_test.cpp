@@ -3,6 +3,7 @@
 
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "pass/info.h"
 #include "windshield/info.h"
 #include "windshield/surface.h"
 
@@ -28,12 +29,12 @@ TEST(SurfaceDeclared, ScenesSetWhatTheVariantUses) {
 
 TEST(SurfaceDeclared, PassesAndTheirBuffers) {
   // Making a block validates it: an error would throw.
-  const capture::PassInfo wipe = wipe_texture_info(), normal = normals_info();
+  const capture::PassInfo wipe = pass::info_of<WipeTexturePass>(), normal = pass::info_of<NormalsPass>();
   EXPECT_EQ(wipe.block("corrected").size, sizeof(WipeTextureUniforms));
   EXPECT_EQ(normal.block("as-published").size, sizeof(NormalsUniforms));
   capture::EffectInfo effect;
-  effect.buffers = surface_buffers();
-  for (const char* name : {"mask", "wiped", "normal"}) EXPECT_NO_THROW(effect.buffer(name, "corrected")) << name;
+  effect.buffers = pass::buffers_of<WipeTexturePass>();
+  for (const char* name : {"mask", "wiped"}) EXPECT_NO_THROW(effect.buffer(name, "corrected")) << name;
   EXPECT_NO_THROW(effect.buffer("mask", "as-published"));
 }
 

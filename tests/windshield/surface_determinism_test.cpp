@@ -32,20 +32,21 @@ std::vector<Wiper> wipers(const SurfaceSettings& s) {
   right.pivot_x = 0.9;
   return {wiper(s, left, 0.7, 1.2), wiper(s, right, 1.3, 0.9), wiper(s, left, 2, 2)};
 }
-/// Three rows around y, readable a texel to both sides.
-struct Rows {
-  std::vector<Half> values[6];
-  Rows(const Image& height, const Image& mask, int y) {
-    for (int k = 0; k < 6; ++k) {
-      const Image& from = k < 3 ? height : mask;
-      const Half* row = from.row<Half>(std::clamp(y + k % 3 - 1, 0, from.height() - 1));
-      for (int x = -1; x <= from.width(); ++x) values[k].push_back(row[std::clamp(x, 0, from.width() - 1)]);
-    }
+/// The texels around (x, y) as N, the nearest one standing beyond the edge.
+template <class N>
+struct Around {
+  const Image &heights, &masks;
+  int x, y;
+  static N at(const Image& image, int column, int row) {
+    return N::load(image.row<Half>(std::clamp(row, 0, image.height() - 1)) + std::clamp(column, 0, image.width() - 1));
   }
-  scalar::SurfaceRows<Half> view() const {
-    return {values[0].data() + 1, values[1].data() + 1, values[2].data() + 1, values[3].data() + 1, values[4].data() + 1, values[5].data() + 1};
-  }
+  N height(int dx, int dy) const { return at(heights, x + dx, y + dy); }
+  N mask(int dx, int dy) const { return at(masks, x + dx, y + dy); }
 };
+template <class N>
+plain::Vec3<N> normal_at(const NormalsUniforms& u, bool corrected, const Around<N>& around) {
+  return corrected ? scalar::normal_of<N, true>(u, around) : scalar::normal_of<N, false>(u, around);
+}
 
 TEST(SurfaceDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
   parallel::Executor executors[] = {parallel::Executor(1), parallel::Executor(2), parallel::Executor(3), parallel::Executor(8)};
@@ -104,12 +105,11 @@ TEST(SurfaceDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
             }
           }
           Image normal(Format::rgba16f, width, s.height);
-          normals(executor, normals_uniforms(s), corrected, s.rounding, glass.height, glass.mask, normal);
+          run_normals(executor, s, glass.height, glass.mask, normal);
           for (int y = 0; y < s.height; ++y) {
-            const Rows rows(glass.height, glass.mask, y);
             for (int x = 0; x < width; ++x) {
               const NormalsUniforms n = normals_uniforms(s);
-              const auto v = corrected ? scalar::normal_corrected<F>(n, rows.view(), x) : scalar::normal_as_published<F>(n, rows.view(), x);
+              const auto v = normal_at(n, corrected, Around<F>{glass.height, glass.mask, x, y});
               const Half* got = normal.row<Half>(y) + 4 * x;
               ASSERT_EQ(got[0].bits, stored(v.x, s.rounding).bits) << target << " " << x << " " << y;
               ASSERT_EQ(got[1].bits, stored(v.y, s.rounding).bits);
@@ -137,7 +137,6 @@ TEST(SurfaceDeterminism, FloatsAreWithinRoundingOfDoubles) {
     fill(mask, 4, 1);
     const NormalsUniforms n = normals_uniforms(s);
     for (int y = 0; y < s.height; y += 2) {
-      const Rows rows(height, mask, y);
       for (int x = 0; x < s.width; x += 3) {
         const auto coverage = [&](auto one) {
           using N = decltype(one);
@@ -145,12 +144,8 @@ TEST(SurfaceDeterminism, FloatsAreWithinRoundingOfDoubles) {
         };
         // Distances of up to 1.6 m after some ten roundings, over an edge of 2.2 mm.
         ASSERT_NEAR(coverage(F(0.0f)).v, coverage(D(0.0f)).v, 10 * 0x1p-23 * 1.6 / 2.1e-3);
-        const auto normal = [&](auto one) {
-          using N = decltype(one);
-          return corrected ? scalar::normal_corrected<N>(n, rows.view(), x) : scalar::normal_as_published<N>(n, rows.view(), x);
-        };
-        const auto f = normal(F(0.0f));
-        const auto d = normal(D(0.0f));
+        const auto f = normal_at(n, corrected, Around<F>{height, mask, x, y});
+        const auto d = normal_at(n, corrected, Around<D>{height, mask, x, y});
         // A slope of up to 2 with six roundings, taps reduced by the mask included; normalizing adds four.
         ASSERT_NEAR(f.x.v, d.x.v, 10 * 0x1p-22);
         ASSERT_NEAR(f.y.v, d.y.v, 10 * 0x1p-22);

@@ -14,18 +14,17 @@ using D = plain::Plain<double>;
 struct Slope {
   double x, y;
 };
-/// The normal of three rows around texel (1, 1), by the double reading, from heights [mm] and one mask for all.
+/// A texel and those around it, by the double evaluation, from heights [mm] and one mask for all.
+struct Around {
+  const std::function<double(int, int)>& heights;
+  double wiped;
+  D height(int dx, int dy) const { return D(heights(dx, dy)); }
+  D mask(int, int) const { return D(wiped); }
+};
 Slope slope_of(const SurfaceSettings& s, const std::function<double(int, int)>& height, double mask = 0) {
-  double h[3][3], m[3][3];
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      h[j][i] = height(i - 1, j - 1);
-      m[j][i] = mask;
-    }
-  }
-  const scalar::SurfaceRows<double> rows{h[0], h[1], h[2], m[0], m[1], m[2]};
+  const Around around{height, mask};
   const NormalsUniforms u = normals_uniforms(s);
-  const auto n = s.corrected ? scalar::normal_corrected<D>(u, rows, 1) : scalar::normal_as_published<D>(u, rows, 1);
+  const auto n = s.corrected ? scalar::normal_of<D, true>(u, around) : scalar::normal_of<D, false>(u, around);
   EXPECT_NEAR(n.x.v * n.x.v + n.y.v * n.y.v + n.z.v * n.z.v, 1, 1e-14);
   return {-n.x.v / n.z.v, -n.y.v / n.z.v};
 }
@@ -70,7 +69,7 @@ Image any_height(int width, int height, unsigned seed) {
 }
 Image normals_of(const SurfaceSettings& s, const Image& height, const Image& mask) {
   Image normal(Format::rgba16f, s.width, s.height);
-  normals(two_threads(), normals_uniforms(s), s.corrected, s.rounding, height, mask, normal);
+  run_normals(two_threads(), s, height, mask, normal);
   return normal;
 }
 double channel(const Image& normal, int x, int y, int c) { return to_float(normal.row<Half>(y)[4 * x + c]); }

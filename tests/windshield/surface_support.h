@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/half.h"
+#include "pass/run.h"
 #include "rainref/executor.h"
 #include "windshield/surface.h"
 #include "windshield/surface_plain.h"
@@ -23,6 +24,14 @@ inline Image filled(int width, int height, double value) {
   Image image(Format::r16f, width, height);
   for (int y = 0; y < height; ++y) std::fill_n(image.row<Half>(y), width, to_half(static_cast<float>(value)));
   return image;
+}
+
+inline void run_normals(const parallel::Executor& executor, const SurfaceSettings& s, const Image& height, const Image& mask, Image& normal) {
+  pass::HostIo<NormalsPass> io;
+  io.height = height;
+  io.mask = mask;
+  io.normal = normal;
+  pass::Run<NormalsPass>(normals_uniforms(s), s.corrected, s.rounding, io).tiles(executor, 8);
 }
 
 /// A glass of 1.4 m x 0.8 m with this angle between its axes, for the variant.
@@ -72,8 +81,10 @@ struct Glass {
     if (s.corrected) wiped = make_wiped(s);
   }
   void wipe(const std::vector<Wiper>& wipers, int frame = 0, const parallel::Executor& executor = two_threads()) {
-    wipe_texture(executor, wipe_texture_uniforms(settings, frame), settings.corrected, settings.rounding, wipers,
-                 {&height, &mask, settings.corrected ? &wiped : nullptr});
+    WipeTextureUniforms u = wipe_texture_uniforms(settings, frame);
+    u.wiper_count = static_cast<std::int32_t>(wipers.size());
+    const auto io = wipe_texture_io(settings.corrected, wipers, {&height, &mask, settings.corrected ? &wiped : nullptr});
+    pass::Run<WipeTexturePass>(u, settings.corrected, settings.rounding, io).tiles(executor, 8);
   }
   /// Share of the water that is gone, as an area of the real glass [m^2].
   double cleared(double water) const {

@@ -233,9 +233,11 @@ TEST(SurfaceMask, FollowsTheBlade) {
 TEST(SurfaceWipe, TexturesThatDoNotFitAreRefused) {
   const SurfaceSettings s = settings_on(true, 8, 8);
   Image height = filled(8, 8, 0), mask = make_mask(s), narrow = filled(7, 8, 0), normal(Format::rgba16f, 8, 8);
-  EXPECT_THROW(wipe_texture(two_threads(), wipe_texture_uniforms(s, 0), true, Rounding::rne, {}, {&height, &mask, nullptr}), Error);
-  EXPECT_THROW(wipe_texture(two_threads(), wipe_texture_uniforms(s, 0), false, Rounding::rne, {}, {&height, &narrow, nullptr}), Error);
-  EXPECT_THROW(normals(two_threads(), normals_uniforms(s), true, Rounding::rne, height, narrow, normal), Error);
+  const auto wipe = [&](bool corrected, const WipedTextures& textures) { pass::Run<WipeTexturePass>(wipe_texture_uniforms(s, 0), corrected, Rounding::rne, wipe_texture_io(corrected, {}, textures)); };
+  EXPECT_NO_THROW(wipe(false, {&height, &mask, nullptr}));
+  EXPECT_THROW(wipe(true, {&height, &mask, nullptr}), Error);
+  EXPECT_THROW(wipe(false, {&height, &narrow, nullptr}), Error);
+  EXPECT_THROW(run_normals(two_threads(), s, height, narrow, normal), Error);
 }
 
 }  // namespace

@@ -4,16 +4,16 @@
 #include "math/deviant.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
-#include "scene/display.h"
+#include "pass/display.pass.h"
 
-namespace rainref::scene::every {
+namespace rainref::pass::every {
 using namespace rainref::plain;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
-#include "scene/display.pass.h"
+#include "pass/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-}  // namespace rainref::scene::every
+}  // namespace rainref::pass::every

@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "capture/display.h"
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "math/unorm.h"
 #include "rainref/error.h"
-#include "scene/display_every_reading.h"
+#include "pass/display.h"
+#include "pass/display_every_reading.h"
 
-namespace rainref::scene {
+namespace rainref::pass {
 namespace {
 
 using F = plain::Plain<float>;
@@ -53,7 +53,7 @@ TEST(Display, LanesAndTableGiveThePlainCodes) {
         const int height = width == 256 ? 100 : 5;
         const Image colour = ramp(width, height);
         Image rows(Format::rgba8, width, height), table(Format::rgba8, width, height);
-        display_rows(u, rounding, colour, rows, {0, 0, width, height});
+        display_run(0.7, rounding, colour, rows).tile(parallel::Tile{0, 0, width, height});
         display_table(width, height, 0.7, rounding).rows(colour, table, 0, height);
         for (int y = 0; y < height; ++y) {
           for (int x = 0; x < width; ++x) {
@@ -80,13 +80,15 @@ TEST(Display, ACaseOfOtherChannelsIsRefused) {
   colour.array.width = colour.array.height = 1;
   colour.array.levels = {std::vector<std::byte>(2)};
   c.inputs.push_back(colour);
+  c.outputs.emplace_back().array = colour.array;
+  c.uniforms.resize(sizeof(DisplayUniforms));
   try {
-    static_cast<void>(capture::bind_display(c));
+    static_cast<void>(bind_display(c));
     FAIL();
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("in.colour: expected 4 channels, found r16f"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("in.colour: expected rgba16f 1x1, found r16f 1x1"), std::string::npos) << e.what();
   }
 }
 
 }  // namespace
-}  // namespace rainref::scene
+}  // namespace rainref::pass

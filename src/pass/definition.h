@@ -1,0 +1,230 @@
+// A pass as one definition. Its file has two parts, which a room includes where it needs them:
+//
+//   outside every namespace        what the pass is: a struct with `about`, `Uniforms`, uniforms() and Io<B>
+//   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y);
+//                                                                with views(io), which is asked once a row: run(u, io, views, x, y)
+//
+// Io<B> names each buffer once. The binding B says what a buffer is: its declaration (Declared), the host's images (Host), the
+// arrays of a captured case (model.h), or a cursor over rows of lanes or of another number (cursor-inl.h). Everything here is
+// compiled for the base target and holds no vector.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "capture/pass_case.h"
+#include "image/stored_texture.h"
+#include "math/half.h"
+#include "math/unorm.h"
+#include "rainref/image.h"
+#include "rainref/recorder.h"
+#include "rainref/texture.h"
+
+namespace rainref::pass {
+
+/// How a variant runs a pass. revision counts up whenever the order of operations or a constant changes; 0: it does not run it.
+struct VariantOf {
+  int revision = 0;
+  capture::Judge judge = capture::Judge::envelope;
+};
+struct About {
+  std::string_view name, sentence;
+  VariantOf as_published, corrected;
+  std::array<std::string_view, 4> order_free_sums{};  ///< sums whose terms a port may add in any order
+};
+/// Whether a variant has a buffer that is of this one alone, or of both ("").
+constexpr bool is_of(std::string_view variant, bool corrected) { return variant.empty() || (variant == "corrected") == corrected; }
+
+/// A buffer that a pass reads.
+struct In {
+  std::string_view name;
+  std::string_view from = "";     ///< the pass that wrote it; "": the host
+  bool previous = false;          ///< from the run of that pass before this one
+  std::string_view variant = "";  ///< the one that reads it; "": both
+  bool optional = false;          ///< the host may leave it out
+  bool same_size = false;         ///< as the pass's outputs, though it is looked up by coordinates
+  std::string_view count = "";    ///< of records: the uniform that says how many of them count
+  Filter filter = Filter::none, mip_filter = Filter::none;
+};
+/// A buffer that a pass writes. Without a sentence it is one that another pass declares, and this one writes anew.
+struct Out {
+  std::string_view name, sentence = "", unit = "1";
+  std::array<double, 2> range{0, 1};
+  std::string_view encoding = "none", colour_space = "none", alpha = "none";
+  std::string_view variant = "";  ///< the one that writes it; "": both
+  bool operator==(const Out&) const = default;
+};
+
+/// The storage type of a format's channels.
+template <Format f>
+struct StorageOf;
+// clang-format off
+template <> struct StorageOf<Format::r8>      { using type = Unorm8; static constexpr int channels = 1; };
+template <> struct StorageOf<Format::rgba8>   { using type = Unorm8; static constexpr int channels = 4; };
+template <> struct StorageOf<Format::r16f>    { using type = Half;   static constexpr int channels = 1; };
+template <> struct StorageOf<Format::rg16f>   { using type = Half;   static constexpr int channels = 2; };
+template <> struct StorageOf<Format::rgba16f> { using type = Half;   static constexpr int channels = 4; };
+template <> struct StorageOf<Format::r32f>    { using type = float;  static constexpr int channels = 1; };
+template <> struct StorageOf<Format::rg32f>   { using type = float;  static constexpr int channels = 2; };
+template <> struct StorageOf<Format::rgba32f> { using type = float;  static constexpr int channels = 4; };
+// clang-format on
+
+// ---- the members of Io, without naming them again ------------------------------------------------------------------------
+// What the compiler does not see through here, it keeps in memory in the inner loop: always inlined, no library in between.
+#define RAINREF_FLAT __attribute__((always_inline)) inline
+#define RAINREF_FLAT_LAMBDA __attribute__((always_inline))
+
+namespace detail {
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+template <class T, std::size_t... I>
+constexpr bool holds(std::index_sequence<I...>) {
+  return requires { T{(static_cast<void>(I), Anything())...}; };
+}
+template <class T, int n = 10>
+constexpr int count() {
+  if constexpr (n == 0 || holds<T>(std::make_index_sequence<n>())) return n;
+  else return count<T, n - 1>();
+}
+/// f(member, ...) with all n members.
+template <int n, class S, class F>
+constexpr RAINREF_FLAT void unpack(S& s, const F& f) {
+  // clang-format off
+  if constexpr (n == 1) { auto& [a] = s; f(a); }
+  else if constexpr (n == 2) { auto& [a, b] = s; f(a, b); }
+  else if constexpr (n == 3) { auto& [a, b, c] = s; f(a, b, c); }
+  else if constexpr (n == 4) { auto& [a, b, c, d] = s; f(a, b, c, d); }
+  else if constexpr (n == 5) { auto& [a, b, c, d, e] = s; f(a, b, c, d, e); }
+  else if constexpr (n == 6) { auto& [a, b, c, d, e, g] = s; f(a, b, c, d, e, g); }
+  else if constexpr (n == 7) { auto& [a, b, c, d, e, g, h] = s; f(a, b, c, d, e, g, h); }
+  else if constexpr (n == 8) { auto& [a, b, c, d, e, g, h, i] = s; f(a, b, c, d, e, g, h, i); }
+  else if constexpr (n == 9) { auto& [a, b, c, d, e, g, h, i, j] = s; f(a, b, c, d, e, g, h, i, j); }
+  else { static_assert(n == 10, "more members than unpack knows"); auto& [a, b, c, d, e, g, h, i, j, k] = s; f(a, b, c, d, e, g, h, i, j, k); }
+  // clang-format on
+}
+}  // namespace detail
+
+/// What list, describe and layouts say.
+struct Declared {
+  /// Loaded by integer texel, its own or one up to `around` columns and rows away, where the nearest texel stands beyond the ends.
+  template <Format f, int around = 0>
+  struct Texels : In {
+    static constexpr Format format = f;
+    static constexpr int reach = around;
+    constexpr Texels(In in) : In(in) {}
+  };
+  /// Looked up by coordinates.
+  struct Sampled : In {
+    constexpr Sampled(In in) : In(in) {}
+  };
+  /// The same of an image and its mip levels that lanes need not have decoded.
+  template <Format f>
+  struct Stored : In {
+    constexpr Stored(In in) : In(in) {}
+  };
+  template <class Record>
+  struct Records : In {
+    constexpr Records(In in) : In(in) {}
+  };
+  template <Format f>
+  struct Result {
+    Out outs[2];  ///< as published, corrected: its meaning may differ
+    static constexpr Format format = f;
+    constexpr Result(Out both) : outs{both, both} {}
+    constexpr Result(Out as_published, Out corrected) : outs{as_published, corrected} {}
+  };
+};
+
+template <class P>
+constexpr int count_of = detail::count<typename P::template Io<Declared>>();
+/// f(member) of each member of io.
+template <class P, class Io, class F>
+constexpr RAINREF_FLAT void each(Io& io, const F& f) {
+  detail::unpack<count_of<P>>(io, [&](auto&... member) RAINREF_FLAT_LAMBDA { (f(member), ...); });
+}
+/// f(member of a, member of b) of two structs of one definition.
+template <class P, class IoA, class IoB, class F>
+constexpr RAINREF_FLAT void each(IoA& a, IoB& b, const F& f) {
+  detail::unpack<count_of<P>>(a, [&](auto&... of_a) RAINREF_FLAT_LAMBDA {
+    detail::unpack<count_of<P>>(b, [&](auto&... of_b) RAINREF_FLAT_LAMBDA { (f(of_a, of_b), ...); });
+  });
+}
+/// How many texels away the pass loads at most.
+template <class P>
+constexpr int reach_of = [] {
+  int most = 0;
+  const typename P::template Io<Declared> io;
+  each<P>(io, [&](const auto& m) {
+    if constexpr (requires { m.reach; }) most = m.reach > most ? m.reach : most;
+  });
+  return most;
+}();
+
+/// The images that a run takes and gives. A member that is not set is not of this variant.
+struct Host {
+  template <Format f, int around = 0>
+  struct Texels {
+    static constexpr Format format = f;
+    In is;
+    const Image* image = nullptr;
+    constexpr Texels(In in) : is(in) {}
+    void operator=(const Image& i) { image = &i; }
+  };
+  struct Sampled {
+    In is;
+    const Texture* texture = nullptr;
+    const BufferView* recorded = nullptr;  ///< the buffer that the texture was decoded from; null: the texture itself
+    Address address = Address::clamp;      ///< of the recorded buffer where no texture was made of it
+    constexpr Sampled(In in) : is(in) {}
+    void operator=(const Texture& t) { texture = &t; }
+  };
+  template <Format f>
+  struct Stored {
+    static constexpr Format format = f;
+    using Storage = typename StorageOf<f>::type;
+    In is;
+    StoredTexture<Storage> view;
+    const Image* image = nullptr;
+    std::span<const Image> levels{};
+    constexpr Stored(In in) : is(in) {}
+    void operator=(const Image& i) {
+      view = stored_texture<Storage>(i);
+      image = &i;
+    }
+    /// All levels of one image.
+    void set(const StoredTexture<Storage>& all, std::span<const Image> images) {
+      view = all;
+      levels = images;
+    }
+  };
+  template <class Record>
+  struct Records {
+    In is;
+    std::span<const Record> records{};
+    bool is_set = false;
+    constexpr Records(In in) : is(in) {}
+    void operator=(std::span<const Record> all) {
+      records = all;
+      is_set = true;
+    }
+  };
+  template <Format f>
+  struct Result {
+    static constexpr Format format = f;
+    Out is;
+    Image* image = nullptr;
+    constexpr Result(Out both) : is(both) {}
+    constexpr Result(Out, Out corrected) : is(corrected) {}
+    void operator=(Image& i) { image = &i; }
+  };
+};
+template <class P>
+using HostIo = typename P::template Io<Host>;
+
+}  // namespace rainref::pass

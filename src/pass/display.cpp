@@ -1,0 +1,57 @@
+// display in lanes; compiled once for each SIMD target.
+#include "pass/display.h"
+
+#include "math/real64.h"
+#include "pass/display_every_reading.h"
+#include "pass/info.h"
+#include "pass/model.h"
+
+#define RAINREF_KERNELS "pass/display.cpp"
+#include "math/foreach_target.h"
+#include "math/lanes-inl.h"
+#include "pass/rows-inl.h"
+
+RAINREF_TARGET_BEGIN(pass)
+#define RAINREF_FN HWY_INLINE HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "math/optics-inl.h"
+#include "pass/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+RAINREF_PASS_ROWS(DisplayPass)
+RAINREF_TARGET_END(pass)
+
+#if RAINREF_ONCE
+RAINREF_PASS_DISPATCH(pass, DisplayPass)
+
+namespace rainref::pass {
+
+DisplayUniforms display_uniforms(double exposure) {
+  DisplayUniforms u{};
+  u.exposure = static_cast<float>(exp2_real(Real64(exposure)).v);
+  return u;
+}
+Run<DisplayPass> display_run(double exposure, Rounding rounding, const Image& colour, Image& picture) {
+  HostIo<DisplayPass> io;
+  io.colour = colour;
+  io.picture = picture;
+  return Run<DisplayPass>(display_uniforms(exposure), true, rounding, io);
+}
+CodeTable display_table(int width, int height, double exposure, Rounding rounding) {
+  return CodeTable(width, height, [u = display_uniforms(exposure), rounding](const Image& colour, Image& picture, int y0, int y1) {
+    HostIo<DisplayPass> io;
+    io.colour = colour;
+    io.picture = picture;
+    rows<DisplayPass>(u, true, rounding, io, {0, y0, colour.width(), y1});
+  });
+}
+
+capture::PassInfo display_info(const std::string& from) {
+  capture::PassInfo info = info_of<DisplayPass>();
+  info.reads.front().from = from;
+  return info;
+}
+std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, every::DisplayPassText>(c); }
+
+}  // namespace rainref::pass
+#endif

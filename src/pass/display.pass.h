@@ -1,0 +1,40 @@
+// Pass display of every effect but the puddle, whose picture has a vignette: linear radiance to sRGB codes. Needs optics-inl.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_PASS_DISPLAY_PASS_H_
+#define RAINREF_PASS_DISPLAY_PASS_H_
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::pass {
+
+struct DisplayUniforms {
+  float exposure;  ///< factor of the radiance
+  float padding0, padding1, padding2;
+};
+static_assert(sizeof(DisplayUniforms) == 16);
+
+/// What each effect calls its picture, it declares itself; from which pass the colour comes, display_info says.
+struct DisplayPass {
+  static constexpr About about{"display", "Display code.", {1}, {1}};
+  using Uniforms = DisplayUniforms;
+  static scene::UniformBlock uniforms() {
+    return scene::uniform_block<Uniforms>("DisplayUniforms", {scene::member<&Uniforms::exposure>("exposure", "1", scene::exposure_factor, "Factor of the radiance.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba16f> colour = In{.name = "colour"};
+    typename B::template Result<Format::rgba8> picture = Out{.name = "picture"};
+  };
+};
+
+}  // namespace rainref::pass
+#endif
+#else
+
+template <class N>
+RAINREF_FN Vec3<N> display(const DisplayUniforms& u, const Vec3<N>& colour) { return display_code(N(u.exposure) * colour); }
+struct DisplayPassText {
+  template <class N, bool, class Io>
+  static RAINREF_FN void run(const DisplayUniforms& u, const Io& io, int, int) { io.picture(display<N>(u, io.colour.rgb()), N(1.0f)); }
+};
+#endif

@@ -1,0 +1,96 @@
+// What list, describe, packs and layouts say of a pass, from its definition.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "capture/pass_info.h"
+#include "pass/definition.h"
+
+namespace rainref::pass {
+
+template <class P>
+capture::PassInfo info_of() {
+  capture::PassInfo all{std::string(P::about.name), std::string(P::about.sentence), {}, {}, {}, {P::uniforms()}, "gather", {}};
+  const auto add = [&](const char* name, const VariantOf& variant) {
+    if (variant.revision != 0) all.variants.push_back({name, variant.revision, variant.judge, all.uniforms.front().name});
+  };
+  add("as-published", P::about.as_published);
+  add("corrected", P::about.corrected);
+  const typename P::template Io<Declared> io;
+  each<P>(io, [&](const auto& m) {
+    if constexpr (requires { m.outs; }) all.writes.emplace_back(m.outs[0].name);
+    else all.reads.push_back({std::string(m.name), std::string(m.from), m.previous, std::string(m.variant), m.same_size || requires { m.reach; }});
+  });
+  for (const std::string_view sum : P::about.order_free_sums)
+    if (!sum.empty()) all.order_free_sums.emplace_back(sum);
+  return all;
+}
+
+/// Of a pass that each variant defines by itself: as published, corrected.
+template <class P, class Q>
+capture::PassInfo info_of() {
+  static_assert(P::about.corrected.revision == 0 && Q::about.as_published.revision == 0);
+  capture::PassInfo all = info_of<P>();
+  const capture::PassInfo other = info_of<Q>();
+  all.variants.push_back(other.variants.front());
+  all.uniforms.push_back(other.uniforms.front());
+  const auto is_shared = [](const auto& list, const std::string& name, const auto& name_of) { return std::any_of(list.begin(), list.end(), [&](const auto& one) { return name_of(one) == name; }); };
+  const auto buffer = [](const capture::ReadInfo& r) { return r.buffer; };
+  for (capture::ReadInfo& r : all.reads)
+    if (!is_shared(other.reads, r.buffer, buffer)) r.variant = "as-published";
+  for (const capture::ReadInfo& r : other.reads) {
+    if (is_shared(all.reads, r.buffer, buffer)) continue;
+    all.reads.push_back(r);
+    all.reads.back().variant = "corrected";
+  }
+  for (const std::string& w : other.writes)
+    if (std::find(all.writes.begin(), all.writes.end(), w) == all.writes.end()) all.writes.push_back(w);
+  for (const std::string& sum : other.order_free_sums)
+    if (std::find(all.order_free_sums.begin(), all.order_free_sums.end(), sum) == all.order_free_sums.end()) all.order_free_sums.push_back(sum);
+  return all;
+}
+
+/// The buffers that a pass writes.
+template <class P>
+std::vector<capture::BufferInfo> buffers_of() {
+  std::vector<capture::BufferInfo> all;
+  const auto add = [&](const Out& o, Format format, std::string_view variant) {
+    if (o.sentence.empty()) return;
+    const auto text = [](std::string_view s) { return std::string(s); };
+    all.push_back({text(o.name), text(info(format).name), text(o.sentence), text(o.unit), o.range, text(o.encoding), text(o.colour_space), text(o.alpha), "", "", text(variant)});
+  };
+  const bool published = P::about.as_published.revision != 0, corrected = P::about.corrected.revision != 0;
+  const typename P::template Io<Declared> io;
+  each<P>(io, [&](const auto& m) {
+    if constexpr (requires { m.outs; }) {
+      if (!m.outs[0].variant.empty()) return add(m.outs[0], m.format, m.outs[0].variant);
+      if (published && corrected && m.outs[0] == m.outs[1]) return add(m.outs[0], m.format, "");
+      if (published) add(m.outs[0], m.format, "as-published");
+      if (corrected) add(m.outs[1], m.format, "corrected");
+    }
+  });
+  return all;
+}
+/// Of both variants' definitions: one entry where they agree.
+template <class P, class Q>
+std::vector<capture::BufferInfo> buffers_of() {
+  std::vector<capture::BufferInfo> all;
+  const std::vector<capture::BufferInfo> corrected = buffers_of<Q>();
+  const auto named = [](const std::vector<capture::BufferInfo>& list, const std::string& name) { return std::find_if(list.begin(), list.end(), [&](const auto& b) { return b.name == name; }); };
+  for (const capture::BufferInfo& b : buffers_of<P>()) {
+    all.push_back(b);
+    const auto other = named(corrected, b.name);
+    if (other == corrected.end()) continue;
+    const auto meaning = [](const capture::BufferInfo& x) { return std::tie(x.format, x.sentence, x.unit, x.range, x.encoding, x.colour_space, x.alpha); };
+    if (meaning(b) == meaning(*other)) all.back().variant = "";
+    else all.push_back(*other);
+  }
+  for (const capture::BufferInfo& b : corrected)
+    if (named(all, b.name) == all.end()) all.push_back(b);
+  return all;
+}
+
+}  // namespace rainref::pass

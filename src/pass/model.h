@@ -1,0 +1,149 @@
+// A pass bound to a captured case from its definition: what the judge evaluates.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "capture/bound_texture.h"
+#include "capture/pass_model.h"
+#include "pass/number_cursors.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::pass {
+
+/// The arrays of a case, decoded.
+struct Captured {
+  template <Format f, int around = 0>
+  struct Texels {
+    In is;
+    std::vector<DecodedOf<f>> texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
+    int width = 0, height = 0;
+    static constexpr Format format = f;
+    static constexpr int channels = StorageOf<f>::channels;
+
+    Texels(In in) : is(in) {}
+    void read(const capture::CaseInput& input) {
+      width = input.array.width;
+      height = input.array.height;
+      texels.resize(static_cast<std::size_t>(channels) * static_cast<std::size_t>(width + 2 * around) * static_cast<std::size_t>(height));
+      if constexpr (std::is_same_v<DecodedOf<f>, Unorm8>) frame(reinterpret_cast<const Unorm8*>(input.array.levels.at(0).data()));
+      else frame(capture::decoded(input.array).data());
+    }
+    /// Column x of the row y or the nearest one.
+    const DecodedOf<f>* at(int x, int y) const {
+      return texels.data() + channels * (static_cast<std::ptrdiff_t>(std::clamp(y, 0, height - 1)) * (width + 2 * around) + around + x);
+    }
+
+   private:
+    void frame(const DecodedOf<f>* from) {
+      auto to = texels.begin();
+      for (int y = 0; y < height; ++y)
+        for (int x = -around; x < width + around; ++x)
+          to = std::copy_n(from + channels * (static_cast<std::ptrdiff_t>(y) * width + std::clamp(x, 0, width - 1)), channels, to);
+    }
+  };
+  struct Sampled {
+    In is;
+    capture::BoundTexture bound;
+    Texture texture;
+    Sampled(In in) : is(in) {}
+    void read(const capture::CaseInput& input) {
+      bound = capture::BoundTexture(input);
+      texture = bound.view();
+    }
+  };
+  template <Format>
+  using Stored = Sampled;
+  template <class Record>
+  struct Records {
+    In is;
+    std::vector<Record> records;
+    Records(In in) : is(in) {}
+    void read(const capture::CaseInput& input) { records = capture::records_of<Record>(input); }
+  };
+  template <Format f>
+  struct Result {
+    static constexpr int channels = StorageOf<f>::channels;
+    Out is;
+    bool is_given = true;
+    Result(Out both) : is(both) {}
+    Result(Out as_published, Out) : is(as_published) {}
+  };
+};
+
+/// Throws Error(port_files) unless the image can be loaded texel by texel as one of this format, and has the size of the outputs.
+void require_texels(const capture::PassCase& c, const capture::CaseInput& image, Format format);
+/// Throws Error(port_files) where the uniform counts more records than there are.
+void require_count(const capture::PassCase& c, const scene::UniformBlock& block, const In& list, std::size_t records);
+
+/// Text: the arithmetic of P in the namespace that holds every number but lanes.
+template <class P, class Text>
+struct Bound {
+  int width, height, values = 0;
+  typename P::Uniforms uniforms;
+  bool corrected;
+  typename P::template Io<Captured> captured;
+
+  /// f(io) with the cursors of an invocation, which give to out.
+  template <class N, class F>
+  void with_cursors(int x, int y, N* out, const F& f) const {
+    typename P::template Io<NumberCursors<N>> io;
+    each<P>(captured, io, [&](const auto& from, auto& to) {
+      if constexpr (requires { to.out; }) {
+        to.out = out;
+        if (from.is_given) out += from.channels;
+      } else if constexpr (requires { to.texture; }) {
+        to.texture = &from.texture;
+      } else if constexpr (requires { to.records; }) {
+        to.records = from.records.data();
+      } else {
+        to.x = x;
+        if (from.width == 0) return;  // not of this variant
+        for (int k = 0; k < to.rows; ++k) to.row[k] = from.at(0, y + k - to.reach);
+      }
+    });
+    f(io);
+  }
+  template <class N>
+  void operator()(int x, int y, N* out) const {
+    with_cursors(x, y, out, [&](const auto& io) {
+      const auto run = [&](auto is_corrected) {
+        if constexpr (requires { Text::views(io); }) Text::template run<N, is_corrected()>(uniforms, io, Text::views(io), x, y);
+        else Text::template run<N, is_corrected()>(uniforms, io, x, y);
+      };
+      if constexpr (P::about.corrected.revision != 0)
+        if (corrected) return run(std::true_type());
+      if constexpr (P::about.as_published.revision != 0) run(std::false_type());
+    });
+  }
+};
+/// Throws Error(port_files) where the case lacks an input of its variant, or has one of another shape.
+template <class P, class Text>
+Bound<P, Text> bound(const capture::PassCase& c) {
+  Bound<P, Text> m{c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
+  const scene::UniformBlock block = P::uniforms();
+  each<P>(m.captured, [&](auto& member) {
+    if constexpr (requires { member.is.from; }) {
+      if (!is_of(member.is.variant, c.corrected()) || (member.is.optional && !c.input(member.is.name))) return;
+      if constexpr (requires { member.records; }) {
+        member.read(capture::record_input(c, member.is.name));
+        if (!member.is.count.empty()) require_count(c, block, member.is, member.records.size());
+      } else {
+        const capture::CaseInput& image = capture::image_input(c, member.is.name);
+        if constexpr (requires { member.format; }) require_texels(c, image, member.format);
+        member.read(image);
+      }
+    } else {
+      member.is_given = is_of(member.is.variant, c.corrected());
+      if (member.is_given) m.values += member.channels;
+    }
+  });
+  return m;
+}
+template <class P, class Text>
+std::unique_ptr<capture::PassModel> bind(const capture::PassCase& c) {
+  return capture::model_of(bound<P, Text>(c));
+}
+
+}  // namespace rainref::pass

@@ -1,0 +1,48 @@
+// Cursors of every number but lanes, over decoded rows.
+#pragma once
+
+#include "math/plain.h"
+#include "pass/row_pointers.h"
+
+namespace rainref::pass {
+namespace number_text {
+using plain::Vec3;
+
+template <class N, class Storage>
+inline void load4(const Storage* p, N (&c)[4]) {
+  for (int k = 0; k < 4; ++k) c[k] = N::load(p + k);
+}
+#define RAINREF_FN inline
+#include "pass/cursor-inl.h"
+#undef RAINREF_FN
+}  // namespace number_text
+
+/// Decoded texels are floats, but a code stays one: to load it is an operation that devices may do in their own way.
+template <Format f>
+using DecodedOf = std::conditional_t<std::is_same_v<typename StorageOf<f>::type, Unorm8>, Unorm8, float>;
+
+template <class N>
+struct NumberCursors {
+  template <Format f, int reach = 0>
+  using Texels = number_text::TexelCursor<N, DecodedOf<f>, StorageOf<f>::channels, reach>;
+  using Sampled = SampledPointer;
+  template <Format>
+  using Stored = SampledPointer;
+  template <class Record>
+  using Records = RecordPointer<Record>;
+  template <Format f>
+  struct Result {
+    N* out = nullptr;
+    Result(Out) {}
+    Result(Out, Out) {}
+    void operator()(N v) const { out[0] = v; }
+    void operator()(const plain::Vec3<N>& v, N w) const {
+      out[0] = v.x;
+      out[1] = v.y;
+      out[2] = v.z;
+      out[3] = w;
+    }
+  };
+};
+
+}  // namespace rainref::pass

@@ -1,0 +1,117 @@
+// The rows of a pass in lanes: the shell of every pass that gives each texel by itself. Re-included for every target, like
+// math/lanes-inl.h.
+#if defined(RAINREF_PASS_ROWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAINREF_PASS_ROWS_INL_H_
+#undef RAINREF_PASS_ROWS_INL_H_
+#else
+#define RAINREF_PASS_ROWS_INL_H_
+#endif
+
+#include "math/lanes-inl.h"
+#include "pass/row_pointers.h"
+#include "rainref/executor.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rainref {
+namespace HWY_NAMESPACE {
+
+#define RAINREF_FN HWY_INLINE HWY_ATTR
+#include "pass/cursor-inl.h"
+#undef RAINREF_FN
+
+struct LaneCursors {
+  template <Format f, int reach = 0>
+  using Texels = TexelCursor<Lanes, typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels, reach>;
+  using Sampled = pass::SampledPointer;
+  template <Format f>
+  using Stored = pass::StoredPointer<typename pass::StorageOf<f>::type>;
+  template <class Record>
+  using Records = pass::RecordPointer<Record>;
+  /// Stores when it is called: to hold the lanes instead would need a constructor of this target.
+  template <Format f>
+  struct Result : pass::ResultPointers<typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels> {
+    using Base = pass::ResultPointers<typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels>;
+    using Base::Base;
+    HWY_INLINE HWY_ATTR void operator()(Lanes v) const {
+      static_assert(Base::channels == 1);
+      store(this->row + this->x, v, this->rounding, this->count);
+    }
+    HWY_INLINE HWY_ATTR void operator()(const Vec3<Lanes>& v, Lanes w) const {
+      static_assert(Base::channels == 4);
+      const Lanes c[4] = {v.x, v.y, v.z, w};
+      store4(this->row + 4 * this->x, c, this->rounding);
+    }
+  };
+};
+
+/// What a text makes of its textures once for a row: views(io), where it has them.
+struct NoViews {};
+template <class Text, class Io>
+HWY_INLINE HWY_ATTR auto views_of(const Io& io) {
+  if constexpr (requires { Text::views(io); }) return Text::views(io);
+  else return NoViews();
+}
+
+/// The vector at x, whose neighbours lie beyond an end of the row. It makes cursors of its own: were those of the row handed to
+/// it, they would live in memory.
+template <class P, class Text, bool corrected>
+HWY_NOINLINE HWY_ATTR void at_an_end(const typename P::Uniforms& u, Rounding rounding, const pass::HostIo<P>& host, int x, int y, int x1) {
+  using Io = typename P::template Io<LaneCursors>;
+  constexpr int n = Lanes::size();
+  alignas(16) std::byte room[pass::copied_bytes<P, Io>(n)];
+  Io io;
+  pass::begin_row<P>(host, io, y, rounding);
+  pass::move_to<P>(io, x, x1 - x < n ? x1 - x : n);
+  pass::copy_ends<P>(host, io, room, pass::width_of<P>(host), n);
+  const auto views = views_of<Text>(io);
+  if constexpr (std::is_same_v<decltype(views), const NoViews>) Text::template run<Lanes, corrected>(u, io, x, y);
+  else Text::template run<Lanes, corrected>(u, io, views, x, y);
+}
+template <class P, class Text, bool corrected>
+HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, const pass::HostIo<P>& host, const parallel::Tile& tile) {
+  constexpr int n = Lanes::size(), reach = pass::reach_of<P>;
+  const typename P::Uniforms u = uniforms;  // no store to an image may change it
+  const int width = pass::width_of<P>(host), x1 = tile.x1;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    typename P::template Io<LaneCursors> io;
+    pass::begin_row<P>(host, io, y, rounding);
+    const auto views = views_of<Text>(io);
+    for (int x = tile.x0; x < x1; x += n) {
+      if (reach != 0 && (x < reach || x + n + reach > width)) {
+        at_an_end<P, Text, corrected>(uniforms, rounding, host, x, y, x1);
+      } else {
+        pass::move_to<P>(io, x, x1 - x < n ? x1 - x : n);
+        if constexpr (std::is_same_v<decltype(views), const NoViews>) Text::template run<Lanes, corrected>(u, io, x, y);
+        else Text::template run<Lanes, corrected>(u, io, views, x, y);
+      }
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rainref
+HWY_AFTER_NAMESPACE();
+
+// Inside the target's namespace of a room, after the arithmetic of pass P.
+#undef RAINREF_PASS_ROWS
+#define RAINREF_PASS_ROWS(P)                                                                                                        \
+  HWY_ATTR void P##Rows(const P::Uniforms& u, bool corrected, Rounding rounding, const pass::HostIo<P>& io, const parallel::Tile& tile) { \
+    if constexpr (P::about.corrected.revision != 0)                                                                                  \
+      if (corrected) return rows_of<P, P##Text, true>(u, rounding, io, tile);                                                        \
+    if constexpr (P::about.as_published.revision != 0)                                                                               \
+      if (!corrected) return rows_of<P, P##Text, false>(u, rounding, io, tile);                                                      \
+  }
+// Once, outside every namespace.
+#undef RAINREF_PASS_DISPATCH
+#define RAINREF_PASS_DISPATCH(room, P)                                                                                               \
+  namespace rainref::room {                                                                                                          \
+  RAINREF_EXPORT(P##Rows);                                                                                                           \
+  }                                                                                                                                  \
+  template <>                                                                                                                        \
+  void rainref::pass::rows<rainref::room::P>(const rainref::room::P::Uniforms& u, bool corrected, Rounding rounding,                 \
+                                             const rainref::pass::HostIo<rainref::room::P>& io, const rainref::parallel::Tile& tile) { \
+    using namespace rainref::room;                                                                                                   \
+    RAINREF_DISPATCH(P##Rows)(u, corrected, rounding, io, tile);                                                                     \
+  }
+
+#endif  // RAINREF_PASS_ROWS_INL_H_

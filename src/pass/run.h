@@ -1,0 +1,105 @@
+// A run of a pass, from its definition: checked, computed tile by tile, timed and recorded.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "capture/pass_clock.h"
+#include "pass/definition.h"
+#include "pass/moment.h"
+#include "rainref/error.h"
+#include "rainref/executor.h"
+
+namespace rainref::pass {
+
+/// The rows of a tile in the SIMD target in use; RAINREF_PASS_DISPATCH makes one for each pass.
+template <class P>
+void rows(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io, const parallel::Tile& tile);
+
+/// One run of P. What it reads must not be written before start() is called; what it writes is recorded by finish().
+template <class P>
+class Run {
+ public:
+  /// Throws Error(internal) where an image is missing, or of another format or size than the others.
+  Run(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io) : uniforms_(uniforms), corrected_(corrected), rounding_(rounding), io_(io) {
+    const Image* first = nullptr;
+    each<P>(io_, [&](const auto& member) {
+      const auto misfit = [&](const char* why) { throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why)); };
+      bool is_needed = is_of(member.is.variant, corrected);
+      if constexpr (requires { member.is.optional; }) is_needed = is_needed && !member.is.optional;
+      if constexpr (requires { member.view; }) {
+        if (is_needed && !member.view.texels) misfit("is missing");
+      } else if constexpr (requires { member.records; }) {
+        if (is_needed && !member.is_set) misfit("is missing");
+      } else if constexpr (requires { member.image; }) {
+        if (!member.image) return is_needed ? misfit("is missing") : void();
+        if (!first) first = member.image;
+        if (member.image->format() != member.format) misfit("has another format");
+        if (member.image->width() != first->width() || member.image->height() != first->height()) misfit("has another size");
+      } else if (is_needed && !member.texture && !member.recorded) {
+        misfit("is missing");
+      }
+    });
+    width_ = first->width();
+    height_ = first->height();
+  }
+
+  /// Some of its texels; thread-safe.
+  void tile(const parallel::Tile& t) {
+    clock_.add([&] { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
+  }
+  /// The same, by what computes them in the place of the pass's own rows; body() gives the same values.
+  template <class Body>
+  void tile(const Body& body) {
+    clock_.add(body);
+  }
+  /// All of them.
+  void tiles(const parallel::Executor& executor, int tile_rows) {
+    const capture::Stopwatch watch;
+    executor.for_tiles(width_, height_, width_, tile_rows, [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
+    seconds_ += watch.seconds();
+  }
+  void start(const Moment& m, int level = -1) const {
+    if (!m.recorder) return;
+    std::vector<PassInput> inputs;
+    each<P>(io_, [&](const auto& member) {
+      if constexpr (requires { member.texture; }) {
+        const Address address = member.texture ? member.texture->address_u : member.address;
+        if (member.recorded) inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, address});
+        else if (member.texture) inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
+      } else if constexpr (requires { member.view; }) {
+        if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
+        else if (!member.levels.empty()) inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
+      } else if constexpr (requires { member.records; }) {
+        if (member.is_set) inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});
+      } else if constexpr (requires { member.is.from; }) {
+        if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
+      }
+    });
+    m.before(P::about.name, uniforms_, std::span<const PassInput>(inputs), level);
+  }
+  /// more: seconds that the host spent on it besides; threads: that worked on its tiles.
+  void finish(const Moment& m, int threads = 1, double more = 0, int level = -1) const {
+    if (!m.recorder) return;
+    std::vector<PassOutput> outputs;
+    each<P>(io_, [&](const auto& member) {
+      if constexpr (requires { member.is.sentence; }) {
+        if (member.image) outputs.push_back({member.is.name, BufferView(*member.image)});
+      }
+    });
+    m.after(P::about.name, std::span<const PassOutput>(outputs), seconds_ + clock_.seconds(threads) + more, level);
+  }
+
+ private:
+  typename P::Uniforms uniforms_;
+  bool corrected_;
+  Rounding rounding_;
+  HostIo<P> io_;
+  int width_ = 0, height_ = 0;
+  capture::PassClock clock_;
+  double seconds_ = 0;
+};
+
+}  // namespace rainref::pass
