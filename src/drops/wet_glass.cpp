@@ -21,54 +21,54 @@ std::int64_t WetGlass::balance() const {
   return ledger.spawned - ledger.evaporated - ledger.removed - (settings_.corrected ? film_water(film) + drops.water() : drops.live());
 }
 
-void WetGlass::spawn(const Run& run, const Exposure& exposure, std::int64_t n) {
+void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n) {
   const SpawnPlan& plan = arrivals_.plan(exposure, n, steps_per_second_, drops.next_id(), drops.free_slots());
-  if (run.recorder) {
-    const PassInput before{"drops", list_for(run, "spawn")}, thresholds{"count_thresholds", records(plan.thresholds)}, masses{"spawn_masses", records(plan.masses)};
+  if (now.recorder) {
+    const PassInput before{"drops", list_for(now, "spawn")}, thresholds{"count_thresholds", records(plan.thresholds)}, masses{"spawn_masses", records(plan.masses)};
     if (settings_.corrected) {
-      run.before("spawn", plan.uniforms, std::array{before, thresholds, masses});
+      now.before("spawn", plan.uniforms, std::array{before, thresholds, masses});
     } else {
-      run.before("spawn", plan.uniforms, std::array{before, masses});
+      now.before("spawn", plan.uniforms, std::array{before, masses});
     }
   }
   const Stopwatch clock;
   ledger += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected);
   const double seconds = clock.seconds();
-  if (run.recorder) run.after("spawn", std::array{PassOutput{"drops", list_for(run, "spawn")}}, seconds);
+  if (now.recorder) now.after("spawn", std::array{PassOutput{"drops", list_for(now, "spawn")}}, seconds);
 }
 
-void WetGlass::integrate(const Run& run, const GlassFrame& glass) {
+void WetGlass::integrate(const pass::Moment& now, const GlassFrame& glass) {
   const IntegrateUniforms uniforms = integrate_uniforms(settings_, frame_, 1 / steps_per_second_);
-  if (run.recorder) run.before("integrate", uniforms, std::array{PassInput{"drops", list_for(run, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
+  if (now.recorder) now.before("integrate", uniforms, std::array{PassInput{"drops", list_for(now, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
   const Stopwatch clock;
   ledger += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass) : integrate_as_published(executor_, drops, uniforms, glass);
   const double seconds = clock.seconds();
-  if (run.recorder) run.after("integrate", std::array{PassOutput{"drops", list_for(run, "integrate")}}, seconds);
+  if (now.recorder) now.after("integrate", std::array{PassOutput{"drops", list_for(now, "integrate")}}, seconds);
 }
 
-void WetGlass::merge(const Run& run, std::int64_t n) {
+void WetGlass::merge(const pass::Moment& now, std::int64_t n) {
   const double texel_area = area_ / (static_cast<double>(film.width()) * film.height());
   const std::int64_t drying = film_loss(settings_, texel_area, n, steps_per_second_);
   const MergeUniforms uniforms = merge_uniforms(settings_, frame_, 1 / steps_per_second_, film.width(), film.height(), drying);
-  if (run.recorder) run.before("merge", uniforms, std::array{PassInput{"drops", list_for(run, "merge")}, PassInput{"film", film}});
+  if (now.recorder) now.before("merge", uniforms, std::array{PassInput{"drops", list_for(now, "merge")}, PassInput{"film", film}});
   const Stopwatch clock;
   ledger += merger_.run(executor_, drops, uniforms, film);
   const double seconds = clock.seconds();
-  if (run.recorder) run.after("merge", std::array{PassOutput{"drops", list_for(run, "merge")}, PassOutput{"film", film}}, seconds);
+  if (now.recorder) now.after("merge", std::array{PassOutput{"drops", list_for(now, "merge")}, PassOutput{"film", film}}, seconds);
 }
 
-void WetGlass::splat(const Run& run, const SplatSettings& splat, Image& height) {
+void WetGlass::splat(const pass::Moment& now, const SplatSettings& splat, Image& height) {
   const PassInput drawn{"drops", list()};
   SplatUniforms uniforms = splat_uniforms(splat);
   uniforms.drop_count = static_cast<std::int32_t>(listed_.size());
   if (settings_.corrected) {
-    run.before("splat", uniforms, std::array{drawn, PassInput{"film", film}});
+    now.before("splat", uniforms, std::array{drawn, PassInput{"film", film}});
   } else {
-    run.before("splat", uniforms, std::array{drawn});
+    now.before("splat", uniforms, std::array{drawn});
   }
   const Stopwatch clock;
   drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, settings_.corrected ? &film : nullptr, height, scratch_);
-  run.after("splat", std::array{PassOutput{"height", height}}, clock.seconds());
+  now.after("splat", std::array{PassOutput{"height", height}}, clock.seconds());
 }
 
 }  // namespace rainref::drops

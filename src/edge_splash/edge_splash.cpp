@@ -72,20 +72,7 @@ void EdgeSplash::render(Recorder* recorder) {
     io.colour = s.colour;
     return io;
   };
-  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache. What they read, neither
-  // overwrites: their starts may be recorded after both have run.
-  const auto run = [&](auto splash) {
-    pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
-    s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& tile) {
-      splash.tile(tile);
-      display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
-    });
-    const int threads = s.executor.threads();
-    splash.start(now);
-    splash.finish(now, threads);
-    display.start(now);
-    display.finish(now, threads);
-  };
+  const auto run = [&](auto splash) { pass::run_and_display(splash, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now); };
   const int noise_columns = s.noise_image.width(), noise_rows = s.noise_image.height();
   if (s.corrected) {
     auto io = bound(pass::HostIo<SplashPass>());

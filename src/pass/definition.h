@@ -66,10 +66,8 @@ struct StorageOf;
 template <> struct StorageOf<Format::r8>      { using type = Unorm8; static constexpr int channels = 1; };
 template <> struct StorageOf<Format::rgba8>   { using type = Unorm8; static constexpr int channels = 4; };
 template <> struct StorageOf<Format::r16f>    { using type = Half;   static constexpr int channels = 1; };
-template <> struct StorageOf<Format::rg16f>   { using type = Half;   static constexpr int channels = 2; };
 template <> struct StorageOf<Format::rgba16f> { using type = Half;   static constexpr int channels = 4; };
 template <> struct StorageOf<Format::r32f>    { using type = float;  static constexpr int channels = 1; };
-template <> struct StorageOf<Format::rg32f>   { using type = float;  static constexpr int channels = 2; };
 template <> struct StorageOf<Format::rgba32f> { using type = float;  static constexpr int channels = 4; };
 // clang-format on
 

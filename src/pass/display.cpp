@@ -38,11 +38,8 @@ Run<DisplayPass> display_run(double exposure, Rounding rounding, const Image& co
   return Run<DisplayPass>(display_uniforms(exposure), true, rounding, io);
 }
 CodeTable display_table(int width, int height, double exposure, Rounding rounding) {
-  return CodeTable(width, height, [u = display_uniforms(exposure), rounding](const Image& colour, Image& picture, int y0, int y1) {
-    HostIo<DisplayPass> io;
-    io.colour = colour;
-    io.picture = picture;
-    rows<DisplayPass>(u, true, rounding, io, {0, y0, colour.width(), y1});
+  return CodeTable(width, height, [exposure, rounding](const Image& colour, Image& picture, int y0, int y1) {
+    display_run(exposure, rounding, colour, picture).tile(parallel::Tile{0, y0, colour.width(), y1});
   });
 }
 

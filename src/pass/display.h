@@ -19,6 +19,21 @@ Run<DisplayPass> display_run(double exposure, Rounding rounding, const Image& co
 /// The same by table, for pictures of this size.
 CodeTable display_table(int width, int height, double exposure, Rounding rounding);
 
+/// A run that gives `colour`, and display after it by table. display reads no neighbours, so that a tile goes through both while it
+/// lies in the cache; what they read, neither overwrites, so that their starts may be recorded after both have run.
+template <class P>
+void run_and_display(Run<P>& run, const CodeTable& table, double exposure, const Image& colour, Image& picture, const parallel::Executor& executor, int tile_rows, const Moment& now) {
+  Run<DisplayPass> display = display_run(exposure, now.rounding, colour, picture);
+  executor.for_tiles(picture.width(), picture.height(), picture.width(), tile_rows, [&](const parallel::Tile& t) {
+    run.tile(t);
+    display.tile([&] { table.rows(colour, picture, t.y0, t.y1); });
+  });
+  run.start(now);
+  run.finish(now, executor.threads());
+  display.start(now);
+  display.finish(now, executor.threads());
+}
+
 /// It reads the colour of the pass `from`.
 capture::PassInfo display_info(const std::string& from);
 std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c);

@@ -37,19 +37,20 @@ capture::PassInfo info_of() {
   const capture::PassInfo other = info_of<Q>();
   all.variants.push_back(other.variants.front());
   all.uniforms.push_back(other.uniforms.front());
-  const auto is_shared = [](const auto& list, const std::string& name, const auto& name_of) { return std::any_of(list.begin(), list.end(), [&](const auto& one) { return name_of(one) == name; }); };
-  const auto buffer = [](const capture::ReadInfo& r) { return r.buffer; };
+  const auto reads = [](const capture::PassInfo& p, const std::string& buffer) { return std::any_of(p.reads.begin(), p.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == buffer; }); };
   for (capture::ReadInfo& r : all.reads)
-    if (!is_shared(other.reads, r.buffer, buffer)) r.variant = "as-published";
+    if (!reads(other, r.buffer)) r.variant = "as-published";
   for (const capture::ReadInfo& r : other.reads) {
-    if (is_shared(all.reads, r.buffer, buffer)) continue;
+    if (reads(all, r.buffer)) continue;
     all.reads.push_back(r);
     all.reads.back().variant = "corrected";
   }
-  for (const std::string& w : other.writes)
-    if (std::find(all.writes.begin(), all.writes.end(), w) == all.writes.end()) all.writes.push_back(w);
-  for (const std::string& sum : other.order_free_sums)
-    if (std::find(all.order_free_sums.begin(), all.order_free_sums.end(), sum) == all.order_free_sums.end()) all.order_free_sums.push_back(sum);
+  const auto unite = [](std::vector<std::string>& into, const std::vector<std::string>& more) {
+    for (const std::string& one : more)
+      if (std::find(into.begin(), into.end(), one) == into.end()) into.push_back(one);
+  };
+  unite(all.writes, other.writes);
+  unite(all.order_free_sums, other.order_free_sums);
   return all;
 }
 

@@ -7,7 +7,9 @@
 
 #include "capture/bound_texture.h"
 #include "capture/pass_model.h"
+#include "pass/fit.h"
 #include "pass/number_cursors.h"
+#include "rainref/error.h"
 #include "scene/uniform_block.h"
 
 namespace rainref::pass {
@@ -53,8 +55,11 @@ struct Captured {
       texture = bound.view();
     }
   };
-  template <Format>
-  using Stored = Sampled;
+  template <Format f>
+  struct Stored : Sampled {
+    static constexpr Format format = f;
+    using Sampled::Sampled;
+  };
   template <class Record>
   struct Records {
     In is;
@@ -72,10 +77,9 @@ struct Captured {
   };
 };
 
-/// Throws Error(port_files) unless the image can be loaded texel by texel as one of this format, and has the size of the outputs.
-void require_texels(const capture::PassCase& c, const capture::CaseInput& image, Format format);
-/// Throws Error(port_files) where the uniform counts more records than there are.
-void require_count(const capture::PassCase& c, const scene::UniformBlock& block, const In& list, std::size_t records);
+/// Throws Error(port_files) unless the image has the channels of this format, codes where it is loaded texel by texel as codes, and
+/// where it must the size of the outputs.
+void require_image(const capture::PassCase& c, const capture::CaseInput& image, Format format, bool is_loaded, bool has_size);
 
 /// Text: the arithmetic of P in the namespace that holds every number but lanes.
 template <class P, class Text>
@@ -128,10 +132,12 @@ Bound<P, Text> bound(const capture::PassCase& c) {
       if (!is_of(member.is.variant, c.corrected()) || (member.is.optional && !c.input(member.is.name))) return;
       if constexpr (requires { member.records; }) {
         member.read(capture::record_input(c, member.is.name));
-        if (!member.is.count.empty()) require_count(c, block, member.is, member.records.size());
+        if (member.is.count.empty()) return;
+        const std::string fault = count_fault(block, c.uniforms, member.is, member.records.size());
+        if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
       } else {
         const capture::CaseInput& image = capture::image_input(c, member.is.name);
-        if constexpr (requires { member.format; }) require_texels(c, image, member.format);
+        if constexpr (requires { member.format; }) require_image(c, image, member.format, requires { member.texels; }, member.is.same_size || requires { member.texels; });
         member.read(image);
       }
     } else {

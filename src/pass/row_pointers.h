@@ -43,7 +43,7 @@ struct SampledPointer {
   const Texture* texture = nullptr;
   constexpr SampledPointer(In) {}
   operator const Texture&() const { return *texture; }
-  /// Address rules and channels as the pass knows them.
+  /// Address rules and channels as the pass knows them. A texture that this variant does not have gives an empty view.
   template <Address u, Address v, int count>
   RAINREF_FLAT FixedTexture<u, v, count> fixed() const {
     return texture ? fixed_texture<u, v, count>(*texture) : FixedTexture<u, v, count>();

@@ -1,6 +1,8 @@
 // A run of a pass, from its definition: checked, computed tile by tile, timed and recorded.
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -8,6 +10,7 @@
 
 #include "capture/pass_clock.h"
 #include "pass/definition.h"
+#include "pass/fit.h"
 #include "pass/moment.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
@@ -22,17 +25,23 @@ void rows(const typename P::Uniforms& uniforms, bool corrected, Rounding roundin
 template <class P>
 class Run {
  public:
-  /// Throws Error(internal) where an image is missing, or of another format or size than the others.
+  /// Throws Error(internal) where the variant does not run it, an image is missing or of another format or size than the others, or a
+  /// uniform counts more records than there are.
   Run(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io) : uniforms_(uniforms), corrected_(corrected), rounding_(rounding), io_(io) {
+    if ((corrected ? P::about.corrected : P::about.as_published).revision == 0) throw Error(ExitCode::internal, fmt::format("{} does not run {}", P::about.name, corrected ? "corrected" : "as-published"));
     const Image* first = nullptr;
     each<P>(io_, [&](const auto& member) {
-      const auto misfit = [&](const char* why) { throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why)); };
+      const auto misfit = [&](std::string_view why) { throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why)); };
       bool is_needed = is_of(member.is.variant, corrected);
       if constexpr (requires { member.is.optional; }) is_needed = is_needed && !member.is.optional;
       if constexpr (requires { member.view; }) {
         if (is_needed && !member.view.texels) misfit("is missing");
+        if (member.image && member.image->format() != member.format) misfit("has another format");
       } else if constexpr (requires { member.records; }) {
         if (is_needed && !member.is_set) misfit("is missing");
+        if (!member.is_set || member.is.count.empty()) return;
+        const std::string fault = count_fault(P::uniforms(), std::as_bytes(std::span(&uniforms, 1)), member.is, member.records.size());
+        if (!fault.empty()) misfit("does not fit: " + fault);
       } else if constexpr (requires { member.image; }) {
         if (!member.image) return is_needed ? misfit("is missing") : void();
         if (!first) first = member.image;
@@ -44,6 +53,10 @@ class Run {
     });
     width_ = first->width();
     height_ = first->height();
+    each<P>(io_, [&](const auto& member) {
+      if constexpr (requires { member.view; })
+        if (member.is.same_size && member.image && (member.image->width() != width_ || member.image->height() != height_)) throw Error(ExitCode::internal, fmt::format("{}: {} has another size", P::about.name, member.is.name));
+    });
   }
 
   /// Some of its texels; thread-safe.
@@ -61,7 +74,7 @@ class Run {
     executor.for_tiles(width_, height_, width_, tile_rows, [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
     seconds_ += watch.seconds();
   }
-  void start(const Moment& m, int level = -1) const {
+  void start(const Moment& m) const {
     if (!m.recorder) return;
     std::vector<PassInput> inputs;
     each<P>(io_, [&](const auto& member) {
@@ -78,10 +91,10 @@ class Run {
         if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
       }
     });
-    m.before(P::about.name, uniforms_, std::span<const PassInput>(inputs), level);
+    m.before(P::about.name, uniforms_, std::span<const PassInput>(inputs));
   }
   /// more: seconds that the host spent on it besides; threads: that worked on its tiles.
-  void finish(const Moment& m, int threads = 1, double more = 0, int level = -1) const {
+  void finish(const Moment& m, int threads = 1, double more = 0) const {
     if (!m.recorder) return;
     std::vector<PassOutput> outputs;
     each<P>(io_, [&](const auto& member) {
@@ -89,7 +102,7 @@ class Run {
         if (member.image) outputs.push_back({member.is.name, BufferView(*member.image)});
       }
     });
-    m.after(P::about.name, std::span<const PassOutput>(outputs), seconds_ + clock_.seconds(threads) + more, level);
+    m.after(P::about.name, std::span<const PassOutput>(outputs), seconds_ + clock_.seconds(threads) + more);
   }
 
  private:

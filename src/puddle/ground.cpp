@@ -1,7 +1,9 @@
 #include "puddle/ground.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "puddle/plain.h"
 #include "random/counter.h"
@@ -17,18 +19,37 @@ double lattice(std::uint64_t seed, int x, int y, std::uint32_t layer) {
 }
 double ease(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
-// Value noise in [-1, 1].
-double noise(std::uint64_t seed, double x, double y, std::uint32_t layer) {
-  const double fx = std::floor(x), fy = std::floor(y), u = ease(x - fx), v = ease(y - fy);
-  const int i = static_cast<int>(fx), j = static_cast<int>(fy);
-  const double a = lattice(seed, i, j, layer), b = lattice(seed, i + 1, j, layer);
-  const double c = lattice(seed, i, j + 1, layer), d = lattice(seed, i + 1, j + 1, layer);
-  return 2 * ((a * (1 - u) + b * u) * (1 - v) + (c * (1 - u) + d * u) * v) - 1;
-}
-double fractal(std::uint64_t seed, double x, double y, int octaves) {
+// One layer of value noise in [-1, 1]. It keeps the corners of the cell that it met last: neighbouring texels mostly share one, and
+// drawing corners is nearly all that noise costs.
+class Noise {
+ public:
+  Noise(std::uint64_t seed, std::uint32_t layer) : seed_(seed), layer_(layer) { meet(0, 0); }
+  double operator()(double x, double y) {
+    const double fx = std::floor(x), fy = std::floor(y), u = ease(x - fx), v = ease(y - fy);
+    const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+    if (i != i_ || j != j_) meet(i, j);
+    return 2 * ((a_ * (1 - u) + b_ * u) * (1 - v) + (c_ * (1 - u) + d_ * u) * v) - 1;
+  }
+
+ private:
+  void meet(int i, int j) {
+    i_ = i;
+    j_ = j;
+    a_ = lattice(seed_, i, j, layer_);
+    b_ = lattice(seed_, i + 1, j, layer_);
+    c_ = lattice(seed_, i, j + 1, layer_);
+    d_ = lattice(seed_, i + 1, j + 1, layer_);
+  }
+
+  std::uint64_t seed_;
+  std::uint32_t layer_;
+  int i_ = 0, j_ = 0;
+  double a_ = 0, b_ = 0, c_ = 0, d_ = 0;
+};
+double fractal(std::span<Noise> octaves, double x, double y) {
   double sum = 0, weight = 0.5;
-  for (int k = 0; k < octaves; ++k) {
-    sum += weight * noise(seed, x, y, static_cast<std::uint32_t>(k));
+  for (Noise& octave : octaves) {
+    sum += weight * octave(x, y);
     x = 2 * x + 17.5;
     y = 2 * y + 3.25;
     weight /= 2;
@@ -47,14 +68,16 @@ TextureData make_bed(const Settings& s) {
   }
   const int width = 768, height = std::max(1, static_cast<int>(width * half_z / half_x));
   std::vector<float> depth(static_cast<std::size_t>(width) * height);
+  std::array<Noise, 5> octaves{{{s.seed, 0}, {s.seed, 1}, {s.seed, 2}, {s.seed, 3}, {s.seed, 4}}};
+  Noise grains(s.seed, 77);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double u = 2 * (x + 0.5) / width - 1, v = 2 * (y + 0.5) / height - 1;
       const double mx = u * half_x, mz = v * half_z;
       // A bowl that ends before the rectangle does, pushed about by noise at the scale of a step, roughened by grain.
-      const double bowl = 1.0 - 1.55 * (u * u + v * v) + 0.8 * fractal(s.seed, 1.7 * mx + 40, 1.7 * mz + 40, 5);
+      const double bowl = 1.0 - 1.55 * (u * u + v * v) + 0.8 * fractal(octaves, 1.7 * mx + 40, 1.7 * mz + 40);
       const double window = 1 - std::max(u * u * u * u * u * u, v * v * v * v * v * v);
-      const double grain = 0.0012 * noise(s.seed, 90 * mx, 90 * mz, 77);
+      const double grain = 0.0012 * grains(90 * mx, 90 * mz);
       const double shaped = s.puddle_depth * std::min(bowl, 3 * window - 1) + grain;
       depth[static_cast<std::size_t>(y) * width + x] = static_cast<float>(std::min(shaped, s.puddle_depth));
     }
@@ -80,18 +103,21 @@ Image make_shore(const Settings& s, const Texture& bed) {
 Image make_asphalt(std::uint64_t seed) {
   constexpr int size = 512, cells = 80;
   Image tile(Format::rgba32f, size, size);
+  // Stones: one jittered point in each cell, the tile joined at its edges.
+  std::vector<random::Block> stones;
+  for (std::uint32_t y = 0; y < cells; ++y)
+    for (std::uint32_t x = 0; x < cells; ++x) stones.push_back(random::block(seed, random::Purpose::puddle_ground, x, y));
   for (int y = 0; y < size; ++y) {
     float* row = tile.row<float>(y);
     for (int x = 0; x < size; ++x) {
       const double u = (x + 0.5) * cells / size, v = (y + 0.5) * cells / size;
       const int cx = static_cast<int>(u), cy = static_cast<int>(v);
-      // Stones: the nearest of one jittered point in each cell, the tile joined at its edges.
+      // The nearest two.
       double nearest = 4, second = 4;
       random::Block stone{};
       for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
-          const random::Block b = random::block(seed, random::Purpose::puddle_ground, static_cast<std::uint32_t>((cx + i + cells) % cells),
-                                                static_cast<std::uint32_t>((cy + j + cells) % cells));
+          const random::Block& b = stones[static_cast<std::size_t>((cy + j + cells) % cells * cells + (cx + i + cells) % cells)];
           const double dx = cx + i + b[0] * 0x1p-32 - u, dy = cy + j + b[1] * 0x1p-32 - v, d = dx * dx + dy * dy;
           if (d < nearest) {
             second = nearest;

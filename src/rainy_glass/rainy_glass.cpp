@@ -138,17 +138,7 @@ void RainyGlass::frame(Recorder* recorder) {
   if (s.settings.use_probe) io.probe = s.probe.view();
   io.colour = s.colour;
   pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code), s.corrected, rounding, io);
-  // A tile goes through both passes while it lies in the cache.
-  pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
-  s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& t) {
-    rain.tile(t);
-    display.tile([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
-  });
-  // What these passes read, neither of them overwrites: their starts may be recorded after both have run.
-  rain.start(now);
-  rain.finish(now, s.executor.threads());
-  display.start(now);
-  display.finish(now, s.executor.threads());
+  pass::run_and_display(rain, s.display, s.settings.exposure, s.colour, s.picture, s.executor, picture_tile_rows, now);
   ++s.frame;
 }
 

@@ -29,13 +29,13 @@ struct Flow::State {
     // Where the wind meets the pane it stands still: nothing blows along it.
     forces.gravity[1] = static_cast<float>(-s.gravity / s.pane[1]);
     const auto warm_up = static_cast<std::int64_t>(s.warm_up * s.fps * s.substeps + 0.5);
-    while (steps < warm_up) step(run(nullptr, 0, 0));
+    while (steps < warm_up) step(moment(nullptr, 0, 0));
   }
-  drops::Run run(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding}; }
-  void step(const drops::Run& told) {
-    water.spawn(told, exposure, steps);
-    water.integrate(told, forces);
-    water.merge(told, steps);
+  pass::Moment moment(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding}; }
+  void step(const pass::Moment& now) {
+    water.spawn(now, exposure, steps);
+    water.integrate(now, forces);
+    water.merge(now, steps);
     ++steps;
   }
 };
@@ -48,8 +48,8 @@ void Flow::simulate(Recorder* recorder) {
   State& s = *state_;
   const double fps = s.settings.fps;
   const int substeps = s.settings.substeps;
-  for (int substep = 0; substep < substeps; ++substep) s.step(s.run(recorder, substep, 1 / (fps * substeps)));
-  s.water.splat(s.run(recorder, 0, 1 / fps), s.splat, s.height);
+  for (int substep = 0; substep < substeps; ++substep) s.step(s.moment(recorder, substep, 1 / (fps * substeps)));
+  s.water.splat(s.moment(recorder, 0, 1 / fps), s.splat, s.height);
   ++s.frame;
 }
 

@@ -131,20 +131,7 @@ void ScreenDrops::render(Recorder* recorder) {
     io.colour = s.colour;
     return io;
   };
-  // display reads no neighbours, so that a tile goes through both passes while it lies in the cache. What they read, neither
-  // overwrites: their starts may be recorded after both have run.
-  const auto run = [&](auto drops) {
-    pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.exposure, rounding, s.colour, s.picture);
-    s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, tile_rows, [&](const parallel::Tile& t) {
-      drops.tile(t);
-      display.tile([&] { s.display.rows(s.colour, s.picture, t.y0, t.y1); });
-    });
-    const int threads = s.executor.threads();
-    drops.start(now);
-    drops.finish(now, threads);
-    display.start(now);
-    display.finish(now, threads);
-  };
+  const auto run = [&](auto drops) { pass::run_and_display(drops, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now); };
   if (s.corrected) {
     auto io = bound(pass::HostIo<DropsPass>());
     io.cells = s.cells;

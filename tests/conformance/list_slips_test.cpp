@@ -82,14 +82,16 @@ std::string text_of(const std::vector<Cause>& causes) {
 class ListSlips : public testing::TestWithParam<std::string> {};
 
 // Whatever changes a record is outside, and the cause that is found gives the same records: the mistake itself, or one
-// that nobody could tell from it here.
+// that nobody could tell from it here. Each mistake is explained by trying all: here every fifth, in scripts/full/envelopes each.
 TEST_P(ListSlips, EachIsCaughtAndNamed) {
-  int made = 0, named_first = 0;
+  const std::int64_t step = count_from("RAINREF_SLIPS_STEP", 5);
+  std::int64_t made = 0, named_first = 0, applicable = 0;
   for (const ListCase& l : list_cases(GetParam())) {
     for (const Deviation& d : l.deviations()) {
       if (!d.alter_list || d.for_diagnosis) continue;
       const std::optional<Array> port = deviated_list(d, *l.c, l.output, l.readings(), l.model.get(), l.reference());
       if (!port || same_records(*port, l.reference())) continue;
+      if (applicable++ % step != 0) continue;
       ++made;
       const KeyedJudgement j = l.judged(*port);
       EXPECT_GT(j.failing, 0) << l.text(d);
@@ -101,7 +103,7 @@ TEST_P(ListSlips, EachIsCaughtAndNamed) {
     }
   }
   fmt::print("{}: {} of {} named first\n", GetParam(), named_first, made);
-  EXPECT_GT(made, GetParam() == "screen_drops-corrected" ? 60 : 150);
+  EXPECT_GT(applicable, GetParam() == "screen_drops-corrected" ? 60 : 150);
   // The others: one record has no neighbour, resting drops have no stale velocity, a pass that changes two fields leaves
   // the rest as they were.
   EXPECT_GT(10 * named_first, 7 * made);

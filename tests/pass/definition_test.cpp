@@ -292,6 +292,10 @@ TEST(Definition, ARunWithoutItsImagesIsRefused) {
   pass::HostIo<GrowPass> io = p.grow_io(true);
   io.mask = p.heights;
   EXPECT_EQ(refused(io, true), "grow: mask has another format");
+  EXPECT_THROW(pass::Run<ShinePass>(p.shine, false, Rounding::rne, p.shine_io()), Error) << "as published there is none";
+  p.grow.seed_count = 3;
+  EXPECT_EQ(refused(p.grow_io(true), true), "grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
+  p.grow.seed_count = 2;
   const Image narrow(Format::r8, 8, 5);
   io.mask = narrow;
   EXPECT_EQ(refused(io, true), "grow: mask has another size");
