@@ -101,17 +101,20 @@ HWY_AFTER_NAMESPACE();
     if constexpr (P::about.as_published.revision != 0)                                                                               \
       if (!corrected) return rows_of<P, P##Text, false>(u, rounding, io, tile);                                                      \
   }
-// Once, outside every namespace.
+// Once, outside every namespace. What is dispatched stands in the room: where one target alone is compiled, its namespace is named.
 #undef RAINREF_PASS_DISPATCH
 #define RAINREF_PASS_DISPATCH(room, P)                                                                                               \
   namespace rainref::room {                                                                                                          \
   RAINREF_EXPORT(P##Rows);                                                                                                           \
+  static void P##Dispatched(const P::Uniforms& u, bool corrected, Rounding rounding, const pass::HostIo<P>& io,                      \
+                            const parallel::Tile& tile) {                                                                            \
+    RAINREF_DISPATCH(P##Rows)(u, corrected, rounding, io, tile);                                                                     \
+  }                                                                                                                                  \
   }                                                                                                                                  \
   template <>                                                                                                                        \
   void rainref::pass::rows<rainref::room::P>(const rainref::room::P::Uniforms& u, bool corrected, Rounding rounding,                 \
                                              const rainref::pass::HostIo<rainref::room::P>& io, const rainref::parallel::Tile& tile) { \
-    using namespace rainref::room;                                                                                                   \
-    RAINREF_DISPATCH(P##Rows)(u, corrected, rounding, io, tile);                                                                     \
+    rainref::room::P##Dispatched(u, corrected, rounding, io, tile);                                                                  \
   }
 
 #endif  // RAINREF_PASS_ROWS_INL_H_

@@ -82,7 +82,7 @@ std::string text_of(const std::vector<Cause>& causes) {
 class ListSlips : public testing::TestWithParam<std::string> {};
 
 // Whatever changes a record is outside, and the cause that is found gives the same records: the mistake itself, or one
-// that nobody could tell from it here. Each mistake is explained by trying all: here every fifth, in scripts/full/envelopes each.
+// that nobody could tell from it here. Each mistake is explained by trying all: here every fifth, in scripts/full/samples each.
 TEST_P(ListSlips, EachIsCaughtAndNamed) {
   const std::int64_t step = count_from("RAINREF_SLIPS_STEP", 5);
   std::int64_t made = 0, named_first = 0, applicable = 0;
