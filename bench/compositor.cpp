@@ -83,14 +83,16 @@ void compare(benchmark::State& state, const std::string& set, int threads, bool 
       thread_local std::vector<Hit> hits(chunk);
       for (std::int64_t p = begin; p < end; p += block_packets) {
         const auto packets_here = static_cast<std::size_t>(std::min(block_packets, end - p));
-        trace_block(std::span(packets).subspan(static_cast<std::size_t>(p), packets_here), std::span(hits).subspan(static_cast<std::size_t>(p - begin) * 16, packets_here * 16));
+        trace_block(std::span(packets).subspan(static_cast<std::size_t>(p), packets_here),
+                    std::span(hits).subspan(static_cast<std::size_t>(p - begin) * 16, packets_here * 16));
       }
       benchmark::DoNotOptimize(hits.data());
     });
   };
   const auto trace = [&] {
     by_blocks([&](std::span<const test::NativePacket> from, std::span<Hit> hits) {
-      thread_local std::vector<double> origin[3], direction[3], nearest(block, 0.0), farthest(block, std::numeric_limits<double>::infinity());
+      thread_local std::vector<double> origin[3], direction[3], nearest(block, 0.0),
+          farthest(block, std::numeric_limits<double>::infinity());
       for (int k = 0; k < 3; ++k) origin[k].resize(block), direction[k].resize(block);
       for (std::size_t p = 0; p < from.size(); ++p) {
         for (int k = 0; k < 3; ++k) {
@@ -98,7 +100,11 @@ void compare(benchmark::State& state, const std::string& set, int threads, bool 
           std::copy_n(from[p].direction[k], 16, &direction[k][p * 16]);
         }
       }
-      r.tracer.first_hits(RayArrays{{origin[0].data(), origin[1].data(), origin[2].data()}, {direction[0].data(), direction[1].data(), direction[2].data()}, nearest.data(), farthest.data()}, hits);
+      r.tracer.first_hits(RayArrays{{origin[0].data(), origin[1].data(), origin[2].data()},
+                                    {direction[0].data(), direction[1].data(), direction[2].data()},
+                                    nearest.data(),
+                                    farthest.data()},
+                          hits);
     });
   };
   const auto trace_records = [&] {
@@ -150,8 +156,9 @@ const bool registered = [] {
   for (const int threads : {1, 2}) {
     for (const bool as_records : {false, true}) {
       for (const std::string set : {"camera", "grazing", "reflection"}) {
-        benchmark::RegisterBenchmark(fmt::format("{}/{}/{}x{}/threads:{}", as_records ? "rays_as_records" : "rays", set, width, height, threads).c_str(),
-                                     [=](benchmark::State& state) { compare(state, set, threads, as_records); })
+        benchmark::RegisterBenchmark(
+            fmt::format("{}/{}/{}x{}/threads:{}", as_records ? "rays_as_records" : "rays", set, width, height, threads).c_str(),
+            [=](benchmark::State& state) { compare(state, set, threads, as_records); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond)
             ->Iterations(15);

@@ -17,11 +17,12 @@ namespace {
 // the work, so the same rays with nothing but the street stand beside it.
 void picture(benchmark::State& state, double radius, const std::string& embree_config, int threads) {
   const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, windshield::parameters()}}};
-  const scene::Config config = scene::parse("effect = 'windshield'\nvariant = 'corrected'\nseed = 1\n", "bench",
-                                            {"vehicle.speed=0", "wipers.count=0", "rain.rate=90", "rain.smallest_drop=0.8", "windshield.corner_2=[1.386, 0.7, 1.613]",
-                                             "windshield.height_size=[2048, 1168]", "camera.position=[0.6, 0, 1.32]", "camera.target=[10, 0, 1.5]",
-                                             "camera.vertical_fov_deg=24", "run.size=[640, 360]", "run.fps=30", "scene.size=[8, 8]"},
-                                            table);
+  const scene::Config config =
+      scene::parse("effect = 'windshield'\nvariant = 'corrected'\nseed = 1\n", "bench",
+                   {"vehicle.speed=0", "wipers.count=0", "rain.rate=90", "rain.smallest_drop=0.8",
+                    "windshield.corner_2=[1.386, 0.7, 1.613]", "windshield.height_size=[2048, 1168]", "camera.position=[0.6, 0, 1.32]",
+                    "camera.target=[10, 0, 1.5]", "camera.vertical_fov_deg=24", "run.size=[640, 360]", "run.fps=30", "scene.size=[8, 8]"},
+                   table);
   const parallel::Executor executor(threads);
   const windshield::Settings settings = windshield::settings_from(config);
   static const auto rendered = [&] {
@@ -79,7 +80,9 @@ const bool registered = [] {
     for (const int threads : {1, 2}) {
       for (const std::string config : {"", "isa=sse2"}) {
         if (threads > 1 && !config.empty()) continue;
-        benchmark::RegisterBenchmark(fmt::format("traced_windshield/640x360/{}/threads:{}{}", radius > 0 ? "bent" : "flat", threads, config.empty() ? "" : "/" + config).c_str(),
+        benchmark::RegisterBenchmark(fmt::format("traced_windshield/640x360/{}/threads:{}{}", radius > 0 ? "bent" : "flat", threads,
+                                                 config.empty() ? "" : "/" + config)
+                                         .c_str(),
                                      [=](benchmark::State& state) { picture(state, radius, config, threads); })
             ->UseManualTime()
             ->Iterations(3)

@@ -21,10 +21,11 @@ struct Street {
   puddle::Surroundings around;
   Street() {
     const scene::EffectTable table{{{"puddle", {"as-published", "corrected"}, puddle::parameters()}}};
-    settings = puddle::settings_from(scene::parse("effect = 'puddle'\nvariant = 'corrected'\nseed = 7\n", "bench",
-                                                  {"rain.rate=4", "rain.smallest_drop=2", "puddle.drop_intensity=2", "puddle.damping=0.97",
-                                                   "camera.position=[0.3, 0.4, 1.6]", "camera.target=[0.1, 0.03, 0]", "run.size=[1280, 720]"},
-                                                  table));
+    settings =
+        puddle::settings_from(scene::parse("effect = 'puddle'\nvariant = 'corrected'\nseed = 7\n", "bench",
+                                           {"rain.rate=4", "rain.smallest_drop=2", "puddle.drop_intensity=2", "puddle.damping=0.97",
+                                            "camera.position=[0.3, 0.4, 1.6]", "camera.target=[0.1, 0.03, 0]", "run.size=[1280, 720]"},
+                                           table));
     around.environment = night_street::Street().panorama(1024, 512, {0, 0.05, 0}, parallel::Executor());
   }
 };
@@ -41,7 +42,9 @@ void picture(benchmark::State& state, int samples, const std::string& embree_con
   for (auto _ : state) {
     const double update = bench::seconds_of([&] { traced.update(puddle, executor); });
     Picture picture;
-    const double seconds = bench::seconds_of([&] { picture = trace_picture(traced.scene(), traced.camera(), s.width, s.height, {{}, samples}, executor); });
+    const double seconds = bench::seconds_of([&] {
+      picture = trace_picture(traced.scene(), traced.camera(), s.width, s.height, {{}, samples}, executor);
+    });
     best = std::min(best, update + seconds);
     best_update = std::min(best_update, update);
     state.SetIterationTime(update + seconds);
@@ -58,8 +61,9 @@ const bool registered = [] {
     for (const int threads : {1, 2}) {
       for (const std::string config : {"", "isa=sse2"}) {
         if (samples > 1 && !config.empty()) continue;
-        benchmark::RegisterBenchmark(fmt::format("traced_puddle/1280x720/samples:{}/threads:{}{}", samples, threads, config.empty() ? "" : "/" + config).c_str(),
-                                     [=](benchmark::State& state) { picture(state, samples, config, threads); })
+        benchmark::RegisterBenchmark(
+            fmt::format("traced_puddle/1280x720/samples:{}/threads:{}{}", samples, threads, config.empty() ? "" : "/" + config).c_str(),
+            [=](benchmark::State& state) { picture(state, samples, config, threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }

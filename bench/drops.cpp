@@ -28,8 +28,10 @@ std::vector<Drop> sprinkle(std::int64_t count, bool corrected) {
   std::vector<Drop> out(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto r = random::block(1, random::Purpose::drop_arrival, 0, static_cast<std::uint32_t>(i));
-    const auto mass = static_cast<float>(corrected ? std::max(1.0, std::floor(mean * (0.5 + static_cast<double>(random::uniform(r[2]))))) : 0.5 + static_cast<double>(random::uniform(r[2])));
-    out[i] = {{random::uniform(r[0]), random::uniform(r[1])}, {0, random::uniform(r[3]) - 0.5f}, mass, 500, static_cast<std::uint32_t>(i), 0};
+    const auto mass = static_cast<float>(corrected ? std::max(1.0, std::floor(mean * (0.5 + static_cast<double>(random::uniform(r[2])))))
+                                                   : 0.5 + static_cast<double>(random::uniform(r[2])));
+    out[i] = {
+        {random::uniform(r[0]), random::uniform(r[1])}, {0, random::uniform(r[3]) - 0.5f}, mass, 500, static_cast<std::uint32_t>(i), 0};
   }
   return out;
 }
@@ -42,8 +44,11 @@ std::string hash_of(const DropArrays& drops, const parallel::Executor& executor)
 }
 
 // The arrays of integrate, moved without arithmetic: six are read, all but the mass are written back.
-void move(float* __restrict u, float* __restrict v, float* __restrict p, float* __restrict q, float* __restrict life, const float* __restrict mass, std::int64_t count) {
-  const auto turned = [](float x, float by) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) ^ std::bit_cast<std::uint32_t>(by)); };
+void move(float* __restrict u, float* __restrict v, float* __restrict p, float* __restrict q, float* __restrict life,
+          const float* __restrict mass, std::int64_t count) {
+  const auto turned = [](float x, float by) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) ^ std::bit_cast<std::uint32_t>(by));
+  };
   for (std::int64_t i = 0; i < count; ++i) {
     u[i] = turned(u[i], mass[i]);
     v[i] = turned(v[i], mass[i]);
@@ -54,7 +59,8 @@ void move(float* __restrict u, float* __restrict v, float* __restrict p, float* 
 }
 double stream_seconds(const parallel::Executor& executor, DropArrays& drops) {
   const auto range = [&](std::int64_t begin, std::int64_t end) {
-    move(drops.u().data() + begin, drops.v().data() + begin, drops.velocity_u().data() + begin, drops.velocity_v().data() + begin, drops.life().data() + begin, drops.mass().data() + begin, end - begin);
+    move(drops.u().data() + begin, drops.v().data() + begin, drops.velocity_u().data() + begin, drops.velocity_v().data() + begin,
+         drops.life().data() + begin, drops.mass().data() + begin, end - begin);
   };
   double best = 1e9, total = 0;
   for (int go = 0; go < 6 || go % 2 == 1 || (total < 0.2 && go < 2000); ++go) {  // an even number restores them
@@ -76,7 +82,9 @@ void integrate(benchmark::State& state, bool corrected, std::int64_t count, int 
   GlassFrame glass{};
   glass.gravity[1] = -5.5f;
   glass.wind[1] = 9;
-  const auto step = [&] { corrected ? integrate_corrected(executor, drops, uniforms, glass) : integrate_as_published(executor, drops, uniforms, glass); };
+  const auto step = [&] {
+    corrected ? integrate_corrected(executor, drops, uniforms, glass) : integrate_as_published(executor, drops, uniforms, glass);
+  };
   const double bound = stream_seconds(executor, drops);
   for (int n = 0; n < 8; ++n) step();
   const std::string hash = hash_of(drops, executor);
@@ -116,18 +124,22 @@ void merge(benchmark::State& state, bool settled, std::int64_t count, int thread
 }
 
 const bool registered = [] {
-  const auto add = [](const std::string& name, auto body) { benchmark::RegisterBenchmark(name.c_str(), body)->UseManualTime()->Unit(benchmark::kMillisecond); };
+  const auto add = [](const std::string& name, auto body) {
+    benchmark::RegisterBenchmark(name.c_str(), body)->UseManualTime()->Unit(benchmark::kMillisecond);
+  };
   for (const bool corrected : {false, true}) {
     for (const std::int64_t count : {100'000, 1'000'000, 10'000'000}) {
       for (const int threads : {1, 2}) {
-        add(fmt::format("integrate/{}/{}/threads:{}", corrected ? "corrected" : "as-published", count, threads), [=](benchmark::State& state) { integrate(state, corrected, count, threads); });
+        add(fmt::format("integrate/{}/{}/threads:{}", corrected ? "corrected" : "as-published", count, threads),
+            [=](benchmark::State& state) { integrate(state, corrected, count, threads); });
       }
     }
   }
   for (const bool settled : {false, true}) {
     for (const std::int64_t count : {100'000, 1'000'000, 10'000'000}) {
       for (const int threads : {1, 2}) {
-        add(fmt::format("merge/{}/{}/threads:{}", settled ? "settled" : "crowded", count, threads), [=](benchmark::State& state) { merge(state, settled, count, threads); });
+        add(fmt::format("merge/{}/{}/threads:{}", settled ? "settled" : "crowded", count, threads),
+            [=](benchmark::State& state) { merge(state, settled, count, threads); });
       }
     }
   }

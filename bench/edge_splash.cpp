@@ -16,7 +16,8 @@ constexpr int tile_rows = 8;  // as edge_splash.cpp cuts its work
 void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int threads) {
   const parallel::Executor executor(threads);
   const scene::EffectTable table{{{"edge_splash", {"as-published", "corrected"}, parameters()}}};
-  const Settings s = settings_from(scene::parse(fmt::format("effect = 'edge_splash'\nvariant = '{}'\nseed = 7\n", variant), "bench", {"run.size=[1920, 1080]"}, table));
+  const Settings s = settings_from(
+      scene::parse(fmt::format("effect = 'edge_splash'\nvariant = '{}'\nseed = 7\n", variant), "bench", {"run.size=[1920, 1080]"}, table));
   ShapesView view = render_shapes(camera(s), s.width, s.height, s.depth.far_plane, executor);
   Inputs in;
   in.colour = std::move(view.colour);
@@ -29,11 +30,13 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
 const bool registered = [] {
   for (const std::string variant : {"as-published", "corrected"}) {
     // splash reads the scene and the depth, corrected the layer too, and writes three masks and the colour.
-    const std::vector<std::pair<std::string, bench::Traffic>> passes{{"splash", {variant == "corrected" ? 13 : 12, 11}}, {"display", {8, 4}}};
+    const std::vector<std::pair<std::string, bench::Traffic>> passes{{"splash", {variant == "corrected" ? 13 : 12, 11}},
+                                                                     {"display", {8, 4}}};
     for (const auto& [pass, traffic] : passes) {
       for (const int threads : {1, 2}) {
-        benchmark::RegisterBenchmark(fmt::format("edge_splash.{}/{}/1920x1080/threads:{}", pass, variant, threads).c_str(),
-                                     [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, name, bytes, threads); })
+        benchmark::RegisterBenchmark(
+            fmt::format("edge_splash.{}/{}/1920x1080/threads:{}", pass, variant, threads).c_str(),
+            [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, name, bytes, threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }

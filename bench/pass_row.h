@@ -24,7 +24,8 @@ class PassTimes : public Recorder {
 /// render(recorder) makes one frame of width x height pixels, cut into tiles of tile_rows rows. The label holds the hash of each
 /// buffer that the pass gave in the first.
 template <class Render>
-void pass_row(benchmark::State& state, const parallel::Executor& executor, int width, int height, int tile_rows, const std::string& pass, Traffic traffic, const Render& render) {
+void pass_row(benchmark::State& state, const parallel::Executor& executor, int width, int height, int tile_rows, const std::string& pass,
+              Traffic traffic, const Render& render) {
   capture::HashRecorder recorder;
   render(&recorder);
   std::string hashes;
@@ -49,7 +50,8 @@ inline Image integers(int width, int height) {
   Image image(Format::rgba32f, width, height);
   for (int y = 0; y < height; ++y) {
     for (int i = 0; i < 4 * width; ++i) {
-      image.row<float>(y)[i] = static_cast<float>((static_cast<std::uint32_t>(i) * 37u + static_cast<std::uint32_t>(y * y) * 11u) >> 3 & 255u) / 128.0f;
+      image.row<float>(y)[i] =
+          static_cast<float>((static_cast<std::uint32_t>(i) * 37u + static_cast<std::uint32_t>(y * y) * 11u) >> 3 & 255u) / 128.0f;
     }
   }
   return image;

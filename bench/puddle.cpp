@@ -61,7 +61,15 @@ class Water {
   }
   void step(const parallel::Executor& executor) {
     const bool corrected = settings_.variant == Variant::corrected;
-    WaveJob job{wave_step_uniforms(settings_), corrected, settings_.rounding, settings_.boundary, &newest_, &previous_, &rest_row_, nullptr, drops_};
+    WaveJob job{wave_step_uniforms(settings_),
+                corrected,
+                settings_.rounding,
+                settings_.boundary,
+                &newest_,
+                &previous_,
+                &rest_row_,
+                nullptr,
+                drops_};
     job.uniforms.drop_count = static_cast<std::int32_t>(drops_.size());
     executor.for_tiles(side_, side_, side_, wave_tile_rows, [&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
     if (corrected && !drops_.empty()) {
@@ -110,7 +118,8 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
   around.environment = bench::integers(1024, 512);
   Puddle puddle(s, around, executor);
   for (int frame = 0; frame < 8; ++frame) puddle.simulate();
-  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic, [&](Recorder* recorder) { puddle.render(recorder); });
+  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic,
+                  [&](Recorder* recorder) { puddle.render(recorder); });
 }
 
 const bool registered = [] {
@@ -128,11 +137,13 @@ const bool registered = [] {
   }
   for (const std::string variant : {"as-published", "corrected"}) {
     const int noise = variant == "corrected" ? 0 : 4;
-    const std::vector<std::pair<std::string, bench::Traffic>> passes{{"surface_hit", {0, 24}}, {"shade", {24 + noise, 8}}, {"display", {8, 4}}};
+    const std::vector<std::pair<std::string, bench::Traffic>> passes{
+        {"surface_hit", {0, 24}}, {"shade", {24 + noise, 8}}, {"display", {8, 4}}};
     for (const auto& [pass, traffic] : passes) {
       for (const int threads : {1, 2}) {
-        benchmark::RegisterBenchmark(fmt::format("{}/{}/1280x720/threads:{}", pass, variant, threads).c_str(),
-                                     [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, name, bytes, threads); })
+        benchmark::RegisterBenchmark(
+            fmt::format("{}/{}/1280x720/threads:{}", pass, variant, threads).c_str(),
+            [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, name, bytes, threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }

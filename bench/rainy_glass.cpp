@@ -27,7 +27,8 @@ Surroundings surroundings(const Settings& s) {
   return around;
 }
 
-void picture(benchmark::State& state, const std::string& variant, const std::string& shape, const std::string& pass, bench::Traffic traffic, int height, int threads) {
+void picture(benchmark::State& state, const std::string& variant, const std::string& shape, const std::string& pass, bench::Traffic traffic,
+             int height, int threads) {
   const parallel::Executor executor(threads);
   const Settings s = settings(variant, shape, height * 16 / 9, height);
   RainyGlass glass(s, surroundings(s), executor);
@@ -38,13 +39,16 @@ const bool registered = [] {
   for (const std::string variant : {"as-published", "corrected"}) {
     for (const std::string shape : {"pane", "sphere"}) {
       // surface, orientation, the scene's texel and its depth are read, colour is written; the maps come from the caches.
-      const std::vector<std::pair<std::string, bench::Traffic>> passes{{"rain_on_glass", {variant == "corrected" ? 36 : 32, 8}}, {"display", {8, 4}}};
+      const std::vector<std::pair<std::string, bench::Traffic>> passes{{"rain_on_glass", {variant == "corrected" ? 36 : 32, 8}},
+                                                                       {"display", {8, 4}}};
       for (const auto& [pass, traffic] : passes) {
         if (pass == "display" && shape == "sphere") continue;
         for (const int height : {720, 1080}) {
           for (const int threads : {1, 2}) {
             benchmark::RegisterBenchmark(fmt::format("{}/{}/{}/{}p/threads:{}", pass, variant, shape, height, threads).c_str(),
-                                         [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, shape, name, bytes, height, threads); })
+                                         [=, name = pass, bytes = traffic](benchmark::State& state) {
+                                           picture(state, variant, shape, name, bytes, height, threads);
+                                         })
                 ->UseManualTime()
                 ->Unit(benchmark::kMillisecond);
           }

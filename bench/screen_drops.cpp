@@ -11,18 +11,22 @@ namespace {
 
 constexpr int picture_tile_rows = 8;  // as screen_drops.cpp cuts its work
 
-void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, bool flows, int height, int threads) {
+void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, bool flows, int height,
+             int threads) {
   const parallel::Executor executor(threads);
   const scene::EffectTable table{{{"screen_drops", {"as-published", "corrected"}, parameters()}}};
   std::vector<std::string> sets{fmt::format("run.size=[{}, {}]", height * 16 / 9, height)};
-  if (variant == "corrected") sets.insert(sets.end(), {flows ? "flow.on=true" : "flow.on=false", "rain.rate=40", "flow.warm_up=20", "flow.height_size=[640, 360]"});
-  const scene::Config config = scene::parse(fmt::format("effect = 'screen_drops'\nvariant = '{}'\nseed = 7\n", variant), "bench", sets, table);
+  if (variant == "corrected")
+    sets.insert(sets.end(), {flows ? "flow.on=true" : "flow.on=false", "rain.rate=40", "flow.warm_up=20", "flow.height_size=[640, 360]"});
+  const scene::Config config =
+      scene::parse(fmt::format("effect = 'screen_drops'\nvariant = '{}'\nseed = 7\n", variant), "bench", sets, table);
   const Settings s = settings_from(config);
   const auto flow = flow_from(config, s);
   Inputs in;
   in.colour = bench::integers(s.width, s.height);
   ScreenDrops window(s, in, executor, flow ? &*flow : nullptr);
-  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic, [&](Recorder* recorder) { window.render(recorder); });
+  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic,
+                  [&](Recorder* recorder) { window.render(recorder); });
 }
 
 const bool registered = [] {

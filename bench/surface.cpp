@@ -61,14 +61,16 @@ void naive(const drops::SplatUniforms& u, std::span<const drops::Drop> all, Imag
     for (int y = y0; y < y1; ++y) {
       Half* row = height.row<Half>(y);
       for (int x = x0; x < x1; ++x) {
-        const F drop = drops::scalar::splat_contribution(u, drops::SplatKernel::paraboloid, s, F(static_cast<float>(x) + 0.5f), F(static_cast<float>(y) + 0.5f));
+        const F drop = drops::scalar::splat_contribution(u, drops::SplatKernel::paraboloid, s, F(static_cast<float>(x) + 0.5f),
+                                                         F(static_cast<float>(y) + 0.5f));
         store(row + x, F::load(row + x) + drop, Rounding::rne);
       }
     }
   }
 }
 /// The shell on one thread, without any scheduling.
-void serial(const drops::SplatUniforms& u, bool half, drops::Bands bands, std::span<const drops::Drop> all, Image& height, drops::SplatScratch& scratch) {
+void serial(const drops::SplatUniforms& u, bool half, drops::Bands bands, std::span<const drops::Drop> all, Image& height,
+            drops::SplatScratch& scratch) {
   scratch.chunks.resize((all.size() + drops::drops_of_chunk - 1) / drops::drops_of_chunk);
   for (std::size_t i = 0; i < scratch.chunks.size(); ++i) {
     const std::size_t begin = i * drops::drops_of_chunk;
@@ -121,8 +123,10 @@ Image filled(Format format, double scale) {
   for (int y = 0; y < rows; ++y) {
     for (int i = 0; i < columns * image.channels(); ++i) {
       const float value = static_cast<float>(scale * (words() >> 8) * 0x1p-24);
-      if (info(format).kind == FormatInfo::float16) image.row<Half>(y)[i] = to_half(value);
-      else image.row<float>(y)[i] = value;
+      if (info(format).kind == FormatInfo::float16)
+        image.row<Half>(y)[i] = to_half(value);
+      else
+        image.row<float>(y)[i] = value;
     }
   }
   return image;
@@ -163,13 +167,15 @@ void wipe_texture(benchmark::State& state, bool corrected, int threads) {
   const parallel::Executor executor(threads);
   const windshield::SurfaceSettings s = surface(corrected);
   Image height = filled(Format::r16f, 2), mask = filled(Format::r16f, 1), wiped = filled(Format::r32f, 4);
-  windshield::Wiper w{{0.3f, 0.3f}, {0.3f, 0.8f}, {0.35f, 0.3f}, {0.4f, 0.8f}, {0.5f, 0.05f}, 0.15f, 0.65f, {0.6f, 0.8f}, {0.5f, 0.866f}, 0.006f, 3, 1, 0};
+  windshield::Wiper w{
+      {0.3f, 0.3f}, {0.3f, 0.8f}, {0.35f, 0.3f}, {0.4f, 0.8f}, {0.5f, 0.05f}, 0.15f, 0.65f, {0.6f, 0.8f}, {0.5f, 0.866f}, 0.006f, 3, 1, 0};
   windshield::Wiper second = w;
   second.pivot[0] = 0.9f;
   const std::vector<windshield::Wiper> both{w, second};
   windshield::WipeTextureUniforms u = windshield::wipe_texture_uniforms(s, 0);
   u.wiper_count = static_cast<std::int32_t>(both.size());
-  pass::Run<windshield::WipeTexturePass> wiping(u, corrected, Rounding::rne, windshield::wipe_texture_io(corrected, both, {&height, &mask, &wiped}));
+  pass::Run<windshield::WipeTexturePass> wiping(u, corrected, Rounding::rne,
+                                                windshield::wipe_texture_io(corrected, both, {&height, &mask, &wiped}));
   timed(state, executor, {0, corrected ? 8 : 4}, mask, [&] { wiping.tiles(executor, 8); });
   state.SetLabel("");  // it goes on from what it left
 }
@@ -197,12 +203,15 @@ const bool registered = [] {
     const char* variant = corrected ? "corrected" : "as-published";
     for (const int threads : {1, 2}) {
       for (const std::int64_t count : {1000, 10000, 100000, 1000000}) {
-        add(fmt::format("splat/{}/{}/threads:{}", variant, count, threads), [=](benchmark::State& s) { splat(s, corrected, count, threads); });
+        add(fmt::format("splat/{}/{}/threads:{}", variant, count, threads),
+            [=](benchmark::State& s) { splat(s, corrected, count, threads); });
       }
-      add(fmt::format("wipe_texture/{}/1920x1080/threads:{}", variant, threads), [=](benchmark::State& s) { wipe_texture(s, corrected, threads); });
+      add(fmt::format("wipe_texture/{}/1920x1080/threads:{}", variant, threads),
+          [=](benchmark::State& s) { wipe_texture(s, corrected, threads); });
       add(fmt::format("normals/{}/1920x1080/threads:{}", variant, threads), [=](benchmark::State& s) { normals(s, corrected, threads); });
       for (const int level : {0, 1}) {
-        add(fmt::format("blur_pyramid/{}/1920x1080.L{}/threads:{}", variant, level, threads), [=](benchmark::State& s) { blur(s, corrected, level, threads); });
+        add(fmt::format("blur_pyramid/{}/1920x1080.L{}/threads:{}", variant, level, threads),
+            [=](benchmark::State& s) { blur(s, corrected, level, threads); });
       }
     }
   }

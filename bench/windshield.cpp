@@ -12,12 +12,14 @@ namespace {
 
 constexpr int picture_tile_rows = 8;  // as windshield.cpp cuts its work
 
-void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int height, int threads) {
+void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int height,
+             int threads) {
   const parallel::Executor executor(threads);
   const auto own = parameters();
   const scene::EffectTable table{{{"windshield", {"as-published", "corrected"}, {own.begin(), own.end()}}}};
   const int width = height * 16 / 9;
-  const scene::Config config = scene::parse(fmt::format("effect = 'windshield'\nvariant = '{}'\nseed = 7\n", variant), "bench", {fmt::format("run.size=[{}, {}]", width, height)}, table);
+  const scene::Config config = scene::parse(fmt::format("effect = 'windshield'\nvariant = '{}'\nseed = 7\n", variant), "bench",
+                                            {fmt::format("run.size=[{}, {}]", width, height)}, table);
   Windshield windshield(config, {opaque_half(bench::integers(width, height)), far_depth(width, height)}, executor);
   // A second of rain wets the glass.
   for (int frame = 0; frame < 60; ++frame) {
@@ -25,7 +27,8 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
     windshield.render();
   }
   windshield.simulate();
-  bench::pass_row(state, executor, width, height, picture_tile_rows, pass, traffic, [&](Recorder* recorder) { windshield.render(recorder); });
+  bench::pass_row(state, executor, width, height, picture_tile_rows, pass, traffic,
+                  [&](Recorder* recorder) { windshield.render(recorder); });
 }
 
 const bool registered = [] {
@@ -34,7 +37,9 @@ const bool registered = [] {
     for (const int height : {720, 1080}) {
       for (const int threads : {1, 2}) {
         benchmark::RegisterBenchmark(fmt::format("composite/{}/{}x{}/threads:{}", variant, height * 16 / 9, height, threads).c_str(),
-                                     [=](benchmark::State& state) { picture(state, variant, "composite", {variant == "corrected" ? 24 : 20, 8}, height, threads); })
+                                     [=](benchmark::State& state) {
+                                       picture(state, variant, "composite", {variant == "corrected" ? 24 : 20, 8}, height, threads);
+                                     })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
       }

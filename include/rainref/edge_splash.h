@@ -44,15 +44,15 @@ struct Settings {
   double edge_threshold = 0.166, drop_speed = 100;
 
   // corrected
-  double band = 0.03;                                   ///< of the splashes beside an edge [m]
+  double band = 0.03;                                     ///< of the splashes beside an edge [m]
   double smallest_band = 1.0 / 720, largest_band = 0.01;  ///< [picture heights]
-  double edge_step = 0.15;                              ///< smallest step of distance at an edge [m]
-  double edge_bend = 0.02;                              ///< smallest share of the distance that the step is
-  double softness = 0.3;                                ///< of every threshold: it ends at (1 + softness) times its beginning
-  double widest_angle_deg = 62;                         ///< between an edge's normal and up
-  std::array<double, 3> up{0, 1, 0};                    ///< against the fall of the rain, world axes; any length
-  double noise_size = 0.3;                              ///< of the tile [picture heights]
-  std::array<double, 2> drop_velocity{0.25, -1.0};      ///< [picture heights/s]
+  double edge_step = 0.15;                                ///< smallest step of distance at an edge [m]
+  double edge_bend = 0.02;                                ///< smallest share of the distance that the step is
+  double softness = 0.3;                                  ///< of every threshold: it ends at (1 + softness) times its beginning
+  double widest_angle_deg = 62;                           ///< between an edge's normal and up
+  std::array<double, 3> up{0, 1, 0};                      ///< against the fall of the rain, world axes; any length
+  double noise_size = 0.3;                                ///< of the tile [picture heights]
+  std::array<double, 2> drop_velocity{0.25, -1.0};        ///< [picture heights/s]
 
   std::array<double, 3> camera_position{0, 0, 0}, camera_target{0, 0, -1}, camera_up{0, 1, 0};
   double vertical_fov_deg = 60;
@@ -82,7 +82,7 @@ class EdgeSplash {
   /// Frames rendered so far.
   int frame() const;
 
-  const Image& edge() const;     ///< r8 masks
+  const Image& edge() const;  ///< r8 masks
   const Image& angle() const;
   const Image& noise() const;
   const Image& colour() const;   ///< rgba16f: linear radiance, the scene's alpha
@@ -97,7 +97,8 @@ class EdgeSplash {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that these settings take at their peak, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp. The caller's images are not counted.
+/// Bytes that these settings take at their peak, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp. The
+/// caller's images are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::edge_splash

@@ -12,11 +12,11 @@ namespace rainref {
 /// Exit codes of the command line. When several hold, the more serious one wins: 5, 4, 2, 3, 1.
 enum class ExitCode : int {
   pass = 0,
-  fail = 1,      ///< a check failed, or something was not judged
-  usage = 2,     ///< command line, scene, or an input image that cannot be decoded
-  port_files = 3,///< a port's files are missing or malformed
-  io = 4,        ///< unreadable, unwritable, disk full
-  internal = 5   ///< a defect of rainref
+  fail = 1,        ///< a check failed, or something was not judged
+  usage = 2,       ///< command line, scene, or an input image that cannot be decoded
+  port_files = 3,  ///< a port's files are missing or malformed
+  io = 4,          ///< unreadable, unwritable, disk full
+  internal = 5     ///< a defect of rainref
 };
 
 /// A place in a text file; line and column count from 1, 0 means unknown.

@@ -49,8 +49,14 @@ class Image {
   bool empty() const { return width_ == 0; }
 
   /// First texel of row y. T is the storage type of one channel: float, Half, Unorm8 or std::uint32_t.
-  template <class T> T* row(int y) { return reinterpret_cast<T*>(row_bytes(y)); }
-  template <class T> const T* row(int y) const { return reinterpret_cast<const T*>(row_bytes(y)); }
+  template <class T>
+  T* row(int y) {
+    return reinterpret_cast<T*>(row_bytes(y));
+  }
+  template <class T>
+  const T* row(int y) const {
+    return reinterpret_cast<const T*>(row_bytes(y));
+  }
   std::byte* row_bytes(int y) { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
   const std::byte* row_bytes(int y) const { return origin_ + static_cast<std::ptrdiff_t>(y) * stride_; }
   /// Bytes from one row to the next.

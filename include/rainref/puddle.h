@@ -108,7 +108,8 @@ class Puddle {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that a puddle of these settings takes at its peak, within 10 %: every buffer, decoded texture, mip and scratch of src/puddle/memory.cpp. The caller's images are not counted.
+/// Bytes that a puddle of these settings takes at its peak, within 10 %: every buffer, decoded texture, mip and scratch of
+/// src/puddle/memory.cpp. The caller's images are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::puddle

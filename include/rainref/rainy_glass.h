@@ -29,20 +29,20 @@ struct Settings {
 
   // The maps.
   int map_size = 512;                    ///< texels a side
-  Format map_storage = Format::rgba16f;   ///< rgba8 or rgba16f
+  Format map_storage = Format::rgba16f;  ///< rgba8 or rgba16f
   Rounding rounding = Rounding::rne;
   int droplet_count = 700, trail_count = 26;
   double largest_droplet = 0.016, smallest_droplet = 0.003;  ///< radius [tile]
-  double trail_half_width = 0.008;                          ///< of the widest head [tile]
+  double trail_half_width = 0.008;                           ///< of the widest head [tile]
   double contact_angle_deg = 40;
   int flow_cells = 8;
   double flow_gain = 1.2;
 
   // The glass.
   Shape shape = Shape::pane;
-  double distance = 0.5;   ///< of the pane, or the centre of the sphere, along the horizontal view [m]
-  double yaw_deg = 0;      ///< turn of the pane about the vertical
-  double radius = 0.2;     ///< of the sphere [m]
+  double distance = 0.5;                       ///< of the pane, or the centre of the sphere, along the horizontal view [m]
+  double yaw_deg = 0;                          ///< turn of the pane about the vertical
+  double radius = 0.2;                         ///< of the sphere [m]
   double drop_tile = 0.4, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
 
   // The rain.
@@ -68,11 +68,11 @@ struct Settings {
 
 /// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
 struct Surroundings {
-  Image colour;  ///< width x height, 4 channels
-  Image depth;   ///< r32f of the same size, along the view axis [m]; used by corrected
-  Image normals;  ///< Shape::image: 4 channels of that size, world normal and coverage
+  Image colour;               ///< width x height, 4 channels
+  Image depth;                ///< r32f of the same size, along the view axis [m]; used by corrected
+  Image normals;              ///< Shape::image: 4 channels of that size, world normal and coverage
   Image raindrops, rivulets;  ///< maps instead of the bakes, 4 channels, any size; empty: baked
-  Image probe;   ///< latitude/longitude panorama for use_probe, 4 channels
+  Image probe;                ///< latitude/longitude panorama for use_probe, 4 channels
 };
 
 /// Wet glass before a still scene. Every buffer has the same bits whatever the executor's threads and the SIMD target.
@@ -106,7 +106,8 @@ double seam(const Image& map);
 /// Above this a map does not tile.
 inline constexpr double worst_seam = 4;
 
-/// Bytes that settings take at their peak, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp. The caller's images are not counted.
+/// Bytes that settings take at their peak, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp. The
+/// caller's images are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::rainy_glass

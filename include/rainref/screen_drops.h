@@ -28,23 +28,23 @@ struct Settings {
   double vertical_fov_deg = 40;
 
   // as-published
-  double grid = 0.015;       ///< cells of the coarsest layer in a pixel
-  double keep = 0.08;        ///< share of the finest layer's cells that hold a drop, for noise that is uniform
-  double refraction = 0.3;   ///< pictures that a unit normal across the view moves the lookup
-  double blur_level = 2.5;   ///< mip level behind the drops
+  double grid = 0.015;            ///< cells of the coarsest layer in a pixel
+  double keep = 0.08;             ///< share of the finest layer's cells that hold a drop, for noise that is uniform
+  double refraction = 0.3;        ///< pictures that a unit normal across the view moves the lookup
+  double blur_level = 2.5;        ///< mip level behind the drops
   bool printed_misprint = false;  ///< the displacement as the report prints it
-  int noise_size = 256;      ///< texels a side of the noise made here
+  int noise_size = 256;           ///< texels a side of the noise made here
 
   // corrected
-  double pane_height = 0.12;      ///< of glass in the picture's height [m]
-  double largest_radius = 4;      ///< of a drop's base [mm]
-  double share = 0.6;             ///< of cells that hold a drop
-  double contact_angle_deg = 50;  ///< of the drops' caps
+  double pane_height = 0.12;                      ///< of glass in the picture's height [m]
+  double largest_radius = 4;                      ///< of a drop's base [mm]
+  double share = 0.6;                             ///< of cells that hold a drop
+  double contact_angle_deg = 50;                  ///< of the drops' caps
   double shortest_cycle = 8, longest_cycle = 30;  ///< of a cell [s]
-  double impact = 0.02;           ///< share of its cycle in which a drop spreads
+  double impact = 0.02;                           ///< share of its cycle in which a drop spreads
   double water_ior = 1.333, inner = 0.3;
-  double defocus = 0.02;          ///< radius of a far point's disc [picture heights]
-  double scene_margin = 2.2;      ///< field of view of the scene's picture over the picture's, as tangents
+  double defocus = 0.02;      ///< radius of a far point's disc [picture heights]
+  double scene_margin = 2.2;  ///< field of view of the scene's picture over the picture's, as tangents
 };
 
 /// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
@@ -61,8 +61,8 @@ class ScreenDrops {
   /// A scene of this effect, flowing water included (flow.on). Throws Error(usage), naming place and key, for what no scene may say, for
   /// settings or images that cannot run, for pictures named in the scene rather than given here, and for keys of traced pictures.
   ScreenDrops(const SceneText& scene, const Inputs& inputs, const parallel::Executor& executor);
-  /// The same without a text. Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must outlive this.
-  /// flow: corrected only; null: no water flows. Its pane is pane_height high and as wide as the picture.
+  /// The same without a text. Throws Error(usage) for settings or images that cannot run, naming key, expected and found. The executor must
+  /// outlive this. flow: corrected only; null: no water flows. Its pane is pane_height high and as wide as the picture.
   ScreenDrops(const Settings& settings, const Inputs& inputs, const parallel::Executor& executor, const FlowSettings* flow = nullptr);
   ~ScreenDrops();
   ScreenDrops(ScreenDrops&&) noexcept;
@@ -85,7 +85,8 @@ class ScreenDrops {
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that settings take at their peak, within 10 %: every buffer, level and scratch of src/screen_drops/memory.cpp. The caller's images and flowing water are not counted.
+/// Bytes that settings take at their peak, within 10 %: every buffer, level and scratch of src/screen_drops/memory.cpp. The caller's images
+/// and flowing water are not counted.
 std::size_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::screen_drops

@@ -61,21 +61,22 @@ class Windshield {
   std::vector<DropView> drops() const;
   WaterLedger ledger() const;
 
-  const Image& height() const;   ///< r16f [mm]
-  const Image& mask() const;     ///< r16f: 1 just wiped
-  const Image& film() const;     ///< corrected: r32f, whole quanta in a texel
-  const Image& normal() const;   ///< rgba16f: normal in the axes of the glass
+  const Image& height() const;       ///< r16f [mm]
+  const Image& mask() const;         ///< r16f: 1 just wiped
+  const Image& film() const;         ///< corrected: r32f, whole quanta in a texel
+  const Image& normal() const;       ///< rgba16f: normal in the axes of the glass
   const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
-  const Image& colour() const;   ///< rgba16f: linear radiance
-  const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
+  const Image& colour() const;       ///< rgba16f: linear radiance
+  const Image& picture() const;      ///< rgba8: display code values; row 0 = bottom
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// Bytes that a windshield of this scene takes at its peak in run.frames frames, within 10 %: every buffer, the drops and what their passes work with, the
-/// street's pictures while they are rendered; src/windshield/memory.cpp. Pictures given instead of the street are not counted.
+/// Bytes that a windshield of this scene takes at its peak in run.frames frames, within 10 %: every buffer, the drops and what their passes
+/// work with, the street's pictures while they are rendered; src/windshield/memory.cpp. Pictures given instead of the street are not
+/// counted.
 std::size_t memory_bytes(const scene::Config& config);
 
 }  // namespace windshield

@@ -103,8 +103,7 @@ void AtomicFile::discard() noexcept {
 
 void AtomicFile::fail(int error) {
   discard();
-  throw Error(ExitCode::io,
-              fmt::format("cannot write '{}': {}", path_.string(), std::generic_category().message(error)));
+  throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path_.string(), std::generic_category().message(error)));
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes) {

@@ -43,10 +43,10 @@ class AtomicFile {
   void discard() noexcept;
   [[noreturn]] void fail(int error);
 
-  std::filesystem::path path_;      // as the caller named it, for messages
-  std::filesystem::path target_;    // what the rename replaces
+  std::filesystem::path path_;       // as the caller named it, for messages
+  std::filesystem::path target_;     // what the rename replaces
   std::optional<Hidden> temporary_;  // none when writing straight to a device
-  std::vector<std::byte> pending_;  // small writes are gathered
+  std::vector<std::byte> pending_;   // small writes are gathered
   int descriptor_ = -1;
 };
 

@@ -22,8 +22,10 @@ FileLock lock_file(int descriptor) {
 }
 
 bool is_still(int descriptor, const fs::path& path) {
-  struct stat opened {}, named {};
-  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+  struct stat opened {
+  }, named{};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
 }
 
 FolderLock::FolderLock(const fs::path& folder) : path_(folder / ".rainref-run.lock") {

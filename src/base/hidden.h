@@ -23,7 +23,8 @@ class Hidden {
   static std::string random_name() { return random_name(".tmp"); }
 
   /// Throws std::system_error. Names that are taken are passed over.
-  Hidden(const std::filesystem::path& parent, Kind kind, const std::function<std::string()>& name = [] { return random_name(); });
+  Hidden(
+      const std::filesystem::path& parent, Kind kind, const std::function<std::string()>& name = [] { return random_name(); });
   ~Hidden();
   Hidden(const Hidden&) = delete;
   Hidden& operator=(const Hidden&) = delete;

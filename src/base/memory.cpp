@@ -30,11 +30,13 @@ void lower(MemoryLimit& least, std::size_t bytes, const std::string& owner) {
   if (bytes < least.bytes) least = {bytes, owner};
 }
 
-/// A limit holds for a cgroup and all below it. A container may show a group's path as it is outside: then only the mount's own root is found.
+/// A limit holds for a cgroup and all below it. A container may show a group's path as it is outside: then only the mount's own root is
+/// found.
 void lower_by_group(MemoryLimit& least, const std::filesystem::path& mount, std::string group, const char* file) {
   while (true) {
     while (group.ends_with('/')) group.pop_back();
-    if (const auto bytes = number_in(mount / group.substr(group.empty() ? 0 : 1) / file)) lower(least, *bytes, fmt::format("the cgroup {} allows", group.empty() ? "/" : group));
+    if (const auto bytes = number_in(mount / group.substr(group.empty() ? 0 : 1) / file))
+      lower(least, *bytes, fmt::format("the cgroup {} allows", group.empty() ? "/" : group));
     if (group.empty()) return;
     group.resize(group.rfind('/') == std::string::npos ? 0 : group.rfind('/'));
   }
@@ -89,7 +91,9 @@ std::size_t resident_memory() { return pages().resident * page(); }
 void require_memory(std::string_view subject, std::size_t bytes) {
   const std::size_t need = bytes + resident_memory();
   const MemoryLimit limit = memory_limit();
-  if (need > limit.bytes) throw Error(ExitCode::usage, fmt::format("{} needs {} of memory; {} {}", subject, memory_text(need), limit.owner, memory_text(limit.bytes)));
+  if (need > limit.bytes)
+    throw Error(ExitCode::usage,
+                fmt::format("{} needs {} of memory; {} {}", subject, memory_text(need), limit.owner, memory_text(limit.bytes)));
 }
 
 std::string memory_text(std::size_t bytes) {

@@ -20,7 +20,8 @@ MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 /// Bytes of this process that lie in memory now.
 std::size_t resident_memory();
 
-/// Throws Error(usage) when `bytes` more than the process has now pass the limit: "SUBJECT needs 1.5 GiB of memory; this machine has 1.0 GiB".
+/// Throws Error(usage) when `bytes` more than the process has now pass the limit: "SUBJECT needs 1.5 GiB of memory; this machine has 1.0
+/// GiB".
 void require_memory(std::string_view subject, std::size_t bytes);
 
 /// "1.5 GiB", "12.0 MiB".

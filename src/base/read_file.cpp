@@ -19,9 +19,7 @@ namespace {
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw Error(ExitCode::io, fmt::format("cannot read '{}': {}", path.string(), why));
 }
-[[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  fail(path, std::generic_category().message(error));
-}
+[[noreturn]] void fail(const std::filesystem::path& path, int error) { fail(path, std::generic_category().message(error)); }
 
 }  // namespace
 
@@ -38,7 +36,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   if (!S_ISREG(status.st_mode)) fail(path, "not a regular file");
   const auto size = static_cast<std::size_t>(status.st_size);
-  if (const MemoryLimit limit = memory_limit(); size > limit.bytes) fail(path, fmt::format("its {} are too many; {} {} of memory", memory_text(size), limit.owner, memory_text(limit.bytes)));
+  if (const MemoryLimit limit = memory_limit(); size > limit.bytes)
+    fail(path, fmt::format("its {} are too many; {} {} of memory", memory_text(size), limit.owner, memory_text(limit.bytes)));
   std::vector<std::byte> bytes(size);
   std::size_t done = 0;
   while (done < bytes.size()) {

@@ -65,18 +65,23 @@ std::vector<Image> make_levels(const BlurSettings& s, int width, int height) {
   return levels;
 }
 
-void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out) {
-  const auto same = [&](const Image& i, Format format) { return i.format() == format && i.width() == out.width() && i.height() == out.height(); };
+void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth,
+               Image& out) {
+  const auto same = [&](const Image& i, Format format) {
+    return i.format() == format && i.width() == out.width() && i.height() == out.height();
+  };
   if (!same(colour, Format::rgba16f) || !same(depth, Format::r32f) || !same(out, Format::rgba16f)) {
     throw Error(ExitCode::internal, "blur_pyramid: colour, depth and level 0 do not fit");
   }
   executor.for_tiles(out.width(), out.height(), out.width(), tile_rows,
                      [&](const parallel::Tile& tile) { fog_rows(uniforms, rounding, colour, depth, out, tile); });
 }
-void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out) {
+void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above,
+                 Image& out) {
   const bool fits = above.width() == uniforms.source_size[0] && above.height() == uniforms.source_size[1] &&
                     level_size(above.width(), above.height(), 1) == std::array<int, 2>{out.width(), out.height()};
-  if (!fits || above.format() != Format::rgba16f || out.format() != Format::rgba16f) throw Error(ExitCode::internal, "blur_pyramid: the levels do not fit");
+  if (!fits || above.format() != Format::rgba16f || out.format() != Format::rgba16f)
+    throw Error(ExitCode::internal, "blur_pyramid: the levels do not fit");
   executor.for_tiles(out.width(), out.height(), out.width(), tile_rows,
                      [&](const parallel::Tile& tile) { halve_rows(uniforms, corrected, rounding, above, out, tile); });
 }
@@ -100,7 +105,8 @@ void LevelTexture::refresh(const parallel::Executor& executor, const std::vector
     const Image& level = levels[l];
     executor.for_range(level.height(), tile_rows, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t y = begin; y < end; ++y) {
-        Half* to = texels_.data() + 4 * (static_cast<std::size_t>(view_.offset[l]) + static_cast<std::size_t>(level.width()) * static_cast<std::size_t>(y));
+        Half* to = texels_.data() +
+                   4 * (static_cast<std::size_t>(view_.offset[l]) + static_cast<std::size_t>(level.width()) * static_cast<std::size_t>(y));
         std::copy_n(level.row<Half>(static_cast<int>(y)), static_cast<std::size_t>(4) * level.width(), to);
       }
     });
@@ -110,12 +116,14 @@ void LevelTexture::refresh(const parallel::Executor& executor, const std::vector
 capture::PassInfo blur_info(const std::string& colour_from, const std::string& depth_from) {
   using scene::member;
   const scene::UniformBlock block = scene::uniform_block<BlurUniforms>(
-      "BlurUniforms", {member<&BlurUniforms::fog_colour>("fog_colour", "1", scene::radiance, "Linear radiance of the fog."),
-                       member<&BlurUniforms::fog_density>("fog_density", "1/m", {0, 10}, "Extinction of light in the fog."),
-                       member<&BlurUniforms::middle>("middle", "1", scene::share, "corrected: weight of the middle one of three texels, for columns and rows."),
-                       member<&BlurUniforms::last>("last", "1", scene::share, "corrected: weight of the last one, over output index + 1."),
-                       member<&BlurUniforms::source_size>("source_size", "texel", {1, 65536}, "Columns and rows of the level above."),
-                       member<&BlurUniforms::level>("level", "1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
+      "BlurUniforms",
+      {member<&BlurUniforms::fog_colour>("fog_colour", "1", scene::radiance, "Linear radiance of the fog."),
+       member<&BlurUniforms::fog_density>("fog_density", "1/m", {0, 10}, "Extinction of light in the fog."),
+       member<&BlurUniforms::middle>("middle", "1", scene::share,
+                                     "corrected: weight of the middle one of three texels, for columns and rows."),
+       member<&BlurUniforms::last>("last", "1", scene::share, "corrected: weight of the last one, over output index + 1."),
+       member<&BlurUniforms::source_size>("source_size", "texel", {1, 65536}, "Columns and rows of the level above."),
+       member<&BlurUniforms::level>("level", "1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
   return {"blur_pyramid",
           "The scene in fog, and blurred levels of it; one run a level.",
           {{published, 1, capture::Judge::envelope, "BlurUniforms"}, {correct, 1, capture::Judge::envelope, "BlurUniforms"}},

@@ -19,8 +19,8 @@ namespace rainref::blur_pyramid {
 struct BlurSettings {
   bool corrected = false;
   Rounding rounding = Rounding::rne;
-  int levels = 6;            ///< wanted, the fogged scene included; there are no more than level_count gives
-  double fog_density = 0.01;  ///< extinction [1/m]
+  int levels = 6;                                       ///< wanted, the fogged scene included; there are no more than level_count gives
+  double fog_density = 0.01;                            ///< extinction [1/m]
   std::array<double, 3> fog_colour{0.02, 0.025, 0.03};  ///< linear radiance
 };
 /// The scene keys of BlurSettings but for the rounding, behind "prefix.".
@@ -38,9 +38,11 @@ BlurUniforms blur_uniforms(const BlurSettings& settings, int width, int height, 
 /// Levels of rgba16f, zero.
 std::vector<Image> make_levels(const BlurSettings& settings, int width, int height);
 /// The pass for level 0. colour: rgba16f, linear radiance; depth: r32f, distance along the view axis [m]; out: rgba16f, alpha 1.
-void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out);
+void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth,
+               Image& out);
 /// The pass for a further level, from the one above.
-void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out);
+void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above,
+                 Image& out);
 
 /// The levels as one texture with mips, for passes that sample them (clamped).
 class LevelTexture {

@@ -8,20 +8,28 @@ RAINREF_FN Vec3<N> fogged(const BlurUniforms& u, const Vec3<N>& colour, N depth)
 
 /// as-published: a box of 2 x 2 texels. With an odd size the last column or row of the level above is dropped.
 template <class N>
-RAINREF_FN N box_of_four(N a, N b, N c, N d) { return N(0.25f) * sum_any_order_in_pairs(a, b, c, d); }
+RAINREF_FN N box_of_four(N a, N b, N c, N d) {
+  return N(0.25f) * sum_any_order_in_pairs(a, b, c, d);
+}
 
 /// corrected: a texel of m covers 1 / m of the n texels above, so with n = 2 m + 1 three of them, weighted by the overlap:
 /// (m - x) / n, m / n, (x + 1) / n. Every texel above counts the same in sum, so the mean is kept. Written from the first
 /// tap on, so that a constant stays as it is. Columns are taken together first, then rows of that.
 template <class N>
-RAINREF_FN N box_of_three(N t0, N t1, N t2, N w1, N w2) { return (t0 + w1 * (t1 - t0)) + w2 * (t2 - t0); }
+RAINREF_FN N box_of_three(N t0, N t1, N t2, N w1, N w2) {
+  return (t0 + w1 * (t1 - t0)) + w2 * (t2 - t0);
+}
 /// The weight of the last tap for output index x.
 template <class N>
-RAINREF_FN N last_weight(float last, N x) { return N(last) * (x + N(1.0f)); }
+RAINREF_FN N last_weight(float last, N x) {
+  return N(last) * (x + N(1.0f));
+}
 
 /// Output texel (x, y), one channel; tap(i, j) is input texel (2 x + i, 2 y + j), the nearest one where there is none.
 template <class N, class Tap>
-RAINREF_FN N halved_as_published(Tap tap) { return box_of_four(tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1)); }
+RAINREF_FN N halved_as_published(Tap tap) {
+  return box_of_four(tap(0, 0), tap(1, 0), tap(0, 1), tap(1, 1));
+}
 template <class N, class Tap>
 RAINREF_FN N halved_corrected(const BlurUniforms& u, Tap tap, int x, int y) {
   const N wy1(u.middle[1]), wy2 = last_weight(u.last[1], N(static_cast<float>(y)));

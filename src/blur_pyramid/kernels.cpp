@@ -16,7 +16,8 @@ RAINREF_TARGET_BEGIN(blur_pyramid)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-void FogRows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out, const parallel::Tile& tile) {
+void FogRows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out,
+             const parallel::Tile& tile) {
   const BlurUniforms u = uniforms;
   for (int y = tile.y0; y < tile.y1; ++y) {
     const Half* from = colour.row<Half>(y);
@@ -112,10 +113,12 @@ namespace rainref::blur_pyramid {
 RAINREF_EXPORT(FogRows);
 RAINREF_EXPORT(HalveRows);
 
-void fog_rows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out, const parallel::Tile& tile) {
+void fog_rows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out,
+              const parallel::Tile& tile) {
   RAINREF_DISPATCH(FogRows)(uniforms, rounding, colour, depth, out, tile);
 }
-void halve_rows(const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
+void halve_rows(const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out,
+                const parallel::Tile& tile) {
   RAINREF_DISPATCH(HalveRows)(uniforms, corrected, rounding, above, out, tile);
 }
 

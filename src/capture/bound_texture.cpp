@@ -35,13 +35,21 @@ std::vector<float> decoded(const Array& image, int level) {
   const std::vector<std::byte>& bytes = image.levels.at(static_cast<std::size_t>(level));
   std::vector<float> out;
   switch (info(image.format).kind) {
-    case FormatInfo::unorm8: decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return to_float(u); }); break;
+    case FormatInfo::unorm8:
+      decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return to_float(u); });
+      break;
     case FormatInfo::srgb8:
       decode_all<Unorm8>(bytes, out, [](Unorm8 u) { return static_cast<float>(decode_srgb(u.code / 255.0)); });
       break;
-    case FormatInfo::float16: decode_all<Half>(bytes, out, [](Half h) { return to_float(h); }); break;
-    case FormatInfo::float32: decode_all<float>(bytes, out, [](float x) { return x; }); break;
-    case FormatInfo::uint32: decode_all<std::uint32_t>(bytes, out, [](std::uint32_t i) { return static_cast<float>(i); }); break;
+    case FormatInfo::float16:
+      decode_all<Half>(bytes, out, [](Half h) { return to_float(h); });
+      break;
+    case FormatInfo::float32:
+      decode_all<float>(bytes, out, [](float x) { return x; });
+      break;
+    case FormatInfo::uint32:
+      decode_all<std::uint32_t>(bytes, out, [](std::uint32_t i) { return static_cast<float>(i); });
+      break;
   }
   return out;
 }
@@ -52,8 +60,9 @@ BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {
   view_.channels = taken;
   view_.levels = std::min(static_cast<int>(a.levels.size()), Texture::max_levels);
   const FormatInfo::Kind kind = info(a.format).kind;
-  view_.precision = kind == FormatInfo::float16 ? TexelPrecision::float16
-                    : kind == FormatInfo::unorm8 || kind == FormatInfo::srgb8 ? TexelPrecision::unorm8 : TexelPrecision::float32;
+  view_.precision = kind == FormatInfo::float16                               ? TexelPrecision::float16
+                    : kind == FormatInfo::unorm8 || kind == FormatInfo::srgb8 ? TexelPrecision::unorm8
+                                                                              : TexelPrecision::float32;
   view_.address_u = input.address_u;
   view_.address_v = input.address_v;
   for (int c = 0; c < taken; ++c) view_.border[c] = input.border[static_cast<std::size_t>(first + c)];
@@ -84,7 +93,8 @@ void copy_uniforms(const PassCase& c, void* to, std::size_t bytes) {
 const std::byte* record_bytes(const CaseInput& input, std::size_t record_size) {
   const Array& a = input.array;
   if (a.record.size != record_size)
-    throw Error(ExitCode::port_files, fmt::format("input '{}': expected records of {} bytes, found {}", input.name, record_size, a.record.size));
+    throw Error(ExitCode::port_files,
+                fmt::format("input '{}': expected records of {} bytes, found {}", input.name, record_size, a.record.size));
   return a.levels.at(0).data();
 }
 

@@ -23,7 +23,8 @@ Array image_array(const BufferView& buffer) {
 
 Array record_array(const RecordView& records, const scene::UniformBlock& layout) {
   if (layout.size != records.record_bytes) {
-    throw Error(ExitCode::internal, fmt::format("record {}: declared with {} bytes, found {}", layout.name, layout.size, records.record_bytes));
+    throw Error(ExitCode::internal,
+                fmt::format("record {}: declared with {} bytes, found {}", layout.name, layout.size, records.record_bytes));
   }
   Array array;
   array.is_records = true;
@@ -37,10 +38,14 @@ Array record_array(const RecordView& records, const scene::UniformBlock& layout)
 
 Format float_format(int channels) {
   switch (channels) {
-    case 1: return Format::r32f;
-    case 2: return Format::rg32f;
-    case 4: return Format::rgba32f;
-    default: throw Error(ExitCode::internal, fmt::format("a texture of {} channels has no format", channels));
+    case 1:
+      return Format::r32f;
+    case 2:
+      return Format::rg32f;
+    case 4:
+      return Format::rgba32f;
+    default:
+      throw Error(ExitCode::internal, fmt::format("a texture of {} channels has no format", channels));
   }
 }
 
@@ -146,8 +151,8 @@ void CaptureRecorder::pass(const PassCall& call) {
     const BufferInfo& buffer = effect_.buffer(output.name, variant_);
     // An image has no keys.
     const Judge judge = declared->judge == Judge::keyed && !is_records ? Judge::envelope : declared->judge;
-    open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, judge, buffer.range,
-                              buffer.unit, buffer.colour_space});
+    open_->outputs.push_back({std::string(output.name), array_of(output.content, record_of(output.name, is_records)), rounding_, judge,
+                              buffer.range, buffer.unit, buffer.colour_space});
   }
   PassCase done = std::move(*open_);
   open_.reset();

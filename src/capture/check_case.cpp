@@ -18,16 +18,18 @@ std::string type(const Array& a) { return a.is_records ? fmt::format("records of
 
 class CaseCheck {
  public:
-  CaseCheck(const EffectInfo& effect, std::span<const scene::Parameter> parameters, const PassCase& c) : effect_(effect), parameters_(parameters), c_(c) {}
+  CaseCheck(const EffectInfo& effect, std::span<const scene::Parameter> parameters, const PassCase& c)
+      : effect_(effect), parameters_(parameters), c_(c) {}
 
   void run() {
     const std::vector<std::string> names = effect_.pass_names(c_.variant);
     if (std::find(names.begin(), names.end(), c_.pass) == names.end()) {
-      throw Error(ExitCode::port_files, fmt::format("{}: {} {} has the passes {}, found '{}'{}", c_.folder(), effect_.name, c_.variant, fmt::join(names, ", "), c_.pass,
-                                                    did_you_mean(c_.pass, names)));
+      throw Error(ExitCode::port_files, fmt::format("{}: {} {} has the passes {}, found '{}'{}", c_.folder(), effect_.name, c_.variant,
+                                                    fmt::join(names, ", "), c_.pass, did_you_mean(c_.pass, names)));
     }
     const PassInfo& pass = effect_.pass(c_.pass);
-    if (const std::size_t size = pass.block(c_.variant).size; c_.uniforms.size() != size) refuse("uniforms.bin", fmt::format("{} bytes", size), fmt::format("{}", c_.uniforms.size()));
+    if (const std::size_t size = pass.block(c_.variant).size; c_.uniforms.size() != size)
+      refuse("uniforms.bin", fmt::format("{} bytes", size), fmt::format("{}", c_.uniforms.size()));
     const std::vector<std::string> writes = effect_.writes(pass, c_.variant);
     if (c_.outputs.empty()) refuse("", fmt::format("the outputs {}", fmt::join(writes, ", ")), "none");
     for (std::size_t o = 0; o < c_.outputs.size(); ++o) check_output(pass, writes, o);
@@ -36,23 +38,28 @@ class CaseCheck {
 
  private:
   [[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& found) const {
-    throw Error(ExitCode::port_files, fmt::format("{}: {}{}expected {}, found {}", c_.folder(), what, what.empty() ? "" : ": ", expected, found));
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: {}{}expected {}, found {}", c_.folder(), what, what.empty() ? "" : ": ", expected, found));
   }
 
   void check_output(const PassInfo& pass, const std::vector<std::string>& writes, std::size_t o) {
     const CaseOutput& output = c_.outputs[o];
     const std::string what = "out." + output.name;
-    if (std::find(writes.begin(), writes.end(), output.name) == writes.end()) refuse(what, fmt::format("one of the outputs {}", fmt::join(writes, ", ")), fmt::format("'{}'", output.name));
+    if (std::find(writes.begin(), writes.end(), output.name) == writes.end())
+      refuse(what, fmt::format("one of the outputs {}", fmt::join(writes, ", ")), fmt::format("'{}'", output.name));
     for (std::size_t k = 0; k < o; ++k)
       if (c_.outputs[k].name == output.name) refuse(what, "one output of this name", "two");
     check_type(what, output.name, output.array, true);
     if (output.array.levels.size() > 1) refuse(what, "one mip level", fmt::format("{}", output.array.levels.size()));
-    const Judge declared = pass.variant(c_.variant)->judge, own = declared == Judge::keyed && !output.array.is_records ? Judge::envelope : declared;
+    const Judge declared = pass.variant(c_.variant)->judge,
+                own = declared == Judge::keyed && !output.array.is_records ? Judge::envelope : declared;
     if (output.judge != own) refuse(what, fmt::format("judge \"{}\"", name(own)), fmt::format("\"{}\"", name(output.judge)));
     if (output.array.is_records) return;
     if (output.array.width < 1 || output.array.height < 1) refuse(what, "at least one texel", shape(output.array));
-    if (!first_image_) first_image_ = &output;
-    else check_size(what, output.array);
+    if (!first_image_)
+      first_image_ = &output;
+    else
+      check_size(what, output.array);
   }
   void check_input(const PassInfo& pass, std::size_t i) {
     const CaseInput& input = c_.inputs[i];
@@ -64,7 +71,9 @@ class CaseCheck {
       reads.push_back(r.buffer);
       if (r.buffer == input.name) read = &r;
     }
-    if (!read) refuse(what, fmt::format("one of the inputs {}", fmt::join(reads, ", ")), fmt::format("'{}'{}", input.name, did_you_mean(input.name, reads)));
+    if (!read)
+      refuse(what, fmt::format("one of the inputs {}", fmt::join(reads, ", ")),
+             fmt::format("'{}'{}", input.name, did_you_mean(input.name, reads)));
     for (std::size_t k = 0; k < i; ++k)
       if (c_.inputs[k].name == input.name) refuse(what, "one input of this name", "two");
     check_type(what, input.name, input.array, read->per_texel);
@@ -74,7 +83,8 @@ class CaseCheck {
   }
   void check_size(const std::string& what, const Array& a) const {
     const Array& first = first_image_->array;
-    if (a.width != first.width || a.height != first.height) refuse(what, fmt::format("{} as out.{} has", shape(first), first_image_->name), shape(a));
+    if (a.width != first.width || a.height != first.height)
+      refuse(what, fmt::format("{} as out.{} has", shape(first), first_image_->name), shape(a));
   }
 
   /// The format that the buffer's declaration names, those that its scene key offers, or records. What is looked up by
@@ -83,20 +93,25 @@ class CaseCheck {
     const BufferInfo& buffer = effect_.buffer(buffer_name, c_.variant);
     if (buffer.format == "records") {
       const scene::UniformBlock& record = effect_.record(buffer.record);
-      if (!a.is_records || !scene::same_layout(a.record, record)) refuse(what, fmt::format("records of {} as this version declares them", record.name), type(a));
+      if (!a.is_records || !scene::same_layout(a.record, record))
+        refuse(what, fmt::format("records of {} as this version declares them", record.name), type(a));
       return;
     }
-    const auto key = std::find_if(parameters_.begin(), parameters_.end(), [&](const scene::Parameter& p) { return p.key == buffer.format; });
+    const auto key =
+        std::find_if(parameters_.begin(), parameters_.end(), [&](const scene::Parameter& p) { return p.key == buffer.format; });
     const bool has_key = key != parameters_.end();
     const std::vector<std::string> formats = has_key ? key->choices : std::vector<std::string>{buffer.format};
     const auto fits = [&](const std::string& format) {
       const Format declared = format_from_name(format);
-      return a.format == declared || (!is_exact && info(a.format).kind == FormatInfo::float32 && info(a.format).channels == info(declared).channels);
+      return a.format == declared ||
+             (!is_exact && info(a.format).kind == FormatInfo::float32 && info(a.format).channels == info(declared).channels);
     };
-    if (a.is_records || std::none_of(formats.begin(), formats.end(), fits)) refuse(what, fmt::format("{}", fmt::join(formats, " or ")), type(a));
+    if (a.is_records || std::none_of(formats.begin(), formats.end(), fits))
+      refuse(what, fmt::format("{}", fmt::join(formats, " or ")), type(a));
     if (!has_key) return;
     for (const auto& [other, format] : chosen_) {
-      if (other == buffer.format && format != a.format) refuse(what, fmt::format("{} as the case's other buffers have ({})", info(format).name, other), type(a));
+      if (other == buffer.format && format != a.format)
+        refuse(what, fmt::format("{} as the case's other buffers have ({})", info(format).name, other), type(a));
     }
     chosen_.emplace_back(buffer.format, a.format);
   }
@@ -110,7 +125,9 @@ class CaseCheck {
 
 }  // namespace
 
-void check_case(const EffectInfo& effect, std::span<const scene::Parameter> parameters, const PassCase& c) { CaseCheck(effect, parameters, c).run(); }
+void check_case(const EffectInfo& effect, std::span<const scene::Parameter> parameters, const PassCase& c) {
+  CaseCheck(effect, parameters, c).run();
+}
 
 std::string uniform_fault(const EffectInfo& effect, const PassCase& c) {
   const std::string why = scene::value_fault(effect.pass(c.pass).block(c.variant), c.uniforms.data());

@@ -30,8 +30,10 @@ std::string channel_text(const std::byte* at, FormatInfo::Kind kind) {
       const auto bits = load<std::uint16_t>(at);
       return fmt::format("{} 0x{:04x}", to_float(Half{bits}), bits);
     }
-    case FormatInfo::float32: return scalar_text(at, scene::Scalar::float32);
-    case FormatInfo::uint32: return scalar_text(at, scene::Scalar::uint32);
+    case FormatInfo::float32:
+      return scalar_text(at, scene::Scalar::float32);
+    case FormatInfo::uint32:
+      return scalar_text(at, scene::Scalar::uint32);
   }
   return "";
 }
@@ -55,9 +57,12 @@ std::vector<Part> parts_of(const Array& array) {
   std::vector<Part> parts;
   if (array.is_records) {
     for (const scene::Member& m : scene::with_padding(array.record)) {
-      auto* const text = m.scalar == scene::Scalar::float32 ? text_of<scene::Scalar::float32> : m.scalar == scene::Scalar::int32 ? text_of<scene::Scalar::int32> : text_of<scene::Scalar::uint32>;
+      auto* const text = m.scalar == scene::Scalar::float32 ? text_of<scene::Scalar::float32>
+                         : m.scalar == scene::Scalar::int32 ? text_of<scene::Scalar::int32>
+                                                            : text_of<scene::Scalar::uint32>;
       for (int k = 0; k < m.components; ++k) {
-        parts.push_back({m.components == 1 ? fmt::format("field {}", m.name) : fmt::format("field {}[{}]", m.name, k), m.offset + 4 * static_cast<std::size_t>(k), 4, text});
+        parts.push_back({m.components == 1 ? fmt::format("field {}", m.name) : fmt::format("field {}[{}]", m.name, k),
+                         m.offset + 4 * static_cast<std::size_t>(k), 4, text});
       }
     }
     return parts;
@@ -66,13 +71,22 @@ std::vector<Part> parts_of(const Array& array) {
   std::string (*text)(const std::byte*) = nullptr;
   switch (format.kind) {
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: text = text_of<FormatInfo::unorm8>; break;
-    case FormatInfo::float16: text = text_of<FormatInfo::float16>; break;
-    case FormatInfo::float32: text = text_of<FormatInfo::float32>; break;
-    case FormatInfo::uint32: text = text_of<FormatInfo::uint32>; break;
+    case FormatInfo::srgb8:
+      text = text_of<FormatInfo::unorm8>;
+      break;
+    case FormatInfo::float16:
+      text = text_of<FormatInfo::float16>;
+      break;
+    case FormatInfo::float32:
+      text = text_of<FormatInfo::float32>;
+      break;
+    case FormatInfo::uint32:
+      text = text_of<FormatInfo::uint32>;
+      break;
   }
   const auto bytes = static_cast<std::size_t>(format.channel_bytes);
-  for (int c = 0; c < format.channels; ++c) parts.push_back({fmt::format("channel {}", c), bytes * static_cast<std::size_t>(c), bytes, text});
+  for (int c = 0; c < format.channels; ++c)
+    parts.push_back({fmt::format("channel {}", c), bytes * static_cast<std::size_t>(c), bytes, text});
   return parts;
 }
 
@@ -81,9 +95,12 @@ std::vector<Part> parts_of(const Array& array) {
 std::string scalar_text(const std::byte* at, scene::Scalar scalar) {
   const auto bits = load<std::uint32_t>(at);
   switch (scalar) {
-    case scene::Scalar::float32: return fmt::format("{} 0x{:08x}", std::bit_cast<float>(bits), bits);
-    case scene::Scalar::int32: return fmt::format("{} 0x{:08x}", std::bit_cast<std::int32_t>(bits), bits);
-    case scene::Scalar::uint32: return fmt::format("{} 0x{:08x}", bits, bits);
+    case scene::Scalar::float32:
+      return fmt::format("{} 0x{:08x}", std::bit_cast<float>(bits), bits);
+    case scene::Scalar::int32:
+      return fmt::format("{} 0x{:08x}", std::bit_cast<std::int32_t>(bits), bits);
+    case scene::Scalar::uint32:
+      return fmt::format("{} 0x{:08x}", bits, bits);
   }
   return "";
 }
@@ -113,7 +130,8 @@ std::optional<Difference> first_difference(const Array& a, const Array& b) {
       for (const Part& part : parts) {
         const std::size_t at = i * element + part.offset;
         if (std::memcmp(left + at, right + at, part.bytes) == 0 || out.count++ > 0) continue;
-        out.place = a.is_records ? fmt::format("record {}, {}", i, part.name) : fmt::format("x {}, y {}, {}", i % columns, i / columns, part.name);
+        out.place =
+            a.is_records ? fmt::format("record {}, {}", i, part.name) : fmt::format("x {}, y {}, {}", i % columns, i / columns, part.name);
         if (level > 0) out.place = fmt::format("level {}, {}", level, out.place);
         out.a = part.text(left + at);
         out.b = part.text(right + at);

@@ -11,10 +11,10 @@ namespace rainref::capture {
 
 /// The first element, by level, row, column and channel or field, whose bits differ.
 struct Difference {
-  std::string place;   ///< "x 12, y 3, channel 0", "record 4, field radius"; with the level where it is not 0
-  std::string a, b;    ///< the two values, as decimal and as bits: "0.25 0x3400"
-  std::size_t count;   ///< elements that differ, of all levels
-  std::size_t of;      ///< elements
+  std::string place;  ///< "x 12, y 3, channel 0", "record 4, field radius"; with the level where it is not 0
+  std::string a, b;   ///< the two values, as decimal and as bits: "0.25 0x3400"
+  std::size_t count;  ///< elements that differ, of all levels
+  std::size_t of;     ///< elements
 };
 
 /// Nothing for equal bits. The arrays must have the same shape.

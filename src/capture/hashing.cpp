@@ -51,14 +51,15 @@ void HashRecorder::pass(const PassCall& call) {
   ++time->calls;
   if (!hashing_) return;
   for (const PassOutput& output : call.outputs) {
-    auto open = std::find_if(open_.begin(), open_.end(), [&](const Open& o) {
-      return o.frame == call.frame && o.pass == call.pass && o.buffer == output.name;
-    });
+    auto open = std::find_if(open_.begin(), open_.end(),
+                             [&](const Open& o) { return o.frame == call.frame && o.pass == call.pass && o.buffer == output.name; });
     if (open == open_.end()) {
       open = open_.insert(open_.end(), {call.frame, std::string(call.pass), std::string(output.name), std::make_unique<Hasher>()});
     }
-    if (const auto* buffer = std::get_if<BufferView>(&output.content)) add_buffer(*open->hasher, *buffer);
-    else open->hasher->add(std::get<RecordView>(output.content).bytes());
+    if (const auto* buffer = std::get_if<BufferView>(&output.content))
+      add_buffer(*open->hasher, *buffer);
+    else
+      open->hasher->add(std::get<RecordView>(output.content).bytes());
   }
 }
 

@@ -60,8 +60,10 @@ std::string JsonField::text() const {
 }
 
 std::int64_t JsonField::whole(std::int64_t low, std::int64_t high) const {
-  const bool fits = value_.is_number_integer() && !(value_.is_number_unsigned() && value_.get<std::uint64_t>() > static_cast<std::uint64_t>(INT64_MAX));
-  if (!fits || value_.get<std::int64_t>() < low || value_.get<std::int64_t>() > high) fail(fmt::format("a whole number from {} to {}", low, high));
+  const bool fits =
+      value_.is_number_integer() && !(value_.is_number_unsigned() && value_.get<std::uint64_t>() > static_cast<std::uint64_t>(INT64_MAX));
+  if (!fits || value_.get<std::int64_t>() < low || value_.get<std::int64_t>() > high)
+    fail(fmt::format("a whole number from {} to {}", low, high));
   return value_.get<std::int64_t>();
 }
 

@@ -16,7 +16,8 @@ namespace rainref::capture {
 /// number from 1 to 65536, found -1".
 class JsonField {
  public:
-  JsonField(const nlohmann::ordered_json& value, std::string file, std::string path = "") : value_(value), file_(std::move(file)), path_(std::move(path)) {}
+  JsonField(const nlohmann::ordered_json& value, std::string file, std::string path = "")
+      : value_(value), file_(std::move(file)), path_(std::move(path)) {}
 
   /// A member that must be there.
   JsonField operator[](std::string_view key) const;

@@ -14,10 +14,9 @@ namespace rainref::capture {
 /// What one alternative says of one id.
 struct KeyedRecord {
   std::uint32_t id = 0;
-  bool lives = true;  ///< false: the list has no record of this id; the fields mean nothing
-  std::vector<enclosed::Enclosure>
-      floats;                        ///< of each float of the record, in the order of declaration, padding left out
-  std::vector<std::uint32_t> words;  ///< bits of each other integer, likewise, the id left out
+  bool lives = true;                        ///< false: the list has no record of this id; the fields mean nothing
+  std::vector<enclosed::Enclosure> floats;  ///< of each float of the record, in the order of declaration, padding left out
+  std::vector<std::uint32_t> words;         ///< bits of each other integer, likewise, the id left out
 };
 
 /// The least and the most that a float member of a record ordinarily is, each of its components, in the member's unit.

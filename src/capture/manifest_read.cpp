@@ -29,7 +29,8 @@ PackFileEntry read_file_entry(const JsonField& from) {
   const JsonField path = from["file"];
   file.path = path.text();
   const std::filesystem::path p(file.path);
-  const bool leaves = p.is_absolute() || std::any_of(p.begin(), p.end(), [](const auto& part) { return part == ".." || part == "." || part.empty(); });
+  const bool leaves =
+      p.is_absolute() || std::any_of(p.begin(), p.end(), [](const auto& part) { return part == ".." || part == "." || part.empty(); });
   if (file.path.empty() || leaves || file.path.find_first_of(std::string("\\\0", 2)) != std::string::npos) {
     path.fail("the path of a file below the pack's folder");
   }
@@ -44,9 +45,14 @@ scene::UniformBlock read_block(const JsonField& from) {
   block.size = static_cast<std::size_t>(from["size"].whole(4, largest_side));
   const std::vector<std::string> scalars{"float", "int", "uint"};
   for (const JsonField& m : from["members"].elements()) {
-    scene::Member member{m["name"].text(), static_cast<scene::Scalar>(m["type"].one_of(scalars)), static_cast<int>(m["components"].whole(1, 4)),
-                         static_cast<std::size_t>(m["offset"].whole(0, largest_side)), m["unit"].text(), m["sentence"].text()};
-    if (member.offset + member.size() > block.size) m["offset"].refuse(fmt::format("the member ends beyond the {} bytes of {}", block.size, block.name));
+    scene::Member member{m["name"].text(),
+                         static_cast<scene::Scalar>(m["type"].one_of(scalars)),
+                         static_cast<int>(m["components"].whole(1, 4)),
+                         static_cast<std::size_t>(m["offset"].whole(0, largest_side)),
+                         m["unit"].text(),
+                         m["sentence"].text()};
+    if (member.offset + member.size() > block.size)
+      m["offset"].refuse(fmt::format("the member ends beyond the {} bytes of {}", block.size, block.name));
     block.members.push_back(std::move(member));
   }
   return block;
@@ -79,7 +85,8 @@ PackArray read_array(const JsonField& from, const Records& records) {
   const std::int64_t levels = from["levels"].whole(1, Texture::max_levels);
   if (levels > 1) {
     const std::vector<JsonField> mips = from["mips"].elements();
-    if (static_cast<std::int64_t>(mips.size()) != levels - 1) from["mips"].refuse(fmt::format("expected {} levels below the first, found {}", levels - 1, mips.size()));
+    if (static_cast<std::int64_t>(mips.size()) != levels - 1)
+      from["mips"].refuse(fmt::format("expected {} levels below the first, found {}", levels - 1, mips.size()));
     for (const JsonField& mip : mips) out.levels.push_back(read_file_entry(mip));
   }
   const std::vector<JsonField> range = from["range"].elements();
@@ -111,7 +118,9 @@ PackInput read_input(const JsonField& from, const Records& records) {
 
 bool is_keyed_record(const Array& shape) {
   const auto& members = shape.record.members;
-  return shape.is_records && std::any_of(members.begin(), members.end(), [](const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; });
+  return shape.is_records && std::any_of(members.begin(), members.end(), [](const scene::Member& m) {
+           return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1;
+         });
 }
 
 PackOutput read_output(const JsonField& from, const Records& records) {
@@ -121,7 +130,8 @@ PackOutput read_output(const JsonField& from, const Records& records) {
   output.rules.store_rounding = named<Rounding, 2>(from["store_rounding"]);
   output.rules.judge = named<Judge, 4>(from["judge"]);
   if (output.shape.is_records && output.rules.judge == Judge::envelope) from["judge"].fail("bits, keyed or input_only for records");
-  if (output.rules.judge == Judge::keyed && !is_keyed_record(output.shape)) from["judge"].fail("bits, envelope or input_only for what is no list of records with a uint 'id'");
+  if (output.rules.judge == Judge::keyed && !is_keyed_record(output.shape))
+    from["judge"].fail("bits, envelope or input_only for what is no list of records with a uint 'id'");
   output.rules.range = output.range;
   output.rules.unit = output.unit;
   output.rules.color_space = from["color_space"].text();
@@ -130,7 +140,8 @@ PackOutput read_output(const JsonField& from, const Records& records) {
 
 std::uint32_t read_bits(const JsonField& field) {
   const std::string bits = field.text();
-  if (bits.size() != 10 || !bits.starts_with("0x") || bits.find_first_not_of("0123456789abcdef", 2) != std::string::npos) field.fail("eight hexadecimal digits behind 0x");
+  if (bits.size() != 10 || !bits.starts_with("0x") || bits.find_first_not_of("0123456789abcdef", 2) != std::string::npos)
+    field.fail("eight hexadecimal digits behind 0x");
   return static_cast<std::uint32_t>(std::stoul(bits, nullptr, 16));
 }
 
@@ -139,9 +150,11 @@ void require_value(const JsonField& value, scene::Scalar scalar, std::uint32_t b
   bool is_same = false;
   if (scalar == scene::Scalar::float32) {
     const float number = std::bit_cast<float>(bits);
-    is_same = std::isfinite(number) ? value.is_number() && std::bit_cast<std::uint32_t>(static_cast<float>(value.number())) == bits : value.dump() == "null";
+    is_same = std::isfinite(number) ? value.is_number() && std::bit_cast<std::uint32_t>(static_cast<float>(value.number())) == bits
+                                    : value.dump() == "null";
   } else {
-    is_same = value.dump() == (scalar == scene::Scalar::int32 ? fmt::format("{}", std::bit_cast<std::int32_t>(bits)) : fmt::format("{}", bits));
+    is_same =
+        value.dump() == (scalar == scene::Scalar::int32 ? fmt::format("{}", std::bit_cast<std::int32_t>(bits)) : fmt::format("{}", bits));
   }
   if (!is_same) value.fail(fmt::format("{}, as its bits say", scalar_text(reinterpret_cast<const std::byte*>(&bits), scalar)));
 }
@@ -155,14 +168,16 @@ float read_float(const JsonField& from) {
 std::vector<std::byte> read_uniforms(const JsonField& from, const scene::UniformBlock& block) {
   std::vector<std::byte> out(block.size);
   const std::vector<JsonField> found = from.elements();
-  if (found.size() != block.members.size()) from.refuse(fmt::format("expected the {} members of {}, found {}", block.members.size(), block.name, found.size()));
+  if (found.size() != block.members.size())
+    from.refuse(fmt::format("expected the {} members of {}, found {}", block.members.size(), block.name, found.size()));
   for (std::size_t i = 0; i < found.size(); ++i) {
     const scene::Member& m = block.members[i];
     if (found[i]["name"].text() != m.name) found[i]["name"].fail(fmt::format("'{}'", m.name));
     const auto components = [&](const char* key) {
       const JsonField all = found[i][key];
       const std::vector<JsonField> parts = m.components == 1 ? std::vector<JsonField>{all} : all.elements();
-      if (parts.size() != static_cast<std::size_t>(m.components)) all.refuse(fmt::format("expected {} components, found {}", m.components, parts.size()));
+      if (parts.size() != static_cast<std::size_t>(m.components))
+        all.refuse(fmt::format("expected {} components, found {}", m.components, parts.size()));
       return parts;
     };
     const std::vector<JsonField> bits = components("bits"), values = components("value");
@@ -198,7 +213,8 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
     manifest.refuse(fmt::format("this is no manifest of a pack: expected \"format\": \"{}\"", pack_format));
   }
   const std::int64_t version = manifest["version"].whole(1, INT32_MAX);
-  if (version > pack_version) manifest.refuse(fmt::format("version {} is newer than this rainref reads, which is {}", version, pack_version));
+  if (version > pack_version)
+    manifest.refuse(fmt::format("version {} is newer than this rainref reads, which is {}", version, pack_version));
   pack.producer = manifest["rainref"]["version"].text();
   pack.golden_generation = static_cast<int>(manifest["rainref"]["golden_generation"].whole(0, INT32_MAX));
   const std::vector<std::string> contents{"outputs", "all"};
@@ -209,12 +225,13 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
   for (const auto& [key, value] : manifest["config"].members()) pack.config.emplace_back(key, value.dump());
   for (const JsonField& edge : manifest["graph"]["edges"].elements()) {
     const std::vector<std::string> runs{"this", "previous"};
-    pack.edges.push_back({edge["pass"].text(), edge["input"].text(), edge["from"].text(), !edge.is_null("run") && edge["run"].one_of(runs) == 1});
+    pack.edges.push_back(
+        {edge["pass"].text(), edge["input"].text(), edge["from"].text(), !edge.is_null("run") && edge["run"].one_of(runs) == 1});
   }
   std::vector<std::string> names;
   for (const JsonField& pass : manifest["passes"].elements()) {
-    pack.passes.push_back({pass["name"].text(), pass["formula"].text(), pass["sentence"].text(), pass["reads"].texts(), pass["writes"].texts(),
-                           read_block(pass["uniform_block"])});
+    pack.passes.push_back({pass["name"].text(), pass["formula"].text(), pass["sentence"].text(), pass["reads"].texts(),
+                           pass["writes"].texts(), read_block(pass["uniform_block"])});
     names.push_back(pack.passes.back().name);
   }
   Records records;
@@ -236,7 +253,8 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
     if (read.id != run.folder()) c["id"].refuse(fmt::format("expected '{}', found '{}'", run.folder(), read.id));
     pack.cases.back().block = read_uniforms(c["uniforms"], pack.pass(read.pass).block);
     const std::size_t size = pack.pass(read.pass).block.size;
-    if (read.uniforms.bytes != size) c["uniform_block"]["bytes"].fail(fmt::format("the {} bytes of {}", size, pack.pass(read.pass).block.name));
+    if (read.uniforms.bytes != size)
+      c["uniform_block"]["bytes"].fail(fmt::format("the {} bytes of {}", size, pack.pass(read.pass).block.name));
   }
 }
 

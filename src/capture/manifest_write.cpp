@@ -52,9 +52,12 @@ std::pair<Json, Json> scalar_json(const std::byte* at, scene::Scalar scalar) {
   std::memcpy(&bits, at, sizeof bits);
   const Json text = fmt::format("0x{:08x}", bits);
   switch (scalar) {
-    case scene::Scalar::float32: return {std::bit_cast<float>(bits), text};
-    case scene::Scalar::int32: return {std::bit_cast<std::int32_t>(bits), text};
-    case scene::Scalar::uint32: return {bits, text};
+    case scene::Scalar::float32:
+      return {std::bit_cast<float>(bits), text};
+    case scene::Scalar::int32:
+      return {std::bit_cast<std::int32_t>(bits), text};
+    case scene::Scalar::uint32:
+      return {bits, text};
   }
   return {};
 }
@@ -123,9 +126,12 @@ const char* overflow(const Array& array, Rounding rounding) {
   if (array.is_records) return "none";
   switch (info(array.format).kind) {
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: return "clamp";
-    case FormatInfo::float16: return rounding == Rounding::rtz ? "largest" : "infinity";
-    default: return "none";
+    case FormatInfo::srgb8:
+      return "clamp";
+    case FormatInfo::float16:
+      return rounding == Rounding::rtz ? "largest" : "infinity";
+    default:
+      return "none";
   }
 }
 
@@ -143,14 +149,15 @@ Json manifest_head(const EffectInfo& effect, const scene::Config& config, const 
            {"variant", variant},
            {"seed", config.integer("seed")},
            {"config", scene::config_json(config)}};
-  out["conventions"] = {{"row0", "v=0"},
-                        {"texel_centre", 0.5},
-                        {"endian", "little"},
-                        {"y_up", effect.up_axis},
-                        {"handedness", effect.handedness},
-                        {"matrix", "column vectors, column-major"},
-                        {"depth", effect.depth},
-                        {"time", "frame n runs from n / fps to (n + 1) / fps; time is float(n / fps), outputs are those after the frame's last step"}};
+  out["conventions"] = {
+      {"row0", "v=0"},
+      {"texel_centre", 0.5},
+      {"endian", "little"},
+      {"y_up", effect.up_axis},
+      {"handedness", effect.handedness},
+      {"matrix", "column vectors, column-major"},
+      {"depth", effect.depth},
+      {"time", "frame n runs from n / fps to (n + 1) / fps; time is float(n / fps), outputs are those after the frame's last step"}};
   out["graph"] = graph_json(effect, variant);
   out["passes"] = Json::array();
   for (const std::string& name : passes) out["passes"].push_back(pass_json(effect, effect.pass(name), variant));

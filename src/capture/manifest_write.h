@@ -31,7 +31,8 @@ nlohmann::ordered_json manifest_head(const EffectInfo& effect, const scene::Conf
 nlohmann::ordered_json case_json(const PassCase& c, const EffectInfo& effect, const PackFile& uniforms);
 /// One file for each level.
 nlohmann::ordered_json input_json(const CaseInput& input, const BufferInfo& buffer, const std::vector<PackFile>& files);
-nlohmann::ordered_json output_json(const CaseOutput& output, const BufferInfo& buffer, const PassInfo& pass, const std::vector<PackFile>& files);
+nlohmann::ordered_json output_json(const CaseOutput& output, const BufferInfo& buffer, const PassInfo& pass,
+                                   const std::vector<PackFile>& files);
 
 /// Indented; what is short, and each input and output of a case, stands on one line.
 std::string manifest_text(const nlohmann::ordered_json& manifest);

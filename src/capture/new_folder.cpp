@@ -77,8 +77,10 @@ void NewFolder::commit() {
   try {
     for (const fs::path& folder : folders_) sync_to_disk(folder);
     // Asked again: something else may have come to lie there since.
-    if (has_older()) hidden_->replace(target_);
-    else hidden_->become(target_);
+    if (has_older())
+      hidden_->replace(target_);
+    else
+      hidden_->become(target_);
     sync_to_disk(target_.parent_path());
     for (const fs::path& made : parents_->made()) sync_to_disk(made.parent_path());
   } catch (const std::system_error& e) {

@@ -25,9 +25,7 @@ constexpr std::string_view accepted = "'|u1', '<f2', '<f4' or '<u4'";
 
 struct Refusal {
   std::string_view file;
-  [[noreturn]] void operator()(const std::string& why) const {
-    throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why));
-  }
+  [[noreturn]] void operator()(const std::string& why) const { throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why)); }
 };
 
 std::optional<std::size_t> product(std::size_t a, std::size_t b) {
@@ -50,8 +48,7 @@ std::string number_type(const Literal& descr, const std::string& where, const Re
   if (descr.kind != Literal::string) refuse(fmt::format("{}: expected {}", where, accepted));
   const std::string& text = descr.text;
   if (text.starts_with('>') && text != ">u1") {
-    refuse(fmt::format("{}: '{}' is big endian; expected {} (a.astype(a.dtype.newbyteorder('<')))", where, shown(text),
-                       accepted));
+    refuse(fmt::format("{}: '{}' is big endian; expected {} (a.astype(a.dtype.newbyteorder('<')))", where, shown(text), accepted));
   }
   if (text == "|u1" || text == "<u1" || text == ">u1") return "|u1";  // one byte has no order
   if (text == "<f2" || text == "<f4" || text == "<u4") return text;
@@ -110,8 +107,7 @@ void read_field_table(const Literal& descr, NpyHeader& out, const Refusal& refus
   }
   const Literal *names = descr.find("names"), *formats = descr.find("formats"), *offsets = descr.find("offsets"),
                 *itemsize = descr.find("itemsize");
-  if (!names || !formats || !names->is_sequence() || !formats->is_sequence() ||
-      names->items.size() != formats->items.size()) {
+  if (!names || !formats || !names->is_sequence() || !formats->is_sequence() || names->items.size() != formats->items.size()) {
     refuse("descr: expected names and formats, equally many");
   }
   if (offsets && (!offsets->is_sequence() || offsets->items.size() != names->items.size())) {
@@ -188,8 +184,7 @@ std::string_view header_text(std::span<const std::byte> file, std::size_t& data_
   constexpr std::size_t after_version = signature.size() + 2;
   const std::size_t compared = std::min(file.size(), signature.size());
   if (file.empty()) refuse("empty file");
-  if (std::memcmp(file.data(), signature.data(), compared) != 0)
-    refuse("not a .npy file: it does not start with \\x93NUMPY");
+  if (std::memcmp(file.data(), signature.data(), compared) != 0) refuse("not a .npy file: it does not start with \\x93NUMPY");
   if (file.size() < after_version) refuse("truncated in its .npy header");
   const int major = std::to_integer<int>(file[6]), minor = std::to_integer<int>(file[7]);
   if (major < 1 || major > 3 || minor != 0) {
@@ -198,10 +193,8 @@ std::string_view header_text(std::span<const std::byte> file, std::size_t& data_
   const std::size_t length_bytes = major == 1 ? 2 : 4;
   if (file.size() < after_version + length_bytes) refuse("truncated in its .npy header");
   std::size_t length = 0;
-  for (std::size_t i = 0; i < length_bytes; ++i)
-    length |= std::to_integer<std::size_t>(file[after_version + i]) << 8 * i;
-  if (length > longest_header)
-    refuse(fmt::format("a .npy header of {} bytes; the longest read is {}", length, longest_header));
+  for (std::size_t i = 0; i < length_bytes; ++i) length |= std::to_integer<std::size_t>(file[after_version + i]) << 8 * i;
+  if (length > longest_header) refuse(fmt::format("a .npy header of {} bytes; the longest read is {}", length, longest_header));
   data_offset = after_version + length_bytes + length;
   if (data_offset > file.size()) {
     refuse(fmt::format("truncated in its .npy header: {} bytes of {}", file.size(), data_offset));
@@ -218,13 +211,11 @@ void check_size(const NpyHeader& header, std::size_t file_size, const Refusal& r
   for (const std::size_t side : header.shape) {
     if (expected) expected = product(*expected, side);
   }
-  const std::string what =
-      fmt::format("shape ({}) of {} bytes each", fmt::join(header.shape, ", "), header.record_bytes);
+  const std::string what = fmt::format("shape ({}) of {} bytes each", fmt::join(header.shape, ", "), header.record_bytes);
   if (!expected) refuse(fmt::format("{} overflows; {} bytes of data found", what, found));
   if (found < *expected) refuse(fmt::format("truncated: {} needs {} bytes of data, found {}", what, *expected, found));
   if (found > *expected)
-    refuse(fmt::format("{} bytes too many: {} needs {} bytes of data, found {}", found - *expected, what, *expected,
-                       found));
+    refuse(fmt::format("{} bytes too many: {} needs {} bytes of data, found {}", found - *expected, what, *expected, found));
 }
 
 }  // namespace

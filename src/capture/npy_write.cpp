@@ -11,18 +11,25 @@ namespace {
 const char* type_text(FormatInfo::Kind kind) {
   switch (kind) {
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: return "|u1";
-    case FormatInfo::float16: return "<f2";
-    case FormatInfo::float32: return "<f4";
-    case FormatInfo::uint32: return "<u4";
+    case FormatInfo::srgb8:
+      return "|u1";
+    case FormatInfo::float16:
+      return "<f2";
+    case FormatInfo::float32:
+      return "<f4";
+    case FormatInfo::uint32:
+      return "<u4";
   }
   return "";
 }
 const char* type_text(scene::Scalar scalar) {
   switch (scalar) {
-    case scene::Scalar::float32: return "<f4";
-    case scene::Scalar::int32: return "<i4";
-    case scene::Scalar::uint32: return "<u4";
+    case scene::Scalar::float32:
+      return "<f4";
+    case scene::Scalar::int32:
+      return "<i4";
+    case scene::Scalar::uint32:
+      return "<u4";
   }
   return "";
 }

@@ -49,8 +49,11 @@ nlohmann::ordered_json parse_manifest(const fs::path& path, const std::vector<st
 }
 
 std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
-  if (const MemoryLimit limit = memory_limit(); bytes > limit.bytes) refuse(path, fmt::format("its {} are too many; {} {} of memory", memory_text(bytes), limit.owner, memory_text(limit.bytes)));
-  const auto unreadable = [&] { throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno))); };
+  if (const MemoryLimit limit = memory_limit(); bytes > limit.bytes)
+    refuse(path, fmt::format("its {} are too many; {} {} of memory", memory_text(bytes), limit.owner, memory_text(limit.bytes)));
+  const auto unreadable = [&] {
+    throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno)));
+  };
   const auto close = [](std::FILE* f) { std::fclose(f); };
   const std::unique_ptr<std::FILE, decltype(close)> in(std::fopen(path.c_str(), "rbe"), close);
   if (!in) unreadable();
@@ -65,25 +68,34 @@ std::vector<std::byte> whole_file(const fs::path& path, std::uintmax_t bytes) {
 std::string header_mismatch(const NpyHeader& header, const Array& shape, int level) {
   if (shape.is_records) {
     if (header.fields.size() != shape.record.members.size() || header.record_bytes != shape.record.size) {
-      return fmt::format("expected records {} of {} fields and {} bytes", shape.record.name, shape.record.members.size(), shape.record.size);
+      return fmt::format("expected records {} of {} fields and {} bytes", shape.record.name, shape.record.members.size(),
+                         shape.record.size);
     }
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
       const NpyField& found = header.fields[i];
       const scene::Member& expected = shape.record.members[i];
       const char* type = expected.scalar == scene::Scalar::float32 ? "<f4" : expected.scalar == scene::Scalar::uint32 ? "<u4" : "<i4";
-      if (found.name != expected.name || found.offset != expected.offset || found.type != type || found.components != static_cast<std::size_t>(expected.components)) {
-        return fmt::format("expected field '{}' of type {} at offset {}, found '{}' of type {} at {}", expected.name, type, expected.offset, found.name, found.type, found.offset);
+      if (found.name != expected.name || found.offset != expected.offset || found.type != type ||
+          found.components != static_cast<std::size_t>(expected.components)) {
+        return fmt::format("expected field '{}' of type {} at offset {}, found '{}' of type {} at {}", expected.name, type, expected.offset,
+                           found.name, found.type, found.offset);
       }
     }
-    if (header.shape != std::vector<std::size_t>{static_cast<std::size_t>(shape.width)}) return fmt::format("expected {} records", shape.width);
+    if (header.shape != std::vector<std::size_t>{static_cast<std::size_t>(shape.width)})
+      return fmt::format("expected {} records", shape.width);
     return "";
   }
   const FormatInfo& format = info(shape.format);
-  const char* type = format.kind == FormatInfo::float16 ? "<f2" : format.kind == FormatInfo::float32 ? "<f4" : format.kind == FormatInfo::uint32 ? "<u4" : "|u1";
-  std::vector<std::size_t> expected{static_cast<std::size_t>(shape.level_height(level)), static_cast<std::size_t>(shape.level_width(level))};
+  const char* type = format.kind == FormatInfo::float16   ? "<f2"
+                     : format.kind == FormatInfo::float32 ? "<f4"
+                     : format.kind == FormatInfo::uint32  ? "<u4"
+                                                          : "|u1";
+  std::vector<std::size_t> expected{static_cast<std::size_t>(shape.level_height(level)),
+                                    static_cast<std::size_t>(shape.level_width(level))};
   if (format.channels > 1) expected.push_back(static_cast<std::size_t>(format.channels));
   if (header.type == type && header.shape == expected) return "";
-  return fmt::format("expected type {} and shape ({}), found '{}' and ({})", type, fmt::join(expected, ", "), header.type, fmt::join(header.shape, ", "));
+  return fmt::format("expected type {} and shape ({}), found '{}' and ({})", type, fmt::join(expected, ", "), header.type,
+                     fmt::join(header.shape, ", "));
 }
 
 /// The bytes that a pass takes are what the manifest says of them; padding may hold anything.
@@ -92,7 +104,8 @@ void require_uniforms(const fs::path& file, const PackCase& entry, const scene::
     for (std::size_t at = m.offset; at < m.offset + m.size(); at += 4) {
       if (std::memcmp(&entry.block[at], &bytes[at], 4) == 0) continue;
       const std::string part = m.components == 1 ? "" : fmt::format(".{}", "xyzw"[(at - m.offset) / 4]);
-      refuse(file, fmt::format("{}: uniform {}{}: expected {} as the manifest says, found {}", entry.id, m.name, part, scalar_text(&entry.block[at], m.scalar), scalar_text(&bytes[at], m.scalar)));
+      refuse(file, fmt::format("{}: uniform {}{}: expected {} as the manifest says, found {}", entry.id, m.name, part,
+                               scalar_text(&entry.block[at], m.scalar), scalar_text(&bytes[at], m.scalar)));
     }
   }
 }
@@ -102,13 +115,16 @@ void require_uniforms(const fs::path& file, const PackCase& entry, const scene::
 Pack::Pack(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
-    throw Error(ExitCode::io, fmt::format("{}: {}", folder_.string(), fs::exists(folder_, error) ? "expected a pack's folder, found a file" : "there is no such folder"));
+    throw Error(ExitCode::io,
+                fmt::format("{}: {}", folder_.string(),
+                            fs::exists(folder_, error) ? "expected a pack's folder, found a file" : "there is no such folder"));
   }
   const fs::path path = folder_ / manifest_name;
   if (!fs::is_regular_file(path, error)) {
     // `run --capture` makes a folder of its own in that of the run.
     const fs::path inner = folder_ / "capture";
-    refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name, fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
+    refuse(folder_, fmt::format("no pack: there is no {}{}", manifest_name,
+                                fs::exists(inner / manifest_name, error) ? fmt::format(" (there is one in '{}')", inner.string()) : ""));
   }
   const std::uintmax_t size = fs::file_size(path);
   if (size > largest_manifest) refuse(path, fmt::format("{} bytes; expected at most {}", size, largest_manifest));
@@ -122,7 +138,8 @@ const PackPass& Pack::pass(std::string_view name) const {
     if (p.name == name) return p;
     names.push_back(p.name);
   }
-  throw Error(ExitCode::usage, fmt::format("{}: expected one of the passes {}, found '{}'{}", folder_.string(), fmt::join(names, ", "), name, did_you_mean(name, names)));
+  throw Error(ExitCode::usage, fmt::format("{}: expected one of the passes {}, found '{}'{}", folder_.string(), fmt::join(names, ", "),
+                                           name, did_you_mean(name, names)));
 }
 
 std::vector<std::byte> Pack::read_file(const PackFileEntry& file) const {
@@ -131,7 +148,8 @@ std::vector<std::byte> Pack::read_file(const PackFileEntry& file) const {
   if (!fs::is_regular_file(path, error)) refuse(path, "the manifest names this file, but it is missing");
   // A link may lead anywhere.
   const fs::path real = fs::canonical(path, error), root = fs::canonical(folder_, error);
-  if (error || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end()) refuse(path, "the file lies outside the pack");
+  if (error || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
+    refuse(path, "the file lies outside the pack");
   const std::uintmax_t found = fs::file_size(path);
   if (found != file.bytes) refuse(path, fmt::format("damaged: expected {} bytes, found {}", file.bytes, found));
   std::vector<std::byte> bytes = whole_file(path, found);

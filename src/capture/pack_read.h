@@ -23,7 +23,7 @@ struct PackFileEntry {
 /// An array as the manifest describes it, without its values.
 struct PackArray {
   std::string name;
-  Array shape;                       ///< levels empty
+  Array shape;                        ///< levels empty
   std::array<double, 2> range{0, 1};  ///< of the stored values
   std::string unit, meaning;
   std::vector<PackFileEntry> levels;  ///< one file for each level
@@ -68,7 +68,7 @@ class Pack {
   const std::filesystem::path& folder() const { return folder_; }
   std::string effect, variant, scene, producer;  ///< producer: the version that wrote it
   int golden_generation = 0;
-  bool with_inputs = false;  ///< false: a capture of outputs only
+  bool with_inputs = false;                                 ///< false: a capture of outputs only
   std::vector<std::pair<std::string, std::string>> config;  ///< every key with its value as JSON, in order
   std::vector<PackPass> passes;                             ///< in the order of execution
   std::vector<PackEdge> edges;

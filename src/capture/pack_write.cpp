@@ -54,9 +54,14 @@ struct PackWriter::State {
   }
 };
 
-PackWriter::PackWriter(std::filesystem::path folder, const EffectInfo& effect, const scene::Config& config, const std::string& scene_name, bool with_inputs,
-                       const std::vector<std::string>& passes)
-    : state_(new State{effect, config.variant(), {std::move(folder), may_replace}, manifest_head(effect, config, scene_name, with_inputs, passes), {}, {}}) {}
+PackWriter::PackWriter(std::filesystem::path folder, const EffectInfo& effect, const scene::Config& config, const std::string& scene_name,
+                       bool with_inputs, const std::vector<std::string>& passes)
+    : state_(new State{effect,
+                       config.variant(),
+                       {std::move(folder), may_replace},
+                       manifest_head(effect, config, scene_name, with_inputs, passes),
+                       {},
+                       {}}) {}
 PackWriter::~PackWriter() = default;
 
 void PackWriter::add(const PassCase& c) {
@@ -66,11 +71,12 @@ void PackWriter::add(const PassCase& c) {
   nlohmann::ordered_json json = case_json(c, s.effect, s.write(folder + "/uniforms.bin", c.uniforms, true));
   json["inputs"] = json["outputs"] = nlohmann::ordered_json::array();
   for (const CaseInput& input : c.inputs) {
-    json["inputs"].push_back(input_json(input, s.effect.buffer(input.name, s.variant), s.write(fmt::format("{}/in.{}", folder, input.name), input.array, true)));
+    json["inputs"].push_back(
+        input_json(input, s.effect.buffer(input.name, s.variant), s.write(fmt::format("{}/in.{}", folder, input.name), input.array, true)));
   }
   for (const CaseOutput& output : c.outputs) {
-    json["outputs"].push_back(
-        output_json(output, s.effect.buffer(output.name, s.variant), pass, s.write(fmt::format("{}/out.{}", folder, output.name), output.array, false)));
+    json["outputs"].push_back(output_json(output, s.effect.buffer(output.name, s.variant), pass,
+                                          s.write(fmt::format("{}/out.{}", folder, output.name), output.array, false)));
   }
   s.manifest["cases"].push_back(std::move(json));
   ++s.total.cases;

@@ -22,8 +22,8 @@ namespace rainref::capture {
 class PackWriter {
  public:
   /// `passes`: those that cases may be of. `effect` must outlive the writer.
-  PackWriter(std::filesystem::path folder, const EffectInfo& effect, const scene::Config& config, const std::string& scene_name, bool with_inputs,
-             const std::vector<std::string>& passes);
+  PackWriter(std::filesystem::path folder, const EffectInfo& effect, const scene::Config& config, const std::string& scene_name,
+             bool with_inputs, const std::vector<std::string>& passes);
   ~PackWriter();
   void add(const PassCase& c);
 

@@ -20,8 +20,8 @@ struct CaseInput {
   std::string name;
   Array array;
   Address address_u = Address::clamp, address_v = Address::clamp;
-  std::array<float, 4> border{};  ///< what a lookup outside gives where the address rule is border
-  bool linear = false;            ///< the pass filters it linearly
+  std::array<float, 4> border{};                            ///< what a lookup outside gives where the address rule is border
+  bool linear = false;                                      ///< the pass filters it linearly
   Filter filter = Filter::none, mip_filter = Filter::none;  ///< `none`: loads by integer texel; one level only
 };
 
@@ -30,7 +30,7 @@ struct CaseOutput {
   Array array;  ///< the expected values
   Rounding store_rounding = Rounding::rne;
   Judge judge = Judge::envelope;
-  std::array<double, 2> range{0, 1};  ///< of the stored values, as declared
+  std::array<double, 2> range{0, 1};            ///< of the stored values, as declared
   std::string unit = "", color_space = "none";  ///< as declared: one unit or one for each channel; "none" of data
 };
 

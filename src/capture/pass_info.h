@@ -54,7 +54,7 @@ struct PassInfo {
   std::vector<ReadInfo> reads;
   std::vector<std::string> writes;
   std::vector<scene::UniformBlock> uniforms;
-  std::string independence = "gather";       ///< gather, ordered_scatter, unordered_scatter or compaction
+  std::string independence = "gather";            ///< gather, ordered_scatter, unordered_scatter or compaction
   std::vector<std::string> order_free_sums = {};  ///< sums whose terms a port may add in any order
 
   /// Null where this variant does not run the pass.

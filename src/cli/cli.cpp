@@ -63,8 +63,10 @@ int whole_number(const std::string& text, const char* option, int low, int high)
 std::vector<std::string> list_of(const std::string& text) {
   std::vector<std::string> parts{""};
   for (const char c : text) {
-    if (c == ',') parts.emplace_back();
-    else parts.back() += c;
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -82,7 +84,8 @@ SceneOptions resolve(const SceneFlags& flags) {
                                             whole_number(size.substr(x + 1), "--size", 1, 65536)));
   }
   if (flags.threads) options.threads = whole_number(*flags.threads, "--threads", 1, parallel::Executor::max_threads);
-  if (flags.simd && flags.simd->empty()) throw Error(ExitCode::usage, fmt::format("--simd: expected one of {}, found ''", fmt::join(simd_targets(), ", ")));
+  if (flags.simd && flags.simd->empty())
+    throw Error(ExitCode::usage, fmt::format("--simd: expected one of {}, found ''", fmt::join(simd_targets(), ", ")));
   select_simd_target(flags.simd.value_or(""));
   return options;
 }
@@ -104,7 +107,8 @@ void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
         for (const CLI::Option* o : scope.get_options()) {
           for (const std::string& known : o->get_lnames()) names.push_back("--" + known);
         }
-        throw Error(ExitCode::usage, fmt::format("{}: unknown option{}{}", name, verb ? fmt::format(" of '{}'", verb->get_name()) : "", did_you_mean(name, names)));
+        throw Error(ExitCode::usage, fmt::format("{}: unknown option{}{}", name, verb ? fmt::format(" of '{}'", verb->get_name()) : "",
+                                                 did_you_mean(name, names)));
       }
       if (option->get_items_expected_max() > 0 && word == name) ++i;  // its value
     } else if (!verb) {
@@ -113,7 +117,9 @@ void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
         names.push_back(known->get_name());
         if (word == known->get_name()) verb = known;
       }
-      if (!verb) throw Error(ExitCode::usage, fmt::format("expected one of {}, found '{}'{}", fmt::join(names, ", "), word, did_you_mean(word, names)));
+      if (!verb)
+        throw Error(ExitCode::usage,
+                    fmt::format("expected one of {}, found '{}'{}", fmt::join(names, ", "), word, did_you_mean(word, names)));
     }
   }
 }
@@ -144,7 +150,8 @@ int parse_and_run(int argc, const char* const* argv) {
   CLI::App& describe_verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
   describe_verb.add_option("EFFECT", described, "Effect")->type_name("NAME")->required();
   describe_verb.add_flag("--json", describe_json, "As JSON");
-  describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda")->type_name("LANGUAGE");
+  describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda")
+      ->type_name("LANGUAGE");
   describe_verb.footer("Example: rainref describe puddle --layout glsl");
 
   SceneFlags run_flags, hash_flags, pack_flags;
@@ -156,8 +163,10 @@ int parse_and_run(int argc, const char* const* argv) {
   run_verb.add_option("-o,--output", output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)")->type_name("DIR");
   run_verb.add_option("--image", image, "Pictures to write: exr, png, both or none")->type_name("KIND");
   run_verb.add_option("--every", every, "Write every K-th frame (default: the last frame only)")->type_name("K");
-  run_verb.add_option("--capture", captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")->type_name("WHAT");
-  run_verb.add_flag("--compare-truth", run_options.compare_truth, "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
+  run_verb.add_option("--capture", captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")
+      ->type_name("WHAT");
+  run_verb.add_flag("--compare-truth", run_options.compare_truth,
+                    "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
   run_verb.add_flag("--json", run_options.json, "Print the summary as JSON");
   run_verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
 
@@ -190,24 +199,36 @@ int parse_and_run(int argc, const char* const* argv) {
   validate_verb.add_option("PACK", validate_pack, "Folder of the pack; with --shadow the scene that the port ran")->type_name("DIR");
   std::optional<std::string> validate_exec, timeout, repeat;
   validate_verb.add_option("--port", validate_port, "Folder with the port's outputs, laid out as the pack")->type_name("DIR");
-  validate_verb.add_option("--exec", validate_exec, "Run the port first: a shell command with {pack} and {out} (or $RAINREF_PACK and $RAINREF_OUT), which becomes a new folder or that of --port")->type_name("COMMAND");
+  validate_verb
+      .add_option("--exec", validate_exec,
+                  "Run the port first: a shell command with {pack} and {out} (or $RAINREF_PACK and $RAINREF_OUT), which becomes a new "
+                  "folder or that of --port")
+      ->type_name("COMMAND");
   validate_verb.add_option("--timeout", timeout, "Seconds that the command may take (default: 600)")->type_name("SECONDS");
   validate_verb.add_option("--repeat", repeat, "Run the command so often and look for races")->type_name("N");
-  validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time")->type_name("DIR");
+  validate_verb.add_option("--shadow", shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time")
+      ->type_name("DIR");
   validate_verb.add_option("--size", shadow_flags.size, "With --shadow and a scene: its picture size, WxH")->type_name("WxH");
-  validate_verb.add_option("--set", shadow_flags.set, "With --shadow and a scene: override one of its values, key=value")->type_name("KEY=VALUE")->allow_extra_args(false);
-  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: " + profiles + " (default: vulkan)")->type_name("NAME");
+  validate_verb.add_option("--set", shadow_flags.set, "With --shadow and a scene: override one of its values, key=value")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  validate_verb.add_option("--profile", validate_request.profile, "What the port's API allows: " + profiles + " (default: vulkan)")
+      ->type_name("NAME");
   validate_verb.add_option("--only", validate_request.only, "Judge this pass alone")->type_name("PASS");
   validate_verb.add_flag("--allow-untested", validate_request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
   validate_verb.add_option("--threads", validate_threads, "Threads; the result does not depend on them")->type_name("N");
   add_report_options(validate_verb, validate_request.reports);
-  for (CLI::Option* option : validate_verb.get_options([](const CLI::Option* o) { return o->get_type_name() == "TEXT"; })) option->type_name("FILE");
-  validate_verb.footer("Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} {out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
+  for (CLI::Option* option : validate_verb.get_options([](const CLI::Option* o) { return o->get_type_name() == "TEXT"; }))
+    option->type_name("FILE");
+  validate_verb.footer(
+      "Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} "
+      "{out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
 
   MutateRequest mutate_request;
   CLI::App& mutate_verb = *app.add_subcommand("mutate", "Which porting bugs a pack would catch");
   mutate_verb.add_option("PACK", mutate_pack, "Folder of the pack")->type_name("DIR")->required();
-  mutate_verb.add_option("--profile", mutate_request.profile, "What the port's API allows: " + profiles + " (default: vulkan)")->type_name("NAME");
+  mutate_verb.add_option("--profile", mutate_request.profile, "What the port's API allows: " + profiles + " (default: vulkan)")
+      ->type_name("NAME");
   mutate_verb.add_option("--only", mutate_request.only, "Of this pass alone")->type_name("PASS");
   mutate_verb.add_flag("--all", mutate_request.all, "List every deviation, not only those missed");
   mutate_verb.add_option("--threads", mutate_threads, "Threads; the result does not depend on them")->type_name("N");
@@ -229,7 +250,8 @@ int parse_and_run(int argc, const char* const* argv) {
   if (run_verb.parsed()) {
     const std::vector<std::string> kinds{"exr", "png", "both", "none"};
     if (std::find(kinds.begin(), kinds.end(), image) == kinds.end()) {
-      throw Error(ExitCode::usage, fmt::format("--image: expected exr, png, both or none, found '{}'{}", image, did_you_mean(image, kinds)));
+      throw Error(ExitCode::usage,
+                  fmt::format("--image: expected exr, png, both or none, found '{}'{}", image, did_you_mean(image, kinds)));
     }
     run_options.png = image == "png" || image == "both";
     run_options.exr = image == "exr" || image == "both";
@@ -239,7 +261,8 @@ int parse_and_run(int argc, const char* const* argv) {
     if (captured) {
       const std::vector<std::string> what{"passes", "all"};
       if (std::find(what.begin(), what.end(), *captured) == what.end()) {
-        throw Error(ExitCode::usage, fmt::format("--capture: expected passes or all, found '{}'{}", *captured, did_you_mean(*captured, what)));
+        throw Error(ExitCode::usage,
+                    fmt::format("--capture: expected passes or all, found '{}'{}", *captured, did_you_mean(*captured, what)));
       }
       run_options.capture = *captured == "all" ? RunOptions::all : RunOptions::passes;
     }
@@ -264,26 +287,35 @@ int parse_and_run(int argc, const char* const* argv) {
   if (validate_verb.parsed()) {
     if (shadow) {
       if (shadow->empty()) throw Error(ExitCode::usage, "--shadow: expected a folder, found ''");
-      if (validate_exec || !validate_port.empty()) throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", validate_exec ? "--exec" : "--port"));
-      if (validate_pack.empty() && (shadow_flags.size || !shadow_flags.set.empty())) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
+      if (validate_exec || !validate_port.empty())
+        throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", validate_exec ? "--exec" : "--port"));
+      if (validate_pack.empty() && (shadow_flags.size || !shadow_flags.set.empty()))
+        throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
       if (std::error_code ignored; std::filesystem::is_directory(validate_pack, ignored)) {
-        throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json beside the dumps would serve as well", validate_pack));
+        throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json "
+                                                 "beside the dumps would serve as well",
+                                                 validate_pack));
       }
       validate_request.shadow = *shadow;
       shadow_flags.scene = validate_pack;
       validate_request.scene = resolve(shadow_flags);
     } else {
       if (validate_pack.empty()) throw Error(ExitCode::usage, "validate: expected the folder of a PACK, or --shadow DIR");
-      if (shadow_flags.size || !shadow_flags.set.empty()) throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
-      if (!validate_exec && validate_port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
+      if (shadow_flags.size || !shadow_flags.set.empty())
+        throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
+      if (!validate_exec && validate_port.empty())
+        throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
     }
-    if (!validate_exec && (timeout || repeat)) throw Error(ExitCode::usage, fmt::format("{}: goes with --exec only", timeout ? "--timeout" : "--repeat"));
+    if (!validate_exec && (timeout || repeat))
+      throw Error(ExitCode::usage, fmt::format("{}: goes with --exec only", timeout ? "--timeout" : "--repeat"));
     if (validate_exec) {
       validate_request.exec = *validate_exec;
       if (validate_request.exec.empty()) throw Error(ExitCode::usage, "--exec: expected a command, found ''");
       const bool has_out = validate_exec->find("{out}") != std::string::npos || validate_exec->find("RAINREF_OUT") != std::string::npos;
       if (!has_out && validate_port.empty()) {
-        throw Error(ExitCode::usage, "--exec: expected {out} or $RAINREF_OUT in the command, where the port's outputs go; or --port, the folder that it writes to");
+        throw Error(
+            ExitCode::usage,
+            "--exec: expected {out} or $RAINREF_OUT in the command, where the port's outputs go; or --port, the folder that it writes to");
       }
       if (timeout) validate_request.timeout_s = whole_number(*timeout, "--timeout", 1, 1000000);
       if (repeat) validate_request.repeat = whole_number(*repeat, "--repeat", 1, 1000);
@@ -329,7 +361,8 @@ int main(int argc, const char* const* argv) {
   } catch (const std::exception& e) {
     // Printing throws when a full disk shows before the end.
     if (std::ferror(stdout)) code = ExitCode::io;
-    message = std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());
+    message =
+        std::ferror(stdout) ? fmt::format("standard output cannot be written: {}", e.what()) : fmt::format("internal error: {}", e.what());
   }
   if (dies_of_pipes && code == ExitCode::io && std::ferror(stdout) && reader_is_gone()) {
     ::signal(SIGPIPE, SIG_DFL);

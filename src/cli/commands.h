@@ -24,7 +24,7 @@ struct RunOptions {
   int every = 0;                 ///< 0: the last frame only
   bool png = true, exr = false;
   bool json = false;
-  bool compare_truth = false;    ///< against the traced truth, on the frames that are written
+  bool compare_truth = false;  ///< against the traced truth, on the frames that are written
   enum Capture : std::uint8_t { none, passes, all } capture = none;
 };
 
@@ -40,9 +40,9 @@ struct ValidateRequest {
   std::filesystem::path shadow;  ///< dumps of a port's own run, judged instead of `port`; "": a pack is judged
   SceneOptions scene;            ///< with `shadow`: the scene that the port ran; empty: a manifest lies beside the dumps
   std::string profile = "vulkan", only;
-  std::string exec;         ///< the port's own command, run first; "": `port` holds its outputs
-  double timeout_s = 600;   ///< of each run of it
-  int repeat = 1;           ///< runs of it
+  std::string exec;        ///< the port's own command, run first; "": `port` holds its outputs
+  double timeout_s = 600;  ///< of each run of it
+  int repeat = 1;          ///< runs of it
   bool allow_untested = false;
   int threads = 0;
   std::string command;  ///< as typed, for the report

@@ -51,14 +51,16 @@ std::string difference(const std::string& where, const capture::Array& a, const 
          fmt::format("  {} of {} elements of this buffer differ\n", found->count, found->of);
 }
 
-std::string difference(const std::string& where, const scene::UniformBlock& block, const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
-  if (a.size() != b.size()) return difference_text(fmt::format("{}, {}", where, block.name), fmt::format("{} bytes", a.size()), fmt::format("{} bytes", b.size()));
+std::string difference(const std::string& where, const scene::UniformBlock& block, const std::vector<std::byte>& a,
+                       const std::vector<std::byte>& b) {
+  if (a.size() != b.size())
+    return difference_text(fmt::format("{}, {}", where, block.name), fmt::format("{} bytes", a.size()), fmt::format("{} bytes", b.size()));
   for (const scene::Member& m : scene::with_padding(block)) {
     for (std::size_t at = m.offset; at < m.offset + m.size(); at += 4) {
       if (std::equal(&a[at], &a[at] + 4, &b[at])) continue;
       const std::string index = m.components == 1 ? "" : fmt::format("[{}]", (at - m.offset) / 4);
-      return difference_text(fmt::format("{}, uniform {}{} of {}", where, m.name, index, block.name), capture::scalar_text(&a[at], m.scalar),
-                             capture::scalar_text(&b[at], m.scalar));
+      return difference_text(fmt::format("{}, uniform {}{} of {}", where, m.name, index, block.name),
+                             capture::scalar_text(&a[at], m.scalar), capture::scalar_text(&b[at], m.scalar));
     }
   }
   return "";
@@ -79,8 +81,10 @@ class Comparison {
     for (const PackCase& c : a_.cases) {
       in_a[c.id] = true;
       const auto other = in_b_.find(c.id);
-      if (other == in_b_.end()) findings.add(fmt::format("only in A: {}", run_text(c)));
-      else if (found.empty()) found = difference_of(c, *other->second);
+      if (other == in_b_.end())
+        findings.add(fmt::format("only in A: {}", run_text(c)));
+      else if (found.empty())
+        found = difference_of(c, *other->second);
       progress.advance();
     }
     for (const PackCase& c : b_.cases) {
@@ -107,7 +111,9 @@ class Comparison {
   // A buffer that one side lacks is a finding; the first value that differs is worth more.
   template <class All>
   std::string difference_of_all(const All& a, const All& b, const std::string& where, const char* kind) {
-    const auto find = [](const All& all, const std::string& name) { return std::find_if(all.begin(), all.end(), [&](const auto& x) { return x.name == name; }); };
+    const auto find = [](const All& all, const std::string& name) {
+      return std::find_if(all.begin(), all.end(), [&](const auto& x) { return x.name == name; });
+    };
     for (const auto& y : b) {
       if (find(a, y.name) == a.end()) findings.add(fmt::format("only in B: {}, {} {}", where, kind, y.name));
     }
@@ -143,7 +149,8 @@ void print_configurations(const Pack& a, const Pack& b) {
   for (const auto& [key, text] : b.config) {
     if (!in_a.contains(key)) notes.add(fmt::format("configuration: {} is absent in A, {} in B", key, text));
   }
-  if (a.golden_generation != b.golden_generation) notes.add(fmt::format("golden generation: {} in A, {} in B", a.golden_generation, b.golden_generation));
+  if (a.golden_generation != b.golden_generation)
+    notes.add(fmt::format("golden generation: {} in A, {} in B", a.golden_generation, b.golden_generation));
   notes.print();
 }
 
@@ -163,7 +170,8 @@ int diff(const std::filesystem::path& folder_a, const std::filesystem::path& fol
   say("{}", found);
   comparison.findings.print();
   if (!found.empty() || !comparison.findings.lines.empty()) return static_cast<int>(ExitCode::fail);
-  say("equal: {} of {}, {}\n", counted(static_cast<long long>(comparison.runs), "run"), comparison.runs == 1 ? "a pass" : "passes", counted(static_cast<long long>(comparison.buffers), "buffer"));
+  say("equal: {} of {}, {}\n", counted(static_cast<long long>(comparison.runs), "run"), comparison.runs == 1 ? "a pass" : "passes",
+      counted(static_cast<long long>(comparison.buffers), "buffer"));
   return 0;
 }
 

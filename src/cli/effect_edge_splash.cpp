@@ -38,7 +38,8 @@ class EdgeSplashSimulation : public Simulation {
     edge_splash::check(s);
     if (source == "files") {
       for (const char* key : {"scene.image", "scene.depth_image"}) {
-        if (config.text(key).empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, because scene.source is \"files\"", key));
+        if (config.text(key).empty())
+          throw Error(ExitCode::usage, fmt::format("{}: expected a file, because scene.source is \"files\"", key));
       }
       image_io::Picture picture = read_input(config, "scene.image", files);
       in.colour = flipped(picture.image);
@@ -47,7 +48,8 @@ class EdgeSplashSimulation : public Simulation {
       in.depth = in.depth_is_distance ? read_depth(config, in.colour, files) : stored(config, "scene.depth_image", files);
     } else {
       for (const char* key : {"scene.image", "scene.depth_image"}) {
-        if (!config.text(key).empty()) throw Error(ExitCode::usage, fmt::format("{}: needs scene.source = \"files\", found \"{}\"", key, source));
+        if (!config.text(key).empty())
+          throw Error(ExitCode::usage, fmt::format("{}: needs scene.source = \"files\", found \"{}\"", key, source));
       }
       in.depth_is_distance = true;
       const scene::Camera camera = edge_splash::camera(s);
@@ -69,10 +71,13 @@ class EdgeSplashSimulation : public Simulation {
       }
     }
     if (!config.text("scene.noise_image").empty()) in.noise = stored(config, "scene.noise_image", files);
-    if (s.variant == edge_splash::Variant::corrected && !config.text("scene.layer_image").empty()) in.layer = stored(config, "scene.layer_image", files);
+    if (s.variant == edge_splash::Variant::corrected && !config.text("scene.layer_image").empty())
+      in.layer = stored(config, "scene.layer_image", files);
     return in;
   }
-  static Image stored(const scene::Config& config, const std::string& key, std::vector<InputFile>& files) { return flipped(read_input(config, key, files).image); }
+  static Image stored(const scene::Config& config, const std::string& key, std::vector<InputFile>& files) {
+    return flipped(read_input(config, key, files).image);
+  }
 
   edge_splash::EdgeSplash effect_;
 };
@@ -80,11 +85,15 @@ class EdgeSplashSimulation : public Simulation {
 }  // namespace
 
 EffectEntry edge_splash_entry() {
-  return {"edge_splash", {"as-published", "corrected"}, edge_splash::parameters(), &edge_splash::effect_info(),
-          [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
-            return std::make_unique<EdgeSplashSimulation>(config, executor, inputs);
-          },
-          edge_splash_memory};
+  return {
+      "edge_splash",
+      {"as-published", "corrected"},
+      edge_splash::parameters(),
+      &edge_splash::effect_info(),
+      [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
+        return std::make_unique<EdgeSplashSimulation>(config, executor, inputs);
+      },
+      edge_splash_memory};
 }
 
 }  // namespace rainref::cli

@@ -22,8 +22,10 @@ namespace {
 /// What is traced: the puddle as surfaces, and the picture of it, if the scene wants one.
 class PuddleTracing {
  public:
-  PuddleTracing(const scene::Config& config, const puddle::Settings& settings, const puddle::Surroundings& surroundings, const parallel::Executor& executor)
-      : settings_(settings), choice_(compositor::choice_from(config)),
+  PuddleTracing(const scene::Config& config, const puddle::Settings& settings, const puddle::Surroundings& surroundings,
+                const parallel::Executor& executor)
+      : settings_(settings),
+        choice_(compositor::choice_from(config)),
         scene_(settings, surroundings, {choice_.tracer, is_street(config), choice_.picture.samples}, executor) {}
 
   void trace(const puddle::Puddle& puddle, const parallel::Executor& executor, Recorder* recorder) {
@@ -50,7 +52,8 @@ class PuddleTracing {
   static bool is_street(const scene::Config& config) {
     if (config.text("compositor.surroundings") != "street") return false;
     if (!config.text("environment.image").empty()) {
-      throw Error(ExitCode::usage, "compositor.surroundings: expected \"picture\", for environment.image names one; \"street\" is the street made here");
+      throw Error(ExitCode::usage,
+                  "compositor.surroundings: expected \"picture\", for environment.image names one; \"street\" is the street made here");
     }
     return true;
   }
@@ -65,8 +68,12 @@ class PuddleTracing {
 class PuddleSimulation : public Simulation {
  public:
   PuddleSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs)
-      : config_(config), executor_(executor), settings_(puddle::settings_from(config)), is_traced_(compositor::choice_from(config).is_traced),
-        surroundings_(surroundings(config, executor, inputs)), puddle_(settings_, surroundings_, executor) {
+      : config_(config),
+        executor_(executor),
+        settings_(puddle::settings_from(config)),
+        is_traced_(compositor::choice_from(config).is_traced),
+        surroundings_(surroundings(config, executor, inputs)),
+        puddle_(settings_, surroundings_, executor) {
     if (is_traced_) tracing();
   }
 
@@ -86,7 +93,8 @@ class PuddleSimulation : public Simulation {
   nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing().compare(puddle_, executor_, stem); }
 
  private:
-  static puddle::Surroundings surroundings(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) {
+  static puddle::Surroundings surroundings(const scene::Config& config, const parallel::Executor& executor,
+                                           std::vector<InputFile>& inputs) {
     puddle::Surroundings s;
     if (config.text("environment.image").empty()) {
       s.environment = night_street::Street().panorama(1024, 512, {0, 0.05, 0}, executor);
@@ -124,9 +132,11 @@ std::span<const scene::Parameter> all_parameters() {
     const auto own = puddle::parameters();
     std::vector<scene::Parameter> table(own.begin(), own.end());
     for (scene::Parameter& p : compositor::parameters()) table.push_back(std::move(p));
-    table.push_back(scene::choice("compositor.surroundings", {"picture", "street"}, "picture",
-                                  "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the street made here, ray by ray.")
-                        .only("corrected"));
+    table.push_back(
+        scene::choice(
+            "compositor.surroundings", {"picture", "street"}, "picture",
+            "What a traced ray sees beyond the puddle: the passes' picture of the surroundings, or the street made here, ray by ray.")
+            .only("corrected"));
     return table;
   }();
   return all;
@@ -135,11 +145,15 @@ std::span<const scene::Parameter> all_parameters() {
 }  // namespace
 
 EffectEntry puddle_entry() {
-  return {"puddle", {"as-published", "corrected"}, all_parameters(), &puddle::effect_info(),
-          [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
-            return std::make_unique<PuddleSimulation>(config, executor, inputs);
-          },
-          puddle_memory};
+  return {
+      "puddle",
+      {"as-published", "corrected"},
+      all_parameters(),
+      &puddle::effect_info(),
+      [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
+        return std::make_unique<PuddleSimulation>(config, executor, inputs);
+      },
+      puddle_memory};
 }
 
 }  // namespace rainref::cli

@@ -17,11 +17,14 @@ namespace {
 
 using rainy_glass::Settings, rainy_glass::Surroundings;
 
-Surroundings surroundings(const scene::Config& config, const Settings& settings, const parallel::Executor& executor, std::vector<InputFile>& inputs) {
+Surroundings surroundings(const scene::Config& config, const Settings& settings, const parallel::Executor& executor,
+                          std::vector<InputFile>& inputs) {
   const bool corrected = settings.variant == rainy_glass::Variant::corrected;
   const bool own_scene = !config.text("scene.image").empty();
-  if (!own_scene && corrected && !config.text("scene.depth_image").empty()) throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
-  if (own_scene && corrected && config.text("scene.depth_image").empty()) throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
+  if (!own_scene && corrected && !config.text("scene.depth_image").empty())
+    throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
+  if (own_scene && corrected && config.text("scene.depth_image").empty())
+    throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
   if (settings.shape != rainy_glass::Shape::image) refuse_unused(config, "glass.normal_image", "glass.shape");
   if (!settings.use_probe) refuse_unused(config, "glass.probe_image", "glass.background");
   const Image panorama = read_panorama(config, inputs);
@@ -35,11 +38,13 @@ Surroundings surroundings(const scene::Config& config, const Settings& settings,
     s = rainy_glass::make_backdrop(street, rainy_glass::backdrop_from(config), executor, panorama);
   }
   if (settings.use_probe && s.probe.empty()) {
-    if (config.text("glass.probe_image").empty()) throw Error(ExitCode::usage, "glass.probe_image: expected a panorama beside scene.image, found none");
+    if (config.text("glass.probe_image").empty())
+      throw Error(ExitCode::usage, "glass.probe_image: expected a panorama beside scene.image, found none");
     s.probe = read_linear(config, "glass.probe_image", inputs);
   }
   if (settings.shape == rainy_glass::Shape::image) {
-    if (config.text("glass.normal_image").empty()) throw Error(ExitCode::usage, "glass.normal_image: expected a picture for glass.shape = \"image\", found none");
+    if (config.text("glass.normal_image").empty())
+      throw Error(ExitCode::usage, "glass.normal_image: expected a picture for glass.shape = \"image\", found none");
     const image_io::Picture p = read_input(config, "glass.normal_image", inputs);
     const bool is_code = info(p.image.format()).kind == FormatInfo::unorm8 || p.srgb_encoded;
     s.normals = floats_of(p, [&](float x, int c) { return c < 3 && is_code ? 2 * x - 1 : x; });
@@ -54,11 +59,16 @@ using Tracing = PaneTracing<compositor::RainyGlassView>;
 class RainyGlassSimulation : public Simulation {
  public:
   RainyGlassSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs)
-      : settings_(rainy_glass::settings_from(config)), surroundings_(surroundings(config, settings_, executor, inputs)), glass_(settings_, surroundings_, executor) {
+      : settings_(rainy_glass::settings_from(config)),
+        surroundings_(surroundings(config, settings_, executor, inputs)),
+        glass_(settings_, surroundings_, executor) {
     const compositor::Choice choice = compositor::choice_from(config);
-    const bool can = settings_.variant == rainy_glass::Variant::corrected && settings_.shape == rainy_glass::Shape::pane && !settings_.use_probe && config.text("scene.image").empty() && config.text("scene.panorama").empty();
+    const bool can = settings_.variant == rainy_glass::Variant::corrected && settings_.shape == rainy_glass::Shape::pane &&
+                     !settings_.use_probe && config.text("scene.image").empty() && config.text("scene.panorama").empty();
     if (!can && choice.is_traced) {
-      throw Error(ExitCode::usage, "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here instead of scene.image or scene.panorama");
+      throw Error(ExitCode::usage,
+                  "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here "
+                  "instead of scene.image or scene.panorama");
     }
     if (!can) return;
     tracing_.emplace(choice, executor, [this, config, &executor](const compositor::TracerOptions& tracer) {
@@ -114,11 +124,15 @@ class RainyGlassSimulation : public Simulation {
 
 EffectEntry rainy_glass_entry() {
   static const std::vector<scene::Parameter> parameters = with_pane_tracing(rainy_glass::parameters());
-  return {"rainy_glass", {"as-published", "corrected"}, parameters, &rainy_glass::effect_info(),
-          [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
-            return std::make_unique<RainyGlassSimulation>(config, executor, inputs);
-          },
-          rainy_glass_memory};
+  return {
+      "rainy_glass",
+      {"as-published", "corrected"},
+      parameters,
+      &rainy_glass::effect_info(),
+      [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
+        return std::make_unique<RainyGlassSimulation>(config, executor, inputs);
+      },
+      rainy_glass_memory};
 }
 
 }  // namespace rainref::cli

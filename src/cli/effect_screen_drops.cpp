@@ -20,18 +20,22 @@ using screen_drops::Settings;
 
 constexpr double street_far = 1000;  // depth of its sky [m]; nobody looks at it
 
-screen_drops::Inputs images(const scene::Config& config, const Settings& settings, const parallel::Executor& executor, std::vector<InputFile>& files) {
+screen_drops::Inputs images(const scene::Config& config, const Settings& settings, const parallel::Executor& executor,
+                            std::vector<InputFile>& files) {
   screen_drops::check(settings);
   screen_drops::Inputs in;
   const Image panorama = read_panorama(config, files);
   if (!panorama.empty()) {
     in.colour = scene::panorama_view(panorama, screen_drops::scene_camera(settings), settings.width, settings.height, executor);
   } else if (config.text("scene.image").empty()) {
-    in.colour = night_street::Street({settings.seed}).view(screen_drops::scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
+    in.colour = night_street::Street({settings.seed})
+                    .view(screen_drops::scene_camera(settings), settings.width, settings.height, street_far, executor)
+                    .colour;
   } else {
     in.colour = read_linear(config, "scene.image", files);
   }
-  if (settings.variant == screen_drops::Variant::as_published && !config.text("noise.image").empty()) in.noise = read_tile(config, "noise.image", false, files);
+  if (settings.variant == screen_drops::Variant::as_published && !config.text("noise.image").empty())
+    in.noise = read_tile(config, "noise.image", false, files);
   return in;
 }
 
@@ -40,7 +44,9 @@ using Tracing = PaneTracing<compositor::ScreenDropsView>;
 class ScreenDropsSimulation : public Simulation {
  public:
   ScreenDropsSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& files)
-      : settings_(screen_drops::settings_from(config)), inputs_(images(config, settings_, executor, files)), flow_(screen_drops::flow_from(config, settings_)),
+      : settings_(screen_drops::settings_from(config)),
+        inputs_(images(config, settings_, executor, files)),
+        flow_(screen_drops::flow_from(config, settings_)),
         effect_(settings_, inputs_, executor, flow_ ? &*flow_ : nullptr) {
     if (settings_.variant != screen_drops::Variant::corrected) return;
     tracing_.emplace(compositor::choice_from(config), executor, [this, config, &executor](const compositor::TracerOptions& tracer) {
@@ -79,11 +85,15 @@ class ScreenDropsSimulation : public Simulation {
 
 EffectEntry screen_drops_entry() {
   static const std::vector<scene::Parameter> parameters = with_pane_tracing(screen_drops::parameters());
-  return {"screen_drops", {"as-published", "corrected"}, parameters, &screen_drops::effect_info(),
-          [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
-            return std::make_unique<ScreenDropsSimulation>(config, executor, inputs);
-          },
-          screen_drops_memory};
+  return {
+      "screen_drops",
+      {"as-published", "corrected"},
+      parameters,
+      &screen_drops::effect_info(),
+      [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
+        return std::make_unique<ScreenDropsSimulation>(config, executor, inputs);
+      },
+      screen_drops_memory};
 }
 
 }  // namespace rainref::cli

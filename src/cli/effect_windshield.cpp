@@ -23,7 +23,8 @@ namespace {
 std::vector<scene::Parameter> pane_parameters() {
   return {
       compositor::pane_thickness(),
-      scene::real("compositor.glass_radius", "m", 0, 1e6, 0, "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."),
+      scene::real("compositor.glass_radius", "m", 0, 1e6, 0,
+                  "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."),
   };
 }
 
@@ -31,13 +32,16 @@ std::vector<scene::Parameter> pane_parameters() {
 class WindshieldTracing {
  public:
   WindshieldTracing(const scene::Config& config, const parallel::Executor& executor)
-      : choice_(compositor::choice_from(config)), executor_(executor),
-        view_(windshield::settings_from(config), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")}, choice_.tracer, executor) {}
+      : choice_(compositor::choice_from(config)),
+        executor_(executor),
+        view_(windshield::settings_from(config), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")},
+              choice_.tracer, executor) {}
 
   void trace(const windshield::Windshield& windshield, Recorder* recorder) {
     capture::Stopwatch time;
     const windshield::Settings& s = view_.settings();
-    picture_ = compositor::trace_picture(*view_.scene(windshield), view_.camera(), s.picture.width, s.picture.height, choice_.picture, executor_);
+    picture_ =
+        compositor::trace_picture(*view_.scene(windshield), view_.camera(), s.picture.width, s.picture.height, choice_.picture, executor_);
     shown_ = compositor::display(s, picture_.beauty, executor_);
     report_traced(recorder, windshield.frame() - 1, picture_, shown_, time.seconds());
   }
@@ -61,10 +65,15 @@ class WindshieldTracing {
 class WindshieldSimulation : public Simulation {
  public:
   WindshieldSimulation(const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs)
-      : config_(config), executor_(executor), is_traced_(compositor::choice_from(config).is_traced), has_street_(config.text("scene.image").empty()),
+      : config_(config),
+        executor_(executor),
+        is_traced_(compositor::choice_from(config).is_traced),
+        has_street_(config.text("scene.image").empty()),
         windshield_(config, surroundings(config, inputs), executor) {
     if (!is_traced_) return;
-    if (!has_street_) throw Error(ExitCode::usage, "compositor.picture: expected \"passes\", for rays need the street made here and scene.image names a picture");
+    if (!has_street_)
+      throw Error(ExitCode::usage,
+                  "compositor.picture: expected \"passes\", for rays need the street made here and scene.image names a picture");
     tracing();
   }
 
@@ -88,7 +97,9 @@ class WindshieldSimulation : public Simulation {
     windshield::Surroundings s;
     const bool has_depth = !config.text("scene.depth_image").empty();
     if (config.text("scene.image").empty()) {
-      if (has_depth) throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at, "scene.depth_image: expected scene.image beside it, found none");
+      if (has_depth)
+        throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at,
+                    "scene.depth_image: expected scene.image beside it, found none");
       return s;
     }
     const Image colour = read_linear(config, "scene.image", inputs);
@@ -124,11 +135,15 @@ std::span<const scene::Parameter> all_parameters() {
 }  // namespace
 
 EffectEntry windshield_entry() {
-  return {"windshield", {"as-published", "corrected"}, all_parameters(), &windshield::effect_info(),
-          [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
-            return std::make_unique<WindshieldSimulation>(config, executor, inputs);
-          },
-          windshield_memory};
+  return {
+      "windshield",
+      {"as-published", "corrected"},
+      all_parameters(),
+      &windshield::effect_info(),
+      [](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) -> std::unique_ptr<Simulation> {
+        return std::make_unique<WindshieldSimulation>(config, executor, inputs);
+      },
+      windshield_memory};
 }
 
 }  // namespace rainref::cli

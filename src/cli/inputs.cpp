@@ -25,7 +25,9 @@ image_io::Picture read_input(const scene::Config& config, const std::string& key
 
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why) {
   if (config.text(key).empty()) return;
-  scene::refuse(config.entry(key).origin, key, fmt::format("expected none where {} is \"{}\", which does not use it, found '{}'", why, config.text(why), config.text(key)));
+  scene::refuse(
+      config.entry(key).origin, key,
+      fmt::format("expected none where {} is \"{}\", which does not use it, found '{}'", why, config.text(why), config.text(key)));
 }
 
 }  // namespace rainref::cli

@@ -75,7 +75,11 @@ int describe(const std::string& name, bool json, const std::optional<std::string
     nlohmann::ordered_json out{{"effect", e.name}, {"variants", e.variants}, {"parameters", scene::parameters_json(parameters)}};
     out["passes"] = nlohmann::ordered_json::array();
     for (const capture::PassInfo& p : e.info->passes) {
-      nlohmann::ordered_json pass{{"name", p.name}, {"sentence", p.sentence}, {"variants", variants_of(p)}, {"writes", p.writes}, {"judge", capture::judge_text(p)}};
+      nlohmann::ordered_json pass{{"name", p.name},
+                                  {"sentence", p.sentence},
+                                  {"variants", variants_of(p)},
+                                  {"writes", p.writes},
+                                  {"judge", capture::judge_text(p)}};
       pass["reads"] = nlohmann::ordered_json::array();
       for (const capture::ReadInfo& r : p.reads) pass["reads"].push_back(r.buffer);
       for (const capture::PassVariant& v : p.variants) pass["formulas"].push_back(capture::formula(*e.info, p, v));
@@ -83,22 +87,29 @@ int describe(const std::string& name, bool json, const std::optional<std::string
       out["passes"].push_back(pass);
     }
     for (const capture::BufferInfo& b : e.info->buffers) {
-      out["buffers"].push_back({{"name", b.name}, {"format", b.format}, {"sentence", b.sentence}, {"unit", b.unit}, {"range", b.range}, {"encoding", b.encoding}});
+      out["buffers"].push_back({{"name", b.name},
+                                {"format", b.format},
+                                {"sentence", b.sentence},
+                                {"unit", b.unit},
+                                {"range", b.range},
+                                {"encoding", b.encoding}});
       if (!b.variant.empty()) out["buffers"].back()["variant"] = b.variant;
     }
     for (const scene::UniformBlock& record : e.info->records) out["records"].push_back(scene::uniform_block_json(record));
     say("{}\n", json_text(out));
     return 0;
   }
-  say("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "), scene::describe_text(parameters));
+  say("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "),
+      scene::describe_text(parameters));
   for (const capture::PassInfo& p : e.info->passes) {
     const bool all = p.variants.size() == e.variants.size();
-    say("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, all ? "" : fmt::format(" ({})", fmt::join(variants_of(p), ", ")), p.sentence,
-               reads_text(p), fmt::join(p.writes, ", "), capture::judge_text(p));
+    say("{}{}\n    {}\n    reads {}; writes {}; judged by {}\n", p.name, all ? "" : fmt::format(" ({})", fmt::join(variants_of(p), ", ")),
+        p.sentence, reads_text(p), fmt::join(p.writes, ", "), capture::judge_text(p));
   }
   say("\nBuffers\n\n");
   for (const capture::BufferInfo& b : e.info->buffers) {
-    say("{:<16} {:<15} {}{}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence, b.encoding == "none" ? "" : fmt::format(" {}.", b.encoding));
+    say("{:<16} {:<15} {}{}{}\n", b.name, b.format, b.variant.empty() ? "" : b.variant + ": ", b.sentence,
+        b.encoding == "none" ? "" : fmt::format(" {}.", b.encoding));
   }
   return 0;
 }

@@ -22,7 +22,8 @@ std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const st
   const std::vector<std::string> all = info.pass_names(variant);
   for (const std::string& name : asked) {
     if (std::find(all.begin(), all.end(), name) == all.end()) {
-      throw Error(ExitCode::usage, fmt::format("--passes: expected some of {}, found '{}'{}", fmt::join(all, ", "), name, did_you_mean(name, all)));
+      throw Error(ExitCode::usage,
+                  fmt::format("--passes: expected some of {}, found '{}'{}", fmt::join(all, ", "), name, did_you_mean(name, all)));
     }
   }
   std::vector<std::string> chosen;
@@ -47,12 +48,15 @@ int pack(const PackOptions& options) {
   const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
   for (const InputFile& input : inputs) {
     if (input.lossy) {
-      throw Error(ExitCode::usage, fmt::format("{}: '{}' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR",
-                                               input.key, input.path));
+      throw Error(
+          ExitCode::usage,
+          fmt::format("{}: '{}' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR",
+                      input.key, input.path));
     }
   }
   const auto wanted = [&](int frame, std::string_view pass) {
-    return std::binary_search(options.frames.begin(), options.frames.end(), frame) && std::find(passes.begin(), passes.end(), pass) != passes.end();
+    return std::binary_search(options.frames.begin(), options.frames.end(), frame) &&
+           std::find(passes.begin(), passes.end(), pass) != passes.end();
   };
   capture::CaptureRecorder recorder(*entry.info, config.variant(), true, wanted, [&](const capture::PassCase& c) { writer.add(c); });
   const int frames = options.frames.back() + 1;
@@ -64,7 +68,8 @@ int pack(const PackOptions& options) {
     }
   }
   const capture::PackWriter::Total total = writer.finish();
-  say("{} of {} in {}, {}, in {}\n", counted(total.cases, "case"), fmt::join(passes, " "), counted(total.files, "file"), memory_text(total.bytes), options.output.string());
+  say("{} of {} in {}, {}, in {}\n", counted(total.cases, "case"), fmt::join(passes, " "), counted(total.files, "file"),
+      memory_text(total.bytes), options.output.string());
   return 0;
 }
 

@@ -30,7 +30,8 @@ inline std::vector<scene::Parameter> with_pane_tracing(std::span<const scene::Pa
 template <class View>
 class PaneTracing {
  public:
-  PaneTracing(const compositor::Choice& choice, const parallel::Executor& executor, std::function<View(const compositor::TracerOptions&)> make)
+  PaneTracing(const compositor::Choice& choice, const parallel::Executor& executor,
+              std::function<View(const compositor::TracerOptions&)> make)
       : choice_(choice), executor_(executor), make_(std::move(make)) {}
 
   /// Before the first frame, when passes are to be compared. Throws Error(usage) for what cannot be traced.

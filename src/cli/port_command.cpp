@@ -37,8 +37,10 @@ constexpr std::size_t kept_bytes = 65536, kept_lines = 20;
 std::vector<std::string> last_lines_of(const std::string& text) {
   std::vector<std::string> lines{""};
   for (const char c : text) {
-    if (c == '\n') lines.emplace_back();
-    else if (c != '\r') lines.back() += c;
+    if (c == '\n')
+      lines.emplace_back();
+    else if (c != '\r')
+      lines.back() += c;
   }
   if (lines.back().empty()) lines.pop_back();
   if (lines.size() > kept_lines) lines.erase(lines.begin(), lines.end() - kept_lines);
@@ -53,10 +55,15 @@ std::string failure_of(int status) {
   if (code == 0) return "";
   // A shell reports a child's signal like this.
   if (code > 128 && code <= 128 + 64) return fmt::format("the port's command ended with exit code {}: {}", code, signal_text(code - 128));
-  return fmt::format("the port's command ended with exit code {}{}", code, code == 127 ? ": there is no such program" : code == 126 ? ": it is no program" : "");
+  return fmt::format("the port's command ended with exit code {}{}", code,
+                     code == 127   ? ": there is no such program"
+                     : code == 126 ? ": it is no program"
+                                   : "");
 }
 
-[[noreturn]] void fail(const char* what) { throw Error(ExitCode::io, fmt::format("--exec: {}: {}", what, std::generic_category().message(errno))); }
+[[noreturn]] void fail(const char* what) {
+  throw Error(ExitCode::io, fmt::format("--exec: {}: {}", what, std::generic_category().message(errno)));
+}
 
 // The processes whose parent is this one. Empty where there is no /proc.
 std::set<pid_t> children() {
@@ -185,7 +192,9 @@ std::vector<std::string> PortFolders::environment() const { return {"RAINREF_PAC
 void PortFolders::check() const {
   std::error_code error;
   if (told_out_ == out_ || fs::is_symlink(fs::symlink_status(told_out_, error))) return;
-  throw Error(ExitCode::port_files, fmt::format("--exec: the command removed {{out}}, which was a link to '{}'; expected it to write into that folder, or a --port whose path has letters, digits and ._-/ alone", out_.string()));
+  throw Error(ExitCode::port_files, fmt::format("--exec: the command removed {{out}}, which was a link to '{}'; expected it to write into "
+                                                "that folder, or a --port whose path has letters, digits and ._-/ alone",
+                                                out_.string()));
 }
 
 CommandEnd run_command(const std::string& command, std::chrono::duration<double> timeout, const std::vector<std::string>& environment) {

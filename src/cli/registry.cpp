@@ -20,7 +20,8 @@ const std::vector<EffectEntry>& effects() {
   static const std::vector<EffectEntry> all = [] {
     std::vector<EffectEntry> entries{puddle_entry(), windshield_entry(), edge_splash_entry(), screen_drops_entry(), rainy_glass_entry()};
     for (EffectEntry& e : entries) {
-      e.make = [make = std::move(e.make), memory = e.memory](const scene::Config& config, const parallel::Executor& executor, std::vector<InputFile>& inputs) {
+      e.make = [make = std::move(e.make), memory = e.memory](const scene::Config& config, const parallel::Executor& executor,
+                                                             std::vector<InputFile>& inputs) {
         const FloatingPointGuard guard;
         require_memory(memory(config));
         return make(config, executor, inputs);

@@ -79,15 +79,19 @@ struct Capture {
   capture::PackWriter writer;
   capture::CaptureRecorder recorder;
 
-  Capture(const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder, const std::function<bool(int)>& written)
+  Capture(const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
+          const std::function<bool(int)>& written)
       : Capture(*effect(config.effect()).info, options, config, folder, written) {}
 
  private:
   Capture(const capture::EffectInfo& info, const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
           const std::function<bool(int)>& written)
-      : writer(folder, info, config_of_passes(config), options.scene.scene.filename().string(), options.capture == RunOptions::all, info.pass_names(config.variant())),
-        recorder(info, config.variant(), options.capture == RunOptions::all, [written](int frame, std::string_view pass) { return pass != traced_pass && written(frame); },
-                 [this](const capture::PassCase& c) { writer.add(c); }) {}
+      : writer(folder, info, config_of_passes(config), options.scene.scene.filename().string(), options.capture == RunOptions::all,
+               info.pass_names(config.variant())),
+        recorder(
+            info, config.variant(), options.capture == RunOptions::all,
+            [written](int frame, std::string_view pass) { return pass != traced_pass && written(frame); },
+            [this](const capture::PassCase& c) { writer.add(c); }) {}
 };
 
 /// Most bytes of this process that have lain in memory.
@@ -101,10 +105,15 @@ std::size_t most_memory() {
 }
 
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<InputFile>& inputs, const parallel::Executor& executor,
-                               const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds, int frames) {
-  nlohmann::ordered_json out{{"rainref", version()}, {"golden_generation", golden_generation}, {"config", scene::config_json(config)}, {"origins", scene::origins_json(config)}};
+                               const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds,
+                               int frames) {
+  nlohmann::ordered_json out{{"rainref", version()},
+                             {"golden_generation", golden_generation},
+                             {"config", scene::config_json(config)},
+                             {"origins", scene::origins_json(config)}};
   out["inputs"] = nlohmann::ordered_json::array();
-  for (const InputFile& f : inputs) out["inputs"].push_back({{"key", f.key}, {"file", f.path}, {"decoded_hash", f.decoded_hash}, {"lossy", f.lossy}});
+  for (const InputFile& f : inputs)
+    out["inputs"].push_back({{"key", f.key}, {"file", f.path}, {"decoded_hash", f.decoded_hash}, {"lossy", f.lossy}});
   out["simd"] = selected_simd_target();
   out["threads"] = executor.threads();
   out["frames"] = frames;
@@ -123,7 +132,8 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<In
 int run(const RunOptions& options) {
   const scene::Config config = load_scene(options.scene);
   const parallel::Executor executor(options.scene.threads);
-  const std::filesystem::path folder = options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
+  const std::filesystem::path folder =
+      options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
   OutputFolder made(folder);
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
@@ -135,7 +145,9 @@ int run(const RunOptions& options) {
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
   if (options.compare_truth && !simulation->has_truth()) {
-    throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle and screen_drops have one, and with the street windshield and corrected panes of rainy_glass", config.effect(), config.variant()));
+    throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle "
+                                             "and screen_drops have one, and with the street windshield and corrected panes of rainy_glass",
+                                             config.effect(), config.variant()));
   }
   const int frames = static_cast<int>(config.integer("run.frames"));
   const auto written = [&](int frame) { return options.every > 0 ? frame % options.every == 0 : frame == frames - 1; };
@@ -177,9 +189,11 @@ int run(const RunOptions& options) {
   if (capture) capture->writer.finish();
   write_file(made.summary(), json_text(report) + "\n");
   made.keep();
-  if (options.json) say("{}\n", json_text(report));
-  else say("{} in {}, {}{} and summary.json in {}\n", counted(frames, "frame"), duration_text(seconds), counted(pictures, "picture"),
-                  capture ? ", capture/" : "", folder.string());
+  if (options.json)
+    say("{}\n", json_text(report));
+  else
+    say("{} in {}, {}{} and summary.json in {}\n", counted(frames, "frame"), duration_text(seconds), counted(pictures, "picture"),
+        capture ? ", capture/" : "", folder.string());
   return 0;
 }
 

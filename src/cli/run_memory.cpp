@@ -28,7 +28,8 @@ RunMemory run_of(std::string subject, int width, int height, std::size_t exr_ima
 /// A traced picture, its channels and its display, if the scene wants one.
 void hold_traced(RunMemory& m, const scene::Config& config, int width, int height) {
   if (!compositor::choice_from(config).is_traced) return;
-  m.peak.hold(2 * image(Format::rgba16f, width, height) + image(Format::r32f, width, height) + 2 * image(Format::r16f, width, height) + image(Format::rgba8, width, height));
+  m.peak.hold(2 * image(Format::rgba16f, width, height) + image(Format::r32f, width, height) + 2 * image(Format::r16f, width, height) +
+              image(Format::rgba8, width, height));
   m.exr_images = 8 + 8 + 4 + 2 + 2;
   m.exr_texel = 6 + 6 + 4 + 2 + 2;
 }
@@ -47,10 +48,13 @@ RunMemory puddle_memory(const scene::Config& config) {
   const puddle::Settings s = puddle::settings_from(config);
   const bool corrected = s.variant == puddle::Variant::corrected;
   const std::array<int, 2> grid = corrected ? s.grid : std::array{s.width, s.height};
-  RunMemory m = run_of(fmt::format("run.size {}x{} with a wave of {}x{}", s.width, s.height, grid[0], grid[1]), s.width, s.height, 8 + 8 + 16, 6 + 6 + 12);
+  RunMemory m = run_of(fmt::format("run.size {}x{} with a wave of {}x{}", s.width, s.height, grid[0], grid[1]), s.width, s.height,
+                       8 + 8 + 16, 6 + 6 + 12);
   puddle::PictureSizes sizes;
-  if (is_named(config, "environment.image")) sizes.environment = {1, 1};
-  else m.peak.then(night_street::panorama_memory(sizes.environment[0], sizes.environment[1]));
+  if (is_named(config, "environment.image"))
+    sizes.environment = {1, 1};
+  else
+    m.peak.then(night_street::panorama_memory(sizes.environment[0], sizes.environment[1]));
   if (is_named(config, "puddle.ground_image")) sizes.ground = {1, 1};
   m.peak.then(puddle::memory(s, sizes));
   hold_traced(m, config, s.width, s.height);
@@ -83,14 +87,16 @@ RunMemory screen_drops_memory(const scene::Config& config) {
     m.peak.release(night_street::normal_bytes(s.width, s.height) + image(Format::r32f, s.width, s.height));
   }
   const std::optional<screen_drops::FlowSettings> flow = screen_drops::flow_from(config, s);
-  m.peak.then(screen_drops::memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
+  m.peak.then(screen_drops::memory(s, flow ? &*flow : nullptr,
+                                   flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
   hold_traced(m, config, s.width, s.height);
   return m;
 }
 
 RunMemory rainy_glass_memory(const scene::Config& config) {
   const rainy_glass::Settings s = rainy_glass::settings_from(config);
-  RunMemory m = run_of(fmt::format("run.size {}x{} with maps.size {}", s.width, s.height, s.map_size), s.width, s.height, 8 + 8 + 16, 6 + 6 + 12);
+  RunMemory m =
+      run_of(fmt::format("run.size {}x{} with maps.size {}", s.width, s.height, s.map_size), s.width, s.height, 8 + 8 + 16, 6 + 6 + 12);
   const std::size_t colour = image(Format::rgba32f, s.width, s.height), depth = image(Format::r32f, s.width, s.height);
   if (is_named(config, "scene.image") || is_named(config, "scene.panorama")) {
     m.peak.hold(colour + depth);
@@ -99,8 +105,8 @@ RunMemory rainy_glass_memory(const scene::Config& config) {
     if (s.use_probe) m.peak.then(night_street::panorama_memory(1024, 512));
     m.peak.release(night_street::normal_bytes(s.width, s.height));
   }
-  m.peak.pass(colour);                                                // out of focus
-  m.peak.pass(colour + image(Format::rgba16f, s.width, s.height));    // the glass, for its bars
+  m.peak.pass(colour);                                              // out of focus
+  m.peak.pass(colour + image(Format::rgba16f, s.width, s.height));  // the glass, for its bars
   m.peak.then(rainy_glass::memory(s));
   if (compositor::choice_from(config).is_traced) m.peak.hold(colour + depth);  // the scene without bars
   hold_traced(m, config, s.width, s.height);
@@ -109,10 +115,11 @@ RunMemory rainy_glass_memory(const scene::Config& config) {
 
 RunMemory windshield_memory(const scene::Config& config) {
   const windshield::Settings s = windshield::settings_from(config);
-  RunMemory m = run_of(fmt::format("run.size {}x{} with scene.size {}x{} and windshield.height_size {}x{} for {} drops", s.picture.width, s.picture.height, s.scene_size[0], s.scene_size[1],
-                                   s.surface.width, s.surface.height, s.drops.capacity),
+  RunMemory m = run_of(fmt::format("run.size {}x{} with scene.size {}x{} and windshield.height_size {}x{} for {} drops", s.picture.width,
+                                   s.picture.height, s.scene_size[0], s.scene_size[1], s.surface.width, s.surface.height, s.drops.capacity),
                        s.picture.width, s.picture.height, 8, 6);
-  m.peak = windshield::memory(s, static_cast<int>(config.integer("run.frames")), is_named(config, "scene.image") ? s.scene_size : std::array{0, 0});
+  m.peak = windshield::memory(s, static_cast<int>(config.integer("run.frames")),
+                              is_named(config, "scene.image") ? s.scene_size : std::array{0, 0});
   hold_traced(m, config, s.picture.width, s.picture.height);
   return m;
 }

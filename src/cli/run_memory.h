@@ -8,8 +8,8 @@
 
 namespace rainref::cli {
 
-/// Memory of a simulation: pictures made for it, the effect, what is traced of it. What it holds at the end, it holds between frames. Pictures that are
-/// read from files count when they are read.
+/// Memory of a simulation: pictures made for it, the effect, what is traced of it. What it holds at the end, it holds between frames.
+/// Pictures that are read from files count when they are read.
 struct RunMemory {
   std::string subject;  ///< "run.size 1280x720": what in the scene asks for it
   MemoryPeak peak;

@@ -32,14 +32,18 @@ Image read_linear(const scene::Config& config, const std::string& key, std::vect
 Image read_depth(const scene::Config& config, const Image& colour, std::vector<InputFile>& inputs) {
   const Image four = floats_of(read_input(config, "scene.depth_image", inputs), [](float x, int) { return x; });
   if (four.width() != colour.width() || four.height() != colour.height()) {
-    throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected {}x{} texels as scene.image has, found {}x{}", colour.width(), colour.height(), four.width(), four.height()));
+    throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected {}x{} texels as scene.image has, found {}x{}", colour.width(),
+                                             colour.height(), four.width(), four.height()));
   }
   const auto scale = static_cast<float>(config.real("scene.depth_scale"));
   Image depth(Format::r32f, four.width(), four.height());
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {
       const float z = four.row<float>(y)[4 * x] * scale;
-      if (!(z >= 0)) throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected depths of 0 m or more, found {} at column {}, row {} from the bottom", z, x, y));
+      if (!(z >= 0))
+        throw Error(
+            ExitCode::usage,
+            fmt::format("scene.depth_image: expected depths of 0 m or more, found {} at column {}, row {} from the bottom", z, x, y));
       depth.row<float>(y)[x] = z;
     }
   }
@@ -55,14 +59,16 @@ Image read_tile(const scene::Config& config, const std::string& key, bool needs_
   Image tile = flipped(p.image);
   const double seam = rainy_glass::seam(tile);
   if (seam > rainy_glass::worst_seam) {
-    complain(fmt::format("warning: {}: {} does not tile: the step across its edges is {:.1f} times the one between its texels", key, config.text(key), seam));
+    complain(fmt::format("warning: {}: {} does not tile: the step across its edges is {:.1f} times the one between its texels", key,
+                         config.text(key), seam));
   }
   return tile;
 }
 
 Image read_panorama(const scene::Config& config, std::vector<InputFile>& inputs) {
   if (config.text("scene.panorama").empty()) return {};
-  if (!config.text("scene.image").empty()) throw Error(ExitCode::usage, "scene.panorama: expected no scene.image beside it, for each is the whole scene");
+  if (!config.text("scene.image").empty())
+    throw Error(ExitCode::usage, "scene.panorama: expected no scene.image beside it, for each is the whole scene");
   return read_linear(config, "scene.panorama", inputs);
 }
 

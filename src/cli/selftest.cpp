@@ -58,26 +58,32 @@ bool half_conversion() {
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     to_float_array(halves.data(), wide.data(), halves.size());
-    for (std::size_t i = 0; i < halves.size(); ++i) good = good && std::bit_cast<std::uint32_t>(wide[i]) == std::bit_cast<std::uint32_t>(floats[i]);
+    for (std::size_t i = 0; i < halves.size(); ++i)
+      good = good && std::bit_cast<std::uint32_t>(wide[i]) == std::bit_cast<std::uint32_t>(floats[i]);
     for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
       to_half_array(samples.data(), codes.data(), samples.size(), rounding);
       for (std::size_t i = 0; i < samples.size(); ++i) good = good && codes[i].bits == to_half(samples[i] + 0.0f, rounding).bits;
     }
   }
-  return report(good, fmt::format("binary16: every half and {} floats, both roundings, on {}", samples.size(), fmt::join(simd_targets(), " ")));
+  return report(good,
+                fmt::format("binary16: every half and {} floats, both roundings, on {}", samples.size(), fmt::join(simd_targets(), " ")));
 }
 
 /// Few texels and many drops, so that the whole test takes seconds.
 std::vector<std::string> overrides_of(const std::string& effect, bool corrected) {
-  if (effect == "puddle") return corrected ? std::vector<std::string>{"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"} : std::vector<std::string>{};
-  if (effect == "windshield") return {"windshield.height_size=[128, 72]", "scene.size=[64, 36]", "windshield.capacity=5000", corrected ? "rain.rate=100" : "windshield.spawn_rate=20000"};
+  if (effect == "puddle")
+    return corrected ? std::vector<std::string>{"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"} : std::vector<std::string>{};
+  if (effect == "windshield")
+    return {"windshield.height_size=[128, 72]", "scene.size=[64, 36]", "windshield.capacity=5000",
+            corrected ? "rain.rate=100" : "windshield.spawn_rate=20000"};
   if (effect == "rainy_glass") return {"maps.size=64"};
   return {};
 }
 
 Hash128 scene_hash(const std::string& name, const std::string& variant, int threads, std::uint64_t shuffle) {
-  const scene::Config config = scene::parse(fmt::format("effect = \"{}\"\nvariant = \"{}\"\n[run]\nframes = 3\nsize = [93, 61]\n", name, variant), "selftest",
-                                            overrides_of(name, variant == "corrected"), effect_table());
+  const scene::Config config =
+      scene::parse(fmt::format("effect = \"{}\"\nvariant = \"{}\"\n[run]\nframes = 3\nsize = [93, 61]\n", name, variant), "selftest",
+                   overrides_of(name, variant == "corrected"), effect_table());
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   capture::HashRecorder recorder;
@@ -122,8 +128,8 @@ bool scenes() {
         const std::string found = scene_hash(entry.name, variant, static_cast<int>(k % 3) + 1, k % 3).text();
         if (found != golden) other = found;
       }
-      good &= report(other.empty(), fmt::format("{} {}: {} on {} with 1, 2 and 3 threads{}", entry.name, variant, golden, fmt::join(targets, " "),
-                                                other.empty() ? "" : fmt::format("; found {}", other)));
+      good &= report(other.empty(), fmt::format("{} {}: {} on {} with 1, 2 and 3 threads{}", entry.name, variant, golden,
+                                                fmt::join(targets, " "), other.empty() ? "" : fmt::format("; found {}", other)));
     }
   }
   return good;

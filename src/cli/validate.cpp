@@ -35,23 +35,29 @@ void make_empty(const fs::path& wanted) {
   std::error_code error;
   fs::create_directories(wanted, error);
   if (error || !fs::is_directory(wanted, error)) {
-    throw Error(ExitCode::io, fmt::format("--port {}: cannot make this folder: {}", wanted.string(), error ? error.message() : "a file of that name exists"));
+    throw Error(ExitCode::io, fmt::format("--port {}: cannot make this folder: {}", wanted.string(),
+                                          error ? error.message() : "a file of that name exists"));
   }
   if (!fs::is_empty(wanted, error)) {
-    throw Error(ExitCode::usage, fmt::format("--port {}: expected a new or empty folder for --exec to write to, found one with files: they could be an older run's", wanted.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("--port {}: expected a new or empty folder for --exec to write to, found one with files: they could be an older run's",
+                    wanted.string()));
   }
 }
 
 /// Runs the port's command and gives the folders of its runs; a failure goes into the judgement. `last_line` is what the
 /// last run printed last.
-std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement, std::string& last_line) {
+std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement,
+                               std::string& last_line) {
   std::vector<fs::path> runs;
   Progress progress("running the port", request.repeat);
   for (int k = 1; k <= request.repeat; ++k) {
     const fs::path out = request.repeat == 1 ? folder : folder / fmt::format("run.{}", k);
     make_empty(out);
     const PortFolders folders(request.pack, out);
-    const CommandEnd end = run_command(folders.filled_in(request.exec), std::chrono::duration<double>(request.timeout_s), folders.environment());
+    const CommandEnd end =
+        run_command(folders.filled_in(request.exec), std::chrono::duration<double>(request.timeout_s), folders.environment());
     if (!end.failure.empty()) {
       judgement.status = conformance::Status::fail;
       judgement.reason = request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure);
@@ -127,28 +133,36 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
   const bool has_manifest = fs::exists(request.shadow / capture::manifest_name);
   const auto manifest = [&] {
     const capture::Pack pack(request.shadow);
-    if (!pack.with_inputs) throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from", request.shadow.string()));
+    if (!pack.with_inputs)
+      throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from",
+                                               request.shadow.string()));
     // A capture of rainref shares equal files. A port that dumped files of its own has dumped all of them.
     return conformance::ShadowPlan::of_manifest(pack, pack.file_beside("port.json").empty());
   };
   if (request.scene.scene.empty()) {
-    if (!has_manifest) throw Error(ExitCode::usage, fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", request.shadow.string()));
+    if (!has_manifest)
+      throw Error(ExitCode::usage,
+                  fmt::format("--shadow {}: expected a manifest.json there, or the scene that the port ran", request.shadow.string()));
     return manifest();
   }
   const scene::Config config = load_scene(request.scene);
   const EffectEntry& entry = effect(config.effect());
   conformance::ShadowPlan plan = conformance::ShadowPlan::of_effect(*entry.info, config.variant(), request.scene.scene.filename().string());
   std::set<int> frames;
-  for (const conformance::DumpedRun& run : conformance::dumped_runs(request.shadow, plan.effect, entry.info->pass_names(config.variant()))) frames.insert(run.frame);
+  for (const conformance::DumpedRun& run : conformance::dumped_runs(request.shadow, plan.effect, entry.info->pass_names(config.variant())))
+    frames.insert(run.frame);
   std::vector<InputFile> inputs;
   const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
-  capture::CaptureRecorder recorder(*entry.info, config.variant(), true, [&](int frame, std::string_view) { return frames.contains(frame); },
-                                    [&](const capture::PassCase& c) { plan.add(c, *entry.info); });
+  capture::CaptureRecorder recorder(
+      *entry.info, config.variant(), true, [&](int frame, std::string_view) { return frames.contains(frame); },
+      [&](const capture::PassCase& c) { plan.add(c, *entry.info); });
   const int last = frames.empty() ? -1 : *frames.rbegin();
   // A folder's name must not have a simulation run for days.
   constexpr std::int64_t unasked = 3600;
   if (const std::int64_t most = std::max(config.integer("run.frames"), unasked); last >= most) {
-    throw Error(ExitCode::port_files, fmt::format("{}: expected frames below {}, found {}; where the port ran longer, --set run.frames says so", request.shadow.string(), most, last));
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: expected frames below {}, found {}; where the port ran longer, --set run.frames says so",
+                            request.shadow.string(), most, last));
   }
   Progress progress(config.effect(), last + 1);
   for (int frame = 0; frame <= last; ++frame) {
@@ -161,17 +175,21 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
 
 Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
   static_cast<void>(conformance::judging_profile(request.profile));
-  if (!fs::is_directory(request.shadow)) throw Error(ExitCode::port_files, fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
+  if (!fs::is_directory(request.shadow))
+    throw Error(ExitCode::port_files,
+                fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
   const auto planned = std::make_shared<const conformance::ShadowPlan>(shadow_plan(request, executor));
   const conformance::ShadowPlan& plan = *planned;
   std::vector<std::string> passes;
   for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
   if (!request.only.empty() && std::find(passes.begin(), passes.end(), request.only) == passes.end()) {
-    throw Error(ExitCode::usage, fmt::format("--only: expected one of the passes {}, found '{}'{}", fmt::join(passes, ", "), request.only, did_you_mean(request.only, passes)));
+    throw Error(ExitCode::usage, fmt::format("--only: expected one of the passes {}, found '{}'{}", fmt::join(passes, ", "), request.only,
+                                             did_you_mean(request.only, passes)));
   }
   const std::vector<conformance::DumpedRun> dumped = conformance::dumped_runs(request.shadow, plan.effect, passes);
   if (dumped.empty()) {
-    throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {}.{}/0000.0, found none", request.shadow.string(), plan.effect, passes.front()));
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: expected folders such as {}.{}/0000.0, found none", request.shadow.string(), plan.effect, passes.front()));
   }
   std::vector<std::string> ids;
   for (const conformance::DumpedRun& run : dumped) ids.push_back(run.id);

@@ -73,7 +73,8 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
     const std::filesystem::path folder = target.parent_path().empty() ? "." : target.parent_path();
     const auto [other, is_new] = named.emplace(std::filesystem::canonical(folder, ignored) / target.filename(), name);
     if (is_new) return;
-    if (o.baseline && other->second == *o.baseline) throw Error(ExitCode::usage, fmt::format("'{}': a report would replace the baseline '{}'", name, *o.baseline));
+    if (o.baseline && other->second == *o.baseline)
+      throw Error(ExitCode::usage, fmt::format("'{}': a report would replace the baseline '{}'", name, *o.baseline));
     throw Error(ExitCode::usage, other->second == name ? fmt::format("two reports cannot have one name: '{}'", name)
                                                        : fmt::format("two reports cannot be one file: '{}' and '{}'", other->second, name));
   };

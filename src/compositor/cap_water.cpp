@@ -27,8 +27,13 @@ PaneShape part_of(const Pane& pane, const CapWater::Layer& layer) {
 }  // namespace
 
 CapWater::CapWater(const Pane& pane, std::vector<CapBase> caps, double contact_angle_deg, const Layer& height)
-    : pane_(pane), caps_(std::move(caps)), height_(height), width_(root(dot(pane.shape().e_u, pane.shape().e_u))), length_(root(dot(pane.shape().e_v, pane.shape().e_v))) {
-  if (!pane.is_flat() || !(std::abs(dot(pane.shape().e_u, pane.shape().e_v)) <= 1e-9 * width_ * length_)) throw Error(ExitCode::usage, "caps of water: expected a flat pane with perpendicular edges");
+    : pane_(pane),
+      caps_(std::move(caps)),
+      height_(height),
+      width_(root(dot(pane.shape().e_u, pane.shape().e_u))),
+      length_(root(dot(pane.shape().e_v, pane.shape().e_v))) {
+  if (!pane.is_flat() || !(std::abs(dot(pane.shape().e_u, pane.shape().e_v)) <= 1e-9 * width_ * length_))
+    throw Error(ExitCode::usage, "caps of water: expected a flat pane with perpendicular edges");
   const Real64 angle(contact_angle_deg * (0x1.921fb54442d18p+1 / 180));
   sine_ = sin_real(angle).v;
   cosine_ = cos_real(angle).v;
@@ -43,7 +48,8 @@ CapWater::CapWater(const Pane& pane, std::vector<CapBase> caps, double contact_a
   const auto visit = [&](const CapBase& c, const auto& take) {
     const double reach = c.radius * (1 + 1e-9);
     for (int j = whole_within((c.y - reach) / side_, rows_); j <= whole_within((c.y + reach) / side_, rows_); ++j) {
-      for (int i = whole_within((c.x - reach) / side_, columns_); i <= whole_within((c.x + reach) / side_, columns_); ++i) take(static_cast<std::size_t>(j) * columns_ + i);
+      for (int i = whole_within((c.x - reach) / side_, columns_); i <= whole_within((c.x + reach) / side_, columns_); ++i)
+        take(static_cast<std::size_t>(j) * columns_ + i);
     }
   };
   first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
@@ -108,7 +114,8 @@ Box CapSurface::bounds(std::uint32_t cap) const {
 void CapSurface::meet(std::uint32_t self, std::uint32_t cap, const Ray& ray, Hit& first) const {
   const double r = water_->sphere(cap);
   const Vec from = ray.origin - centre(cap);
-  const double a = dot(ray.direction, ray.direction), b = dot(from, ray.direction), c = dot(from, from) - r * r, discriminant = b * b - a * c;
+  const double a = dot(ray.direction, ray.direction), b = dot(from, ray.direction), c = dot(from, from) - r * r,
+               discriminant = b * b - a * c;
   if (!(discriminant > 0)) return;
   const double q = b < 0 ? root(discriminant) - b : -root(discriminant) - b;
   const double t0 = q / a, t1 = q == 0 ? t0 : c / q;
@@ -123,8 +130,10 @@ void CapSurface::meet(std::uint32_t self, std::uint32_t cap, const Ray& ray, Hit
 
 Vec CapSurface::normal(const Ray& ray, const Hit& hit) const { return rainref::scene::normalized(ray.at(hit.t) - centre(hit.part)); }
 
-void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim, const parallel::Executor& executor, const PaneMedia& media) {
-  add_faces(scene, water->pane(), [water](double u, double v) { return water->is_wet(u, v); }, media);
+void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim,
+                  const parallel::Executor& executor, const PaneMedia& media) {
+  add_faces(
+      scene, water->pane(), [water](double u, double v) { return water->is_wet(u, v); }, media);
   Material surface = Material::interface_of(media.outside, media.water);
   surface.is_masked = true;
   if (water->caps() > 0) scene.add(std::make_shared<CapSurface>(water), surface);

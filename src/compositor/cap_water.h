@@ -67,6 +67,7 @@ class CapSurface : public Surface {
 };
 
 /// Adds inner face, outer face, the water's surfaces and the rim.
-void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim, const parallel::Executor& executor, const PaneMedia& media);
+void add_cap_pane(Scene& scene, std::shared_ptr<const CapWater> water, std::shared_ptr<const Opaque> rim,
+                  const parallel::Executor& executor, const PaneMedia& media);
 
 }  // namespace rainref::compositor

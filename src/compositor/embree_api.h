@@ -14,7 +14,8 @@
 namespace rainref::compositor::embree {
 
 template <int width>
-using RayHit = std::conditional_t<width == 1, RTCRayHit, std::conditional_t<width == 4, RTCRayHit4, std::conditional_t<width == 8, RTCRayHit8, RTCRayHit16>>>;
+using RayHit = std::conditional_t<width == 1, RTCRayHit,
+                                  std::conditional_t<width == 4, RTCRayHit4, std::conditional_t<width == 8, RTCRayHit8, RTCRayHit16>>>;
 
 #if RAINREF_EMBREE == 3
 
@@ -23,14 +24,20 @@ struct Query {
   RTCIntersectContext context;
   Query() { rtcInitIntersectContext(&context); }
   /// How to traverse: together, or each ray for itself when most have gone elsewhere.
-  void set_coherent(bool coherent) { context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT; }
+  void set_coherent(bool coherent) {
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
 };
 inline Query& query_of(RTCIntersectContext* context) { return *reinterpret_cast<Query*>(context); }
-#define RAINREF_EMBREE_ASK(verb, width, ...)                                                       \
-  if constexpr (width == 1) rtc##verb##1(scene, &query.context, __VA_ARGS__);                      \
-  else if constexpr (width == 4) rtc##verb##4(valid, scene, &query.context, __VA_ARGS__);          \
-  else if constexpr (width == 8) rtc##verb##8(valid, scene, &query.context, __VA_ARGS__);          \
-  else rtc##verb##16(valid, scene, &query.context, __VA_ARGS__);
+#define RAINREF_EMBREE_ASK(verb, width, ...)                 \
+  if constexpr (width == 1)                                  \
+    rtc##verb##1(scene, &query.context, __VA_ARGS__);        \
+  else if constexpr (width == 4)                             \
+    rtc##verb##4(valid, scene, &query.context, __VA_ARGS__); \
+  else if constexpr (width == 8)                             \
+    rtc##verb##8(valid, scene, &query.context, __VA_ARGS__); \
+  else                                                       \
+    rtc##verb##16(valid, scene, &query.context, __VA_ARGS__);
 
 #else
 
@@ -45,14 +52,20 @@ struct Query {
     intersect.context = occluded.context = &context;
   }
   Query(const Query&) = delete;
-  void set_coherent(bool coherent) { intersect.flags = occluded.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT; }
+  void set_coherent(bool coherent) {
+    intersect.flags = occluded.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  }
 };
 inline Query& query_of(RTCRayQueryContext* context) { return *reinterpret_cast<Query*>(context); }
-#define RAINREF_EMBREE_ASK(verb, width, ...)                                                       \
-  if constexpr (width == 1) rtc##verb##1(scene, __VA_ARGS__, &arguments);                          \
-  else if constexpr (width == 4) rtc##verb##4(valid, scene, __VA_ARGS__, &arguments);              \
-  else if constexpr (width == 8) rtc##verb##8(valid, scene, __VA_ARGS__, &arguments);              \
-  else rtc##verb##16(valid, scene, __VA_ARGS__, &arguments);
+#define RAINREF_EMBREE_ASK(verb, width, ...)             \
+  if constexpr (width == 1)                              \
+    rtc##verb##1(scene, __VA_ARGS__, &arguments);        \
+  else if constexpr (width == 4)                         \
+    rtc##verb##4(valid, scene, __VA_ARGS__, &arguments); \
+  else if constexpr (width == 8)                         \
+    rtc##verb##8(valid, scene, __VA_ARGS__, &arguments); \
+  else                                                   \
+    rtc##verb##16(valid, scene, __VA_ARGS__, &arguments);
 
 #endif
 

@@ -15,7 +15,8 @@ PictureEnvironment::PictureEnvironment(const Texture& texture, bool is_cube, con
 
 void PictureEnvironment::radiance(const Sights& sights, std::span<Vec> out) const { look_up(*texture_, is_cube_, rotation_, sights, out); }
 
-StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation)
+StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama,
+                                     const Rotation& rotation)
     : street_(&street), offset_(offset), panorama_(panorama, false, Rotation()), rotation_(rotation) {}
 
 namespace {
@@ -33,8 +34,10 @@ void StreetEnvironment::radiance(const Sights& sights, std::span<Vec> out) const
   which.clear();
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const Sight sight = sights[i];
-    if (sight.blur > 0) which.push_back(i);
-    else out[i] = street_->radiance(above_road(rotation_.apply(sight.origin) + offset_), rotation_.apply(sight.direction));
+    if (sight.blur > 0)
+      which.push_back(i);
+    else
+      out[i] = street_->radiance(above_road(rotation_.apply(sight.origin) + offset_), rotation_.apply(sight.direction));
   }
   if (which.empty()) return;
   const std::size_t count = which.size(), whole = whole_lanes(count);

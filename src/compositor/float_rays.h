@@ -37,10 +37,10 @@ void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPack
 
 /// The lanes that Embree hands to a callback: all of a packet, or a piece of it.
 struct EmbreeLanes {
-  const int* valid;         ///< -1 or 0
+  const int* valid;  ///< -1 or 0
   const unsigned* slot;
-  float* end;               ///< Embree's farthest
-  int count;                ///< 1, 4, 8 or 16
+  float* end;  ///< Embree's farthest
+  int count;   ///< 1, 4, 8 or 16
 };
 /// The slots of the valid lanes, a bit for each.
 std::uint32_t slots_of(const EmbreeLanes& lanes);

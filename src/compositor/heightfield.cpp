@@ -28,11 +28,14 @@ int tiles_of(int cells, int tile) { return (cells + tile - 1) / tile; }
 Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, int tile_cells)
     : frame_(frame), columns_(columns), rows_(rows), tile_cells_(tile_cells) {
   if (columns < 1 || rows < 1 || static_cast<std::int64_t>(columns) * rows >= std::int64_t{1} << 30 || tile_cells < 1) {
-    throw Error(ExitCode::usage, fmt::format("a heightfield of {} x {} cells in tiles of {}: each must be positive, and the cells fewer than 2^30", columns, rows, tile_cells));
+    throw Error(ExitCode::usage,
+                fmt::format("a heightfield of {} x {} cells in tiles of {}: each must be positive, and the cells fewer than 2^30", columns,
+                            rows, tile_cells));
   }
   const Vec u = frame.edge_u / static_cast<double>(columns), v = frame.edge_v / static_cast<double>(rows), n = frame.axis;
   const double volume = dot(cross(u, v), n), largest = glm::length(u) * glm::length(v) * glm::length(n);
-  if (!(magnitude(volume) > 1e-9 * largest)) throw Error(ExitCode::usage, "the edges and the axis of a heightfield must not lie in one plane");
+  if (!(magnitude(volume) > 1e-9 * largest))
+    throw Error(ExitCode::usage, "the edges and the axis of a heightfield must not lie in one plane");
   const Vec to_x = cross(v, n) / volume, to_y = cross(n, u) / volume, to_h = cross(u, v) / volume;
   heights_.assign(static_cast<std::size_t>(columns + 1) * static_cast<std::size_t>(rows + 1), 0.0f);
   first_cell_ = static_cast<std::size_t>(cells_ahead - 1) * static_cast<std::size_t>(columns + 1);
@@ -41,17 +44,24 @@ Heightfield::Heightfield(const HeightfieldFrame& frame, int columns, int rows, i
   tiles_across_ = tiles_of(columns, tile_cells);
   for (int y = 0; y < rows; y += tile_cells) {
     for (int x = 0; x < columns; x += tile_cells) {
-      tiles_.push_back({double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows)), 0, 0, 1e-9 * cell_height_});
+      tiles_.push_back({double(x), double(std::min(x + tile_cells, columns)), double(y), double(std::min(y + tile_cells, rows)), 0, 0,
+                        1e-9 * cell_height_});
     }
   }
-  view_ = {heights_.data(), highest_.data() + first_cell_, double(columns), rows, {frame.origin.x, frame.origin.y, frame.origin.z},
+  view_ = {heights_.data(),
+           highest_.data() + first_cell_,
+           double(columns),
+           rows,
+           {frame.origin.x, frame.origin.y, frame.origin.z},
            {{to_x.x, to_x.y, to_x.z}, {to_y.x, to_y.y, to_y.z}, {to_h.x, to_h.y, to_h.z}}};
 }
 
 void Heightfield::assign(std::span<const float> heights, const parallel::Executor& executor) {
-  if (heights.size() != heights_.size()) throw Error(ExitCode::internal, fmt::format("a heightfield takes {} heights, not {}", heights_.size(), heights.size()));
+  if (heights.size() != heights_.size())
+    throw Error(ExitCode::internal, fmt::format("a heightfield takes {} heights, not {}", heights_.size(), heights.size()));
   executor.for_tiles(columns_ + 1, rows_ + 1, columns_ + 1, 64, [&](const parallel::Tile& t) {
-    const auto begin = static_cast<std::size_t>(t.y0) * static_cast<std::size_t>(columns_ + 1), end = static_cast<std::size_t>(t.y1) * static_cast<std::size_t>(columns_ + 1);
+    const auto begin = static_cast<std::size_t>(t.y0) * static_cast<std::size_t>(columns_ + 1),
+               end = static_cast<std::size_t>(t.y1) * static_cast<std::size_t>(columns_ + 1);
     std::copy(heights.begin() + begin, heights.begin() + end, heights_.begin() + begin);
   });
   executor.for_range(static_cast<std::int64_t>(tiles_.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -78,8 +88,12 @@ Box Heightfield::bounds(std::uint32_t primitive) const {
   return box;
 }
 
-void Heightfield::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const { meet_tile(view_, tiles_[primitive], self, ray, first); }
-std::uint32_t Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { return meet_tile(view_, tiles_[primitive], self, lanes, packet); }
+void Heightfield::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const {
+  meet_tile(view_, tiles_[primitive], self, ray, first);
+}
+std::uint32_t Heightfield::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
+  return meet_tile(view_, tiles_[primitive], self, lanes, packet);
+}
 
 Heightfield::Place Heightfield::place(const Hit& hit) const {
   const auto cell = static_cast<int>(hit.part / 2);
@@ -103,7 +117,9 @@ struct Cell {
 
 }  // namespace
 
-Vec Heightfield::normal_of_slopes(double slope_x, double slope_y) const { return vec(scalar::normal_of_slopes(view_, Number(slope_x), Number(slope_y))); }
+Vec Heightfield::normal_of_slopes(double slope_x, double slope_y) const {
+  return vec(scalar::normal_of_slopes(view_, Number(slope_x), Number(slope_y)));
+}
 
 Vec Heightfield::normal(const Ray&, const Hit& hit) const {
   const Cell at(hit, columns_);

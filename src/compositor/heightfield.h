@@ -47,7 +47,9 @@ class Heightfield final : public Surface {
   /// Normals of the vertices by central differences, interpolated to the hit and made unit.
   Vec smooth_normal(const Hit& hit) const;
   /// The same of `count` hits, which go on to whole lanes, repeating the last one.
-  void smooth_normals(std::size_t count, const Hit* hits, const VecArraysOut& normals) const { interpolated_normals(view_, count, hits, normals); }
+  void smooth_normals(std::size_t count, const Hit* hits, const VecArraysOut& normals) const {
+    interpolated_normals(view_, count, hits, normals);
+  }
 
   std::uint64_t revision() const override { return revision_; }
   std::uint32_t primitives() const override { return static_cast<std::uint32_t>(tiles_.size()); }
@@ -60,7 +62,7 @@ class Heightfield final : public Surface {
  private:
   HeightfieldFrame frame_;
   int columns_, rows_, tile_cells_, tiles_across_;
-  double cell_height_;  ///< longer side of a cell, in units of the axis
+  double cell_height_;      ///< longer side of a cell, in units of the axis
   std::size_t first_cell_;  ///< of highest_, which has cells to spare on both sides
   std::vector<float> heights_, highest_;
   std::vector<HeightfieldTile> tiles_;

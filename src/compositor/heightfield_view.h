@@ -11,12 +11,12 @@ namespace rainref::compositor {
 inline constexpr int cells_ahead = 3;
 
 struct HeightfieldView {
-  const float* heights;   ///< of the vertices, rows of columns + 1
-  const float* highest;   ///< of the four corners of each cell, rows of columns; readable cells_ahead - 1 rows and cells outside
+  const float* heights;  ///< of the vertices, rows of columns + 1
+  const float* highest;  ///< of the four corners of each cell, rows of columns; readable cells_ahead - 1 rows and cells outside
   double columns;
   int rows;
   double origin[3];
-  double to_grid[3][3];   ///< rows: of a direction in the world, its cells along u, its cells along v, its height
+  double to_grid[3][3];  ///< rows: of a direction in the world, its cells along u, its cells along v, its height
 };
 
 /// Cells [x0, x1) x [y0, y1), and what their vertices' heights lie between.

@@ -9,8 +9,8 @@
 // Whatever skips cells (their highest vertex, the tile's slab, a nearer hit) only leaves out intervals in which g has no
 // change of sign, or that begin after the nearer hit. So the answer does not depend on tiles, lanes or what else is met.
 //
-// Needs of R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor of a, for
-// |a| < 2^31), gather(p, i) (p[i], widened), gather_two(p, i, a, b) (p[i] and p[i + 1]), minimum and maximum.
+// Needs of R: + - * /, comparisons to R::Mask, & | ^ of masks and without(a, b) (a and not b), select, R::any, whole(a) (the floor of a,
+// for |a| < 2^31), gather(p, i) (p[i], widened), gather_two(p, i, a, b) (p[i] and p[i + 1]), minimum and maximum.
 
 /// A ray in the grid's axes: x and y in cells, h along the axis.
 template <class R>
@@ -20,10 +20,14 @@ struct GridRay {
 
 /// Directions along a wall become almost so: a reciprocal stays finite, and 1e-30 cells for each unit of t are nothing.
 template <class R>
-RAINREF_FN R without_zero(R d) { return select(abs(d) < R(1e-30), R(1e-30), d); }
+RAINREF_FN R without_zero(R d) {
+  return select(abs(d) < R(1e-30), R(1e-30), d);
+}
 
 template <class R>
-RAINREF_FN R within_unit(R x) { return maximum(R(0.0), minimum(R(1.0), x)); }
+RAINREF_FN R within_unit(R x) {
+  return maximum(R(0.0), minimum(R(1.0), x));
+}
 
 template <class R>
 RAINREF_FN GridRay<R> to_grid(const HeightfieldView& field, const R (&origin)[3], const R (&direction)[3], R nearest, R farthest) {
@@ -50,7 +54,8 @@ RAINREF_FN R leaving_wall(R t, R o, R d, R inverse, R ahead, R step, double firs
 /// Meets the tile with the rays in `active`; `limit` is the nearest hit known. Gives the mask of rays that hit before or
 /// at the limit, and for those t, the part, and the place in the cell.
 template <class R>
-RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const HeightfieldTile& tile, const GridRay<R>& r, R limit, typename R::Mask active, R& hit_t, R& hit_part, R& hit_u, R& hit_v) {
+RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const HeightfieldTile& tile, const GridRay<R>& r, R limit,
+                                       typename R::Mask active, R& hit_t, R& hit_part, R& hit_u, R& hit_v) {
   using Mask = typename R::Mask;
   const R zero(0.0), one(1.0), columns(field.columns), stride(field.columns + 1);
   const R ix = one / r.dx, iy = one / r.dy;
@@ -97,7 +102,8 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     gather_two(field.heights, at, h00, h10);
     gather_two(field.heights, at + stride, h01, h11);
     const R tx = (kx - step_x - r.ox) * ix, ty = (ky - step_y - r.oy) * iy, entry = maximum(tx, ty);
-    const R g = at_wall(entry, tx > ty, ty > tx, i, j, select(right, h00, h10), select(right, h01, h11), select(up, h00, h01), select(up, h10, h11), one - ahead_y);
+    const R g = at_wall(entry, tx > ty, ty > tx, i, j, select(right, h00, h10), select(right, h01, h11), select(up, h00, h01),
+                        select(up, h10, h11), one - ahead_y);
     const R x = within_unit(r.ox + r.nearest * r.dx - i), y = within_unit(r.oy + r.nearest * r.dy - j);
     const R lower = h00 + (x * (h10 - h00) + y * (h01 - h00)), upper = h11 + ((one - x) * (h01 - h11) + (one - y) * (h10 - h11));
     const R inside = (r.oh + r.nearest * r.dh) - select(x + y < one, lower, upper);
@@ -112,8 +118,7 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
     // whether it may go there, so that the fetches of several cells overlap.
     do {
       R ahead_kx = kx, ahead_ky = ky, ahead_t = t;
-      _Pragma("GCC unroll 4")
-      for (int cell = 0; cell < cells_ahead; ++cell) {
+      _Pragma("GCC unroll 4") for (int cell = 0; cell < cells_ahead; ++cell) {
         const R tx = (ahead_kx - r.ox) * ix, ty = (ahead_ky - r.oy) * iy, exit = minimum(tx, ty);
         const R top = gather(field.highest, ahead_ky * columns + ahead_kx + first_cell);
         const Mask clear = lowered + select(falls, exit, ahead_t) * r.dh > top;
@@ -136,7 +141,8 @@ RAINREF_FN typename R::Mask meet_cells(const HeightfieldView& field, const Heigh
       R h00 = zero, h10 = zero, h01 = zero, h11 = zero;
       gather_two(field.heights, at, h00, h10);
       gather_two(field.heights, at + stride, h01, h11);
-      const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00), select(up, h11, h10), ahead_y);
+      const R g_exit = at_wall(exit, tx < ty, ty < tx, i, j, select(right, h10, h00), select(right, h11, h01), select(up, h01, h00),
+                               select(up, h11, h10), ahead_y);
       const R diagonal = (i + j + one - sum_o) * is;
       const Mask crosses = (t < diagonal) & (diagonal < exit);
       const R g_diagonal = difference(diagonal, h01, h10, within_unit(r.ox + diagonal * r.dx - i));

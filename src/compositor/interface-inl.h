@@ -35,6 +35,7 @@ RAINREF_FN CrossingOf<N> cross_facet(const Vec3<N>& d, const Vec3<N>& facing, co
   const auto holds = (dot(d, smooth) < zero) & (dot(rays.reflected, facing) > zero) & !(dot(rays.refracted, facing) > zero);
   if (!any(!holds)) return {rays, smooth};
   const SplitOf<N> of_facet = split(d, facing, ior_from, ior_to);
-  return {{select(holds, rays.reflected, of_facet.reflected), select(holds, rays.refracted, of_facet.refracted), select(holds, rays.reflectance, of_facet.reflectance)},
+  return {{select(holds, rays.reflected, of_facet.reflected), select(holds, rays.refracted, of_facet.refracted),
+           select(holds, rays.reflectance, of_facet.reflectance)},
           select(holds, smooth, facing)};
 }

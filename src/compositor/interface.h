@@ -19,7 +19,9 @@ struct Split {
   Vec reflected, refracted;  ///< refracted is zero beyond the critical angle
   double reflectance;        ///< Fresnel's, of unpolarized light, in [0, 1]; 1 beyond the critical angle
 };
-inline Split split_of(const scalar::SplitOf<scalar::Number>& s) { return {scalar::vec(s.reflected), scalar::vec(s.refracted), s.reflectance.v}; }
+inline Split split_of(const scalar::SplitOf<scalar::Number>& s) {
+  return {scalar::vec(s.reflected), scalar::vec(s.refracted), s.reflectance.v};
+}
 /// direction and normal are unit, the normal against the ray; ior_from is on the ray's side. Within a few roundings.
 inline Split split(const Vec& direction, const Vec& normal, double ior_from, double ior_to) {
   using namespace scalar;
@@ -38,7 +40,8 @@ inline Crossing cross_interface(const Material& material, const Place& at, bool 
   const Vec facing = is_outside ? at.normal : -at.normal;
   if (!material.smooth_normals) return {compositor::split(at.direction, facing, here, beyond), facing};
   const Vec outward = smooth_normal(material, at);
-  const auto crossing = cross_facet(number(at.direction), number(facing), number(is_outside ? outward : -outward), Number(here), Number(beyond));
+  const auto crossing =
+      cross_facet(number(at.direction), number(facing), number(is_outside ? outward : -outward), Number(here), Number(beyond));
   return {split_of(crossing.rays), vec(crossing.normal)};
 }
 

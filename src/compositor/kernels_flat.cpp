@@ -25,7 +25,8 @@ std::uint32_t MeetBox(const Vec& low, const Vec& high, std::uint32_t self, std::
       from = maximum(from, minimum(a, b));
       to = minimum(to, maximum(a, b));
     }
-    const LaneMask hit = mask_of_bits(here) & (from <= to) & (from > zero) & (from >= load_slots(packet.nearest + slot)) & (from <= load_slots(packet.farthest + slot));
+    const LaneMask hit = mask_of_bits(here) & (from <= to) & (from > zero) & (from >= load_slots(packet.nearest + slot)) &
+                         (from <= load_slots(packet.farthest + slot));
     if (!R::any(hit)) continue;
     changed |= take_hits(hit, distances(packet.first + slot), from, R(part), zero, zero, self, slot, packet);
   }
@@ -41,12 +42,14 @@ std::uint32_t MeetPlate(const FlatPlate& plate, std::uint32_t self, std::uint32_
     const std::uint32_t here = lanes >> slot & ((1u << lane_width) - 1);
     if (here == 0) continue;
     const R ox = load_slots(packet.origin[0] + slot), oy = load_slots(packet.origin[1] + slot), oz = load_slots(packet.origin[2] + slot);
-    const R dx = load_slots(packet.direction[0] + slot), dy = load_slots(packet.direction[1] + slot), dz = load_slots(packet.direction[2] + slot);
+    const R dx = load_slots(packet.direction[0] + slot), dy = load_slots(packet.direction[1] + slot),
+            dz = load_slots(packet.direction[2] + slot);
     const R px(plate.origin.x), py(plate.origin.y), pz(plate.origin.z);
     const R closing = along(plate.normal, dx, dy, dz);
     const LaneMask moves = (closing < zero) | (closing > zero);
     const R t = along(plate.normal, px - ox, py - oy, pz - oz) / select(moves, closing, one) + zero;
-    const LaneMask in_time = mask_of_bits(here) & moves & (t >= load_slots(packet.nearest + slot)) & (t <= load_slots(packet.farthest + slot));
+    const LaneMask in_time =
+        mask_of_bits(here) & moves & (t >= load_slots(packet.nearest + slot)) & (t <= load_slots(packet.farthest + slot));
     if (!R::any(in_time)) continue;
     const R x = (ox + t * dx) - px, y = (oy + t * dy) - py, z = (oz + t * dz) - pz;
     const R u = along(plate.to_u, x, y, z), v = along(plate.to_v, x, y, z);

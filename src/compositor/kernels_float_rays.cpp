@@ -23,9 +23,12 @@ HWY_INLINE HWY_ATTR void transpose(const double* const* rays, double* const* com
   for (int odd = 0; odd < 2; ++odd) {
     // Blocks of two: in block b, component 2 b + odd of two rays.
     R::V a[4];
-    for (int k = 0; k < 4; ++k) a[k] = odd ? hn::InterleaveUpper(d, v[2 * k], v[2 * k + 1]) : hn::InterleaveLower(d, v[2 * k], v[2 * k + 1]);
-    const auto even01 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(a[1]), a[0]), odd01 = hn::OddEvenBlocks(a[1], hn::SwapAdjacentBlocks(a[0]));
-    const auto even23 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(a[3]), a[2]), odd23 = hn::OddEvenBlocks(a[3], hn::SwapAdjacentBlocks(a[2]));
+    for (int k = 0; k < 4; ++k)
+      a[k] = odd ? hn::InterleaveUpper(d, v[2 * k], v[2 * k + 1]) : hn::InterleaveLower(d, v[2 * k], v[2 * k + 1]);
+    const auto even01 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(a[1]), a[0]),
+               odd01 = hn::OddEvenBlocks(a[1], hn::SwapAdjacentBlocks(a[0]));
+    const auto even23 = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(a[3]), a[2]),
+               odd23 = hn::OddEvenBlocks(a[3], hn::SwapAdjacentBlocks(a[2]));
     hn::Store(hn::ConcatLowerLower(d, even23, even01), d, components[odd] + slot);
     hn::Store(hn::ConcatLowerLower(d, odd23, odd01), d, components[2 + odd] + slot);
     hn::Store(hn::ConcatUpperUpper(d, even23, even01), d, components[4 + odd] + slot);
@@ -90,9 +93,12 @@ using LaneSlots = hn::RebindToSigned<NarrowTag>;
 /// Whether the n lanes from i on are there and have neighbouring slots: Embree cuts packets up, and keeps the order.
 HWY_INLINE HWY_ATTR bool are_neighbours(const EmbreeLanes& lanes, int i) {
   const LaneSlots d;
-  return i + n <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)), hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))));
+  return i + n <= lanes.count && hn::AllTrue(d, hn::Eq(hn::LoadU(d, reinterpret_cast<const std::int32_t*>(lanes.slot + i)),
+                                                       hn::Iota(d, static_cast<std::int32_t>(lanes.slot[i]))));
 }
-HWY_INLINE HWY_ATTR hn::Mask<LaneSlots> are_valid(const EmbreeLanes& lanes, int i) { return hn::Ne(hn::LoadU(LaneSlots(), lanes.valid + i), hn::Zero(LaneSlots())); }
+HWY_INLINE HWY_ATTR hn::Mask<LaneSlots> are_valid(const EmbreeLanes& lanes, int i) {
+  return hn::Ne(hn::LoadU(LaneSlots(), lanes.valid + i), hn::Zero(LaneSlots()));
+}
 
 std::uint32_t SlotsOf(const EmbreeLanes& lanes) {
   std::uint32_t slots = 0;
@@ -152,9 +158,11 @@ void put_ends(const Packet& packet, const FloatPacket& floats, double slack, std
 void make_floats(int count, const SceneExtent& extent, Packet& packet, FloatPacket& out) {
   out.enters = (1u << count) - 1;
   out.moved = false;
-  for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out), [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
+  for_each_lane(out.enters & ~RAINREF_DISPATCH(RoundPacket)(packet, extent, out),
+                [&](std::uint32_t slot) { put_extraordinary_ray(packet.ray(slot), extent, static_cast<int>(slot), out); });
   // Where Embree cuts a packet up, it takes no notice of which rays are valid, and leaves out those that end before they begin.
-  for_each_lane(~out.enters & ((1u << Packet::slots) - 1), [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });
+  for_each_lane(~out.enters & ((1u << Packet::slots) - 1),
+                [&](std::uint32_t slot) { out.farthest[slot] = -std::numeric_limits<float>::infinity(); });
 }
 
 }  // namespace rainref::compositor

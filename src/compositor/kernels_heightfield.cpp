@@ -115,7 +115,8 @@ namespace rainref::compositor {
 RAINREF_EXPORT(MeetTile);
 RAINREF_EXPORT(SummarizeTile);
 
-std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet) {
+std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes,
+                        Packet& packet) {
   return RAINREF_DISPATCH(MeetTile)(field, tile, self, lanes, packet);
 }
 void summarize_tile(const float* heights, int columns, float* highest, HeightfieldTile& tile) {

@@ -30,7 +30,8 @@ void AddSample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums&
   }
 }
 
-void Develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask, float* depth) {
+void Develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask,
+             float* depth) {
   const NarrowTag d;
   const N each(share), brightest(65504.0);
   // + 0 makes the zero positive.
@@ -55,8 +56,11 @@ namespace rainref::compositor {
 RAINREF_EXPORT(AddSample);
 RAINREF_EXPORT(Develop);
 
-void add_sample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums) { RAINREF_DISPATCH(AddSample)(pixels, seen, is_first, sums); }
-void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask, float* depth) {
+void add_sample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums) {
+  RAINREF_DISPATCH(AddSample)(pixels, seen, is_first, sums);
+}
+void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask,
+             float* depth) {
   RAINREF_DISPATCH(Develop)(first, pixels, share, sums, beauty, normal, film, mask, depth);
 }
 

@@ -24,7 +24,8 @@ HWY_INLINE HWY_ATTR void keep(N x, double* p) { hn::Store(x.v, N::D(), p); }
 
 void LookUp(const Texture& texture, bool is_cube, const Rotation& rotation, const Sights& sights, std::span<Vec> radiance) {
   for (std::size_t i = 0; i < sights.size(); i += n) {
-    const N x = N::load(sights.direction.component[0] + i), y = N::load(sights.direction.component[1] + i), z = N::load(sights.direction.component[2] + i), blur = N::load(sights.blur + i);
+    const N x = N::load(sights.direction.component[0] + i), y = N::load(sights.direction.component[1] + i),
+            z = N::load(sights.direction.component[2] + i), blur = N::load(sights.blur + i);
     const Vec3<N> turned(N(rotation.cosine) * x + N(rotation.sine) * z, y, N(rotation.cosine) * z - N(rotation.sine) * x);
     const Vec3<N> seen = sample_environment(texture, is_cube, turned, blur);
     HWY_ALIGN double out[3][n];
@@ -42,7 +43,8 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
   // Levels first: they end a long chain of dependent operations, and by themselves several chains run at once.
   for (std::size_t i = 0; i < places.size(); i += n) {
     const N down = N::load(places.direction.component[1] + i);
-    hn::StoreU(nearest_octave(N(u.ground_footprint * look.sample_scale) * N::load(places.distance + i) / max(-down, N(0.02))).v, N::D(), finishes.blur + i);
+    hn::StoreU(nearest_octave(N(u.ground_footprint * look.sample_scale) * N::load(places.distance + i) / max(-down, N(0.02))).v, N::D(),
+               finishes.blur + i);
   }
   for (std::size_t i = 0; i < places.size(); i += n) {
     const auto of = [i](const VecArrays& values, int k) HWY_ATTR { return N::load(values.component[k] + i); };

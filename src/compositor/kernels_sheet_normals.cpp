@@ -37,7 +37,9 @@ void NormalsOfInterpolatedSlopes(const SlopeView& sheet, std::size_t count, cons
     const CellLanes at(hits + i, sheet.columns);
     const N::Int low = (at.y * (sheet.columns + 1) + at.x) * 2, high = low + 2 * (sheet.columns + 1);
     const auto slope = [&](int k) HWY_ATTR {
-      const auto row = [&](N::Int vertex) HWY_ATTR { return (one - at.u) * fetch(sheet.slopes + k, vertex, N()) + at.u * fetch(sheet.slopes + k + 2, vertex, N()); };
+      const auto row = [&](N::Int vertex) HWY_ATTR {
+        return (one - at.u) * fetch(sheet.slopes + k, vertex, N()) + at.u * fetch(sheet.slopes + k + 2, vertex, N());
+      };
       return (one - at.v) * row(low) + at.v * row(high);
     };
     const N x = slope(0), z = slope(1), scale = one / sqrt(x * x + one + z * z);

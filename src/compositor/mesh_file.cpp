@@ -67,13 +67,16 @@ MeshData read_mesh(const std::filesystem::path& file) {
   read_file(file);  // says what is wrong with a file that cannot be read
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
-  if (!scene || !scene->mRootNode) throw Error(ExitCode::usage, fmt::format("{}: not a mesh that can be decoded ({})", file.string(), importer.GetErrorString()));
-  const bool normals = std::all_of(scene->mMeshes, scene->mMeshes + scene->mNumMeshes, [](const aiMesh* mesh) { return mesh->HasNormals(); });
+  if (!scene || !scene->mRootNode)
+    throw Error(ExitCode::usage, fmt::format("{}: not a mesh that can be decoded ({})", file.string(), importer.GetErrorString()));
+  const bool normals =
+      std::all_of(scene->mMeshes, scene->mMeshes + scene->mNumMeshes, [](const aiMesh* mesh) { return mesh->HasNormals(); });
   MeshData out;
   append(*scene, *scene->mRootNode, {}, normals, out);
   if (out.triangles.empty()) throw Error(ExitCode::usage, fmt::format("{}: the mesh has no triangle", file.string()));
   for (const Vec& p : out.positions) {
-    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) throw Error(ExitCode::usage, fmt::format("{}: the mesh has a coordinate that is not finite", file.string()));
+    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+      throw Error(ExitCode::usage, fmt::format("{}: the mesh has a coordinate that is not finite", file.string()));
   }
   return out;
 }

@@ -16,7 +16,10 @@ struct Packet {
   Hit* first;
 
   Ray ray(std::uint32_t slot) const {
-    return {{origin[0][slot], origin[1][slot], origin[2][slot]}, {direction[0][slot], direction[1][slot], direction[2][slot]}, nearest[slot], farthest[slot]};
+    return {{origin[0][slot], origin[1][slot], origin[2][slot]},
+            {direction[0][slot], direction[1][slot], direction[2][slot]},
+            nearest[slot],
+            farthest[slot]};
   }
 };
 

@@ -51,7 +51,8 @@ HWY_INLINE HWY_ATTR Real64Lanes distances(const Hit* hits) {
 
 /// Hits of the lanes in `hit`, for the slots from `slot` on: puts those first that precede what is there, and gives their
 /// slots. `known` are the distances of what is there; parts are whole numbers below 2^32.
-HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes known, Real64Lanes t, Real64Lanes part, Real64Lanes u, Real64Lanes v, std::uint32_t self, int slot, Packet& packet) {
+HWY_INLINE HWY_ATTR std::uint32_t take_hits(LaneMask hit, Real64Lanes known, Real64Lanes t, Real64Lanes part, Real64Lanes u, Real64Lanes v,
+                                            std::uint32_t self, int slot, Packet& packet) {
   if (!Real64Lanes::any(hit)) return 0;
   const Real64Lanes::D d;
   const Real64Lanes::DU du;

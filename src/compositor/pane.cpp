@@ -36,9 +36,12 @@ Pane::Pane(const PaneShape& shape) : shape_(shape) {
   if (is_flat()) return;
 
   const double chord = root(uu);
-  if (!(std::abs(uv) <= 1e-9 * chord * root(vv))) throw Error(ExitCode::usage, "pane: expected perpendicular edges of a bent pane, found sheared ones");
+  if (!(std::abs(uv) <= 1e-9 * chord * root(vv)))
+    throw Error(ExitCode::usage, "pane: expected perpendicular edges of a bent pane, found sheared ones");
   if (!(shape.radius >= 0.5 * chord && shape.radius > shape.thickness && shape.radius < 1e9)) {
-    throw Error(ExitCode::usage, fmt::format("pane: expected a radius of at least half the chord ({} m) and above the thickness, found {} m", 0.5 * chord, shape.radius));
+    throw Error(ExitCode::usage,
+                fmt::format("pane: expected a radius of at least half the chord ({} m) and above the thickness, found {} m", 0.5 * chord,
+                            shape.radius));
   }
   across_ = shape.e_u / chord;
   length_ = root(vv);

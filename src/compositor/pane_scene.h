@@ -10,7 +10,7 @@
 namespace rainref::compositor {
 
 struct PaneMedia {
-  Medium within = air();   ///< on the side of the inner face
+  Medium within = air();  ///< on the side of the inner face
   Medium pane = glass();
   Medium water = compositor::water();
   Medium outside = air();

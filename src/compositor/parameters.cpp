@@ -11,14 +11,17 @@ namespace rainref::compositor {
 std::vector<scene::Parameter> parameters() {
   constexpr const char* correct = "corrected";
   return {
-      scene::choice("compositor.picture", {"passes", "traced"}, "passes", "What is shown: the passes' picture, or one that is traced.").only(correct),
+      scene::choice("compositor.picture", {"passes", "traced"}, "passes", "What is shown: the passes' picture, or one that is traced.")
+          .only(correct),
       scene::integer("compositor.samples", "1", 1, 16, 1, "Traced rays of a pixel: 1, 4, 8 or 16.").only(correct),
       scene::integer("compositor.depth", "1", 1, 64, 8, "Surfaces that a traced ray may meet one after the other.").only(correct),
       scene::text("compositor.embree_config", "", "Configuration of Embree, such as isa=sse2; it changes no bit.").only(correct),
   };
 }
 
-scene::Parameter pane_thickness() { return scene::real("compositor.glass_thickness", "m", 1e-5, 0.1, 5e-3, "Thickness of the pane that rays go through."); }
+scene::Parameter pane_thickness() {
+  return scene::real("compositor.glass_thickness", "m", 1e-5, 0.1, 5e-3, "Thickness of the pane that rays go through.");
+}
 
 Choice choice_from(const scene::Config& config) {
   Choice c;

@@ -55,7 +55,8 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
           direction.put(i, ray.direction);
         }
       }
-      shade(scene, options.shading, RayArrays{{rays[0], rays[1], rays[2]}, {rays[3], rays[4], rays[5]}, rays[6], rays[7]}, count, room.seen);
+      shade(scene, options.shading, RayArrays{{rays[0], rays[1], rays[2]}, {rays[3], rays[4], rays[5]}, rays[6], rays[7]}, count,
+            room.seen);
       add_sample(count, room.seen, &sample == pattern.data(), room.sums);
     }
     const double share = 1.0 / static_cast<double>(pattern.size());  // a power of two: exact
@@ -64,10 +65,12 @@ Picture trace_picture(const Scene& scene, const scene::Camera& camera, int width
       float beauty[4 * tile_width], normal[4 * tile_width], film[tile_width], mask[tile_width], depth[tile_width];
       static_assert(tile_width % most_lanes == 0);
       const int y = tile.y0 + row;
-      develop(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns), static_cast<std::size_t>(columns), share, room.sums, beauty, normal, film, mask, depth);
+      develop(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns), static_cast<std::size_t>(columns), share, room.sums,
+              beauty, normal, film, mask, depth);
       std::copy_n(depth, columns, out.depth.row<float>(y) + tile.x0);
       const auto store = [&](const float* from, Image& image, int channels) {
-        to_half_array(from, image.row<Half>(y) + channels * static_cast<std::ptrdiff_t>(tile.x0), static_cast<std::size_t>(channels) * columns, Rounding::rne);
+        to_half_array(from, image.row<Half>(y) + channels * static_cast<std::ptrdiff_t>(tile.x0),
+                      static_cast<std::size_t>(channels) * columns, Rounding::rne);
       };
       store(beauty, out.beauty, 4);
       store(normal, out.normal, 4);

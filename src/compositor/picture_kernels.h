@@ -24,6 +24,7 @@ class SampleSums {
 void add_sample(std::size_t pixels, SeenColumns& seen, bool is_first, SampleSums& sums);
 /// `pixels` of them from the first on, each sum multiplied by `share`, as floats: four channels for beauty and normal. Whole lanes are
 /// written.
-void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask, float* depth);
+void develop(std::size_t first, std::size_t pixels, double share, SampleSums& sums, float* beauty, float* normal, float* film, float* mask,
+             float* depth);
 
 }  // namespace rainref::compositor

@@ -13,9 +13,11 @@ Plates::Plates(std::vector<Plate> plates) {
   for (const Plate& plate : plates) {
     const Vec n = cross(plate.edge_u, plate.edge_v);
     const double area = glm::length(n);
-    if (!(area > 1e-12 * glm::length(plate.edge_u) * glm::length(plate.edge_v))) throw Error(ExitCode::usage, fmt::format("the edges of plate {} are parallel", plates_.size()));
+    if (!(area > 1e-12 * glm::length(plate.edge_u) * glm::length(plate.edge_v)))
+      throw Error(ExitCode::usage, fmt::format("the edges of plate {} are parallel", plates_.size()));
     plates_.push_back(plate);
-    flats_.push_back({plate.origin, n / area, cross(plate.edge_v, n) / (area * area), cross(n, plate.edge_u) / (area * area), plate.shape == Plate::ellipse});
+    flats_.push_back({plate.origin, n / area, cross(plate.edge_v, n) / (area * area), cross(n, plate.edge_u) / (area * area),
+                      plate.shape == Plate::ellipse});
   }
 }
 
@@ -47,7 +49,9 @@ void Plates::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, H
   if (precedes(hit, first)) first = hit;
 }
 
-std::uint32_t Plates::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const { return meet_plate(flats_[primitive], self, primitive, lanes, packet); }
+std::uint32_t Plates::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
+  return meet_plate(flats_[primitive], self, primitive, lanes, packet);
+}
 
 Vec Plates::normal(const Ray&, const Hit& hit) const { return flats_[hit.part].normal; }
 

@@ -44,8 +44,13 @@ struct Ringed {
   double half_x, half_z;  // of the sheet
 
   Ringed(double extent_x, double extent_z, int w, int h, float border)
-      : heights(static_cast<std::size_t>(w + 2) * (h + 2), border), width(w), height(h), half_x(0.5 * extent_x / w * (w + 1)), half_z(0.5 * extent_z / h * (h + 1)) {
-    sheet = std::make_shared<Heightfield>(HeightfieldFrame{{-half_x, 0, -half_z}, {2 * half_x, 0, 0}, {0, 0, 2 * half_z}, {0, 1, 0}}, w + 1, h + 1);
+      : heights(static_cast<std::size_t>(w + 2) * (h + 2), border),
+        width(w),
+        height(h),
+        half_x(0.5 * extent_x / w * (w + 1)),
+        half_z(0.5 * extent_z / h * (h + 1)) {
+    sheet = std::make_shared<Heightfield>(HeightfieldFrame{{-half_x, 0, -half_z}, {2 * half_x, 0, 0}, {0, 0, 2 * half_z}, {0, 1, 0}}, w + 1,
+                                          h + 1);
   }
   std::size_t stride() const { return static_cast<std::size_t>(width + 2); }
   float* row(int y) { return heights.data() + static_cast<std::size_t>(y + 1) * (width + 2) + 1; }
@@ -72,7 +77,9 @@ class Slopes {
     });
   }
   /// Normals at hits of the sheet: slopes interpolated, as surface_hit does.
-  void normals(const Places& places, const VecArraysOut& out) const { normals_of_interpolated_slopes({slopes_.data(), width_ - 1}, places.size(), places.hits, out); }
+  void normals(const Places& places, const VecArraysOut& out) const {
+    normals_of_interpolated_slopes({slopes_.data(), width_ - 1}, places.size(), places.hits, out);
+  }
 
  private:
   int width_ = 0;
@@ -93,8 +100,10 @@ struct PuddleScene::State {
   Scene scene;
 
   State(const puddle::Settings& s, const puddle::Surroundings& around, const Options& options, const parallel::Executor& executor)
-      : settings(s), encoding(puddle::encoding(s)),
-        water(s.grid[0] * s.cell_size, s.grid[1] * s.cell_size, s.grid[0], s.grid[1], 0.0f), scene(options.tracer) {
+      : settings(s),
+        encoding(puddle::encoding(s)),
+        water(s.grid[0] * s.cell_size, s.grid[1] * s.cell_size, s.grid[0], s.grid[1], 0.0f),
+        scene(options.tracer) {
     const auto vector = [](const std::array<double, 3>& a) { return Vec(a[0], a[1], a[2]); };
     camera.position = vector(s.camera_position);
     camera.target = vector(s.camera_target);
@@ -107,7 +116,8 @@ struct PuddleScene::State {
     ground = puddle::prepare_ground(own_ground ? made : around.ground, !own_ground && around.ground_is_encoded, s.variant);
     relief = puddle::make_relief(ground, own_ground);
 
-    GroundLook look{puddle::shade_uniforms(s), &ground.view(), &relief.view(), water_ior, 1 / std::sqrt(static_cast<double>(options.samples))};
+    GroundLook look{puddle::shade_uniforms(s), &ground.view(), &relief.view(), water_ior,
+                    1 / std::sqrt(static_cast<double>(options.samples))};
     look.uniforms.ground_footprint = puddle::ground_footprint(s, ground.view().width[0]);
     const std::array<float, 3> ambient = puddle::ambient_radiance(environment.view(), around.environment_is_cube);
     for (int k = 0; k < 3; ++k) look.uniforms.ambient[k] = ambient[k];
@@ -121,12 +131,15 @@ struct PuddleScene::State {
     Material surface = Material::interface_of(above, below);
     surface.is_masked = true;
     Material rippled = surface;
-    rippled.smooth_normals = [of_water = &slopes](const Places& places, const VecArraysOut& normals) { of_water->normals(places, normals); };
+    rippled.smooth_normals = [of_water = &slopes](const Places& places, const VecArraysOut& normals) {
+      of_water->normals(places, normals);
+    };
     scene.set_eye(above);
     scene.add(water.sheet, rippled);
 
     if (s.shape == puddle::Shape::basin) {
-      scene.add(std::make_shared<Plates>(std::vector<Plate>{{Plate::parallelogram, {-everywhere, -s.puddle_depth, -everywhere}, {0, 0, 2 * everywhere}, {2 * everywhere, 0, 0}}}),
+      scene.add(std::make_shared<Plates>(std::vector<Plate>{
+                    {Plate::parallelogram, {-everywhere, -s.puddle_depth, -everywhere}, {0, 0, 2 * everywhere}, {2 * everywhere, 0, 0}}}),
                 Material::of(std::make_shared<PuddleGround>(look, nullptr)));
       scene.add(surround(water.half_x, water.half_z, 0, everywhere), surface);
     } else {
@@ -139,14 +152,16 @@ struct PuddleScene::State {
       sheet.sheet->assign(sheet.heights, executor);
       bed = sheet.sheet;
       scene.add(bed, Material::of(std::make_shared<PuddleGround>(look, bed.get())));
-      scene.add(surround(sheet.half_x, sheet.half_z, ground_height(d.border[0]), options.is_street ? in_street : everywhere), Material::of(std::make_shared<PuddleGround>(look, nullptr)));
+      scene.add(surround(sheet.half_x, sheet.half_z, ground_height(d.border[0]), options.is_street ? in_street : everywhere),
+                Material::of(std::make_shared<PuddleGround>(look, nullptr)));
     }
 
     const Rotation rotation(s.env_rotation);
     if (options.is_street) {
       street = std::make_unique<night_street::Street>();
       // The ground around the water is level with the road.
-      scene.set_environment(std::make_shared<StreetEnvironment>(*street, Vec(0, -ground_height(static_cast<float>(-s.puddle_depth)), 0), environment.view(), rotation));
+      scene.set_environment(std::make_shared<StreetEnvironment>(*street, Vec(0, -ground_height(static_cast<float>(-s.puddle_depth)), 0),
+                                                                environment.view(), rotation));
     } else {
       scene.set_environment(std::make_shared<PictureEnvironment>(environment.view(), around.environment_is_cube, rotation));
     }
@@ -155,7 +170,8 @@ struct PuddleScene::State {
 
 PuddleScene::PuddleScene(const puddle::Settings& settings, const puddle::Surroundings& surroundings, const Options& options,
                          const parallel::Executor& executor) {
-  if (settings.variant != puddle::Variant::corrected) throw Error(ExitCode::usage, "compositor: the as-published puddle has no water in metres to trace; use variant = \"corrected\"");
+  if (settings.variant != puddle::Variant::corrected)
+    throw Error(ExitCode::usage, "compositor: the as-published puddle has no water in metres to trace; use variant = \"corrected\"");
   state_ = std::make_unique<State>(settings, surroundings, options, executor);
 }
 PuddleScene::~PuddleScene() = default;
@@ -167,7 +183,8 @@ void PuddleScene::update(const puddle::Puddle& puddle, const parallel::Executor&
   const float* from = stored.view().texels;
   for (int y = 0; y < s.water.height; ++y) {
     float* row = s.water.row(y);
-    for (int x = 0; x < s.water.width; ++x) row[x] = static_cast<float>(s.encoding.scale * from[static_cast<std::size_t>(y) * s.water.width + x] + s.encoding.bias);
+    for (int x = 0; x < s.water.width; ++x)
+      row[x] = static_cast<float>(s.encoding.scale * from[static_cast<std::size_t>(y) * s.water.width + x] + s.encoding.bias);
   }
   s.water.sheet->assign(s.water.heights, executor);
   s.slopes.take(s.water, s.settings.cell_size, executor);

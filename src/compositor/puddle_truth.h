@@ -20,8 +20,8 @@ struct PuddleTruth {
 };
 
 /// `puddle` has rendered the water that `traced` was updated with; colours are compared at one ray a pixel.
-PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settings, const PuddleScene& traced, const ShadingOptions& options,
-                    const parallel::Executor& executor);
+PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settings, const PuddleScene& traced,
+                    const ShadingOptions& options, const parallel::Executor& executor);
 
 /// The picture that the puddle's display makes of a radiance (rgba16f): vignette, exposure, sRGB. rgba8.
 Image display(const puddle::Settings& settings, const Image& radiance, const parallel::Executor& executor);

@@ -6,7 +6,8 @@
 
 namespace rainref::compositor {
 
-PaneTruth compare(const rainy_glass::RainyGlass& rendered, const RainyGlassView& view, const PictureOptions& options, const parallel::Executor& executor) {
+PaneTruth compare(const rainy_glass::RainyGlass& rendered, const RainyGlassView& view, const PictureOptions& options,
+                  const parallel::Executor& executor) {
   const int width = view.width(), height = view.height();
   const std::unique_ptr<Scene> scene = view.scene(rendered);
   const Picture traced = trace_picture(*scene, view.camera(), width, height, options, executor);
@@ -16,8 +17,13 @@ PaneTruth compare(const rainy_glass::RainyGlass& rendered, const RainyGlassView&
   const scene::Camera::Basis basis = view.camera().basis();
 
   PaneTruth truth;
-  truth.differences = {{"refraction", "deg", width, height}, {"bend", "deg", width, height}, {"colour", "", width, height}, {"colour_dry", "", width, height}, {"display", "code", width, height}};
-  Difference &refraction = truth.differences[0], &bend = truth.differences[1], &colour = truth.differences[2], &colour_dry = truth.differences[3], &codes = truth.differences[4];
+  truth.differences = {{"refraction", "deg", width, height},
+                       {"bend", "deg", width, height},
+                       {"colour", "", width, height},
+                       {"colour_dry", "", width, height},
+                       {"display", "code", width, height}};
+  Difference &refraction = truth.differences[0], &bend = truth.differences[1], &colour = truth.differences[2],
+             &colour_dry = truth.differences[3], &codes = truth.differences[4];
   std::atomic<std::size_t> glass = 0, wet = 0, pass_only = 0, truth_only = 0, mirrored = 0;
   executor.for_tiles(width, height, width, 8, [&](const parallel::Tile& tile) {
     for (int y = tile.y0; y < tile.y1; ++y) {
@@ -37,14 +43,19 @@ PaneTruth compare(const rainy_glass::RainyGlass& rendered, const RainyGlassView&
         ++wet;
         mirrored += is_mirrored;
         if (path.end != StraightPath::End::out) continue;
-        const Vec from_pass = basis.forward + pixel.x * basis.right + pixel.y * basis.up, from_truth = view.met(path.origin, path.direction).from_eye;
+        const Vec from_pass = basis.forward + pixel.x * basis.right + pixel.y * basis.up,
+                  from_truth = view.met(path.origin, path.direction).from_eye;
         refraction.at(x, y) = degrees_between(from_pass, from_truth);
         bend.at(x, y) = degrees_between(ray.direction, from_pass) - degrees_between(ray.direction, from_truth);
       }
     }
   });
-  truth.pixels = {{"pixels", static_cast<std::size_t>(width) * height}, {"glass_pixels", glass}, {"wet_pixels", wet}, {"wet_in_pass_only", pass_only},
-                  {"wet_in_truth_only", truth_only}, {"mirrored_pixels", mirrored}};
+  truth.pixels = {{"pixels", static_cast<std::size_t>(width) * height},
+                  {"glass_pixels", glass},
+                  {"wet_pixels", wet},
+                  {"wet_in_pass_only", pass_only},
+                  {"wet_in_truth_only", truth_only},
+                  {"mirrored_pixels", mirrored}};
   return truth;
 }
 

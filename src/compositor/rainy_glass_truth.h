@@ -16,6 +16,7 @@ namespace rainref::compositor {
 ///   colour, colour_dry      linear radiance, the channel that differs most: wet; neither wet
 ///   display                 on the glass: code values of 255, the channel that differs most
 /// Refraction by the ray through the pixel's centre, colours by options.samples rays.
-PaneTruth compare(const rainy_glass::RainyGlass& rendered, const RainyGlassView& view, const PictureOptions& options, const parallel::Executor& executor);
+PaneTruth compare(const rainy_glass::RainyGlass& rendered, const RainyGlassView& view, const PictureOptions& options,
+                  const parallel::Executor& executor);
 
 }  // namespace rainref::compositor

@@ -24,7 +24,10 @@ scene::Camera checked(const Settings& s, double thickness) {
     throw Error(ExitCode::usage, "a traced pane: expected the corrected variant, glass.shape = \"pane\" and glass.background = \"grab\"");
   }
   const double distance = s.distance * dot(rainy_glass::level_forward(s), rainy_glass::facing(s));
-  if (!(thickness < 0.9 * distance)) throw Error(ExitCode::usage, fmt::format("compositor.glass_thickness: expected less than nine tenths of the {} m from the eye to the glass, found {} m", distance, thickness));
+  if (!(thickness < 0.9 * distance))
+    throw Error(ExitCode::usage,
+                fmt::format("compositor.glass_thickness: expected less than nine tenths of the {} m from the eye to the glass, found {} m",
+                            distance, thickness));
   return rainy_glass::camera(s);
 }
 
@@ -55,8 +58,10 @@ PaneShape shape_of(const Settings& s, const RainyGlassView::Extent& extent, doub
 class SlopeFace : public FacePatch {
  public:
   SlopeFace(const Pane& pane, std::function<rainy_glass::ShownGlass::Slope(double, double)> slope)
-      : FacePatch(pane, WaterLayer::clearance, [slope](double u, double v) { return slope(u, v).is_wet; }), slope_(slope),
-        width_(__builtin_sqrt(dot(pane.shape().e_u, pane.shape().e_u))), height_(__builtin_sqrt(dot(pane.shape().e_v, pane.shape().e_v))) {}
+      : FacePatch(pane, WaterLayer::clearance, [slope](double u, double v) { return slope(u, v).is_wet; }),
+        slope_(slope),
+        width_(__builtin_sqrt(dot(pane.shape().e_u, pane.shape().e_u))),
+        height_(__builtin_sqrt(dot(pane.shape().e_v, pane.shape().e_v))) {}
   Vec normal(const Ray& ray, const Hit& hit) const override {
     const rainy_glass::ShownGlass::Slope s = slope_(hit.u, hit.v);
     const Vec face = pane().normal(hit.u), sloped = pane().tilted(hit.u, s.u * width_, s.v * height_);
@@ -71,7 +76,8 @@ class SlopeFace : public FacePatch {
 /// What stands before the glass, as the picture shows it: a screen between the eye and the pane.
 class Foreground {
  public:
-  Foreground(const RainyGlassView& view, const Image& surface) : view_(view), surface_(surface), basis_(view.camera().basis()), half_height_(view.camera().half_height()) {}
+  Foreground(const RainyGlassView& view, const Image& surface)
+      : view_(view), surface_(surface), basis_(view.camera().basis()), half_height_(view.camera().half_height()) {}
   /// The texel that the eye sees in the direction of p.
   struct Texel {
     int x, y;
@@ -80,7 +86,8 @@ class Foreground {
     const Vec d = p - view_.camera().position;
     const double z = dot(d, basis_.forward), half_width = half_height_ * view_.width() / view_.height();
     const auto whole = [](double share, int count) { return std::clamp(static_cast<int>(std::floor(share * count)), 0, count - 1); };
-    return {whole(0.5 + 0.5 * dot(d, basis_.right) / (z * half_width), view_.width()), whole(0.5 + 0.5 * dot(d, basis_.up) / (z * half_height_), view_.height())};
+    return {whole(0.5 + 0.5 * dot(d, basis_.right) / (z * half_width), view_.width()),
+            whole(0.5 + 0.5 * dot(d, basis_.up) / (z * half_height_), view_.height())};
   }
   bool is_there(const Vec& p) const {
     const Texel t = texel(p);
@@ -104,7 +111,8 @@ class Outside : public Environment {
   explicit Outside(const RainyGlassView& view) : view_(view), outward_(view.pane().normal(0)) {}
   void radiance(const Sights& sights, std::span<Vec> out) const override {
     // The room is dark.
-    for (std::size_t i = 0; i < sights.size(); ++i) out[i] = dot(sights[i].direction, outward_) > 0 ? view_.met(sights[i].origin, sights[i].direction).radiance : Vec(0, 0, 0);
+    for (std::size_t i = 0; i < sights.size(); ++i)
+      out[i] = dot(sights[i].direction, outward_) > 0 ? view_.met(sights[i].origin, sights[i].direction).radiance : Vec(0, 0, 0);
   }
 
  private:
@@ -114,10 +122,19 @@ class Outside : public Environment {
 
 }  // namespace
 
-RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred, double thickness, const TracerOptions& tracer)
-    : settings_(s), around_(&around), unbarred_(&unbarred), tracer_(tracer), camera_(checked(s, thickness)), basis_(camera_.basis()),
-      half_width_(camera_.half_height() * s.width / s.height), half_height_(camera_.half_height()),
-      extent_(extent_of(s, basis_, half_width_, half_height_)), pane_(shape_of(s, extent_, thickness)), street_({s.seed}),
+RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred,
+                               double thickness, const TracerOptions& tracer)
+    : settings_(s),
+      around_(&around),
+      unbarred_(&unbarred),
+      tracer_(tracer),
+      camera_(checked(s, thickness)),
+      basis_(camera_.basis()),
+      half_width_(camera_.half_height() * s.width / s.height),
+      half_height_(camera_.half_height()),
+      extent_(extent_of(s, basis_, half_width_, half_height_)),
+      pane_(shape_of(s, extent_, thickness)),
+      street_({s.seed}),
       colour_(rainy_glass::as_half(unbarred.colour), Address::clamp, Address::clamp) {}
 
 RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction) const {
@@ -126,17 +143,20 @@ RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction)
   const Vec from_eye = is_sky ? direction : origin + seen.distance * direction - camera_.position;
   const double z = dot(from_eye, basis_.forward);
   if (!(z > 0)) return {from_eye, seen.radiance};
-  const double u = 0.5 + 0.5 * dot(from_eye, basis_.right) / (z * half_width_), v = 0.5 + 0.5 * dot(from_eye, basis_.up) / (z * half_height_);
+  const double u = 0.5 + 0.5 * dot(from_eye, basis_.right) / (z * half_width_),
+               v = 0.5 + 0.5 * dot(from_eye, basis_.up) / (z * half_height_);
   if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return {from_eye, seen.radiance};
   // The eye sees the place unless something nearer hides it, there and all around: a texel's depth is that of its centre.
   const int column = static_cast<int>(u * settings_.width), row = static_cast<int>(v * settings_.height);
   float deepest = 0;
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, settings_.height - 1); ++y) {
-    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, settings_.width - 1); ++x) deepest = std::max(deepest, unbarred_->depth.row<float>(y)[x]);
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, settings_.width - 1); ++x)
+      deepest = std::max(deepest, unbarred_->depth.row<float>(y)[x]);
   }
   if (!(deepest >= 0.98 * (is_sky ? rainy_glass::backdrop_far : z) - 0.1)) return {from_eye, seen.radiance};
   using scalar::Number;
-  const auto s = scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(colour_.view()), Number(u), Number(v));
+  const auto s =
+      scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(colour_.view()), Number(u), Number(v));
   return {from_eye, {s[0].v, s[1].v, s[2].v}};
 }
 
@@ -149,7 +169,8 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
   };
   PaneMedia media;
   media.water = water(settings_.water_ior);
-  add_faces(*scene, pane_, [slope](double u, double v) { return slope(u, v).is_wet; }, media);
+  add_faces(
+      *scene, pane_, [slope](double u, double v) { return slope(u, v).is_wet; }, media);
   Material surface = Material::interface_of(media.outside, media.water);
   surface.is_masked = true;
   scene->add(std::make_shared<SlopeFace>(pane_, slope), surface);
@@ -163,7 +184,8 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
   screen.e_u *= share;
   screen.e_v *= share;
   const Pane plane(screen);
-  scene->add(std::make_shared<FacePatch>(plane, 0, [before, plane](double u, double v) { return before->is_there(plane.point(u, v)); }), Material::of(opaque_of([before](const Place& at) {
+  scene->add(std::make_shared<FacePatch>(plane, 0, [before, plane](double u, double v) { return before->is_there(plane.point(u, v)); }),
+             Material::of(opaque_of([before](const Place& at) {
                Finish finish;
                finish.radiance = before->radiance(at.point);
                return finish;

@@ -22,7 +22,8 @@ class RainyGlassView {
   /// around: what the passes take; unbarred: the same street without anything before the glass. Both must outlive the view.
   /// thickness [m]. Throws Error(usage) unless the settings are a corrected pane before the grabbed scene, and for glass that reaches
   /// to the eye.
-  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred, double thickness, const TracerOptions& tracer);
+  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred,
+                 double thickness, const TracerOptions& tracer);
 
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene.
   std::unique_ptr<Scene> scene(const rainy_glass::RainyGlass& rendered) const;

@@ -31,11 +31,16 @@ std::span<const Sample> samples(int count) {
   static const auto c = sixteenths(eight);
   static const auto d = sixteenths(sixteen);
   switch (count) {
-    case 1: return a;
-    case 4: return b;
-    case 8: return c;
-    case 16: return d;
-    default: throw Error(ExitCode::usage, fmt::format("compositor.samples: expected 1, 4, 8 or 16, found {}", count));
+    case 1:
+      return a;
+    case 4:
+      return b;
+    case 8:
+      return c;
+    case 16:
+      return d;
+    default:
+      throw Error(ExitCode::usage, fmt::format("compositor.samples: expected 1, 4, 8 or 16, found {}", count));
   }
 }
 

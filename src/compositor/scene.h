@@ -17,10 +17,10 @@ namespace rainref::compositor {
 
 /// What fills the space between surfaces. After s metres light L has become t L + (1 - t) glow, t = exp(-extinction s).
 struct Medium {
-  double ior = 1;            ///< index of refraction, at least 1
-  Vec extinction{0, 0, 0};   ///< of red, green and blue [1/m]
-  Vec glow{0, 0, 0};         ///< radiance of an endless path: what turbid water or fog scatters toward the eye
-  bool is_film = false;      ///< its paths count as `film`
+  double ior = 1;           ///< index of refraction, at least 1
+  Vec extinction{0, 0, 0};  ///< of red, green and blue [1/m]
+  Vec glow{0, 0, 0};        ///< radiance of an endless path: what turbid water or fog scatters toward the eye
+  bool is_film = false;     ///< its paths count as `film`
 };
 inline Medium air() { return {}; }
 inline Medium water(double ior = 1.333) { return {ior, {0, 0, 0}, {0, 0, 0}, true}; }

@@ -14,6 +14,7 @@ namespace rainref::compositor {
 ///   colour, colour_dry     linear radiance, the channel that differs most: drop and wet; neither
 ///   display                everywhere: code values of 255, the channel that differs most
 /// Refraction by the ray through the pixel's centre, colours by options.samples rays.
-PaneTruth compare(const screen_drops::ScreenDrops& rendered, const ScreenDropsView& view, const PictureOptions& options, const parallel::Executor& executor);
+PaneTruth compare(const screen_drops::ScreenDrops& rendered, const ScreenDropsView& view, const PictureOptions& options,
+                  const parallel::Executor& executor);
 
 }  // namespace rainref::compositor

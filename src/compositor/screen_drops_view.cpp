@@ -21,9 +21,18 @@ scene::Camera at_origin(const screen_drops::Settings& s) {
 }
 
 PaneShape shape_of(const screen_drops::Settings& s, const scene::Camera::Basis& basis, double border, double thickness) {
-  const double distance = screen_drops::glass_distance(s), height = s.pane_height + 2 * border, width = s.pane_height * s.width / s.height + 2 * border;
-  if (!(thickness < 0.9 * distance)) throw Error(ExitCode::usage, fmt::format("compositor.glass_thickness: expected less than nine tenths of the {} m from the eye to the glass, found {} m", distance, thickness));
-  return {distance * basis.forward - 0.5 * width * basis.right - 0.5 * height * basis.up, width * basis.right, height * basis.up, basis.forward, thickness, 0};
+  const double distance = screen_drops::glass_distance(s), height = s.pane_height + 2 * border,
+               width = s.pane_height * s.width / s.height + 2 * border;
+  if (!(thickness < 0.9 * distance))
+    throw Error(ExitCode::usage,
+                fmt::format("compositor.glass_thickness: expected less than nine tenths of the {} m from the eye to the glass, found {} m",
+                            distance, thickness));
+  return {distance * basis.forward - 0.5 * width * basis.right - 0.5 * height * basis.up,
+          width * basis.right,
+          height * basis.up,
+          basis.forward,
+          thickness,
+          0};
 }
 
 class Outside : public Environment {
@@ -39,10 +48,17 @@ class Outside : public Environment {
 
 }  // namespace
 
-ScreenDropsView::ScreenDropsView(const screen_drops::Settings& s, const Image& colour, double thickness, const TracerOptions& tracer, const parallel::Executor& executor)
-    : settings_(s), tracer_(tracer), executor_(executor), border_(1e-3 * screen_drops::cell_over_radius * s.largest_radius), camera_(at_origin(s)), basis_(camera_.basis()),
+ScreenDropsView::ScreenDropsView(const screen_drops::Settings& s, const Image& colour, double thickness, const TracerOptions& tracer,
+                                 const parallel::Executor& executor)
+    : settings_(s),
+      tracer_(tracer),
+      executor_(executor),
+      border_(1e-3 * screen_drops::cell_over_radius * s.largest_radius),
+      camera_(at_origin(s)),
+      basis_(camera_.basis()),
       pane_(shape_of(s, basis_, border_, thickness)) {
-  if (s.variant != screen_drops::Variant::corrected) throw Error(ExitCode::usage, "a traced window: expected the corrected variant, found as-published");
+  if (s.variant != screen_drops::Variant::corrected)
+    throw Error(ExitCode::usage, "a traced window: expected the corrected variant, found as-published");
   const double half_height = camera_.half_height(), half_width = half_height * s.width / s.height;
   scale_[0] = 0.5 / (half_width * s.scene_margin);
   scale_[1] = 0.5 / (half_height * s.scene_margin);
@@ -61,10 +77,13 @@ Vec ScreenDropsView::radiance(const Vec& direction) const {
 
 std::shared_ptr<const CapWater> ScreenDropsView::water(const screen_drops::ScreenDrops& rendered) const {
   std::vector<CapBase> caps;
-  for (const screen_drops::Cap& c : screen_drops::caps(settings_, rendered.cells())) caps.push_back({c.x + border_, c.y + border_, c.radius});
+  for (const screen_drops::Cap& c : screen_drops::caps(settings_, rendered.cells()))
+    caps.push_back({c.x + border_, c.y + border_, c.radius});
   CapWater::Layer layer{};
   if (rendered.height().width() > 1) {
-    layer = {std::make_shared<const WaterLayer>(rendered.height()), {border_, border_}, {settings_.pane_height * settings_.width / settings_.height, settings_.pane_height}};
+    layer = {std::make_shared<const WaterLayer>(rendered.height()),
+             {border_, border_},
+             {settings_.pane_height * settings_.width / settings_.height, settings_.pane_height}};
   }
   return std::make_shared<const CapWater>(pane_, std::move(caps), settings_.contact_angle_deg, layer);
 }

@@ -15,7 +15,8 @@ class ScreenDropsView {
  public:
   /// colour: the scene's picture, as Inputs::colour. thickness [m]. Throws Error(usage) for glass that reaches to the eye and for
   /// settings that are not corrected.
-  ScreenDropsView(const screen_drops::Settings& settings, const Image& colour, double thickness, const TracerOptions& tracer, const parallel::Executor& executor);
+  ScreenDropsView(const screen_drops::Settings& settings, const Image& colour, double thickness, const TracerOptions& tracer,
+                  const parallel::Executor& executor);
 
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene, and the
   /// executor the view.

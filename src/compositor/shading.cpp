@@ -20,7 +20,8 @@ double resolution(const Vec& origin, double length) {
 
 class Generations {
  public:
-  Generations(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen, ShadingRoom& room)
+  Generations(const Scene& scene, const ShadingOptions& options, const RayArrays& rays, std::size_t count, SeenColumns& seen,
+              ShadingRoom& room)
       : scene_(scene), options_(options), seen_(seen), room_(room), now_(&room.now), next_(&room.next) {
     RayColumns& to = now_->columns;
     to.make_room(count);
@@ -60,8 +61,10 @@ class Generations {
       room_.terms.make_room(room_.batches.slots());
       room_.children.assign(room_.batches.slots(), {nowhere, nowhere});
       for (const PathBatches::Batch& batch : room_.batches.batches()) {
-        if (batch.surface == Hit::none) leave_for_surroundings(batch);
-        else treat(batch);
+        if (batch.surface == Hit::none)
+          leave_for_surroundings(batch);
+        else
+          treat(batch);
       }
       look_around();
       add_up();
@@ -81,10 +84,14 @@ class Generations {
 
   RayArrays arrays() const {
     const VecArrays o = now_->columns.origin(), d = now_->columns.direction();
-    return {{o.component[0], o.component[1], o.component[2]}, {d.component[0], d.component[1], d.component[2]}, now_->columns.nearest(),
+    return {{o.component[0], o.component[1], o.component[2]},
+            {d.component[0], d.component[1], d.component[2]},
+            now_->columns.nearest(),
             depth_ == 1 ? room_.farthest.data() : room_.endless.data()};
   }
-  RayList list_of(const PathBatches::Batch& batch) const { return {now_->columns, length_, {room_.batches.ray() + batch.begin, batch.count}}; }
+  RayList list_of(const PathBatches::Batch& batch) const {
+    return {now_->columns, length_, {room_.batches.ray() + batch.begin, batch.count}};
+  }
 
   /// A hit of the surface that the ray left, from the side where the ray is not.
   bool contradicts(std::size_t i, const Hit& hit) const {
@@ -159,7 +166,8 @@ class Generations {
       room_.refracted.make_room(n);
       const VecArrays smooth_normals = smooth;
       if (material.smooth_normals) material.smooth_normals(places, smooth);
-      cross_interfaces(n, at, material.smooth_normals ? &smooth_normals : nullptr, material.outside.ior, material.inside.ior, next_->columns, next_->count, room_.refracted, shaded);
+      cross_interfaces(n, at, material.smooth_normals ? &smooth_normals : nullptr, material.outside.ior, material.inside.ior,
+                       next_->columns, next_->count, room_.refracted, shaded);
       for (int k = 0; k < 3; ++k) std::fill_n(sent.component[k], n, 0.0);
     }
     if (depth_ == 1) {
@@ -224,7 +232,8 @@ class Generations {
     for (std::size_t k = n; k < whole_lanes(n); ++k) {
       for (int c = 0; c < 7; ++c) room_.sights[c][k] = room_.sights[c][n - 1];
     }
-    scene_.environment().radiance({n, room_.sights.vectors(0), room_.sights.vectors(3), room_.sights[6]}, std::span(room_.arrived).first(n));
+    scene_.environment().radiance({n, room_.sights.vectors(0), room_.sights.vectors(3), room_.sights[6]},
+                                  std::span(room_.arrived).first(n));
   }
 
   /// Each pixel's light, path by path, and the order of the next generation.
@@ -245,8 +254,10 @@ class Generations {
         sum += sent[slot];
         for (const std::uint32_t child : room_.children[slot]) {
           if (child == nowhere) continue;
-          if (child & is_sight) sum += cut_share[(child ^ is_sight) - escaped] * arrived[child ^ is_sight];
-          else *next++ = child;
+          if (child & is_sight)
+            sum += cut_share[(child ^ is_sight) - escaped] * arrived[child ^ is_sight];
+          else
+            *next++ = child;
         }
       }
       radiance.put(pixel, sum);
@@ -277,7 +288,8 @@ void shade(const Scene& scene, const ShadingOptions& options, std::span<const Ra
   }
   SeenColumns columns;
   shade(scene, options, RayArrays{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, c[6], c[7]}, rays.size(), columns);
-  for (std::size_t i = 0; i < rays.size(); ++i) seen[i] = {columns.radiance()[i], columns.hits()[i], columns.normal()[i], columns.film()[i], columns.mask()[i] != 0};
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    seen[i] = {columns.radiance()[i], columns.hits()[i], columns.normal()[i], columns.film()[i], columns.mask()[i] != 0};
 }
 
 }  // namespace rainref::compositor

@@ -11,17 +11,17 @@
 namespace rainref::compositor {
 
 struct ShadingOptions {
-  int depth = 8;                ///< surfaces that a path may meet one after the other, at least 1
-  double least_weight = 1e-3;   ///< a ray whose share in its pixel is below this is followed no further
+  int depth = 8;               ///< surfaces that a path may meet one after the other, at least 1
+  double least_weight = 1e-3;  ///< a ray whose share in its pixel is below this is followed no further
 };
 
 /// What a primary ray sees.
 struct Seen {
-  Vec radiance{0, 0, 0};  ///< linear
-  Hit hit;                ///< the first one
-  Vec normal{0, 0, 0};    ///< at it, toward the ray, as shaded; 0 where the ray met nothing
-  double film = 0;        ///< [m] that the ray, refracted and never reflected, runs through media that count as film
-  bool is_masked = false; ///< the ray, refracted and never reflected, meets a surface that the mask shows
+  Vec radiance{0, 0, 0};   ///< linear
+  Hit hit;                 ///< the first one
+  Vec normal{0, 0, 0};     ///< at it, toward the ray, as shaded; 0 where the ray met nothing
+  double film = 0;         ///< [m] that the ray, refracted and never reflected, runs through media that count as film
+  bool is_masked = false;  ///< the ray, refracted and never reflected, meets a surface that the mask shows
 };
 
 /// What many rays see, component by component. Arrays go on to whole lanes.
@@ -44,10 +44,10 @@ class SeenColumns {
   std::vector<Hit> hits_;
 };
 
-/// seen[i] is what rays[i] sees; directions need not be unit vectors, the distance of `hit` counts in their lengths. At each interface a ray goes
-/// on as a reflected and a refracted one, weighted by Fresnel's equations for unpolarized light (all of it reflected
-/// beyond the critical angle), and media absorb along the way (Beer). A ray that `options` cut off sees the surroundings
-/// as if nothing lay between, so no light is lost.
+/// seen[i] is what rays[i] sees; directions need not be unit vectors, the distance of `hit` counts in their lengths. At each interface a
+/// ray goes on as a reflected and a refracted one, weighted by Fresnel's equations for unpolarized light (all of it reflected beyond the
+/// critical angle), and media absorb along the way (Beer). A ray that `options` cut off sees the surroundings as if nothing lay between, so
+/// no light is lost.
 ///
 /// Rays are traced a generation at a time, and each pixel adds up its rays in the order of the generations, within one in
 /// the order of their parents, the reflected before the refracted: a pure function of the scene and the ray, whichever

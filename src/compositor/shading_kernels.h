@@ -33,9 +33,10 @@ void gaze(const RayList& list, const VecArraysOut& origin, const VecArraysOut& d
 void arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalColumns& arrivals, const VecArraysOut& added);
 /// The rays that an interface makes of those that arrived, the reflected ones put from the column's `first` number on, and the
 /// normals that decided, against the rays; smooth_normals may be null.
-void cross_interfaces(std::size_t count, const ArrivalColumns& arrivals, const VecArrays* smooth_normals, double ior_outside, double ior_inside, RayColumns& reflected, std::size_t first,
-                      RayColumns& refracted, const VecArraysOut& shaded);
+void cross_interfaces(std::size_t count, const ArrivalColumns& arrivals, const VecArrays* smooth_normals, double ior_outside,
+                      double ior_inside, RayColumns& reflected, std::size_t first, RayColumns& refracted, const VecArraysOut& shaded);
 /// What finishes send to the pixels, the rays that they mirror, put from `first` on, and about which normals.
-void leave_finishes(std::size_t count, const ArrivalColumns& arrivals, const Finishes& finishes, RayColumns& mirrored, std::size_t first, const VecArraysOut& sent, const VecArraysOut& shaded);
+void leave_finishes(std::size_t count, const ArrivalColumns& arrivals, const Finishes& finishes, RayColumns& mirrored, std::size_t first,
+                    const VecArraysOut& sent, const VecArraysOut& shaded);
 
 }  // namespace rainref::compositor

@@ -32,7 +32,8 @@ bool enter_box(const night_street::Solid& box, const Ray& ray, double& entry) {
 
 }  // namespace
 
-Solids::Solids(std::vector<night_street::Solid> solids, std::vector<night_street::Plane> planes) : solids_(std::move(solids)), planes_(std::move(planes)) {}
+Solids::Solids(std::vector<night_street::Solid> solids, std::vector<night_street::Plane> planes)
+    : solids_(std::move(solids)), planes_(std::move(planes)) {}
 
 Box Solids::bounds(std::uint32_t primitive) const {
   const night_street::Box box = solids_[primitive].bounds();
@@ -56,7 +57,8 @@ void Solids::meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, H
 
 std::uint32_t Solids::meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const {
   const night_street::Solid& solid = solids_[primitive];
-  return solid.shape == night_street::Solid::box ? meet_box(solid.a, solid.b, self, primitive, lanes, packet) : Surface::meet_packet(self, primitive, lanes, packet);
+  return solid.shape == night_street::Solid::box ? meet_box(solid.a, solid.b, self, primitive, lanes, packet)
+                                                 : Surface::meet_packet(self, primitive, lanes, packet);
 }
 
 Vec Solids::normal(const Ray& ray, const Hit& hit) const {

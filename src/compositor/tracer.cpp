@@ -36,7 +36,9 @@ struct PacketQuery : embree::Query {
   double slack = 0;
 };
 
-void bounds_from_table(const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID]; }
+void bounds_from_table(const RTCBoundsFunctionArguments* a) {
+  *a->bounds_o = static_cast<const Entry*>(a->geometryUserPtr)->padded[a->primID];
+}
 
 /// Embree hands over a packet whole or in pieces of N lanes, component by component; a lane's id is its slot.
 template <class Arguments>
@@ -55,8 +57,10 @@ using Arrays = std::array<float*, 8>;  // origin, direction, nearest, farthest
 template <int width>
 Arrays arrays_of(embree::RayHit<width>& rays) {
   auto& r = rays.ray;
-  if constexpr (width == 1) return {&r.org_x, &r.org_y, &r.org_z, &r.dir_x, &r.dir_y, &r.dir_z, &r.tnear, &r.tfar};
-  else return {r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z, r.tnear, r.tfar};
+  if constexpr (width == 1)
+    return {&r.org_x, &r.org_y, &r.org_z, &r.dir_x, &r.dir_y, &r.dir_z, &r.tnear, &r.tfar};
+  else
+    return {r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z, r.tnear, r.tfar};
 }
 void lend(const Arrays& arrays, FloatPacket& floats) {
   std::copy_n(arrays.begin(), 3, floats.origin);
@@ -92,8 +96,10 @@ void trace(const SceneExtent& extent, const Take& take, std::span<Hit> hits, con
   constexpr bool is_whole = width == Packet::slots;
   const Arrays to = arrays_of<width>(rays);
   [[maybe_unused]] float room[to.size()][Packet::slots];
-  if constexpr (is_whole) lend(to, query.floats);
-  else lend({room[0], room[1], room[2], room[3], room[4], room[5], room[6], room[7]}, query.floats);
+  if constexpr (is_whole)
+    lend(to, query.floats);
+  else
+    lend({room[0], room[1], room[2], room[3], room[4], room[5], room[6], room[7]}, query.floats);
   Hit spare[Packet::slots];
   alignas(64) int valid[width];
   std::uint32_t traced = 0;  // the slots that `valid` names
@@ -130,7 +136,8 @@ auto spreading(std::span<const Ray> rays, PacketRoom& room) {
 /// Of rays in arrays: they lie there already, but for the last packet, which is filled up with its last ray.
 auto lending(const RayArrays& rays, PacketRoom& room) {
   return [&rays, &room](std::size_t begin, int count, Packet& packet) {
-    const double* const from[8] = {rays.origin[0], rays.origin[1], rays.origin[2], rays.direction[0], rays.direction[1], rays.direction[2], rays.nearest, rays.farthest};
+    const double* const from[8] = {rays.origin[0],    rays.origin[1],    rays.origin[2], rays.direction[0],
+                                   rays.direction[1], rays.direction[2], rays.nearest,   rays.farthest};
     if (count == Packet::slots) {
       for (int k = 0; k < 3; ++k) {
         packet.origin[k] = from[k] + begin;
@@ -141,20 +148,24 @@ auto lending(const RayArrays& rays, PacketRoom& room) {
       return;
     }
     for (int c = 0; c < 8; ++c) {
-      for (int slot = 0; slot < Packet::slots; ++slot) room.component[c][slot] = from[c][begin + static_cast<std::size_t>(std::min(slot, count - 1))];
+      for (int slot = 0; slot < Packet::slots; ++slot)
+        room.component[c][slot] = from[c][begin + static_cast<std::size_t>(std::min(slot, count - 1))];
     }
     room.lend_to(packet);
   };
 }
 
-[[noreturn]] void refuse(const std::string& config, const std::string& why) { throw Error(ExitCode::usage, fmt::format("compositor.embree_config = \"{}\": {}", config, why)); }
+[[noreturn]] void refuse(const std::string& config, const std::string& why) {
+  throw Error(ExitCode::usage, fmt::format("compositor.embree_config = \"{}\": {}", config, why));
+}
 
 /// Embree takes an instruction set that it does not know for its default, without a word.
 void check_isa(const std::string& config) {
   static const std::vector<std::string> known{"sse", "sse2", "sse3", "ssse3", "sse4.1", "sse4.2", "avx", "avxi", "avx2", "avx512", "neon"};
   for (std::size_t at = config.find("isa="); at != std::string::npos; at = config.find("isa=", at + 4)) {
     const std::string name = config.substr(at + 4, config.find_first_of(", ", at) - at - 4);
-    if (std::find(known.begin(), known.end(), name) == known.end()) refuse(config, fmt::format("no instruction set is called \"{}\"{}", name, did_you_mean(name, known)));
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse(config, fmt::format("no instruction set is called \"{}\"{}", name, did_you_mean(name, known)));
   }
 }
 
@@ -193,16 +204,21 @@ struct Tracer::State {
   template <class Visit>
   void with_width(const Visit& visit) const {
     switch (options.packet_width) {
-      case 1: return visit(std::integral_constant<int, 1>());
-      case 4: return visit(std::integral_constant<int, 4>());
-      case 8: return visit(std::integral_constant<int, 8>());
-      default: return visit(std::integral_constant<int, 16>());
+      case 1:
+        return visit(std::integral_constant<int, 1>());
+      case 4:
+        return visit(std::integral_constant<int, 4>());
+      case 8:
+        return visit(std::integral_constant<int, 8>());
+      default:
+        return visit(std::integral_constant<int, 16>());
     }
   }
   template <class Take>
   void find_first_hits(const Take& take, std::span<Hit> hits) const {
     with_width([&](auto width) {
-      trace<width>(extent, take, hits, [&](const int* valid, PacketQuery& query, auto& rays) { embree::intersect<width>(valid, scene, query, rays); });
+      trace<width>(extent, take, hits,
+                   [&](const int* valid, PacketQuery& query, auto& rays) { embree::intersect<width>(valid, scene, query, rays); });
     });
   }
 };
@@ -215,7 +231,9 @@ Tracer::Tracer(const TracerOptions& options) : state_(std::make_unique<State>())
   }
   check_isa(options.embree_config);
   s.device = rtcNewDevice(options.embree_config.c_str());
-  if (!s.device) refuse(options.embree_config, fmt::format("Embree {} does not take it (its error {})", RTC_VERSION_STRING, static_cast<int>(rtcGetDeviceError(nullptr))));
+  if (!s.device)
+    refuse(options.embree_config,
+           fmt::format("Embree {} does not take it (its error {})", RTC_VERSION_STRING, static_cast<int>(rtcGetDeviceError(nullptr))));
   s.scene = rtcNewScene(s.device);
   rtcSetSceneFlags(s.scene, options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
 }
@@ -304,8 +322,9 @@ void Tracer::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked
   for (std::size_t begin = 0; begin < rays.size(); begin += block) {
     const std::size_t count = std::min(block, rays.size() - begin);
     state_->with_width([&](auto width) {
-      trace<width>(state_->extent, spreading(rays.subspan(begin, count), room), {hits, count},
-                   [&](const int* valid, PacketQuery& query, auto& packet) { embree::occluded<width>(valid, state_->scene, query, packet); });
+      trace<width>(
+          state_->extent, spreading(rays.subspan(begin, count), room), {hits, count},
+          [&](const int* valid, PacketQuery& query, auto& packet) { embree::occluded<width>(valid, state_->scene, query, packet); });
     });
     for (std::size_t i = 0; i < count; ++i) blocked[begin + i] = hits[i].is_surface();
   }

@@ -16,7 +16,8 @@ double magnitude(double a) { return a < 0 ? -a : a; }
 TriangleMesh::TriangleMesh(MeshData data) : data_(std::move(data)) {
   for (std::size_t i = 0; i < data_.triangles.size(); ++i) {
     for (const std::uint32_t vertex : data_.triangles[i]) {
-      if (vertex >= data_.positions.size()) throw Error(ExitCode::usage, fmt::format("triangle {} names vertex {}, but the mesh has {}", i, vertex, data_.positions.size()));
+      if (vertex >= data_.positions.size())
+        throw Error(ExitCode::usage, fmt::format("triangle {} names vertex {}, but the mesh has {}", i, vertex, data_.positions.size()));
     }
   }
   if (!data_.normals.empty() && data_.normals.size() != data_.positions.size()) {

@@ -10,9 +10,9 @@
 namespace rainref::compositor {
 
 struct MeshData {
-  std::vector<Vec> positions;                         ///< [m]
-  std::vector<std::array<std::uint32_t, 3>> triangles;///< vertex numbers, counter-clockwise seen from outside
-  std::vector<Vec> normals;                           ///< of the vertices, unit; or none
+  std::vector<Vec> positions;                           ///< [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertex numbers, counter-clockwise seen from outside
+  std::vector<Vec> normals;                             ///< of the vertices, unit; or none
 };
 
 /// One part, and one primitive, for each triangle; a ray meets them from both sides. A hit's u and v are the weights of

@@ -23,7 +23,11 @@ class Difference {
 
   /// `unit` is that of the values; name and unit become part of a file's name.
   Difference(std::string name, std::string unit, int width, int height)
-      : name_(std::move(name)), unit_(std::move(unit)), width_(width), height_(height), values_(static_cast<std::size_t>(width) * height, undefined) {}
+      : name_(std::move(name)),
+        unit_(std::move(unit)),
+        width_(width),
+        height_(height),
+        values_(static_cast<std::size_t>(width) * height, undefined) {}
 
   const std::string& name() const { return name_; }
   const std::string& unit() const { return unit_; }

@@ -11,8 +11,10 @@
 namespace rainref::compositor {
 
 WaterLayer::WaterLayer(const Image& height) : width_(height.width()), height_(height.height()) {
-  if (height.format() != Format::r16f && height.format() != Format::r32f) throw Error(ExitCode::usage, "height of the water: expected an r16f or r32f image");
-  if (width_ < 3 || height_ < 3) throw Error(ExitCode::usage, fmt::format("height of the water: expected at least 3x3 texels, found {}x{}", width_, height_));
+  if (height.format() != Format::r16f && height.format() != Format::r32f)
+    throw Error(ExitCode::usage, "height of the water: expected an r16f or r32f image");
+  if (width_ < 3 || height_ < 3)
+    throw Error(ExitCode::usage, fmt::format("height of the water: expected at least 3x3 texels, found {}x{}", width_, height_));
   const std::size_t columns = static_cast<std::size_t>(width_);
   metres_.assign(columns * static_cast<std::size_t>(height_), 0);
   wet_.assign(metres_.size(), 0);
@@ -84,13 +86,17 @@ namespace {
 HeightfieldFrame frame_of(const Pane& pane, const WaterLayer& water) {
   if (!pane.is_flat()) throw Error(ExitCode::usage, "displaced water: expected a flat pane, found a bent one");
   const double w = water.width(), h = water.height();
-  return {pane.point(0.5 / w, 0.5 / h, WaterLayer::clearance), ((w - 1) / w) * pane.shape().e_u, ((h - 1) / h) * pane.shape().e_v, pane.normal(0)};
+  return {pane.point(0.5 / w, 0.5 / h, WaterLayer::clearance), ((w - 1) / w) * pane.shape().e_u, ((h - 1) / h) * pane.shape().e_v,
+          pane.normal(0)};
 }
 
 }  // namespace
 
-DisplacedWater::DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor, std::function<bool(const Vec&)> is_hidden)
-    : water_(std::move(water)), is_hidden_(std::move(is_hidden)), field_(frame_of(pane, *water_), water_->width() - 1, water_->height() - 1) {
+DisplacedWater::DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor,
+                               std::function<bool(const Vec&)> is_hidden)
+    : water_(std::move(water)),
+      is_hidden_(std::move(is_hidden)),
+      field_(frame_of(pane, *water_), water_->width() - 1, water_->height() - 1) {
   field_.assign(water_->metres(), executor);
 }
 

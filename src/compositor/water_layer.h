@@ -35,7 +35,9 @@ class WaterLayer {
   /// Whether there is water in the cell that holds (u, v).
   bool is_wet(double u, double v) const;
   /// The same of the cell between texels (i, j) and (i + 1, j + 1), 0 <= i < width - 1, 0 <= j < height - 1.
-  bool is_wet_cell(int i, int j) const { return wet_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)] != 0; }
+  bool is_wet_cell(int i, int j) const {
+    return wet_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)] != 0;
+  }
   /// dh/du and dh/dv [m]: central differences at the texels, bilinear between them.
   struct Rise {
     double u, v;
@@ -72,7 +74,8 @@ class OuterFace : public PaneFace {
 /// high, times the tangent of its angle to the normal; what the surface mirrors sideways does not meet it again.
 class SlopedWater : public PaneFace {
  public:
-  SlopedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water) : PaneFace(pane, WaterLayer::clearance), water_(std::move(water)) {}
+  SlopedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water)
+      : PaneFace(pane, WaterLayer::clearance), water_(std::move(water)) {}
   Vec normal(const Ray& ray, const Hit& hit) const override;
 
  protected:
@@ -87,13 +90,16 @@ class DisplacedWater : public Surface {
  public:
   /// Where is_hidden holds of a place (a pure function), something else stands higher and the water is not there. Throws
   /// Error(usage) when the pane is bent.
-  DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor, std::function<bool(const Vec&)> is_hidden = {});
+  DisplacedWater(const Pane& pane, std::shared_ptr<const WaterLayer> water, const parallel::Executor& executor,
+                 std::function<bool(const Vec&)> is_hidden = {});
   std::uint32_t primitives() const override { return field_.primitives(); }
   Box bounds(std::uint32_t primitive) const override { return field_.bounds(primitive); }
   void meet(std::uint32_t self, std::uint32_t primitive, const Ray& ray, Hit& first) const override;
   std::uint32_t meet_packet(std::uint32_t self, std::uint32_t primitive, std::uint32_t lanes, Packet& packet) const override;
   Vec normal(const Ray& ray, const Hit& hit) const override { return field_.normal(ray, hit); }
-  void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const override { field_.normals(rays, which, hits, normals); }
+  void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const override {
+    field_.normals(rays, which, hits, normals);
+  }
 
  private:
   bool is_there(const Ray& ray, const Hit& hit) const;

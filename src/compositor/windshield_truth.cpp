@@ -16,7 +16,8 @@ Image display(const windshield::Settings& settings, const Image& radiance, const
   return picture;
 }
 
-WindshieldTruth compare(const windshield::Windshield& rendered, const WindshieldView& view, const PictureOptions& options, const parallel::Executor& executor) {
+WindshieldTruth compare(const windshield::Windshield& rendered, const WindshieldView& view, const PictureOptions& options,
+                        const parallel::Executor& executor) {
   const windshield::Settings& settings = view.settings();
   const int width = settings.picture.width, height = settings.picture.height;
   const std::unique_ptr<Scene> scene = view.scene(rendered);
@@ -29,9 +30,13 @@ WindshieldTruth compare(const windshield::Windshield& rendered, const Windshield
   const Vec place = windshield::place_in_street(view.settings().street_start, view.distance(rendered));
 
   WindshieldTruth truth;
-  truth.differences = {{"refraction", "deg", width, height}, {"refraction_film", "deg", width, height}, {"colour", "", width, height},
-                       {"colour_film", "", width, height},   {"display", "code", width, height}};
-  Difference &refraction = truth.differences[0], &refraction_film = truth.differences[1], &colour = truth.differences[2], &colour_film = truth.differences[3], &codes = truth.differences[4];
+  truth.differences = {{"refraction", "deg", width, height},
+                       {"refraction_film", "deg", width, height},
+                       {"colour", "", width, height},
+                       {"colour_film", "", width, height},
+                       {"display", "code", width, height}};
+  Difference &refraction = truth.differences[0], &refraction_film = truth.differences[1], &colour = truth.differences[2],
+             &colour_film = truth.differences[3], &codes = truth.differences[4];
   std::atomic<std::size_t> glass = 0, drops = 0, mirrored = 0;
   executor.for_tiles(width, height, width, 8, [&](const parallel::Tile& tile) {
     for (int y = tile.y0; y < tile.y1; ++y) {
@@ -53,7 +58,8 @@ WindshieldTruth compare(const windshield::Windshield& rendered, const Windshield
         const bool is_wet = path.interfaces > 2;
         if (is_drop && path.end == StraightPath::End::mirrored) ++mirrored;
         if (path.end != StraightPath::End::out || is_drop != is_wet || (!is_drop && pixel.visibility > 0)) continue;
-        const night_street::Street::Sight seen = view.street().look(place + windshield::in_street(path.origin), windshield::in_street(path.direction));
+        const night_street::Street::Sight seen =
+            view.street().look(place + windshield::in_street(path.origin), windshield::in_street(path.direction));
         const bool is_sky = std::isinf(seen.distance);
         const Vec from_eye = is_sky ? path.direction : path.origin + seen.distance * path.direction - camera.position;
         const Vec from_trick = basis.forward + pixel.x * basis.right + pixel.y * basis.up;

@@ -23,7 +23,8 @@ struct WindshieldTruth {
 
 /// `rendered` has rendered a frame of the street made here. Refraction by the ray through the pixel's centre, colours by
 /// options.samples rays.
-WindshieldTruth compare(const windshield::Windshield& rendered, const WindshieldView& view, const PictureOptions& options, const parallel::Executor& executor);
+WindshieldTruth compare(const windshield::Windshield& rendered, const WindshieldView& view, const PictureOptions& options,
+                        const parallel::Executor& executor);
 
 /// The picture that the windshield's display makes of a radiance (rgba16f). rgba8.
 Image display(const windshield::Settings& settings, const Image& radiance, const parallel::Executor& executor);

@@ -20,7 +20,8 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
 /// The street outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
 class Outside : public Environment {
  public:
-  Outside(const WindshieldView& view, double distance) : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)), outward_(view.pane().normal(0.5)) {}
+  Outside(const WindshieldView& view, double distance)
+      : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)), outward_(view.pane().normal(0.5)) {}
 
   void radiance(const Sights& sights, std::span<Vec> out) const override {
     const windshield::Settings& s = view_.settings();
@@ -33,7 +34,8 @@ class Outside : public Environment {
         out[i] = cabin;
         continue;
       }
-      const night_street::Street::Sight seen = view_.street().look(place_ + windshield::in_street(sight.origin), windshield::in_street(sight.direction));
+      const night_street::Street::Sight seen =
+          view_.street().look(place_ + windshield::in_street(sight.origin), windshield::in_street(sight.direction));
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
       out[i] = (1 - clear) * fog + clear * seen.radiance;
@@ -47,22 +49,30 @@ class Outside : public Environment {
 
 }  // namespace
 
-WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer, const parallel::Executor& executor)
-    : settings_(settings), tracer_(tracer), executor_(executor), pane_(shape_of(settings.corners, glass)), vehicle_(settings.vehicle), street_({settings.seed, settings.clear_lane}) {}
+WindshieldView::WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
+                               const parallel::Executor& executor)
+    : settings_(settings),
+      tracer_(tracer),
+      executor_(executor),
+      pane_(shape_of(settings.corners, glass)),
+      vehicle_(settings.vehicle),
+      street_({settings.seed, settings.clear_lane}) {}
 
 double WindshieldView::distance(const windshield::Windshield& rendered) const {
   const double time = std::max(0, rendered.frame() - 1) / settings_.fps;
   return settings_.scene_moves ? vehicle_.at(time).distance : 0;
 }
 
-std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rendered) const { return scene(rendered.height(), distance(rendered)); }
+std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rendered) const {
+  return scene(rendered.height(), distance(rendered));
+}
 
 std::unique_ptr<Scene> WindshieldView::scene(const Image& height, double distance) const {
   auto scene = std::make_unique<Scene>(tracer_);
   PaneMedia media;
   media.water = water(settings_.picture.water_ior);
-  add_pane(*scene, pane_, std::make_shared<const WaterLayer>(height), pane_.is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)),
-           executor_, media);
+  add_pane(*scene, pane_, std::make_shared<const WaterLayer>(height), pane_.is_flat() ? WaterShape::displaced : WaterShape::sloped,
+           emitter(vec(settings_.picture.cabin)), executor_, media);
   scene->set_environment(std::make_shared<Outside>(*this, distance));
   scene->commit();
   return scene;

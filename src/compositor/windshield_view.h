@@ -19,7 +19,8 @@ struct WindshieldGlass {
 class WindshieldView {
  public:
   /// Throws Error(usage) for a pane that cannot be.
-  WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer, const parallel::Executor& executor);
+  WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
+                 const parallel::Executor& executor);
 
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
   /// and the executor the view.

@@ -14,7 +14,8 @@ namespace {
 /// The first channel of a texel whose bits differ.
 void set_first_difference(const FormatInfo& format, const std::byte* want, const std::byte* have, Failure& f) {
   const auto bytes = static_cast<std::size_t>(format.channel_bytes);
-  while (std::memcmp(want + static_cast<std::size_t>(f.channel) * bytes, have + static_cast<std::size_t>(f.channel) * bytes, bytes) == 0) ++f.channel;
+  while (std::memcmp(want + static_cast<std::size_t>(f.channel) * bytes, have + static_cast<std::size_t>(f.channel) * bytes, bytes) == 0)
+    ++f.channel;
   const std::size_t at = static_cast<std::size_t>(f.channel) * bytes;
   set_unequal(format.kind, want + at, have + at, f);
 }
@@ -48,7 +49,8 @@ void set_unequal(FormatInfo::Kind kind, const std::byte* want, const std::byte* 
   f.expected_is_negative_zero = is_negative_zero(kind, want);
   f.not_a_number = is_nan(kind, have);
   // The two zeros have one code.
-  const std::uint64_t codes = f.got < f.low ? static_cast<std::uint64_t>(f.low) - static_cast<std::uint64_t>(f.got) : static_cast<std::uint64_t>(f.got) - static_cast<std::uint64_t>(f.low);
+  const std::uint64_t codes = f.got < f.low ? static_cast<std::uint64_t>(f.low) - static_cast<std::uint64_t>(f.got)
+                                            : static_cast<std::uint64_t>(f.got) - static_cast<std::uint64_t>(f.low);
   f.distance = f.not_a_number ? ~std::uint64_t{0} : std::max<std::uint64_t>(1, codes);
 }
 
@@ -75,8 +77,10 @@ OutputJudgement judge_bits(const capture::CaseOutput& expected, const capture::A
     f.x = static_cast<int>(out.records ? i : i % static_cast<std::size_t>(out.width));
     f.y = out.records ? 0 : static_cast<int>(i / static_cast<std::size_t>(out.width));
     f.distance = 1;
-    if (!out.records) set_first_difference(info(out.format), want.data() + i * size, have.data() + i * size, f);
-    else if (i < count && i < found) set_first_difference(expected.array.record, want.data() + i * size, have.data() + i * size, f);
+    if (!out.records)
+      set_first_difference(info(out.format), want.data() + i * size, have.data() + i * size, f);
+    else if (i < count && i < found)
+      set_first_difference(expected.array.record, want.data() + i * size, have.data() + i * size, f);
     out.worst.push_back(f);
   }
   return out;

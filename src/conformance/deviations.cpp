@@ -21,8 +21,9 @@ using capture::PassCase;
 /// What a GPU may do without being wrong: still the best explanation of a difference.
 bool is_legal(deviant::Slip s) {
   using deviant::Slip;
-  return s == Slip::fused || s == Slip::reciprocal_division || s == Slip::root_by_inverse || s == Slip::flushed || s == Slip::mix_by_difference ||
-         s == Slip::sum_backwards || s == Slip::sum_otherwise_paired || s == Slip::division_by_estimate || s == Slip::weights_of_8_bits;
+  return s == Slip::fused || s == Slip::reciprocal_division || s == Slip::root_by_inverse || s == Slip::flushed ||
+         s == Slip::mix_by_difference || s == Slip::sum_backwards || s == Slip::sum_otherwise_paired || s == Slip::division_by_estimate ||
+         s == Slip::weights_of_8_bits;
 }
 
 void add_slips(std::vector<Deviation>& out) {
@@ -94,7 +95,9 @@ void add_constants(std::vector<Deviation>& out, const PassCase& c, const capture
 }
 
 template <class T>
-void set_member(PassCase& c, std::size_t offset, T value) { std::memcpy(c.uniforms.data() + offset, &value, sizeof value); }
+void set_member(PassCase& c, std::size_t offset, T value) {
+  std::memcpy(c.uniforms.data() + offset, &value, sizeof value);
+}
 
 void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, const PassCase* before) {
   for (const scene::Member& m : pass.block.members) {
@@ -115,9 +118,8 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
     }
     for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k) {
       const std::string part = m.components == 1 ? "" : fmt::format("{} ", "xyzw"[k]);
-      add(part + "negated", fmt::format("{} {}has the other sign", m.name, part), [m, k](PassCase& c) {
-        c.uniforms[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80};
-      });
+      add(part + "negated", fmt::format("{} {}has the other sign", m.name, part),
+          [m, k](PassCase& c) { c.uniforms[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80}; });
       out.back().for_diagnosis = true;
     }
     if (m.scalar == scene::Scalar::int32 && m.components == 1) {
@@ -140,7 +142,9 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
   const auto family = [](const scene::Member& m) { return m.name.substr(0, m.name.find_last_of('_') + 1) + m.unit; };
   for (const scene::Member& m : pass.block.members) {
     for (const scene::Member& other : pass.block.members) {
-      if (&m == &other || m.scalar != scene::Scalar::float32 || other.scalar != m.scalar || m.components != 1 || other.components != 1 || family(m) != family(other)) continue;
+      if (&m == &other || m.scalar != scene::Scalar::float32 || other.scalar != m.scalar || m.components != 1 || other.components != 1 ||
+          family(m) != family(other))
+        continue;
       Deviation d;
       d.name = fmt::format("uniform {} is {}", m.name, other.name);
       d.sentence = fmt::format("{} has the value of {}", m.name, other.name);
@@ -150,7 +154,9 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
       if (m.offset > other.offset) continue;
       d.name = fmt::format("uniforms {} and {} exchanged", m.name, other.name);
       d.sentence = fmt::format("{} and {} have each other's value", m.name, other.name);
-      d.alter_case = [m, other](PassCase& c) { std::swap_ranges(&c.uniforms[m.offset], &c.uniforms[m.offset] + m.size(), &c.uniforms[other.offset]); };
+      d.alter_case = [m, other](PassCase& c) {
+        std::swap_ranges(&c.uniforms[m.offset], &c.uniforms[m.offset] + m.size(), &c.uniforms[other.offset]);
+      };
       out.push_back(std::move(d));
     }
   }
@@ -197,8 +203,8 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
       }
       if (info(i.array.format).channels == 2) {
         for (const int from : {0, 1}) {
-          add(from == 0 ? "with its first channel for both" : "with its second channel for both", fmt::format("of {} the same channel is read for both", name),
-              [from](Array& a) { copy_channel(a, from, 1 - from); });
+          add(from == 0 ? "with its first channel for both" : "with its second channel for both",
+              fmt::format("of {} the same channel is read for both", name), [from](Array& a) { copy_channel(a, from, 1 - from); });
           out.back().for_diagnosis = true;
         }
       }
@@ -219,7 +225,8 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
 
 }  // namespace
 
-std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model, const PassCase* before) {
+std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model,
+                                     const PassCase* before) {
   std::vector<Deviation> all;
   add_output_slips(all, c, before);
   add_list_slips(all, c, before);

@@ -28,14 +28,15 @@ struct ListEdit {
 
 struct Deviation {
   std::string name, sentence;
-  deviant::Behaviour behaviour;                          ///< what the arithmetic does
-  std::function<void(capture::PassCase&)> alter_case;    ///< what the pass takes; null: as captured
-  std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)> alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
+  deviant::Behaviour behaviour;                        ///< what the arithmetic does
+  std::function<void(capture::PassCase&)> alter_case;  ///< what the pass takes; null: as captured
+  std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)>
+      alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
   std::function<bool(const capture::PassCase&, ListEdit&)> alter_list;  ///< likewise from the finished list `list_output`
   int list_output = -1;
-  std::optional<HalfMode> stores;                        ///< how halves are stored, whatever was declared
-  bool legal = false;  ///< a conforming GPU may do this: not a bug, but it explains differences
-  bool for_diagnosis = false;  ///< asked by the diagnosis only: `mutate` has enough of its kind
+  std::optional<HalfMode> stores;  ///< how halves are stored, whatever was declared
+  bool legal = false;              ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool for_diagnosis = false;      ///< asked by the diagnosis only: `mutate` has enough of its kind
 
   bool is_evaluated() const { return !alter_outputs && !alter_list; }
 };

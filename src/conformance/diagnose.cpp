@@ -31,7 +31,8 @@ std::vector<Texel> spread(const std::vector<Texel>& all, std::size_t most) {
   return some;
 }
 /// Texels where the port stored the reference's bits.
-std::vector<Texel> equal_texels(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& port, const std::vector<Array>& reference) {
+std::vector<Texel> equal_texels(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& port,
+                                const std::vector<Array>& reference) {
   std::vector<Texel> out;
   for (int y = 0; y < model.height(); ++y)
     for (int x = 0; x < model.width(); ++x) {
@@ -58,8 +59,9 @@ struct Leeway {
   std::vector<std::int64_t> codes;          // of each slot
   std::vector<std::vector<double>> values;  // of each texel and slot
 };
-Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, const capture::PassModel& model, const std::vector<Array>& reference,
-                 const CaseJudgement& j, const enclosed::Profile& profile, const std::vector<Texel>& texels) {
+Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, const capture::PassModel& model,
+                 const std::vector<Array>& reference, const CaseJudgement& j, const enclosed::Profile& profile,
+                 const std::vector<Texel>& texels) {
   Leeway out;
   for (const Slot& s : slots) {
     const std::string& name = c.outputs[static_cast<std::size_t>(s.output)].name;
@@ -70,29 +72,33 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
   std::vector<enclosed::Enclosure> values(slots.size());
   std::vector<float> stored(slots.size());
   for (const Texel t : texels) {
-    for (std::size_t v = 0; v < slots.size(); ++v) stored[v] = stored_value(slots[v], slots[v].at(reference[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
+    for (std::size_t v = 0; v < slots.size(); ++v)
+      stored[v] = stored_value(slots[v], slots[v].at(reference[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
     std::vector<double>& widths = out.values.emplace_back(slots.size(), 0.0);
     enclosed::Replay replay;
     replay.for_each_alternative([&] {
       model.enclose(t.x, t.y, stored.data(), values.data());
       // A bound that is hardly one would let everything count as near.
       for (std::size_t v = 0; v < slots.size(); ++v)
-        if (!values[v].is_vacuous()) widths[v] = std::max(widths[v], std::min(static_cast<double>(values[v].hi) - values[v].lo, slots[v].range / 64));
+        if (!values[v].is_vacuous())
+          widths[v] = std::max(widths[v], std::min(static_cast<double>(values[v].hi) - values[v].lo, slots[v].range / 64));
     });
   }
   return out;
 }
 
 /// Of texel number k.
-Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& deviated, const std::vector<Array>& port,
-              const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels, std::size_t k) {
+Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& deviated,
+              const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
+              std::size_t k) {
   Match m{true, true};
   bool nearer = false;
   for (std::size_t v = 0; v < slots.size(); ++v) {
     if (model.is_free(static_cast<int>(v))) continue;
     const Slot& s = slots[v];
     const std::size_t o = static_cast<std::size_t>(s.output);
-    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(deviated[o], texels[k].x, texels[k].y), *base = s.at(reference[o], texels[k].x, texels[k].y);
+    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(deviated[o], texels[k].x, texels[k].y),
+                    *base = s.at(reference[o], texels[k].x, texels[k].y);
     const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
     const std::int64_t far = gap(code(got), code(guess)), before = gap(code(got), code(base));
     const double off = std::abs(static_cast<double>(stored_value(s, got)) - stored_value(s, guess));
@@ -106,7 +112,8 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
 }
 
 /// Share of the texels where the port has the reference's bits and the deviation would store clearly other ones.
-double contradicted(const std::vector<Slot>& slots, const DeviatedPass& deviated, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& equal) {
+double contradicted(const std::vector<Slot>& slots, const DeviatedPass& deviated, const std::vector<Array>& reference, const Leeway& leeway,
+                    const std::vector<Texel>& equal) {
   std::vector<Array> stored = reference;
   std::int64_t against = 0;
   for (const Texel t : equal) {
@@ -131,7 +138,8 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
   const std::vector<Deviation> all = deviations_of(pass, c, model, before);
   const std::vector<Array> reference = reference_outputs(c, model, executor, mode);
   const Leeway leeway = leeway_of(slots, c, model, reference, judgement, profile, failing);
-  const std::vector<Texel> equal = equal_texels(slots, model, port, reference), few_equal = spread(equal, 400), many_equal = spread(equal, 20000);
+  const std::vector<Texel> equal = equal_texels(slots, model, port, reference), few_equal = spread(equal, 400),
+                           many_equal = spread(equal, 20000);
   const double equal_per_failing = static_cast<double>(equal.size()) / static_cast<double>(all_failing.size());
   std::vector<Cause> causes(all.size());
 
@@ -154,7 +162,8 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
         }
         // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
         // break about as many texels as it explains.
-        const double broken = contradicted(slots, deviated, reference, leeway, d.is_evaluated() ? few_equal : many_equal) * equal_per_failing;
+        const double broken =
+            contradicted(slots, deviated, reference, leeway, d.is_evaluated() ? few_equal : many_equal) * equal_per_failing;
         if (broken * 4 > 1) cause.explained = cause.inside = 0;
       } catch (const Error&) {
         cause.explained = cause.inside = 0;  // the altered case is none that the pass can run
@@ -167,7 +176,8 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
 std::vector<Cause> best_causes(std::vector<Cause> causes) {
   // A deviation that explains some texels of many explains nothing; a wrong cause would be worse than none.
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
-  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
+  std::stable_sort(causes.begin(), causes.end(),
+                   [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
   if (causes.size() > 3) causes.resize(3);
   return causes;
 }

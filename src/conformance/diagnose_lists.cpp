@@ -74,7 +74,8 @@ void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, cons
       model->enclose(group, records);
       for (const capture::KeyedRecord& r : records)
         for (std::size_t k = 0; k < r.floats.size() && k < words.size(); ++k)
-          if (const double width = static_cast<double>(r.floats[k].hi) - r.floats[k].lo; r.lives && !r.floats[k].is_vacuous() && width < std::max(extents[k], r.floats[k].magnitude()) / 64)
+          if (const double width = static_cast<double>(r.floats[k].hi) - r.floats[k].lo;
+              r.lives && !r.floats[k].is_vacuous() && width < std::max(extents[k], r.floats[k].magnitude()) / 64)
             words[k].leeway = std::max(words[k].leeway, width);
     });
   }
@@ -104,8 +105,9 @@ Match compare(const Records& guess, const Records& got, const std::vector<Word>&
 
 }  // namespace
 
-std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, const capture::PassModel* model,
-                                  const std::vector<Array>& port, const enclosed::Profile& profile, const parallel::Executor& executor) {
+std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
+                                  const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
+                                  const parallel::Executor& executor) {
   const capture::PassReadings* readings = readings_of(c.effect, c.pass);
   if (!readings) return {};
   const capture::ListPass no_model("", nullptr);
@@ -116,7 +118,8 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
     const capture::KeyedModel* keyed = model->keyed(expected.name);
     const KeyedJudgement judged = judge_keyed(expected, port[o], keyed, profile);
     std::set<std::uint32_t> failing;
-    for (const auto* ids : {&judged.events.missing, &judged.events.extra, &judged.events.duplicate, &judged.events.outside}) failing.insert(ids->begin(), ids->end());
+    for (const auto* ids : {&judged.events.missing, &judged.events.extra, &judged.events.duplicate, &judged.events.outside})
+      failing.insert(ids->begin(), ids->end());
     if (failing.empty()) continue;
     const std::vector<std::uint32_t> at(failing.begin(), failing.end());
     const Array reference = in_order_of(port[o], expected.array);

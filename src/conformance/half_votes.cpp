@@ -48,13 +48,15 @@ FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>&
   const std::size_t own = place(pass, port), other = 1 - own;
   const std::size_t found = pass.failing[other] < pass.failing[own] ? other : own;
   // Stores of one device round one way. Only when both ways fail and a mixture does not is it a mixture.
-  if (pass.modes.size() == 3 && pass.failing[found] > 0 && pass.failing[2] == 0) return {2, "some stores to binary16 round to nearest and some toward zero"};
+  if (pass.modes.size() == 3 && pass.failing[found] > 0 && pass.failing[2] == 0)
+    return {2, "some stores to binary16 round to nearest and some toward zero"};
   const HalfMode mode = pass.modes[found];
   std::vector<std::string> doubts;
   if (asked != HalfMode::either && mode != asked && pass.failing[place(pass, asked)] > 0)
     doubts.push_back(fmt::format("stores to binary16 round {}, where the profile {} asks for {}", words(mode), profile, words(asked)));
   if (const std::vector<std::string> others = only_under(port, passes); mode != port && pass.failing[found] == 0 && !others.empty())
-    doubts.push_back(fmt::format("stores to binary16 round {} in this pass and {} in {}: a port has one rounding", words(mode), words(port), fmt::join(others, ", ")));
+    doubts.push_back(fmt::format("stores to binary16 round {} in this pass and {} in {}: a port has one rounding", words(mode), words(port),
+                                 fmt::join(others, ", ")));
   return {found, fmt::format("{}", fmt::join(doubts, "; "))};
 }
 

@@ -24,9 +24,12 @@ using enclosed::Enclosure;
 
 enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, Rounding unorm) {
   enclosed::StoreRules rules = enclosed::store_rules(profile, unorm);
-  rules.half = mode == HalfMode::rne ? enclosed::StoreRounding::rne : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz : enclosed::StoreRounding::either;
+  rules.half = mode == HalfMode::rne   ? enclosed::StoreRounding::rne
+               : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz
+                                       : enclosed::StoreRounding::either;
   // What a profile says of overflow goes with the rounding that it asks for.
-  if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference) rules.half_overflow = enclosed::StoreOverflow::either;
+  if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference)
+    rules.half_overflow = enclosed::StoreOverflow::either;
   return rules;
 }
 /// The profile of a device whose stores round like this.
@@ -77,7 +80,8 @@ struct Stored {
   std::vector<char> impossible;  ///< not a number, or free and outside what it may be
   bool any_impossible = false;
 
-  void read(const std::vector<Slot>& slots, const PassCase& c, const PassModel& model, const enclosed::Profile& profile, const std::vector<Array>& port, int x, int y) {
+  void read(const std::vector<Slot>& slots, const PassCase& c, const PassModel& model, const enclosed::Profile& profile,
+            const std::vector<Array>& port, int x, int y) {
     const std::size_t n = slots.size();
     got.resize(n);
     expected.resize(n);
@@ -114,7 +118,8 @@ std::uint64_t distance(std::int64_t code, const CodeRange& r) {
 void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& values, const enclosed::Profile& profile, HalfMode mode,
                  std::vector<CodeRange>& out) {
   out.resize(slots.size());
-  for (std::size_t v = 0; v < slots.size(); ++v) out[v] = enclosed::code_range(slots[v].kind, values[v], rules_of(profile, mode, slots[v].store_rounding));
+  for (std::size_t v = 0; v < slots.size(); ++v)
+    out[v] = enclosed::code_range(slots[v].kind, values[v], rules_of(profile, mode, slots[v].store_rounding));
 }
 
 /// Whether an alternative of these codes holds a value: exact rules compare bits.
@@ -146,10 +151,12 @@ struct Part {
 
 class CaseJudge {
  public:
-  CaseJudge(const PassCase& c, const PassModel& model, const std::vector<Array>& port, const JudgeOptions& options, std::vector<HalfMode> modes)
+  CaseJudge(const PassCase& c, const PassModel& model, const std::vector<Array>& port, const JudgeOptions& options,
+            std::vector<HalfMode> modes)
       : case_(c), model_(model), port_(port), options_(options), modes_(std::move(modes)), slots_(slots_of(c)) {
     if (static_cast<int>(slots_.size()) != model.values())
-      throw Error(ExitCode::internal, fmt::format("{}: the model has {} values, the outputs {}", c.folder(), model.values(), slots_.size()));
+      throw Error(ExitCode::internal,
+                  fmt::format("{}: the model has {} values, the outputs {}", c.folder(), model.values(), slots_.size()));
   }
 
   std::vector<CaseJudgement> run() {
@@ -158,7 +165,8 @@ class CaseJudge {
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
     std::vector<CaseJudgement> whole(modes_.size(), empty_part().counts);
     for (CaseJudgement& j : whole)
-      for (OutputJudgement& o : j.outputs) o.map.assign(o.records ? 0 : static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
+      for (OutputJudgement& o : j.outputs)
+        o.map.assign(o.records ? 0 : static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
       Scratch scratch;
       for (int y = tile.y0; y < tile.y1; ++y)
@@ -198,8 +206,10 @@ class CaseJudge {
   void invocation(int x, int y, Scratch& s, std::vector<Part>& parts, std::vector<CaseJudgement>& whole) const {
     s.stored.read(slots_, case_, model_, *options_.profile, port_, x, y);
     const bool is_exact = options_.profile->reference, each_rounds = model_.rounds_inside() && !is_exact;
-    if (is_exact) s.alternatives.only(s.stored.expected_values);
-    else if (!each_rounds) s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
+    if (is_exact)
+      s.alternatives.only(s.stored.expected_values);
+    else if (!each_rounds)
+      s.alternatives.run(model_, x, y, s.stored.got_values.data(), *options_.profile);
     for (std::size_t m = 0; m < modes_.size(); ++m) {
       if (each_rounds) s.alternatives.run(model_, x, y, s.stored.got_values.data(), narrowed(*options_.profile, modes_[m]));
       one_mode(x, y, s, modes_[m], parts[m], whole[m]);
@@ -231,7 +241,8 @@ class CaseJudge {
         for (std::size_t v = 0; v < n; ++v) {
           if (s.stored.free[v]) continue;
           far = std::max(far, distance(s.stored.got[v], s.ranges[v]));
-          enclosed::StoreRules own = rules_of(*options_.profile, slots_[v].store_rounding == Rounding::rne ? HalfMode::rne : HalfMode::rtz, slots_[v].store_rounding);
+          enclosed::StoreRules own = rules_of(*options_.profile, slots_[v].store_rounding == Rounding::rne ? HalfMode::rne : HalfMode::rtz,
+                                              slots_[v].store_rounding);
           holds_reference &= enclosed::code_range(slots_[v].kind, values[v], own).contains(s.stored.expected[v]);
         }
         if (holds_reference && reference < 0) reference = a;
@@ -277,7 +288,8 @@ class CaseJudge {
         out.loose += vacuous || width > scale / 256;
         part.widths[static_cast<std::size_t>(slot.output)].add(r);
       }
-      if (failed && (impossible || (!s.alternatives.gave_up && !holds(*options_.profile, s.stored, v, s.nearest[v])))) add_failure(x, y, v, s, part, whole);
+      if (failed && (impossible || (!s.alternatives.gave_up && !holds(*options_.profile, s.stored, v, s.nearest[v]))))
+        add_failure(x, y, v, s, part, whole);
     }
     if (!failed && differs && options_.typical && !s.alternatives.gave_up) check_typical(x, y, s, mode, counts, whole);
   }
@@ -296,7 +308,8 @@ class CaseJudge {
     if (!options_.profile->reference) {
       f.low = f.high = 0;
       if (const auto range = free_range(model_, v, *options_.profile)) {
-        const CodeRange free = enclosed::code_range(slot.kind, Enclosure(static_cast<float>((*range)[0]), static_cast<float>((*range)[1])), rules_of(*options_.profile, HalfMode::rne, slot.store_rounding));
+        const CodeRange free = enclosed::code_range(slot.kind, Enclosure(static_cast<float>((*range)[0]), static_cast<float>((*range)[1])),
+                                                    rules_of(*options_.profile, HalfMode::rne, slot.store_rounding));
         f.low = free.lo;
         f.high = free.hi;
       } else if (!s.alternatives.gave_up) {
@@ -311,7 +324,8 @@ class CaseJudge {
 
   /// The codes of alternative a, into s.ranges.
   void ranges_of(Scratch& s, int a, HalfMode mode) const {
-    if (!options_.profile->reference) return code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *options_.profile, mode, s.ranges);
+    if (!options_.profile->reference)
+      return code_ranges(slots_, s.alternatives.values[static_cast<std::size_t>(a)], *options_.profile, mode, s.ranges);
     s.ranges.clear();
     for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
   }
@@ -380,12 +394,16 @@ const char* name(HalfMode mode) {
   return names[static_cast<int>(mode)];
 }
 Status worse(Status a, Status b) {
-  const auto rank = [](Status s) { return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : s == Status::pass ? 0 : -1; };
+  const auto rank = [](Status s) {
+    return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : s == Status::pass ? 0 : -1;
+  };
   return rank(a) >= rank(b) ? a : b;
 }
 
 HalfMode half_mode_of(const enclosed::Profile& profile) {
-  return profile.half_store == enclosed::StoreRounding::rne ? HalfMode::rne : profile.half_store == enclosed::StoreRounding::rtz ? HalfMode::rtz : HalfMode::either;
+  return profile.half_store == enclosed::StoreRounding::rne   ? HalfMode::rne
+         : profile.half_store == enclosed::StoreRounding::rtz ? HalfMode::rtz
+                                                              : HalfMode::either;
 }
 
 void conclude(CaseJudgement& j) {
@@ -403,7 +421,8 @@ void conclude(CaseJudgement& j) {
     j.reason = "nothing to judge";
   } else if (vacuous * 100 > elements - free && elements > free) {
     j.status = Status::untested;
-    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, more than 1 %", 100.0 * static_cast<double>(vacuous) / static_cast<double>(elements - free));
+    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, more than 1 %",
+                           100.0 * static_cast<double>(vacuous) / static_cast<double>(elements - free));
   } else if (atypical > 0) {
     j.status = Status::warn;
     j.reason = fmt::format("{} elements lie inside the profile but outside what real devices do", atypical);
@@ -418,16 +437,23 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
     return o.judge == capture::Judge::envelope && !o.array.is_records && info(o.array.format).kind == FormatInfo::float16;
   });
   const HalfMode declared = half_mode_of(*options.profile);
-  if (options.profile->reference || !has_half) result.modes = {declared == HalfMode::either ? HalfMode::rne : declared};
-  else if (declared != HalfMode::either && options.half_mode == declared) result.modes = {declared};
-  else if (declared != HalfMode::either) result.modes = {declared, declared == HalfMode::rne ? HalfMode::rtz : HalfMode::rne};
-  else if (options.half_mode) result.modes = {*options.half_mode};
-  else result.modes = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
+  if (options.profile->reference || !has_half)
+    result.modes = {declared == HalfMode::either ? HalfMode::rne : declared};
+  else if (declared != HalfMode::either && options.half_mode == declared)
+    result.modes = {declared};
+  else if (declared != HalfMode::either)
+    result.modes = {declared, declared == HalfMode::rne ? HalfMode::rtz : HalfMode::rne};
+  else if (options.half_mode)
+    result.modes = {*options.half_mode};
+  else
+    result.modes = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
 
   const bool enveloped = !slots_of(c).empty();
   if (enveloped && !model) throw Error(ExitCode::internal, fmt::format("{}: no reading of this pass", c.pass));
-  if (enveloped) result.judgements = CaseJudge(c, *model, port, options, result.modes).run();
-  else result.judgements.assign(result.modes.size(), CaseJudgement{});
+  if (enveloped)
+    result.judgements = CaseJudge(c, *model, port, options, result.modes).run();
+  else
+    result.judgements.assign(result.modes.size(), CaseJudgement{});
   for (CaseJudgement& j : result.judgements) {
     j.id = c.folder();
     std::vector<OutputJudgement> outputs;  // each judged output once, in the case's order
@@ -447,7 +473,8 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
       j.other_branch += k.other_branch;
       j.gave_up += k.gave_up;
       outputs.push_back(std::move(k.output));
-      if (const std::string text = k.events.text(); !text.empty()) events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);
+      if (const std::string text = k.events.text(); !text.empty())
+        events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);
     }
     j.outputs = std::move(outputs);
     conclude(j);

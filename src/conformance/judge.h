@@ -53,8 +53,8 @@ class InvocationJudge {
 
 /// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding. Keyed
 /// records where the model knows them, in any order; what no model gives is as in the case.
-std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model, const parallel::Executor& executor,
-                                              HalfMode mode = HalfMode::either);
+std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model,
+                                              const parallel::Executor& executor, HalfMode mode = HalfMode::either);
 
 /// Status and reason of a case from its counts.
 void conclude(CaseJudgement& judgement);

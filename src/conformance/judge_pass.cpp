@@ -48,7 +48,8 @@ HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& c
 }
 
 /// Keeps of each case the judgement under the rounding that was found.
-void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const HalfVotes& own, const std::vector<HalfVotes>& all, const JudgeOptions& options) {
+void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const HalfVotes& own, const std::vector<HalfVotes>& all,
+                 const JudgeOptions& options) {
   FoundRounding found;
   if (!own.modes.empty()) {
     found = pass_rounding(own, all, half_mode_of(*options.profile), options.profile->name);
@@ -69,7 +70,8 @@ void conclude_pass(PassJudgement& pass) {
     if (both != pass.status || (c.status == both && pass.reason.empty())) pass.reason = c.reason.empty() ? doubt : c.reason;
     pass.status = both;
   }
-  if (!pass.cases.empty() && std::all_of(pass.cases.begin(), pass.cases.end(), [](const CaseJudgement& c) { return c.status == Status::data; })) {
+  if (!pass.cases.empty() &&
+      std::all_of(pass.cases.begin(), pass.cases.end(), [](const CaseJudgement& c) { return c.status == Status::data; })) {
     pass.status = Status::data;
     pass.reason = pass.cases[0].reason;
   }
@@ -80,8 +82,10 @@ void conclude_pass(PassJudgement& pass) {
 }
 
 /// Asks about the run with the most failures, which says most.
-std::vector<Cause> causes_of(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const PassJudgement& judged, const JudgeOptions& options) {
-  const auto worst = std::max_element(judged.cases.begin(), judged.cases.end(), [](const auto& a, const auto& b) { return a.failing < b.failing; });
+std::vector<Cause> causes_of(const capture::PackPass& pass, Bind bind, const PassRuns& runs, const PassJudgement& judged,
+                             const JudgeOptions& options) {
+  const auto worst =
+      std::max_element(judged.cases.begin(), judged.cases.end(), [](const auto& a, const auto& b) { return a.failing < b.failing; });
   if (worst == judged.cases.end() || worst->failing == 0) return {};
   const auto k = static_cast<std::size_t>(worst - judged.cases.begin());
   PortRun run = runs.load(k);
@@ -91,15 +95,19 @@ std::vector<Cause> causes_of(const capture::PackPass& pass, Bind bind, const Pas
   std::optional<PortRun> before;
   if (k > 0) {
     before = runs.load(k - 1);
-    if (before->untested.empty()) prepare(pass, bind, runs, *before);
-    else before.reset();
+    if (before->untested.empty())
+      prepare(pass, bind, runs, *before);
+    else
+      before.reset();
   }
   // A wrong list is behind what is wrong in an image that goes with it.
   if (has_lists) {
-    std::vector<Cause> causes = diagnose_lists(pass, run.c, before ? &before->c : nullptr, model.get(), run.stored, *options.profile, *options.executor);
+    std::vector<Cause> causes =
+        diagnose_lists(pass, run.c, before ? &before->c : nullptr, model.get(), run.stored, *options.profile, *options.executor);
     if (!causes.empty() || !bind || !is_enveloped(run.c)) return causes;
   }
-  return diagnose(pass, run.c, before ? &before->c : nullptr, bind, *model, run.stored, *worst, *options.profile, judged.half_mode, *options.executor);
+  return diagnose(pass, run.c, before ? &before->c : nullptr, bind, *model, run.stored, *worst, *options.profile, judged.half_mode,
+                  *options.executor);
 }
 
 }  // namespace
@@ -110,7 +118,9 @@ bool is_enveloped(const capture::PassCase& c) {
 
 std::unique_ptr<PassModel> bound(const std::string& pass, Bind bind, const capture::PassCase& c) {
   if (!bind && is_enveloped(c)) throw Error(ExitCode::internal, fmt::format("no reading of pass {}", pass));
-  const auto has_model = [](const capture::CaseOutput& o) { return o.judge == capture::Judge::envelope || o.judge == capture::Judge::keyed; };
+  const auto has_model = [](const capture::CaseOutput& o) {
+    return o.judge == capture::Judge::envelope || o.judge == capture::Judge::keyed;
+  };
   return bind && std::any_of(c.outputs.begin(), c.outputs.end(), has_model) ? bind(c) : nullptr;
 }
 

@@ -122,9 +122,7 @@ void add_failures(const std::vector<Failure>& failures, OutputJudgement& out) {
     if (out.worst.size() < OutputJudgement::max_failures) out.worst.push_back(f);
 }
 
-void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
+void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) { to.insert(to.end(), from.begin(), from.end()); }
 void settle(std::vector<std::uint32_t>& ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -136,8 +134,7 @@ std::string KeyedEvents::text() const {
   std::string out;
   const auto add = [&](const char* what, const std::vector<std::uint32_t>& ids) {
     if (ids.empty()) return;
-    const std::vector<std::uint32_t> some(
-        ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(8, ids.size())));
+    const std::vector<std::uint32_t> some(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(8, ids.size())));
     out += fmt::format("{}{}: {}{}", out.empty() ? "" : "; ", what, fmt::join(some, ", "),
                        ids.size() > 8 ? fmt::format(" and {} more", ids.size() - 8) : "");
   };
@@ -147,7 +144,6 @@ std::string KeyedEvents::text() const {
   add("outside", outside);
   return out;
 }
-
 
 bool same_records(const Array& a, const Array& b) {
   const auto sorted = [](const Array& list) {
@@ -175,8 +171,7 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
   std::vector<std::uint32_t> twice;
   const RecordTable want = table_of(expected.array, layout, twice);
   if (!twice.empty())
-    throw Error(ExitCode::port_files,
-                fmt::format("{}: expected each id once, found {} twice", expected.name, twice.front()));
+    throw Error(ExitCode::port_files, fmt::format("{}: expected each id once, found {} twice", expected.name, twice.front()));
   const RecordTable have = table_of(port, layout, j.events.duplicate);
   const Rules rules{layout, profile, profile.reference || !model};
   const Exactly exactly(want, layout);
@@ -197,10 +192,9 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
       for (const KeyedRecord& r : a) {
         unknown.erase(r.id);
         if (r.lives && (r.floats.size() != layout.floats.size() || r.words.size() != layout.words.size()))
-          throw Error(
-              ExitCode::internal,
-              fmt::format("{}: the model's record has {} floats and {} integers, the output's {} and {}", expected.name,
-                          r.floats.size(), r.words.size(), layout.floats.size(), layout.words.size()));
+          throw Error(ExitCode::internal,
+                      fmt::format("{}: the model's record has {} floats and {} integers, the output's {} and {}", expected.name,
+                                  r.floats.size(), r.words.size(), layout.floats.size(), layout.words.size()));
       }
     if (!whole) {
       counts.add(alternatives.front(), true);
@@ -216,8 +210,7 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
     Difference least;
     int reference = -1;
     for (std::size_t a = 0; a < alternatives.size(); ++a) {
-      if (reference < 0 && compare(alternatives[a], want, rules).count() == 0)
-        reference = static_cast<int>(a);
+      if (reference < 0 && compare(alternatives[a], want, rules).count() == 0) reference = static_cast<int>(a);
       Difference d = compare(alternatives[a], have, rules);
       if (a == 0 || d.count() < least.count() || (d.count() == 0 && static_cast<int>(a) == reference)) {
         best = a;
@@ -236,8 +229,7 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
   for (const auto& [id, bytes] : unknown) j.events.extra.push_back(id);
   for (std::size_t k = 0; k < unknown.size() + j.events.duplicate.size(); ++k) counts.add_whole_record();
   counts.finish();
-  for (std::vector<std::uint32_t>* ids : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside})
-    settle(*ids);
+  for (std::vector<std::uint32_t>* ids : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside}) settle(*ids);
   j.failing += static_cast<std::int64_t>(unknown.size() + j.events.duplicate.size());
   std::stable_sort(j.output.worst.begin(), j.output.worst.end(),
                    [](const Failure& a, const Failure& b) { return a.distance > b.distance; });

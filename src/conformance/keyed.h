@@ -14,11 +14,10 @@ namespace rainref::conformance {
 
 /// Ids that something happened to, ascending, without repetition.
 struct KeyedEvents {
-  std::vector<std::uint32_t> missing;  ///< must live and do not: a death or capture too many, a birth too few
-  std::vector<std::uint32_t>
-      extra;  ///< live and may not: a death, capture or merge that did not happen, a birth too many
+  std::vector<std::uint32_t> missing;    ///< must live and do not: a death or capture too many, a birth too few
+  std::vector<std::uint32_t> extra;      ///< live and may not: a death, capture or merge that did not happen, a birth too many
   std::vector<std::uint32_t> duplicate;  ///< of more than one record
-  std::vector<std::uint32_t> outside;  ///< live rightly, with a float outside its envelope or an integer of other bits
+  std::vector<std::uint32_t> outside;    ///< live rightly, with a float outside its envelope or an integer of other bits
   /// "" or "missing: 3, 17; duplicate: 4": at most eight ids of each kind.
   std::string text() const;
 };
@@ -46,7 +45,7 @@ std::vector<double> extents_of(const scene::UniformBlock& record, const capture:
 /// vacuous. Without a model, and under exact rules, each expected record is a group whose fields must have the expected
 /// bits. Throws Error(internal) for a record without a key or a model that does not fit it, Error(port_files) when the
 /// expected list has an id twice.
-KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const capture::Array& port,
-                           const capture::KeyedModel* model, const enclosed::Profile& profile);
+KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const capture::Array& port, const capture::KeyedModel* model,
+                           const enclosed::Profile& profile);
 
 }  // namespace rainref::conformance

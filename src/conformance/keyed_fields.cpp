@@ -21,9 +21,7 @@ bool is_key(const scene::Member& m) { return m.name == "id" && m.scalar == scene
 
 }  // namespace
 
-bool has_key(const scene::UniformBlock& record) {
-  return std::any_of(record.members.begin(), record.members.end(), is_key);
-}
+bool has_key(const scene::UniformBlock& record) { return std::any_of(record.members.begin(), record.members.end(), is_key); }
 
 RecordLayout record_layout(const scene::UniformBlock& record) {
   RecordLayout out;
@@ -64,7 +62,8 @@ std::vector<double> extents_of(const scene::UniformBlock& record, const capture:
   std::vector<double> out;
   for (const scene::Member& m : record.members) {
     if (m.scalar != scene::Scalar::float32 || m.name.starts_with("padding")) continue;
-    const auto found = std::find_if(model.ranges().begin(), model.ranges().end(), [&](const capture::FieldRange& r) { return r.member == m.name; });
+    const auto found =
+        std::find_if(model.ranges().begin(), model.ranges().end(), [&](const capture::FieldRange& r) { return r.member == m.name; });
     if (found == model.ranges().end()) throw Error(ExitCode::internal, fmt::format("{}: {} has no declared range", record.name, m.name));
     out.insert(out.end(), static_cast<std::size_t>(m.components), found->high - found->low);
   }
@@ -105,13 +104,17 @@ void FieldCounts::add(const std::vector<KeyedRecord>& alternative, bool gave_up)
       add_whole_record();  // extra
       continue;
     }
-    const auto differs = [&](std::size_t offset) { return want == expected_.end() || word_at(got->second, offset) != word_at(want->second, offset); };
+    const auto differs = [&](std::size_t offset) {
+      return want == expected_.end() || word_at(got->second, offset) != word_at(want->second, offset);
+    };
     for (std::size_t k = 0; k < layout_.floats.size(); ++k) {
       const CodeRange range = gave_up ? CodeRange::vacuous() : enclosed::code_range(FormatInfo::float32, r.floats[k], {});
-      const double width = gave_up ? 0 : static_cast<double>(r.floats[k].hi) - r.floats[k].lo, scale = gave_up ? 0 : std::max(extents_[k], r.floats[k].magnitude());
+      const double width = gave_up ? 0 : static_cast<double>(r.floats[k].hi) - r.floats[k].lo,
+                   scale = gave_up ? 0 : std::max(extents_[k], r.floats[k].magnitude());
       add_field(differs(layout_.floats[k]), range, range.is_vacuous() || width > scale / 16, range.is_vacuous() || width > scale / 256);
     }
-    for (const std::size_t offset : layout_.words) add_field(differs(offset), gave_up ? CodeRange::vacuous() : CodeRange{0, 0}, gave_up, gave_up);
+    for (const std::size_t offset : layout_.words)
+      add_field(differs(offset), gave_up ? CodeRange::vacuous() : CodeRange{0, 0}, gave_up, gave_up);
   }
 }
 

@@ -38,7 +38,8 @@ std::vector<Failure> not_numbers(const std::vector<capture::KeyedRecord>& record
 class FieldCounts {
  public:
   /// `extents`: of each float's declared range. Whatever is referred to must outlive it.
-  FieldCounts(const RecordTable& port, const RecordTable& expected, const RecordLayout& layout, std::vector<double> extents, OutputJudgement& out)
+  FieldCounts(const RecordTable& port, const RecordTable& expected, const RecordLayout& layout, std::vector<double> extents,
+              OutputJudgement& out)
       : port_(port), expected_(expected), layout_(layout), extents_(std::move(extents)), out_(out) {}
 
   /// Of a group: what an alternative bounds, or nothing where there were too many.

@@ -21,7 +21,8 @@ constexpr int most_for_altered_cases = 4096;
 Records records_of(const Array& list) {
   const std::size_t size = list.record.size;
   Records out;
-  for (auto at = list.levels[0].begin(); at != list.levels[0].end(); at += static_cast<std::ptrdiff_t>(size)) out.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+  for (auto at = list.levels[0].begin(); at != list.levels[0].end(); at += static_cast<std::ptrdiff_t>(size))
+    out.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
   return out;
 }
 Array array_of(const Records& records, const Array& like) {
@@ -63,8 +64,9 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const Pas
   return out;
 }
 
-std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::size_t output, const capture::PassReadings& readings, const capture::PassModel* model,
-                                   const Array& finished, const std::vector<std::uint32_t>& at, const Records* port) {
+std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::size_t output, const capture::PassReadings& readings,
+                                   const capture::PassModel* model, const Array& finished, const std::vector<std::uint32_t>& at,
+                                   const Records* port) {
   if (d.alter_list) {
     if (d.list_output != static_cast<int>(output)) return std::nullopt;
     ListEdit edit{records_of(finished), at, port};

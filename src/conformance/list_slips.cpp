@@ -33,7 +33,9 @@ float float_at(const std::vector<std::byte>& record, std::size_t offset) {
   std::memcpy(&f, &record[offset], sizeof f);
   return f;
 }
-void copy_member(const Member& m, const std::vector<std::byte>& from, std::vector<std::byte>& to) { std::memcpy(&to[m.offset], &from[m.offset], m.size()); }
+void copy_member(const Member& m, const std::vector<std::byte>& from, std::vector<std::byte>& to) {
+  std::memcpy(&to[m.offset], &from[m.offset], m.size());
+}
 template <class Change>
 void each_float(const Member& m, std::vector<std::byte>& record, Change change) {
   for (int k = 0; k < m.components; ++k) {
@@ -53,8 +55,10 @@ struct List {
 
   List(const PassCase& c, std::size_t o) : output(o), name(c.outputs[o].name), layout(c.outputs[o].array.record) {
     for (const Member& m : layout.members) {
-      if (m.name == "id") id = m.offset;
-      else if (!m.name.starts_with("padding")) fields.push_back(m);
+      if (m.name == "id")
+        id = m.offset;
+      else if (!m.name.starts_with("padding"))
+        fields.push_back(m);
     }
   }
   std::uint32_t id_of(const std::vector<std::byte>& record) const { return word_at(record, id); }
@@ -68,11 +72,14 @@ struct List {
     return out;
   }
   const Member* mass() const {
-    const auto found = std::find_if(fields.begin(), fields.end(), [](const Member& m) { return m.name == "mass" && m.scalar == scene::Scalar::float32 && m.components == 1; });
+    const auto found = std::find_if(fields.begin(), fields.end(), [](const Member& m) {
+      return m.name == "mass" && m.scalar == scene::Scalar::float32 && m.components == 1;
+    });
     return found == fields.end() ? nullptr : &*found;
   }
   std::size_t place(const Records& records, std::uint32_t of) const {
-    return static_cast<std::size_t>(std::find_if(records.begin(), records.end(), [&](const auto& r) { return id_of(r) == of; }) - records.begin());
+    return static_cast<std::size_t>(std::find_if(records.begin(), records.end(), [&](const auto& r) { return id_of(r) == of; }) -
+                                    records.begin());
   }
   /// Ids that the pass took and does not give.
   Ids ended(const PassCase& c, const Records& records) const {
@@ -152,48 +159,54 @@ Ids present(const List& list, const ListEdit& e) {
 
 // ---- a record too few, too many, in the wrong state ----------------------------------------------------------------
 void add_events(Adder& a) {
-  a.add("without a record", "an append is lost: two threads took one slot, or the counter is not atomic", [](const List& list, const PassCase&, ListEdit& e) {
-    const Ids at = present(list, e);
-    const std::set<std::uint32_t> lost(at.begin(), at.end());
-    std::erase_if(e.records, [&](const auto& r) { return lost.contains(list.id_of(r)); });
-    return !at.empty();
-  });
-  a.add("with a record twice", "one record is appended by two threads, or a slot is not cleared when its record moves", [](const List& list, const PassCase&, ListEdit& e) {
-    const Ids at = present(list, e);
-    const std::set<std::uint32_t> twice(at.begin(), at.end());
-    for (std::size_t i = 0, n = e.records.size(); i < n; ++i) {
-      if (!twice.contains(list.id_of(e.records[i]))) continue;
-      const std::vector<std::byte> twin = e.records[i];
-      e.records.push_back(twin);
-    }
-    return !at.empty();
-  });
-  a.add("with an ended record still alive", "a record that died or was captured stays in the list as it was", [](const List& list, const PassCase& c, ListEdit& e) {
-    const Ids ended = list.ended(c, e.records);
-    if (ended.empty()) return false;
-    const auto before = list.taken(c);
-    for (const std::uint32_t id : e.at.empty() ? Ids{ended[ended.size() / 2]} : e.at) {
-      if (std::find(ended.begin(), ended.end(), id) == ended.end()) return false;
-      e.records.push_back(before.at(id));
-    }
-    return true;
-  });
-  a.add("with an unmerged pair", "records that should have merged went on each by itself", [](const List& list, const PassCase& c, ListEdit& e) {
-    const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
-    if (!pair) return false;
-    const Ids ended = list.ended(c, e.records);
-    bool some_ended = false, some_go_on = false;
-    for (const std::uint32_t id : e.at.empty() ? Ids(pair->begin(), pair->end()) : e.at) {
-      const auto alone = as_if_alone(list, c, id);
-      if (!alone) return false;
-      const std::size_t place = list.place(e.records, id);
-      const bool has_ended = place == e.records.size();
-      (has_ended ? some_ended : some_go_on) = true;
-      if (has_ended) e.records.push_back(*alone);
-      else e.records[place] = *alone;
-    }
-    return some_ended && some_go_on;
-  });
+  a.add("without a record", "an append is lost: two threads took one slot, or the counter is not atomic",
+        [](const List& list, const PassCase&, ListEdit& e) {
+          const Ids at = present(list, e);
+          const std::set<std::uint32_t> lost(at.begin(), at.end());
+          std::erase_if(e.records, [&](const auto& r) { return lost.contains(list.id_of(r)); });
+          return !at.empty();
+        });
+  a.add("with a record twice", "one record is appended by two threads, or a slot is not cleared when its record moves",
+        [](const List& list, const PassCase&, ListEdit& e) {
+          const Ids at = present(list, e);
+          const std::set<std::uint32_t> twice(at.begin(), at.end());
+          for (std::size_t i = 0, n = e.records.size(); i < n; ++i) {
+            if (!twice.contains(list.id_of(e.records[i]))) continue;
+            const std::vector<std::byte> twin = e.records[i];
+            e.records.push_back(twin);
+          }
+          return !at.empty();
+        });
+  a.add("with an ended record still alive", "a record that died or was captured stays in the list as it was",
+        [](const List& list, const PassCase& c, ListEdit& e) {
+          const Ids ended = list.ended(c, e.records);
+          if (ended.empty()) return false;
+          const auto before = list.taken(c);
+          for (const std::uint32_t id : e.at.empty() ? Ids{ended[ended.size() / 2]} : e.at) {
+            if (std::find(ended.begin(), ended.end(), id) == ended.end()) return false;
+            e.records.push_back(before.at(id));
+          }
+          return true;
+        });
+  a.add("with an unmerged pair", "records that should have merged went on each by itself",
+        [](const List& list, const PassCase& c, ListEdit& e) {
+          const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
+          if (!pair) return false;
+          const Ids ended = list.ended(c, e.records);
+          bool some_ended = false, some_go_on = false;
+          for (const std::uint32_t id : e.at.empty() ? Ids(pair->begin(), pair->end()) : e.at) {
+            const auto alone = as_if_alone(list, c, id);
+            if (!alone) return false;
+            const std::size_t place = list.place(e.records, id);
+            const bool has_ended = place == e.records.size();
+            (has_ended ? some_ended : some_go_on) = true;
+            if (has_ended)
+              e.records.push_back(*alone);
+            else
+              e.records[place] = *alone;
+          }
+          return some_ended && some_go_on;
+        });
   // change(to, alone): of a captor, by what it would be had it captured nothing.
   const auto of_captors = [&](const auto& change) {
     return [change](const List& list, const PassCase& c, ListEdit& e) {
@@ -212,18 +225,19 @@ void add_events(Adder& a) {
         of_captors([](const List&, const auto& alone, auto& captor) { captor = alone; }));
   a.add("with the mass of before a capture", "a captor takes over the motion of what it captures, but not its mass",
         of_captors([](const List& list, const auto& alone, auto& captor) { copy_member(*list.mass(), alone, captor); }));
-  a.add("with a record not treated", "the pass leaves out a record that it should have changed", [](const List& list, const PassCase& c, ListEdit& e) {
-    const auto before = list.taken(c);
-    const std::set<std::uint32_t> at(e.at.begin(), e.at.end());
-    std::size_t found = 0;
-    for (auto& r : e.records) {
-      const auto old = before.find(list.id_of(r));
-      if (old == before.end() || (at.empty() ? found > 0 || old->second == r : !at.contains(list.id_of(r)))) continue;
-      r = old->second;
-      ++found;
-    }
-    return found > 0 && found >= at.size();
-  });
+  a.add("with a record not treated", "the pass leaves out a record that it should have changed",
+        [](const List& list, const PassCase& c, ListEdit& e) {
+          const auto before = list.taken(c);
+          const std::set<std::uint32_t> at(e.at.begin(), e.at.end());
+          std::size_t found = 0;
+          for (auto& r : e.records) {
+            const auto old = before.find(list.id_of(r));
+            if (old == before.end() || (at.empty() ? found > 0 || old->second == r : !at.contains(list.id_of(r)))) continue;
+            r = old->second;
+            ++found;
+          }
+          return found > 0 && found >= at.size();
+        });
 }
 
 // ---- ids and slots -------------------------------------------------------------------------------------------------
@@ -238,7 +252,8 @@ void permute_as_port(const List& list, ListEdit& e) {
     for (const Member& m : list.fields)
       for (int k = 0; k < m.components; ++k) {
         const std::size_t at = m.offset + 4 * static_cast<std::size_t>(k);
-        const double x = m.scalar == scene::Scalar::float32 ? float_at(a, at) : word_at(a, at), y = m.scalar == scene::Scalar::float32 ? float_at(b, at) : word_at(b, at);
+        const double x = m.scalar == scene::Scalar::float32 ? float_at(a, at) : word_at(a, at),
+                     y = m.scalar == scene::Scalar::float32 ? float_at(b, at) : word_at(b, at);
         const double scale = std::max(std::abs(x), std::abs(y));
         if (x != y) sum += scale > 0 ? std::abs(x - y) / scale : 0;
       }
@@ -266,45 +281,49 @@ void add_orders(Adder& a) {
      std::reverse(e.records.begin(), e.records.end());
      return e.records.size() > 1;
    }).legal = true;
-  a.add("under permuted ids", "the records are right, under each other's ids: keys and fields are sorted or compacted apart", [](const List& list, const PassCase&, ListEdit& e) {
-    constexpr std::size_t most = 1024;  // each is compared with each
-    if (e.port) {
-      if (e.at.size() > most) return false;
-      permute_as_port(list, e);
-      return true;
-    }
-    Ids ids;
-    for (const auto& r : e.records) ids.push_back(list.id_of(r));
-    for (std::size_t i = 0; i < e.records.size(); ++i) list.set_id(e.records[i], ids[ids.size() - 1 - i]);
-    return e.records.size() > 1;
-  });
+  a.add("under permuted ids", "the records are right, under each other's ids: keys and fields are sorted or compacted apart",
+        [](const List& list, const PassCase&, ListEdit& e) {
+          constexpr std::size_t most = 1024;  // each is compared with each
+          if (e.port) {
+            if (e.at.size() > most) return false;
+            permute_as_port(list, e);
+            return true;
+          }
+          Ids ids;
+          for (const auto& r : e.records) ids.push_back(list.id_of(r));
+          for (std::size_t i = 0; i < e.records.size(); ++i) list.set_id(e.records[i], ids[ids.size() - 1 - i]);
+          return e.records.size() > 1;
+        });
   for (const std::size_t by : {1, -1}) {
-    Deviation& d = a.add(by == 1 ? "one slot off" : "one slot off, other way", "an id has the fields of the slot beside it", [by](const List& list, const PassCase&, ListEdit& e) {
-      const Records right = e.records;
-      const std::size_t n = right.size();
-      for (std::size_t i = 0; i < n; ++i) {
-        e.records[i] = right[(i + n + by) % n];
-        list.set_id(e.records[i], list.id_of(right[i]));
-      }
-      return n > 1;
-    });
+    Deviation& d = a.add(by == 1 ? "one slot off" : "one slot off, other way", "an id has the fields of the slot beside it",
+                         [by](const List& list, const PassCase&, ListEdit& e) {
+                           const Records right = e.records;
+                           const std::size_t n = right.size();
+                           for (std::size_t i = 0; i < n; ++i) {
+                             e.records[i] = right[(i + n + by) % n];
+                             list.set_id(e.records[i], list.id_of(right[i]));
+                           }
+                           return n > 1;
+                         });
     d.for_diagnosis = by != 1;
   }
-  a.add("with ids one too large", "ids count from 1, or the id is taken after the counter was raised", [](const List& list, const PassCase&, ListEdit& e) {
-    for (auto& r : e.records) list.set_id(r, list.id_of(r) + 1);
-    return !e.records.empty();
-  });
+  a.add("with ids one too large", "ids count from 1, or the id is taken after the counter was raised",
+        [](const List& list, const PassCase&, ListEdit& e) {
+          for (auto& r : e.records) list.set_id(r, list.id_of(r) + 1);
+          return !e.records.empty();
+        });
   a.add("without its last record", "the dispatch is one short", [](const List&, const PassCase&, ListEdit& e) {
     if (e.records.empty()) return false;
     e.records.pop_back();
     return true;
   });
-  a.add("without the last partial workgroup", "records beyond the last whole workgroup of 64 are not written", [](const List&, const PassCase&, ListEdit& e) {
-    const std::size_t whole = e.records.size() / 64 * 64;
-    const bool some = whole < e.records.size();
-    e.records.resize(whole);
-    return some;
-  });
+  a.add("without the last partial workgroup", "records beyond the last whole workgroup of 64 are not written",
+        [](const List&, const PassCase&, ListEdit& e) {
+          const std::size_t whole = e.records.size() / 64 * 64;
+          const bool some = whole < e.records.size();
+          e.records.resize(whole);
+          return some;
+        });
   a.add("not written", "the list stays empty", [](const List&, const PassCase&, ListEdit& e) {
     const bool some = !e.records.empty();
     e.records.clear();
@@ -316,8 +335,8 @@ void add_orders(Adder& a) {
 void add_fields(Adder& a, bool has_input) {
   for (const Member& m : a.list().fields) {
     for (const std::size_t by : {1, -1}) {
-      Deviation& d = a.add(fmt::format("with the {} of the {} slot", m.name, by == 1 ? "next" : "previous"), fmt::format("{} is read or written one slot off", m.name),
-                           [m, by](const List&, const PassCase&, ListEdit& e) {
+      Deviation& d = a.add(fmt::format("with the {} of the {} slot", m.name, by == 1 ? "next" : "previous"),
+                           fmt::format("{} is read or written one slot off", m.name), [m, by](const List&, const PassCase&, ListEdit& e) {
                              const Records right = e.records;
                              const std::size_t n = right.size();
                              for (std::size_t i = 0; i < n; ++i) copy_member(m, right[(i + n + by) % n], e.records[i]);
@@ -326,12 +345,13 @@ void add_fields(Adder& a, bool has_input) {
       d.for_diagnosis = by != 1;
     }
     if (has_input) {
-      a.add(fmt::format("with stale {}", m.name), fmt::format("{} is that of before the pass", m.name), [m](const List& list, const PassCase& c, ListEdit& e) {
-        const auto before = list.taken(c);
-        for (auto& r : e.records)
-          if (const auto old = before.find(list.id_of(r)); old != before.end()) copy_member(m, old->second, r);
-        return true;
-      });
+      a.add(fmt::format("with stale {}", m.name), fmt::format("{} is that of before the pass", m.name),
+            [m](const List& list, const PassCase& c, ListEdit& e) {
+              const auto before = list.taken(c);
+              for (auto& r : e.records)
+                if (const auto old = before.find(list.id_of(r)); old != before.end()) copy_member(m, old->second, r);
+              return true;
+            });
     }
     if (m.scalar != scene::Scalar::float32) continue;
     a.add(fmt::format("without {}", m.name), fmt::format("{} is not stored", m.name), [m](const List&, const PassCase&, ListEdit& e) {
@@ -340,19 +360,22 @@ void add_fields(Adder& a, bool has_input) {
      }).for_diagnosis = true;
     for (int k = 0; k < m.components; ++k) {
       const std::string part = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
-      a.add(fmt::format("with {} negated", part), fmt::format("{} has the other sign: the axis points the other way", part), [m, k](const List&, const PassCase&, ListEdit& e) {
-        for (auto& r : e.records) each_float(m, r, [k](float f, int at) { return at == k && f != 0 ? -f : f; });
-        return true;
-      });
+      a.add(fmt::format("with {} negated", part), fmt::format("{} has the other sign: the axis points the other way", part),
+            [m, k](const List&, const PassCase&, ListEdit& e) {
+              for (auto& r : e.records) each_float(m, r, [k](float f, int at) { return at == k && f != 0 ? -f : f; });
+              return true;
+            });
     }
     if (m.components > 1) {
-      a.add(fmt::format("with the components of {} exchanged", m.name), fmt::format("x and y of {} are exchanged", m.name), [m](const List&, const PassCase&, ListEdit& e) {
-        for (auto& r : e.records) {
-          const std::vector<std::byte> right = r;
-          each_float(m, r, [&](float f, int at) { return at < 2 ? float_at(right, m.offset + 4 * static_cast<std::size_t>(1 - at)) : f; });
-        }
-        return true;
-      });
+      a.add(fmt::format("with the components of {} exchanged", m.name), fmt::format("x and y of {} are exchanged", m.name),
+            [m](const List&, const PassCase&, ListEdit& e) {
+              for (auto& r : e.records) {
+                const std::vector<std::byte> right = r;
+                each_float(m, r,
+                           [&](float f, int at) { return at < 2 ? float_at(right, m.offset + 4 * static_cast<std::size_t>(1 - at)) : f; });
+              }
+              return true;
+            });
     }
   }
   a.add("through half", "the fields have half precision", [](const List& list, const PassCase&, ListEdit& e) {
@@ -367,11 +390,12 @@ void add_fields(Adder& a, bool has_input) {
 void add_times(std::vector<Deviation>& out, Adder& a, const PassCase& c, bool has_input, const PassCase* before) {
   const std::string name = a.list().name;
   if (has_input) {
-    a.add("one step late", "the list is that of before the pass: a missing swap or a stale binding", [](const List& list, const PassCase& taken, ListEdit& e) {
-      const capture::CaseInput* in = taken.input(list.name);
-      e.records = records_of(in->array);
-      return true;
-    });
+    a.add("one step late", "the list is that of before the pass: a missing swap or a stale binding",
+          [](const List& list, const PassCase& taken, ListEdit& e) {
+            const capture::CaseInput* in = taken.input(list.name);
+            e.records = records_of(in->array);
+            return true;
+          });
     Deviation twice;
     twice.name = fmt::format("{} one step early", name);
     twice.sentence = "the pass runs twice in a step";

@@ -28,8 +28,9 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const cap
 /// it, in the order of the port's slots. `at`: the ids to which a mistake of few records happens; empty: some that show
 /// it. `port`: what a port stored, for mistakes that are fitted to it; null: none. Nothing where the mistake does not
 /// concern the list or cannot happen here. Throws Error when the altered case cannot be bound. `model` may be null.
-std::optional<capture::Array> deviated_list(const Deviation& d, const capture::PassCase& c, std::size_t output, const capture::PassReadings& readings,
-                                            const capture::PassModel* model, const capture::Array& finished, const std::vector<std::uint32_t>& at = {},
+std::optional<capture::Array> deviated_list(const Deviation& d, const capture::PassCase& c, std::size_t output,
+                                            const capture::PassReadings& readings, const capture::PassModel* model,
+                                            const capture::Array& finished, const std::vector<std::uint32_t>& at = {},
                                             const Records* port = nullptr);
 
 }  // namespace rainref::conformance

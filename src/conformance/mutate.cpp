@@ -42,7 +42,8 @@ struct Stores {
   HalfMode mode;
   std::vector<Array> finished;
 };
-std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCase& c, const capture::PassModel& model, const parallel::Executor& executor) {
+std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCase& c, const capture::PassModel& model,
+                                 const parallel::Executor& executor) {
   using enclosed::StoreRounding;
   std::vector<Stores> out;
   if (profile.reference) return {{HalfMode::either, reference_outputs(c, model, executor)}};  // as the pack has them
@@ -102,7 +103,8 @@ void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::Pa
       out.differing += a == want.end() || b == have.end() || a->second != b->second;
     }
     const KeyedJudgement j = judge_keyed(expected, *stored, model ? model->keyed(expected.name) : nullptr, profile);
-    for (const auto* list : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside}) outside.insert(list->begin(), list->end());
+    for (const auto* list : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside})
+      outside.insert(list->begin(), list->end());
     out.outside += static_cast<std::int64_t>(outside.size());
   }
 }

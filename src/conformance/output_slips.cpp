@@ -24,7 +24,9 @@ void rearrange(Array& a, From from, int level = 0) {
   std::vector<std::byte>& texels = a.levels[static_cast<std::size_t>(level)];
   const std::vector<std::byte> old = texels;
   const int width = a.level_width(level), height = a.level_height(level);
-  const auto offset = [&](int x, int y) { return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * a.element_bytes(); };
+  const auto offset = [&](int x, int y) {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * a.element_bytes();
+  };
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const auto [u, v] = from(x, y);
@@ -57,10 +59,14 @@ void change_values(Array& a, const Slot& any, Change change) {
 }  // namespace
 
 void flip_rows(Array& a) {
-  for (int l = 0; l < static_cast<int>(a.levels.size()); ++l) rearrange(a, [&](int x, int y) { return std::pair(x, a.level_height(l) - 1 - y); }, l);
+  for (int l = 0; l < static_cast<int>(a.levels.size()); ++l)
+    rearrange(
+        a, [&](int x, int y) { return std::pair(x, a.level_height(l) - 1 - y); }, l);
 }
 void flip_columns(Array& a) {
-  for (int l = 0; l < static_cast<int>(a.levels.size()); ++l) rearrange(a, [&](int x, int y) { return std::pair(a.level_width(l) - 1 - x, y); }, l);
+  for (int l = 0; l < static_cast<int>(a.levels.size()); ++l)
+    rearrange(
+        a, [&](int x, int y) { return std::pair(a.level_width(l) - 1 - x, y); }, l);
 }
 void shift(Array& a, int dx, int dy) {
   rearrange(a, [&](int x, int y) { return std::pair(std::clamp(x + dx, 0, a.width - 1), std::clamp(y + dy, 0, a.height - 1)); });
@@ -129,16 +135,22 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
       out.back().for_diagnosis = for_diagnosis;
     };
     if (f.channels >= 2)
-      one("with its first two channels swapped", "the first two channels are exchanged: swapped ping-pong", [](Array& a) { swap_channels(a, 0, 1); });
+      one("with its first two channels swapped", "the first two channels are exchanged: swapped ping-pong",
+          [](Array& a) { swap_channels(a, 0, 1); });
     if (f.channels >= 3) one("as BGRA", "red and blue are exchanged", [](Array& a) { swap_channels(a, 0, 2); });
-    if (f.channels >= 3) one("with its second and third channel swapped", "y and z are exchanged: another axis is up", [](Array& a) { swap_channels(a, 1, 2); }, true);
+    if (f.channels >= 3)
+      one(
+          "with its second and third channel swapped", "y and z are exchanged: another axis is up",
+          [](Array& a) { swap_channels(a, 1, 2); }, true);
     for (int k = 0; k < f.channels; ++k) {
       const int first = k * f.channel_bytes, last = first + f.channel_bytes;
       if (f.kind == FormatInfo::float16 || f.kind == FormatInfo::float32) {
-        one(fmt::format("with its {} negated", "xyzw"[k]), fmt::format("channel {} has the other sign", "xyzw"[k]),
+        one(
+            fmt::format("with its {} negated", "xyzw"[k]), fmt::format("channel {} has the other sign", "xyzw"[k]),
             [last](Array& a) { each_texel(a, [last](std::byte* t) { t[last - 1] ^= std::byte{0x80}; }); }, true);
       }
-      one(fmt::format("without its {}", "xyzw"[k]), fmt::format("channel {} is zero", "xyzw"[k]),
+      one(
+          fmt::format("without its {}", "xyzw"[k]), fmt::format("channel {} is zero", "xyzw"[k]),
           [first, last](Array& a) { each_texel(a, [first, last](std::byte* t) { std::fill(t + first, t + last, std::byte{0}); }); }, true);
     }
     if (f.kind == FormatInfo::unorm8 && f.channels >= 3) {
@@ -147,9 +159,8 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
           return v <= 0.0031308f ? v * 12.92f : static_cast<float>(1.055 * pow_real(Real64(v), Real64(1 / 2.4)).v - 0.055);
         });
       });
-      one("not encoded", "the display encoding is undone: an sRGB view was read back", [slot](Array& a) {
-        change_values(a, slot, [](float v) { return static_cast<float>(decode_srgb(v)); });
-      });
+      one("not encoded", "the display encoding is undone: an sRGB view was read back",
+          [slot](Array& a) { change_values(a, slot, [](float v) { return static_cast<float>(decode_srgb(v)); }); });
     }
     if (f.kind == FormatInfo::float32) {
       one("through half", "the buffer has half precision (rgba16f instead of rgba32f)",
@@ -162,18 +173,25 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
         change_values(a, slot, [](float v) { return to_float(Half{static_cast<std::uint16_t>(to_half(v).bits & 0xfffeu)}); });
       });
     }
-    if (const capture::CaseInput* in = c.input(o.name); in && in->array.levels.size() == 1 && in->array.levels[0].size() == o.array.levels[0].size()) {
+    if (const capture::CaseInput* in = c.input(o.name);
+        in && in->array.levels.size() == 1 && in->array.levels[0].size() == o.array.levels[0].size()) {
       for (int k = 0; f.channels > 1 && k < f.channels; ++k) {
         const Array before_pass = in->array;
-        one(fmt::format("keeps its {}", "xyzw"[k]), fmt::format("channel {} is that of the state before the pass", "xyzw"[k]), [before_pass, k](Array& a) {
-          const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes), at_k = n * static_cast<std::size_t>(k);
-          for (std::size_t t = at_k; t + n <= a.levels[0].size(); t += a.element_bytes()) std::memcpy(a.levels[0].data() + t, before_pass.levels[0].data() + t, n);
-        }, true);
+        one(
+            fmt::format("keeps its {}", "xyzw"[k]), fmt::format("channel {} is that of the state before the pass", "xyzw"[k]),
+            [before_pass, k](Array& a) {
+              const std::size_t n = static_cast<std::size_t>(info(a.format).channel_bytes), at_k = n * static_cast<std::size_t>(k);
+              for (std::size_t t = at_k; t + n <= a.levels[0].size(); t += a.element_bytes())
+                std::memcpy(a.levels[0].data() + t, before_pass.levels[0].data() + t, n);
+            },
+            true);
       }
       const Array stale = in->array;
-      one("is its own input", "the buffer is the state before the pass: a stale frame or a missing swap", [stale](Array& a) { a.levels = stale.levels; });
+      one("is its own input", "the buffer is the state before the pass: a stale frame or a missing swap",
+          [stale](Array& a) { a.levels = stale.levels; });
     }
-    if (const capture::CaseOutput* old = before ? before->output(o.name) : nullptr; old && old->array.levels[0].size() == o.array.levels[0].size()) {
+    if (const capture::CaseOutput* old = before ? before->output(o.name) : nullptr;
+        old && old->array.levels[0].size() == o.array.levels[0].size()) {
       const Array stale = old->array;
       one("stale", "the buffer is that of the run before", [stale](Array& a) { a.levels = stale.levels; });
     }

@@ -30,7 +30,8 @@ void FileErrors::raise() const {
 PortFiles::PortFiles(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;
   if (!fs::is_directory(folder_, error)) {
-    throw Error(ExitCode::port_files, fmt::format("{}: expected a folder of a port, found {}", folder_.string(), fs::exists(folder_, error) ? "a file" : "none"));
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: expected a folder of a port, found {}", folder_.string(), fs::exists(folder_, error) ? "a file" : "none"));
   }
   info_ = port_dump::read_port_info(folder_);
 }
@@ -46,8 +47,10 @@ capture::Array PortFiles::read(const fs::path& run, const std::string& stem, con
 void require_apart(const fs::path& pack, const fs::path& port) {
   std::error_code error;
   if (!fs::equivalent(pack, port, error)) return;
-  throw Error(ExitCode::usage, fmt::format("{}: expected what the port itself wrote, found the pack's own '{}': its expected outputs would be judged by themselves",
-                                           port.string(), pack.string()));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{}: expected what the port itself wrote, found the pack's own '{}': its expected outputs would be judged by themselves",
+                  port.string(), pack.string()));
 }
 
 }  // namespace rainref::conformance

@@ -57,9 +57,15 @@ const std::map<std::string, Set>& values() {
   static const std::map<std::string, Set> all{
       {"name", [](Profile& p, const RawEntry& e) { p.name = text(e); }},
       {"reference", [](Profile& p, const RawEntry& e) { p.reference = boolean(e); }},
-      {"basic", [](Profile& p, const RawEntry& e) { p.basic = choice<BasicRounding>(e, {{"nearest", BasicRounding::nearest}, {"either", BasicRounding::either}}); }},
+      {"basic",
+       [](Profile& p, const RawEntry& e) {
+         p.basic = choice<BasicRounding>(e, {{"nearest", BasicRounding::nearest}, {"either", BasicRounding::either}});
+       }},
       {"contraction", [](Profile& p, const RawEntry& e) { p.contraction = boolean(e); }},
-      {"flush", [](Profile& p, const RawEntry& e) { p.flush = choice<Flush>(e, {{"never", Flush::never}, {"may", Flush::may}, {"must", Flush::must}}); }},
+      {"flush",
+       [](Profile& p, const RawEntry& e) {
+         p.flush = choice<Flush>(e, {{"never", Flush::never}, {"may", Flush::may}, {"must", Flush::must}});
+       }},
       {"sqrt_is_inherited", [](Profile& p, const RawEntry& e) { p.sqrt_is_inherited = boolean(e); }},
       {"pow_is_inherited", [](Profile& p, const RawEntry& e) { p.pow_is_inherited = boolean(e); }},
       {"sin_cos_domain", [](Profile& p, const RawEntry& e) { p.sin_cos_domain = number(e); }},
@@ -67,8 +73,16 @@ const std::map<std::string, Set>& values() {
       {"subtexel_bits", [](Profile& p, const RawEntry& e) { p.subtexel_bits = bits(e); }},
       {"coordinate_bits", [](Profile& p, const RawEntry& e) { p.coordinate_bits = bits(e); }},
       {"lod_bits", [](Profile& p, const RawEntry& e) { p.lod_bits = bits(e); }},
-      {"half_store", [](Profile& p, const RawEntry& e) { p.half_store = choice<StoreRounding>(e, {{"rne", StoreRounding::rne}, {"rtz", StoreRounding::rtz}, {"either", StoreRounding::either}}); }},
-      {"half_overflow", [](Profile& p, const RawEntry& e) { p.half_overflow = choice<StoreOverflow>(e, {{"inf", StoreOverflow::inf}, {"max", StoreOverflow::max}, {"either", StoreOverflow::either}}); }},
+      {"half_store",
+       [](Profile& p, const RawEntry& e) {
+         p.half_store =
+             choice<StoreRounding>(e, {{"rne", StoreRounding::rne}, {"rtz", StoreRounding::rtz}, {"either", StoreRounding::either}});
+       }},
+      {"half_overflow",
+       [](Profile& p, const RawEntry& e) {
+         p.half_overflow =
+             choice<StoreOverflow>(e, {{"inf", StoreOverflow::inf}, {"max", StoreOverflow::max}, {"either", StoreOverflow::either}});
+       }},
       {"unorm_store_ulp", [](Profile& p, const RawEntry& e) { p.unorm_store_ulp = number(e); }},
       {"srgb_store_ulp", [](Profile& p, const RawEntry& e) { p.srgb_store_ulp = number(e); }},
   };
@@ -76,11 +90,19 @@ const std::map<std::string, Set>& values() {
 }
 /// Members that are an Accuracy.
 const std::map<std::string, Accuracy Profile::*>& accuracies() {
-  static const std::map<std::string, Accuracy Profile::*> all{
-      {"division", &Profile::division}, {"sqrt", &Profile::sqrt}, {"inverse_sqrt", &Profile::inverse_sqrt}, {"exp", &Profile::exp},
-      {"exp2", &Profile::exp2}, {"log", &Profile::log}, {"log2", &Profile::log2}, {"log_near_one", &Profile::log_near_one},
-      {"log2_near_one", &Profile::log2_near_one}, {"pow", &Profile::pow}, {"sin_cos", &Profile::sin_cos}, {"atan2", &Profile::atan2},
-      {"unorm_load", &Profile::unorm_load}};
+  static const std::map<std::string, Accuracy Profile::*> all{{"division", &Profile::division},
+                                                              {"sqrt", &Profile::sqrt},
+                                                              {"inverse_sqrt", &Profile::inverse_sqrt},
+                                                              {"exp", &Profile::exp},
+                                                              {"exp2", &Profile::exp2},
+                                                              {"log", &Profile::log},
+                                                              {"log2", &Profile::log2},
+                                                              {"log_near_one", &Profile::log_near_one},
+                                                              {"log2_near_one", &Profile::log2_near_one},
+                                                              {"pow", &Profile::pow},
+                                                              {"sin_cos", &Profile::sin_cos},
+                                                              {"atan2", &Profile::atan2},
+                                                              {"unorm_load", &Profile::unorm_load}};
   return all;
 }
 
@@ -89,7 +111,8 @@ void set_part(Profile& p, const std::string& member, const std::string& part, co
     static const std::map<std::string, double Accuracy::*> parts{
         {"ulp", &Accuracy::ulp}, {"ulp_per_x", &Accuracy::ulp_per_x}, {"relative", &Accuracy::relative}, {"absolute", &Accuracy::absolute}};
     const auto found = parts.find(part);
-    if (found == parts.end()) throw Error(ExitCode::usage, e.at, fmt::format("{}: expected ulp, ulp_per_x, relative, absolute or source", e.key));
+    if (found == parts.end())
+      throw Error(ExitCode::usage, e.at, fmt::format("{}: expected ulp, ulp_per_x, relative, absolute or source", e.key));
     p.*(a->second).*(found->second) = number(e);
     return;
   }
@@ -142,11 +165,15 @@ const enclosed::Profile& profile(std::string_view name) {
   }();
   if (const auto found = all.find(name); found != all.end()) return found->second;
   const std::vector<std::string> names = profile_names();
-  throw Error(ExitCode::usage, fmt::format("--profile: expected one of {}, found '{}'{}", fmt::join(names, ", "), name, did_you_mean(name, names)));
+  throw Error(ExitCode::usage,
+              fmt::format("--profile: expected one of {}, found '{}'{}", fmt::join(names, ", "), name, did_you_mean(name, names)));
 }
 const enclosed::Profile& judging_profile(std::string_view name) {
   if (name != "typical") return profile(name);
-  throw Error(ExitCode::usage, fmt::format("--profile: expected one of {}, found 'typical', which is what present devices do and no rule: each of these warns by it", fmt::join(profile_names(), ", ")));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("--profile: expected one of {}, found 'typical', which is what present devices do and no rule: each of these warns by it",
+                  fmt::join(profile_names(), ", ")));
 }
 std::string_view profile_text(std::string_view name) {
   for (const auto& e : detail::embedded_profiles())

@@ -26,8 +26,8 @@ void mark_differences(const Array& a, const Array& b, std::size_t size, std::vec
 
 std::string Race::text() const {
   const std::string place = records ? fmt::format("record {}", x) : fmt::format("({}, {}).{}", x, y, "xyzw"[channel & 3]);
-  return fmt::format("race: {}/out.{} differs between runs 1 and {} on the same inputs, first at {}, {} of {} {}", id, output, run, place, differing, of,
-                     records ? "records" : "elements");
+  return fmt::format("race: {}/out.{} differs between runs 1 and {} on the same inputs, first at {}, {} of {} {}", id, output, run, place,
+                     differing, of, records ? "records" : "elements");
 }
 
 std::vector<Race> find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::string& only) {
@@ -61,7 +61,8 @@ std::vector<Race> find_races(const capture::Pack& pack, const std::vector<std::f
       race.of = static_cast<std::int64_t>(elements);
       race.differing = std::count(differs.begin(), differs.end(), true);
       const auto first = static_cast<int>(std::find(differs.begin(), differs.end(), true) - differs.begin());
-      const int channels = shape.is_records ? 1 : info(shape.format).channels, width = shape.is_records ? static_cast<int>(elements) : shape.width;
+      const int channels = shape.is_records ? 1 : info(shape.format).channels,
+                width = shape.is_records ? static_cast<int>(elements) : shape.width;
       race.x = first / channels % width;
       race.y = first / channels / width;
       race.channel = first % channels;

@@ -14,7 +14,7 @@ struct Race {
   std::string pass, id, output;
   int run = 0;  ///< the first that differs from run 1; runs count from 1
   bool records = false;
-  int x = 0, y = 0, channel = 0;  ///< first element that differs; of records, x is the record
+  int x = 0, y = 0, channel = 0;       ///< first element that differs; of records, x is the record
   std::int64_t differing = 0, of = 0;  ///< channel values, or records, that differ in any run
   std::string text() const;
 };

@@ -10,8 +10,9 @@ namespace rainref::conformance {
 namespace {
 
 void add(Figures& to, const Figures& f) {
-  for (auto sum : {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up, &Figures::elements, &Figures::outside,
-                   &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical, &Figures::free})
+  for (auto sum :
+       {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up, &Figures::elements,
+        &Figures::outside, &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical, &Figures::free})
     to.*sum += f.*sum;
   to.median_width = std::max(to.median_width, f.median_width);
   to.p99_width = std::max(to.p99_width, f.p99_width);
@@ -59,7 +60,8 @@ std::string share_text(std::int64_t part, std::int64_t of) {
 std::string width_text(double codes) { return codes >= 4e9 ? "none" : fmt::format("{:.0f}", codes); }
 std::string shape_text(const OutputJudgement& o) {
   const std::int64_t records = o.counted == Counted::fields ? o.width : o.elements;
-  return o.records ? fmt::format("{} record{}", records, records == 1 ? "" : "s") : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
+  return o.records ? fmt::format("{} record{}", records, records == 1 ? "" : "s")
+                   : fmt::format("{} {}x{}", info(o.format).name, o.width, o.height);
 }
 const char* element_word(const OutputJudgement& o) { return o.counted == Counted::fields ? "fields" : o.records ? "records" : "elements"; }
 const char* element_word(const Cause& c) { return c.of_records ? "records" : "texels"; }
@@ -70,16 +72,21 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
   const FormatInfo::Kind kind = o.records ? f.field_kind : info(o.format).kind;
   FailureText t;
   t.place = o.records ? fmt::format("record {}, {}", f.x, f.field) : fmt::format("({}, {}).{}", f.x, f.y, channel_name(f.channel));
-  const auto text = [&](std::int64_t code, bool negative_zero) { return negative_zero ? negative_zero_text(kind) : enclosed::code_text(kind, code); };
+  const auto text = [&](std::int64_t code, bool negative_zero) {
+    return negative_zero ? negative_zero_text(kind) : enclosed::code_text(kind, code);
+  };
   t.got = text(f.got, f.got_is_negative_zero);
   t.expected = text(f.expected, f.expected_is_negative_zero);
-  t.accepted = f.low == f.high && f.low == f.expected ? t.expected : f.low == f.high ? enclosed::code_text(kind, f.low) : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
+  t.accepted = f.low == f.high && f.low == f.expected ? t.expected
+               : f.low == f.high                      ? enclosed::code_text(kind, f.low)
+                                 : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
   return t;
 }
 
 std::string cause_text(const Cause& c) {
-  return fmt::format("{}: {} (gives {} of {} failing {} bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of, element_word(c), c.inside);
+  return fmt::format("{}: {} (gives {} of {} failing {} bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of,
+                     element_word(c), c.inside);
 }
 
 bool is_broken(const PassJudgement& p) {
@@ -90,13 +97,17 @@ bool has_unknown_cause(const PassJudgement& p) { return p.causes.empty() && figu
 std::string half_text(const PassJudgement& p) {
   if (!p.half_mode_voted) return "";
   const auto [rne, rtz, either] = p.half_votes;
-  const char* found = p.half_mode == HalfMode::rne ? "to nearest" : p.half_mode == HalfMode::rtz ? "toward zero" : "sometimes to nearest, sometimes toward zero";
+  const char* found = p.half_mode == HalfMode::rne   ? "to nearest"
+                      : p.half_mode == HalfMode::rtz ? "toward zero"
+                                                     : "sometimes to nearest, sometimes toward zero";
   if (rne == rtz && p.half_mode != HalfMode::either) return "stores to half: nothing tells how they round";
-  return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found, rne, rtz, either);
+  return fmt::format("stores to half round {} (invocations outside if to nearest: {}, toward zero: {}, either way: {})", found, rne, rtz,
+                     either);
 }
 
 bool forgives_untested(const PortJudgement& j, bool allow_untested) {
-  return allow_untested && std::any_of(j.passes.begin(), j.passes.end(), [](const PassJudgement& p) { return p.status == Status::pass || p.status == Status::warn; });
+  return allow_untested && std::any_of(j.passes.begin(), j.passes.end(),
+                                       [](const PassJudgement& p) { return p.status == Status::pass || p.status == Status::warn; });
 }
 int exit_code(const PortJudgement& j, bool allow_untested) {
   if (j.status == Status::fail) return 1;

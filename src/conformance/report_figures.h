@@ -38,7 +38,7 @@ std::string channel_name(int channel);
 
 /// A failure in words. `got`, `accepted` and `expected` hold value and bits; they are empty for a whole record.
 struct FailureText {
-  std::string place;     ///< "(12, 3).x", "record 4, amplitude", "record 4"
+  std::string place;  ///< "(12, 3).x", "record 4, amplitude", "record 4"
   std::string got, accepted, expected;
   std::string distance;  ///< "off by 3 codes", "is not a number", "is in one of the lists alone"
 };

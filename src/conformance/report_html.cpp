@@ -30,28 +30,40 @@ std::string summary_html(const PortJudgement& j) {
   if (const PassJudgement* bad = pass_named(j, j.first_bad_pass)) {
     const Figures f = figures_of(*bad);
     std::string out = fmt::format("<a href=\"#pass-{0}\">{0}</a> is the first bad pass: ", marked_up(bad->pass));
-    if (is_broken(*bad)) out += marked_up(bad->reason) + ".";
-    else if (f.outside > 0) out += fmt::format("{} of {} invocations ({}) stored what <b>{}</b> does not allow.", f.failing, f.invocations, share_text(f.failing, f.invocations), marked_up(j.profile));
-    else out += marked_up(bad->reason) + ".";
+    if (is_broken(*bad))
+      out += marked_up(bad->reason) + ".";
+    else if (f.outside > 0)
+      out += fmt::format("{} of {} invocations ({}) stored what <b>{}</b> does not allow.", f.failing, f.invocations,
+                         share_text(f.failing, f.invocations), marked_up(j.profile));
+    else
+      out += marked_up(bad->reason) + ".";
     std::string others;
     for (const PassJudgement& p : j.passes)
-      if (p.status == Status::fail && &p != bad) others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
+      if (p.status == Status::fail && &p != bad)
+        others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
     if (!others.empty()) others += ".";
     if (bad->causes.empty()) return out + (has_unknown_cause(*bad) ? " The cause is unknown." : "") + others;
     const Cause& c = bad->causes[0];
-    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing {} bit for bit, comes near {}).{}", marked_up(c.name), marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, others);
+    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing {} bit for bit, comes near {}).{}", marked_up(c.name),
+                             marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, others);
   }
   if (!j.reason.empty()) return marked_up(j.reason) + ".";
-  const std::string equal = fmt::format("{} of the elements have the reference's own bits.", share_text(all.elements - all.differing, all.elements));
+  const std::string equal =
+      fmt::format("{} of the elements have the reference's own bits.", share_text(all.elements - all.differing, all.elements));
   switch (j.status) {
-    case Status::pass: return fmt::format("Every judged element lies inside what <b>{}</b> allows. {}", marked_up(j.profile), equal);
-    case Status::warn: return fmt::format("Every judged element lies inside what <b>{}</b> allows, with remarks. {}", marked_up(j.profile), equal);
-    case Status::known: return "Everything that fails is listed in the baseline, with its reason.";
-    default: break;
+    case Status::pass:
+      return fmt::format("Every judged element lies inside what <b>{}</b> allows. {}", marked_up(j.profile), equal);
+    case Status::warn:
+      return fmt::format("Every judged element lies inside what <b>{}</b> allows, with remarks. {}", marked_up(j.profile), equal);
+    case Status::known:
+      return "Everything that fails is listed in the baseline, with its reason.";
+    default:
+      break;
   }
   std::string out;
   for (const PassJudgement& p : j.passes)
-    if (p.status == Status::untested) out += fmt::format("{0}<a href=\"#pass-{1}\">{1}</a>: {2}.", out.empty() ? "" : " ", marked_up(p.pass), marked_up(p.reason));
+    if (p.status == Status::untested)
+      out += fmt::format("{0}<a href=\"#pass-{1}\">{1}</a>: {2}.", out.empty() ? "" : " ", marked_up(p.pass), marked_up(p.reason));
   return "Too little could be judged. " + out;
 }
 
@@ -70,7 +82,8 @@ std::string facts_html(const PortJudgement& j) {
   fact("port", j.port);
   fact("judged by", fmt::format("rainref {}, golden generation {}", version(), golden_generation));
   out += "</dl>\n";
-  if (!j.command.empty()) out += fmt::format("<p class=\"command\"><span class=\"dim\">Reproduce:</span> <code>{}</code></p>\n", marked_up(j.command));
+  if (!j.command.empty())
+    out += fmt::format("<p class=\"command\"><span class=\"dim\">Reproduce:</span> <code>{}</code></p>\n", marked_up(j.command));
   return out;
 }
 
@@ -79,12 +92,16 @@ std::string overview_html(const PortJudgement& j) {
   for (const PassJudgement& p : j.passes) {
     const Figures f = figures_of(p);
     const std::string link = fmt::format("<a href=\"#pass-{0}\">{0}</a>", marked_up(p.pass));
-    if (f.elements == 0) rows.push_back({status_pill(p.status), link, "nothing judged", "-", "-", "-", "-", "-", "-", "-"});
+    if (f.elements == 0)
+      rows.push_back({status_pill(p.status), link, "nothing judged", "-", "-", "-", "-", "-", "-", "-"});
     else
-      rows.push_back({status_pill(p.status), link, fmt::format("{} of {}", f.failing, f.invocations), share_text(f.differing, f.elements), share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width),
+      rows.push_back({status_pill(p.status), link, fmt::format("{} of {}", f.failing, f.invocations), share_text(f.differing, f.elements),
+                      share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width),
                       fmt::format("{}", f.ambiguous), share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged())});
   }
-  return table_html("figures", {"verdict", "pass", "invocations outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"}, rows, 2);
+  return table_html("figures",
+                    {"verdict", "pass", "invocations outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"},
+                    rows, 2);
 }
 
 /// Everything between the banner and the help. Pictures of failing passes are drawn first, so that these get them.
@@ -132,9 +149,12 @@ std::string status_class(Status status) {
 }
 std::string status_pill(Status status) { return fmt::format("<span class=\"pill {}\">{}</span>", status_class(status), name(status)); }
 
-std::string table_html(std::string_view css_class, const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows, std::size_t words) {
+std::string table_html(std::string_view css_class, const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                       std::size_t words) {
   std::string out = fmt::format("<div class=\"scroll\"><table class=\"{}\"><thead><tr>", css_class);
-  const auto cell = [&](const char* tag, std::size_t k, const std::string& text) { out += fmt::format("<{0}{1}>{2}</{0}>", tag, k < words ? "" : " class=\"n\"", text); };
+  const auto cell = [&](const char* tag, std::size_t k, const std::string& text) {
+    out += fmt::format("<{0}{1}>{2}</{0}>", tag, k < words ? "" : " class=\"n\"", text);
+  };
   for (std::size_t k = 0; k < head.size(); ++k) cell("th", k, head[k]);
   out += "</tr></thead><tbody>\n";
   for (const std::vector<std::string>& row : rows) {

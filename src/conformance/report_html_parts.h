@@ -19,7 +19,8 @@ std::string status_pill(Status status);
 std::string graph_html(const PortJudgement& judgement, const std::vector<capture::PackEdge>& edges);
 
 /// A table of rows that are HTML already; the first `words` columns are words, the others numbers.
-std::string table_html(std::string_view css_class, const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows, std::size_t words);
+std::string table_html(std::string_view css_class, const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                       std::size_t words);
 
 /// Everything about one pass. Draws pictures while `budget` lasts, and takes what it used.
 std::string pass_html(const PassJudgement& pass, const PortJudgement& judgement, const PageSource& source, std::size_t& budget);

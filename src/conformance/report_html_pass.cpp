@@ -38,17 +38,33 @@ std::string causes_html(const PassJudgement& p) {
   if (p.causes.empty()) return "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   std::string out = "<h3>Likely causes</h3>\n<ol class=\"causes\">\n";
   for (const Cause& c : p.causes) {
-    out += fmt::format("<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" value=\"{}\">{}</meter></li>\n", marked_up(c.name), marked_up(c.sentence),
-                       c.explained, c.of, element_word(c), c.inside, c.of, c.explained, share_text(c.explained, c.of));
+    out += fmt::format(
+        "<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" "
+        "value=\"{}\">{}</meter></li>\n",
+        marked_up(c.name), marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, c.of, c.explained,
+        share_text(c.explained, c.of));
   }
   return out + "</ol>\n";
 }
 
 std::vector<std::string> row_of(const CaseJudgement& c, const OutputJudgement& o) {
   const Figures f = figures_of(o);
-  const Status status = o.failing == 0 && c.status == Status::fail ? Status::pass : o.failing > 0 && !o.known.empty() ? Status::known : c.status;
-  return {status_pill(status), marked_up(fmt::format("{}/out.{}", c.id, o.name)), shape_text(o), fmt::format("{} of {}", o.failing, o.elements), share_text(f.differing, f.elements), share_text(f.bounded(), f.judged()), width_text(o.median_width),
-          width_text(o.p99_width), fmt::format("{}", c.ambiguous), share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged()), fmt::format("{}", f.atypical), fmt::format("{}", f.free)};
+  const Status status = o.failing == 0 && c.status == Status::fail ? Status::pass
+                        : o.failing > 0 && !o.known.empty()        ? Status::known
+                                                                   : c.status;
+  return {status_pill(status),
+          marked_up(fmt::format("{}/out.{}", c.id, o.name)),
+          shape_text(o),
+          fmt::format("{} of {}", o.failing, o.elements),
+          share_text(f.differing, f.elements),
+          share_text(f.bounded(), f.judged()),
+          width_text(o.median_width),
+          width_text(o.p99_width),
+          fmt::format("{}", c.ambiguous),
+          share_text(f.vacuous, f.judged()),
+          share_text(f.loose, f.judged()),
+          fmt::format("{}", f.atypical),
+          fmt::format("{}", f.free)};
 }
 
 std::string cases_html(const PassJudgement& p) {
@@ -57,12 +73,17 @@ std::string cases_html(const PassJudgement& p) {
   for (const CaseJudgement& c : p.cases) {
     for (const OutputJudgement& o : c.outputs) {
       std::size_t& count = is_bad(c.status) ? bad : good;
-      if (++count > (is_bad(c.status) ? shown_bad_rows : shown_good_rows)) ++skipped;
-      else rows.push_back(row_of(c, o));
+      if (++count > (is_bad(c.status) ? shown_bad_rows : shown_good_rows))
+        ++skipped;
+      else
+        rows.push_back(row_of(c, o));
     }
   }
   if (rows.empty()) return "";
-  std::string out = table_html("figures", {"verdict", "output", "shape", "outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose", "atypical", "free"}, rows, 3);
+  std::string out = table_html("figures",
+                               {"verdict", "output", "shape", "outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous",
+                                "loose", "atypical", "free"},
+                               rows, 3);
   if (skipped > 0) out += fmt::format("<p class=\"remark\">{} more outputs are not shown; --json lists all.</p>\n", skipped);
   return out;
 }
@@ -83,7 +104,9 @@ std::string known_html(const PassJudgement& p) {
   std::vector<std::string> reasons;
   for (const CaseJudgement& c : p.cases)
     for (const OutputJudgement& o : c.outputs)
-      if (const std::string r = fmt::format("{}: {}", o.name, o.known); !o.known.empty() && std::find(reasons.begin(), reasons.end(), r) == reasons.end()) reasons.push_back(r);
+      if (const std::string r = fmt::format("{}: {}", o.name, o.known);
+          !o.known.empty() && std::find(reasons.begin(), reasons.end(), r) == reasons.end())
+        reasons.push_back(r);
   std::string out;
   for (const std::string& r : reasons) out += fmt::format("<p class=\"known-reason\"><b>Known</b> {}</p>\n", marked_up(r));
   return out;
@@ -96,8 +119,10 @@ std::vector<const CaseJudgement*> pictured_cases(const PassJudgement& p) {
   const CaseJudgement* sample = nullptr;
   const auto differing = [](const CaseJudgement& c) { return figures_of(c).differing; };
   for (const CaseJudgement& c : p.cases) {
-    if (c.status == Status::fail || c.status == Status::known) failing.push_back(&c);
-    else if (!sample || differing(c) >= differing(*sample)) sample = &c;  // what differs most shows most; of equals the last
+    if (c.status == Status::fail || c.status == Status::known)
+      failing.push_back(&c);
+    else if (!sample || differing(c) >= differing(*sample))
+      sample = &c;  // what differs most shows most; of equals the last
   }
   if (!failing.empty()) out.push_back(failing[0]);
   std::stable_sort(failing.begin(), failing.end(), [](const auto* a, const auto* b) { return a->failing > b->failing; });
@@ -109,15 +134,21 @@ std::vector<const CaseJudgement*> pictured_cases(const PassJudgement& p) {
 
 std::string pass_html(const PassJudgement& p, const PortJudgement& j, const PageSource& source, std::size_t& budget) {
   const std::string css = status_class(p.status), name = marked_up(p.pass);
-  std::string out = fmt::format("<section class=\"pass {}\" id=\"pass-{}\">\n<h2>{} {} <code class=\"dim\">{}</code></h2>\n", css, name, status_pill(p.status), name, marked_up(p.formula));
-  if (const auto sentence = source.sentences.find(p.pass); sentence != source.sentences.end()) out += fmt::format("<p>{}</p>\n", marked_up(sentence->second));
-  if (p.pass == j.first_bad_pass) out += fmt::format("<p class=\"first\">The first bad pass.{}</p>\n", p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either.");
+  std::string out = fmt::format("<section class=\"pass {}\" id=\"pass-{}\">\n<h2>{} {} <code class=\"dim\">{}</code></h2>\n", css, name,
+                                status_pill(p.status), name, marked_up(p.formula));
+  if (const auto sentence = source.sentences.find(p.pass); sentence != source.sentences.end())
+    out += fmt::format("<p>{}</p>\n", marked_up(sentence->second));
+  if (p.pass == j.first_bad_pass)
+    out += fmt::format("<p class=\"first\">The first bad pass.{}</p>\n",
+                       p.inputs_are_good ? " Its inputs are good, so no pass before it is to blame." : " Its inputs are not good either.");
   if (!p.reason.empty() && !is_broken(p)) out += fmt::format("<p class=\"reason\">{}</p>\n", marked_up(p.reason));
   out += broken_html(p);
   out += known_html(p) + takes_html(p, j, source) + causes_html(p);
   if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
   const Figures f = figures_of(p);
-  if (f.other_branch > 0) out += fmt::format("<p class=\"dim\">{} of {} ambiguous invocations took another branch than the reference.</p>\n", f.other_branch, f.ambiguous);
+  if (f.other_branch > 0)
+    out += fmt::format("<p class=\"dim\">{} of {} ambiguous invocations took another branch than the reference.</p>\n", f.other_branch,
+                       f.ambiguous);
   if (f.gave_up > 0) out += fmt::format("<p class=\"dim\">{} invocations had too many open decisions to bound.</p>\n", f.gave_up);
   out += cases_html(p);
 
@@ -134,9 +165,14 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
       out += viewer.html;
     }
   }
-  const auto failing = static_cast<std::size_t>(std::count_if(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.status == Status::fail || c.status == Status::known; }));
-  if (failing > pictured_failures) out += fmt::format("<p class=\"remark\">Pictures of {} of {} failing cases: the first and those with most failures.</p>\n", pictured_failures, failing);
-  if (unpictured > 0) out += fmt::format("<p class=\"remark\">No pictures of {} more outputs: a page holds {} MiB of them.</p>\n", unpictured, picture_budget >> 20);
+  const auto failing = static_cast<std::size_t>(std::count_if(
+      p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.status == Status::fail || c.status == Status::known; }));
+  if (failing > pictured_failures)
+    out += fmt::format("<p class=\"remark\">Pictures of {} of {} failing cases: the first and those with most failures.</p>\n",
+                       pictured_failures, failing);
+  if (unpictured > 0)
+    out += fmt::format("<p class=\"remark\">No pictures of {} more outputs: a page holds {} MiB of them.</p>\n", unpictured,
+                       picture_budget >> 20);
   return out + "</section>\n";
 }
 

@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 Json code_json(FormatInfo::Kind kind, std::int64_t code, bool negative_zero = false) {
   const int digits = kind == FormatInfo::float32 || kind == FormatInfo::uint32 ? 8 : kind == FormatInfo::float16 ? 4 : 2;
   const std::uint32_t bits = negative_zero ? 1u << (4 * digits - 1) : enclosed::code_bits(kind, code);
-  return {{"value", negative_zero ? -0.0 : enclosed::code_value(kind, code)}, {"bits", fmt::format("0x{:0{}x}", bits, digits)}, {"code", code}};
+  return {
+      {"value", negative_zero ? -0.0 : enclosed::code_value(kind, code)}, {"bits", fmt::format("0x{:0{}x}", bits, digits)}, {"code", code}};
 }
 
 Json failure_json(const OutputJudgement& o, const Failure& f) {
@@ -97,7 +98,8 @@ Json pass_json(const PassJudgement& p) {
            {"half_votes", {{"rne", p.half_votes[0]}, {"rtz", p.half_votes[1]}, {"either", p.half_votes[2]}}},
            {"causes", Json::array()},
            {"cases", Json::array()}};
-  for (const Cause& c : p.causes) out["causes"].push_back({{"name", c.name}, {"sentence", c.sentence}, {"explained", c.explained}, {"of", c.of}, {"inside", c.inside}});
+  for (const Cause& c : p.causes)
+    out["causes"].push_back({{"name", c.name}, {"sentence", c.sentence}, {"explained", c.explained}, {"of", c.of}, {"inside", c.inside}});
   for (const CaseJudgement& c : p.cases) out["cases"].push_back(case_json(c));
   return out;
 }

@@ -21,14 +21,29 @@ std::string marked_up(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = character_length(text);
     switch (text[0]) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\t': out += "&#9;"; break;
-      case '\n': out += "&#10;"; break;
-      case '\r': out += "&#13;"; break;
-      default: out += length == 0 ? "\xef\xbf\xbd" : text.substr(0, length);
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\t':
+        out += "&#9;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      case '\r':
+        out += "&#13;";
+        break;
+      default:
+        out += length == 0 ? "\xef\xbf\xbd" : text.substr(0, length);
     }
     text.remove_prefix(length == 0 ? 1 : length);
   }

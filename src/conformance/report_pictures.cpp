@@ -45,7 +45,8 @@ class Texels {
   explicit Texels(const Array& a) : array_(a), format_(info(a.format)) {}
   const std::byte* at(int x, int y, int channel) const {
     const std::size_t texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(array_.width) + static_cast<std::size_t>(x);
-    return array_.levels[0].data() + texel * static_cast<std::size_t>(format_.texel_bytes()) + static_cast<std::size_t>(channel * format_.channel_bytes);
+    return array_.levels[0].data() + texel * static_cast<std::size_t>(format_.texel_bytes()) +
+           static_cast<std::size_t>(channel * format_.channel_bytes);
   }
   std::int64_t code(int x, int y, int channel) const { return enclosed::ordered_code(format_.kind, at(x, y, channel)); }
   bool nan(int x, int y, int channel) const { return is_nan(format_.kind, at(x, y, channel)); }
@@ -80,7 +81,8 @@ std::vector<double> quantiles(const Texels& t, const Array& a, int channel, std:
   }
   std::vector<double> out;
   std::sort(values.begin(), values.end());
-  for (const double share : shares) out.push_back(values.empty() ? 0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
+  for (const double share : shares)
+    out.push_back(values.empty() ? 0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
   return out;
 }
 
@@ -121,7 +123,9 @@ Display channel_display(const Array& expected, int channel, const std::string& l
     low -= half;
     high = low + 2 * half;
   }
-  return {label, scale, {channel}, [low, high](const Texels& t, int x, int y, int c) { return eight_bits((t.value(x, y, c) - low) / (high - low)); }};
+  return {label, scale, {channel}, [low, high](const Texels& t, int x, int y, int c) {
+            return eight_bits((t.value(x, y, c) - low) / (high - low));
+          }};
 }
 
 std::vector<Display> displays_of(const capture::CaseOutput& output, const Array& port) {
@@ -171,7 +175,8 @@ View view_of(const Display& d, const OutputJudgement& o, const Array& expected, 
   v.largest = largest;
   const Texels a(expected), b(port);
   const int columns = (v.width + v.thinned - 1) / v.thinned, rows = (v.height + v.thinned - 1) / v.thinned;
-  Image reference(Format::rgba8, columns, rows), got(Format::rgba8, columns, rows), differs(Format::rgba8, columns, rows), verdict(Format::rgba8, columns, rows);
+  Image reference(Format::rgba8, columns, rows), got(Format::rgba8, columns, rows), differs(Format::rgba8, columns, rows),
+      verdict(Format::rgba8, columns, rows);
   const auto shown = [&](const Texels& t, int x, int y) {
     for (const int c : d.channels) {
       if (!t.nan(x, y, c)) continue;
@@ -213,14 +218,16 @@ std::uint64_t largest_difference(const Display& d, const Array& expected, const 
   const Texels a(expected), b(port);
   std::uint64_t largest = 0;
   for (int y = 0; y < expected.height; ++y)
-    for (int x = 0; x < expected.width; ++x) largest = std::max(largest, static_cast<std::uint64_t>(std::abs(difference(a, b, d.channels, x, y).value_or(0))));
+    for (int x = 0; x < expected.width; ++x)
+      largest = std::max(largest, static_cast<std::uint64_t>(std::abs(difference(a, b, d.channels, x, y).value_or(0))));
   return largest;
 }
 
 }  // namespace
 
 const std::string& verdict_colour(int verdict) {
-  static const std::array<std::string, 4> texts{hex(verdict_colours[0]), hex(verdict_colours[1]), hex(verdict_colours[2]), hex(verdict_colours[3])};
+  static const std::array<std::string, 4> texts{hex(verdict_colours[0]), hex(verdict_colours[1]), hex(verdict_colours[2]),
+                                                hex(verdict_colours[3])};
   return texts[static_cast<std::size_t>(verdict & 3)];
 }
 std::string difference_colour(std::int64_t codes, std::uint64_t largest) { return hex(difference_rgb(codes, largest)); }

@@ -18,13 +18,13 @@ inline constexpr int picture_side = 640, picture_window = 256;
 /// One way to look at an output: colour, one channel, or a window of these. All pictures are PNG files of one size, row 0
 /// of the buffer at the bottom.
 struct View {
-  std::string label;  ///< "colour", "x", "x, window"
-  std::string scale;  ///< what black and white are, or the exposure
-  int x0 = 0, y0 = 0;          ///< the first texel shown
-  int width = 0, height = 0;   ///< texels shown
-  int thinned = 1;             ///< texels in a pixel's side; reference and port show the first, the others the worst
-  std::uint64_t largest = 0;   ///< difference in codes that has the strongest colour; 0: none differs
-  bool has_nan = false;        ///< magenta
+  std::string label;          ///< "colour", "x", "x, window"
+  std::string scale;          ///< what black and white are, or the exposure
+  int x0 = 0, y0 = 0;         ///< the first texel shown
+  int width = 0, height = 0;  ///< texels shown
+  int thinned = 1;            ///< texels in a pixel's side; reference and port show the first, the others the worst
+  std::uint64_t largest = 0;  ///< difference in codes that has the strongest colour; 0: none differs
+  bool has_nan = false;       ///< magenta
   std::vector<std::byte> reference, port, difference, verdict;
 
   std::size_t bytes() const { return reference.size() + port.size() + difference.size() + verdict.size(); }

@@ -20,7 +20,8 @@ PageSource source_of(const Passes& from) {
 
 PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port) {
   PageSource source = source_of(*pack);
-  source.read = [pack, files = std::make_shared<PortFiles>(port)](const std::string& id, const std::string& output) -> std::optional<OutputBuffers> {
+  source.read = [pack, files = std::make_shared<PortFiles>(port)](const std::string& id,
+                                                                  const std::string& output) -> std::optional<OutputBuffers> {
     for (const capture::PackCase& c : pack->cases) {
       if (c.id != id) continue;
       for (const capture::PackOutput& o : c.outputs) {
@@ -36,7 +37,8 @@ PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::fil
   return source;
 }
 
-PageSource page_source(std::shared_ptr<const ShadowPlan> plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options) {
+PageSource page_source(std::shared_ptr<const ShadowPlan> plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped,
+                       const ValidateOptions& options) {
   PageSource source = source_of(*plan);
   // The outputs of a run are asked for one after the other: it is recomputed once.
   auto last = std::make_shared<std::pair<std::string, PortRun>>();

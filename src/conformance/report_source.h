@@ -29,6 +29,7 @@ struct PageSource {
 /// Of a port's outputs for a pack.
 PageSource page_source(std::shared_ptr<const capture::Pack> pack, const std::filesystem::path& port);
 /// Of the dumps of a port's own run, recomputed from its inputs. The executor of the options must outlive it.
-PageSource page_source(std::shared_ptr<const ShadowPlan> plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options);
+PageSource page_source(std::shared_ptr<const ShadowPlan> plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped,
+                       const ValidateOptions& options);
 
 }  // namespace rainref::conformance

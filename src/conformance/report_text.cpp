@@ -35,8 +35,15 @@ std::string wrapped(const std::string& text, std::size_t indent) {
 std::vector<std::string> row_of(const PassJudgement& p) {
   const Figures f = figures_of(p);
   if (f.elements == 0) return {name(p.status), p.pass, "nothing judged", "-", "-", "-", "-", "-", "-"};
-  return {name(p.status), p.pass, fmt::format("{} of {}", f.failing, f.invocations), share_text(f.bounded(), f.judged()), width_text(f.median_width),
-          width_text(f.p99_width), fmt::format("{}", f.ambiguous), share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged())};
+  return {name(p.status),
+          p.pass,
+          fmt::format("{} of {}", f.failing, f.invocations),
+          share_text(f.bounded(), f.judged()),
+          width_text(f.median_width),
+          width_text(f.p99_width),
+          fmt::format("{}", f.ambiguous),
+          share_text(f.vacuous, f.judged()),
+          share_text(f.loose, f.judged())};
 }
 
 /// What the columns do not say of a pass.
@@ -49,9 +56,12 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
   std::size_t count = 0;
   for (const CaseJudgement& c : p.cases)
     if (c.status == Status::untested && c.outputs.empty() && ++count <= shown_outputs) open += (open.empty() ? "" : ", ") + c.id;
-  if (count > 0) out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
-  if (f.atypical > 0 && p.status != Status::warn) out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
-  if (f.other_branch > 0) out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
+  if (count > 0)
+    out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
+  if (f.atypical > 0 && p.status != Status::warn)
+    out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
+  if (f.other_branch > 0)
+    out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
   if (f.gave_up > 0) out.push_back(fmt::format("{} invocations with too many open decisions to bound", f.gave_up));
   if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
   if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
@@ -69,7 +79,8 @@ std::string table_text(const PortJudgement& j) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::string line;
     for (std::size_t k = 0; k < rows[r].size(); ++k)
-      line += k < 2 ? fmt::format("{:<{}}  ", rows[r][k], widths[k]) : fmt::format("{:>{}}{}", rows[r][k], widths[k], k + 1 < rows[r].size() ? "  " : "");
+      line += k < 2 ? fmt::format("{:<{}}  ", rows[r][k], widths[k])
+                    : fmt::format("{:>{}}{}", rows[r][k], widths[k], k + 1 < rows[r].size() ? "  " : "");
     out += line + "\n";
     if (r == 0) continue;
     for (const std::string& remark : remarks_on(j.passes[r - 1])) out += wrapped(std::string(widths[0] + 2, ' ') + remark, widths[0] + 4);
@@ -78,25 +89,32 @@ std::string table_text(const PortJudgement& j) {
 }
 
 std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
-  std::string out = fmt::format("  {}/out.{} ({}): {} of {} {} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements, element_word(o), share_text(o.failing, o.elements));
+  std::string out = fmt::format("  {}/out.{} ({}): {} of {} {} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements,
+                                element_word(o), share_text(o.failing, o.elements));
   const std::size_t shown = std::min(shown_failures, o.worst.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const FailureText t = failure_text(o, o.worst[k]);
-    out += t.got.empty() ? fmt::format("    {}  {}\n", t.place, t.distance) : fmt::format("    {}  got {}  accepted {}  {}\n", t.place, t.got, t.accepted, t.distance);
+    out += t.got.empty() ? fmt::format("    {}  {}\n", t.place, t.distance)
+                         : fmt::format("    {}  got {}  accepted {}  {}\n", t.place, t.got, t.accepted, t.distance);
   }
-  if (o.failing > static_cast<std::int64_t>(shown)) out += fmt::format("    ({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown));
+  if (o.failing > static_cast<std::int64_t>(shown))
+    out += fmt::format("    ({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown));
   return out;
 }
 
 std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
-  const std::string verdict = figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "";
+  const std::string verdict =
+      figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "";
   std::string out = "\n" + wrapped(fmt::format("{} {}{}", name(p.status), p.pass, verdict), 2);
-  if (p.pass == j.first_bad_pass) out += p.inputs_are_good ? "  first bad pass, its inputs are good\n" : "  first bad pass, its inputs are not good either\n";
+  if (p.pass == j.first_bad_pass)
+    out += p.inputs_are_good ? "  first bad pass, its inputs are good\n" : "  first bad pass, its inputs are not good either\n";
   std::size_t shown = 0, skipped = 0;
   for (const CaseJudgement& c : p.cases) {
     if (c.broken) {
-      if (shown == shown_outputs) ++skipped;
-      else out += wrapped(fmt::format("  {}: {}", c.id, c.reason), 4);
+      if (shown == shown_outputs)
+        ++skipped;
+      else
+        out += wrapped(fmt::format("  {}: {}", c.id, c.reason), 4);
       shown = std::min(shown + 1, shown_outputs);
     }
     for (const OutputJudgement& o : c.outputs) {
@@ -143,10 +161,12 @@ std::string report_text(const MutationReport& r, bool all) {
     }
     const char* verdict = m.differing == 0 ? "equivalent" : m.caught() ? "caught" : m.legal ? "legal" : "MISSED";
     if (all || (!m.caught() && m.differing > 0 && !m.legal))
-      out += fmt::format("{:<10} {:<12} {}: {} of {} invocations differ, {} outside\n", verdict, m.pass, m.name, m.differing, m.compared, m.outside);
+      out += fmt::format("{:<10} {:<12} {}: {} of {} invocations differ, {} outside\n", verdict, m.pass, m.name, m.differing, m.compared,
+                         m.outside);
   }
   for (const std::string& u : r.unjudged) out += fmt::format("not judged: {}\n", u);
-  out += fmt::format("{} of {} deviations that change something would be caught under {} ({} change nothing on this pack)\n", caught, bugs, r.profile, equivalent);
+  out += fmt::format("{} of {} deviations that change something would be caught under {} ({} change nothing on this pack)\n", caught, bugs,
+                     r.profile, equivalent);
   return out;
 }
 

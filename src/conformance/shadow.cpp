@@ -41,8 +41,10 @@ class Shadow {
     for (const PlannedRun& r : plan.runs) runs_.push_back({r.c.folder(), r.c.pass, r.c.frame, r.c.step, r.c.level, &r, &r, false});
     for (const DumpedRun& d : dumped) {
       const auto known = std::find_if(runs_.begin(), runs_.end(), [&](const Run& r) { return r.id == d.id; });
-      if (known != runs_.end()) known->is_dumped = true;
-      else runs_.push_back({d.id, d.pass, d.frame, d.step, d.level, nullptr, like(d), true});
+      if (known != runs_.end())
+        known->is_dumped = true;
+      else
+        runs_.push_back({d.id, d.pass, d.frame, d.step, d.level, nullptr, like(d), true});
     }
   }
 
@@ -70,7 +72,8 @@ class Shadow {
     for (const capture::PackPass& pass : plan_.passes)
       if (is_wanted(pass.name)) tasks.push_back(task_of(pass));
     const enclosed::Profile& chosen = profile(options_.profile);
-    result.passes = judge_passes(tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())});
+    result.passes =
+        judge_passes(tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())});
     for (PassJudgement& judged : result.passes) settle(judged);
     set_first_bad(result);
     result.notes.insert(result.notes.end(), files_.notes().begin(), files_.notes().end());
@@ -91,10 +94,13 @@ class Shadow {
   const PlannedRun* like(const DumpedRun& d) const {
     const PlannedRun* example = plan_.example(d.pass);
     if (example && !plan_.from_scene) return example;
-    const auto runs = std::count_if(plan_.runs.begin(), plan_.runs.end(), [&](const PlannedRun& r) { return r.c.pass == d.pass && r.c.frame == d.frame; });
-    throw Error(ExitCode::port_files, fmt::format("'{}': {}", (files_.folder() / d.id).string(),
-                                                  plan_.from_scene ? fmt::format("{} runs {} {} time{} in frame {}", plan_.scene, d.pass, runs, runs == 1 ? "" : "s", d.frame)
-                                                                   : fmt::format("the manifest has no run of {} to say how its buffers are; name the scene", d.pass)));
+    const auto runs = std::count_if(plan_.runs.begin(), plan_.runs.end(),
+                                    [&](const PlannedRun& r) { return r.c.pass == d.pass && r.c.frame == d.frame; });
+    throw Error(ExitCode::port_files,
+                fmt::format("'{}': {}", (files_.folder() / d.id).string(),
+                            plan_.from_scene
+                                ? fmt::format("{} runs {} {} time{} in frame {}", plan_.scene, d.pass, runs, runs == 1 ? "" : "s", d.frame)
+                                : fmt::format("the manifest has no run of {} to say how its buffers are; name the scene", d.pass)));
   }
 
   // ---- files ---------------------------------------------------------------------------------------------------------
@@ -112,8 +118,10 @@ class Shadow {
         for (std::size_t level = 0; level < shared.size(); ++level) {
           const fs::path path(shared[level]);
           Array one = files_.read(path.parent_path(), path.filename().string(), level_of(input.array, static_cast<int>(level)));
-          if (level == 0) all = std::move(one);
-          else all.levels.push_back(std::move(one.levels.front()));
+          if (level == 0)
+            all = std::move(one);
+          else
+            all.levels.push_back(std::move(one.levels.front()));
         }
         return all;
       }
@@ -124,10 +132,13 @@ class Shadow {
     fs::path path = files_.folder() / run.id / "uniforms.bin";
     std::error_code ignored;
     if (!fs::exists(path, ignored) && run.plan && !run.plan->uniform_file.empty()) path = files_.folder() / run.plan->uniform_file;
-    if (!fs::exists(path, ignored)) throw Error(ExitCode::port_files, fmt::format("'{}' is missing: the uniform block that the run took", path.string()));
+    if (!fs::exists(path, ignored))
+      throw Error(ExitCode::port_files, fmt::format("'{}' is missing: the uniform block that the run took", path.string()));
     std::vector<std::byte> bytes = read_file(path);
     const std::size_t size = run.like->c.uniforms.size();
-    if (bytes.size() != size) throw Error(ExitCode::port_files, fmt::format("'{}': expected the {} bytes of the uniform block, found {}", path.string(), size, bytes.size()));
+    if (bytes.size() != size)
+      throw Error(ExitCode::port_files,
+                  fmt::format("'{}': expected the {} bytes of the uniform block, found {}", path.string(), size, bytes.size()));
     return bytes;
   }
   Array read_output(const Run& run, std::size_t o) {
@@ -169,7 +180,8 @@ class Shadow {
         });
       }
       for (std::size_t o = 0; o < run.like->c.outputs.size(); ++o)
-        own.attempt([&] { contents_.add(fmt::format("{}/out.{}", run.id, run.like->c.outputs[o].name), content_hash(read_output(run, o))); });
+        own.attempt(
+            [&] { contents_.add(fmt::format("{}/out.{}", run.id, run.like->c.outputs[o].name), content_hash(read_output(run, o))); });
     }
     errors.raise();
   }
@@ -233,7 +245,9 @@ class Shadow {
     const bool is_first = loaded_.insert(run.id).second;
     Tally unused;
     if (!run.plan) {
-      if (is_first) unchecked_.add(fmt::format("the manifest does not know all runs of {}; uniforms and inputs were taken as they are", run.pass), run.id);
+      if (is_first)
+        unchecked_.add(fmt::format("the manifest does not know all runs of {}; uniforms and inputs were taken as they are", run.pass),
+                       run.id);
       return out;
     }
     out.broken = check_uniforms(plan_, *run.plan, out.c.uniforms, is_first ? differing_ : unused);
@@ -248,7 +262,8 @@ class Shadow {
     // Of a pass that runs once for each mip level each level is compared with its own run.
     const std::size_t parts = source && source->c.level >= 0 ? input.array.levels.size() : 1;
     for (std::size_t level = 0; level < parts; ++level) {
-      std::string broken = check_link(run, i, parts > 1 ? input_level(input, level) : "in." + input.name, plan_.source(*run.plan, input.name, static_cast<int>(level)), is_first);
+      std::string broken = check_link(run, i, parts > 1 ? input_level(input, level) : "in." + input.name,
+                                      plan_.source(*run.plan, input.name, static_cast<int>(level)), is_first);
       if (!broken.empty()) return broken;
     }
     return "";
@@ -265,7 +280,9 @@ class Shadow {
     }
     const std::string output = source ? fmt::format("{}/out.{}", source->c.folder(), name) : "";
     if (contents_.hash(output).empty()) {
-      if (is_first) unchecked_.add(fmt::format("input {} of {} was not compared with the output of {}, which is not there", name, run.pass, edge->from), run.id);
+      if (is_first)
+        unchecked_.add(fmt::format("input {} of {} was not compared with the output of {}, which is not there", name, run.pass, edge->from),
+                       run.id);
       return "";
     }
     if (contents_.hash(output) == contents_.hash(buffer)) return "";
@@ -330,7 +347,8 @@ PortJudgement shadow(const ShadowPlan& plan, const fs::path& folder, const std::
   return Shadow(plan, folder, dumped, options).judge();
 }
 
-PortRun shadow_run(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options, const std::string& id) {
+PortRun shadow_run(const ShadowPlan& plan, const fs::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options,
+                   const std::string& id) {
   return Shadow(plan, folder, dumped, options).run(id);
 }
 

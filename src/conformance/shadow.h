@@ -23,10 +23,12 @@ namespace rainref::conformance {
 ///
 /// Throws Error(port_files) when files are missing or cannot be what they should be, naming all of them, and for a run that
 /// the plan does not know.
-PortJudgement shadow(const ShadowPlan& plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options);
+PortJudgement shadow(const ShadowPlan& plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped,
+                     const ValidateOptions& options);
 
 /// One dumped run again, with what the reference gives for its inputs, for those who look closer: `untested` where that
 /// cannot be had. Links to other runs are not checked.
-PortRun shadow_run(const ShadowPlan& plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped, const ValidateOptions& options, const std::string& id);
+PortRun shadow_run(const ShadowPlan& plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped,
+                   const ValidateOptions& options, const std::string& id);
 
 }  // namespace rainref::conformance

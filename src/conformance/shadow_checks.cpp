@@ -42,9 +42,12 @@ std::string origin_text(const std::string& input, const std::string& output, con
   for (const std::string& b : equal) {
     if (b == before) return fmt::format("it is {}, the state before that run: a missing swap or a stale frame", b);
     if (!parts_of(b).second.starts_with("out.")) continue;
-    if (pass_of(b) != pass_of(output) || parts_of(b).second != output_name) other = b;
-    else if (b < output) earlier = b;  // the last of them: names sort by frame and step
-    else if (later.empty()) later = b;
+    if (pass_of(b) != pass_of(output) || parts_of(b).second != output_name)
+      other = b;
+    else if (b < output)
+      earlier = b;  // the last of them: names sort by frame and step
+    else if (later.empty())
+      later = b;
   }
   if (!earlier.empty()) return fmt::format("it is {}: a stale frame", earlier);
   if (!later.empty()) return fmt::format("it is {}: of a later run", later);
@@ -59,7 +62,8 @@ std::string broken_link(const std::string& input, const std::string& output, con
   const std::string head = fmt::format("input {} is not the previous output {}; ", input, output);
   if (std::string text = origin_text(input, output, contents.with(contents.hash(input))); !text.empty()) return head + text;
   const Array found = read(input), expected = read(output);
-  if (!capture::same_shape(found, expected)) return head + fmt::format("it has {}, not {}", capture::shape_text(found), capture::shape_text(expected));
+  if (!capture::same_shape(found, expected))
+    return head + fmt::format("it has {}, not {}", capture::shape_text(found), capture::shape_text(expected));
   if (!expected.is_records) {
     struct Change {
       int channels;
@@ -82,8 +86,8 @@ std::string broken_link(const std::string& input, const std::string& output, con
     }
   }
   const auto difference = capture::first_difference(expected, found);
-  return head + fmt::format("{} of {} values differ, first at {}: output {}, input {}: a pass between them that the graph does not name?", difference->count, difference->of,
-                            difference->place, difference->a, difference->b);
+  return head + fmt::format("{} of {} values differ, first at {}: output {}, input {}: a pass between them that the graph does not name?",
+                            difference->count, difference->of, difference->place, difference->a, difference->b);
 }
 
 void Tally::add(const std::string& subject, const std::string& example) {
@@ -93,7 +97,8 @@ void Tally::add(const std::string& subject, const std::string& example) {
 }
 std::vector<std::string> Tally::lines() const {
   std::vector<std::string> out;
-  for (const Entry& e : entries_) out.push_back(fmt::format("{} in {} run{}, first {}", e.subject, e.count, e.count == 1 ? "" : "s", e.first));
+  for (const Entry& e : entries_)
+    out.push_back(fmt::format("{} in {} run{}, first {}", e.subject, e.count, e.count == 1 ? "" : "s", e.first));
   return out;
 }
 
@@ -104,7 +109,8 @@ using Member = scene::Member;
 std::string text_of(const Member& m, const std::vector<std::byte>& block) {
   std::string out;
   for (int k = 0; k < m.components; ++k)
-    out += fmt::format("{}{}", k == 0 ? "" : ", ", capture::scalar_text(block.data() + m.offset + 4 * static_cast<std::size_t>(k), m.scalar));
+    out +=
+        fmt::format("{}{}", k == 0 ? "" : ", ", capture::scalar_text(block.data() + m.offset + 4 * static_cast<std::size_t>(k), m.scalar));
   return out;
 }
 bool same(const Member& m, const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
@@ -138,7 +144,8 @@ std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const 
   for (const Member& m : declared->block.members) {
     if (m.name.starts_with("padding")) continue;
     const auto refuse = [&](const std::string& reason) {
-      if (why.empty()) why = fmt::format("uniform {} is {}, expected {}{}", m.name, text_of(m, uniforms), text_of(m, run.c.uniforms), reason);
+      if (why.empty())
+        why = fmt::format("uniform {} is {}, expected {}{}", m.name, text_of(m, uniforms), text_of(m, run.c.uniforms), reason);
     };
     if (same(m, run.c.uniforms, uniforms)) continue;
     const PlannedRun* other = run_with(plan, pass, m, uniforms);

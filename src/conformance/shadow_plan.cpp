@@ -56,7 +56,8 @@ std::string run_name(const DumpedRun& r) {
 
 std::string content_hash(const Array& array) {
   Hasher hasher(0);
-  for (std::size_t level = 0; level < array.levels.size(); ++level) hasher.add(file_hash(capture::npy_bytes(array, static_cast<int>(level))).text());
+  for (std::size_t level = 0; level < array.levels.size(); ++level)
+    hasher.add(file_hash(capture::npy_bytes(array, static_cast<int>(level))).text());
   return hasher.finish().text();
 }
 
@@ -137,7 +138,8 @@ void ShadowPlan::add(const PassCase& from, const capture::EffectInfo& info_of_ef
 
 void ShadowPlan::take_files(const ShadowPlan& manifest) {
   if (manifest.effect != effect || manifest.variant != variant) {
-    throw Error(ExitCode::usage, fmt::format("the scene is {} {}, the manifest beside the dumps is of {} {}", effect, variant, manifest.effect, manifest.variant));
+    throw Error(ExitCode::usage, fmt::format("the scene is {} {}, the manifest beside the dumps is of {} {}", effect, variant,
+                                             manifest.effect, manifest.variant));
   }
   for (PlannedRun& run : runs) {
     const PlannedRun* other = manifest.find(run.c.folder());
@@ -158,7 +160,8 @@ const PlannedRun* ShadowPlan::example(std::string_view pass) const {
   return found == runs.end() ? nullptr : &*found;
 }
 const capture::PackEdge* ShadowPlan::edge(std::string_view pass, std::string_view input) const {
-  const auto found = std::find_if(edges.begin(), edges.end(), [&](const capture::PackEdge& e) { return e.pass == pass && e.input == input; });
+  const auto found =
+      std::find_if(edges.begin(), edges.end(), [&](const capture::PackEdge& e) { return e.pass == pass && e.input == input; });
   return found == edges.end() ? nullptr : &*found;
 }
 
@@ -180,7 +183,8 @@ const PlannedRun* ShadowPlan::source(const PlannedRun& run, std::string_view inp
     // The last run of a pass by levels gave the smallest of them: the others are the runs before it.
     const capture::CaseInput* taken = run.c.input(input);
     for (const int wanted = taken && taken->array.levels.size() > 1 && r->c.level >= 0 ? level : r->c.level; r->c.level != wanted;) {
-      if (r == runs.data() || (r - 1)->c.pass != r->c.pass || (r - 1)->c.frame != r->c.frame || (r - 1)->c.level != r->c.level - 1) return nullptr;
+      if (r == runs.data() || (r - 1)->c.pass != r->c.pass || (r - 1)->c.frame != r->c.frame || (r - 1)->c.level != r->c.level - 1)
+        return nullptr;
       --r;
     }
     return r;
@@ -195,7 +199,8 @@ std::vector<DumpedRun> dumped_runs(const fs::path& folder, const std::string& ef
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     if (!entry.is_directory() || !name.starts_with(effect + ".") || std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw Error(ExitCode::port_files, fmt::format("'{}': no pass of this effect and variant{}", entry.path().string(), did_you_mean(name, names)));
+    throw Error(ExitCode::port_files,
+                fmt::format("'{}': no pass of this effect and variant{}", entry.path().string(), did_you_mean(name, names)));
   }
   if (error) throw Error(ExitCode::io, fmt::format("'{}': {}", folder.string(), error.message()));
   std::vector<DumpedRun> out;
@@ -206,13 +211,16 @@ std::vector<DumpedRun> dumped_runs(const fs::path& folder, const std::string& ef
       DumpedRun run;
       const std::string name = entry.path().filename().string();
       if (!entry.is_directory()) continue;
-      if (!parse_run(name, run) || name != run_name(run)) throw Error(ExitCode::port_files, fmt::format("'{}': expected <frame>.<step> with four digits or more, such as 0012.0", entry.path().string()));
+      if (!parse_run(name, run) || name != run_name(run))
+        throw Error(ExitCode::port_files,
+                    fmt::format("'{}': expected <frame>.<step> with four digits or more, such as 0012.0", entry.path().string()));
       run.pass = passes[p];
       run.id = fmt::format("{}/{}", names[p], name);
       out.push_back(run);
     }
-    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
-              [](const DumpedRun& a, const DumpedRun& b) { return std::tie(a.frame, a.step, a.level) < std::tie(b.frame, b.step, b.level); });
+    std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(), [](const DumpedRun& a, const DumpedRun& b) {
+      return std::tie(a.frame, a.step, a.level) < std::tie(b.frame, b.step, b.level);
+    });
   }
   return out;
 }

@@ -14,7 +14,7 @@ namespace rainref::conformance {
 
 /// A run of a pass as it should be. Its arrays have shape and levels, but no values.
 struct PlannedRun {
-  capture::PassCase c;                   ///< c.uniforms: the reference's
+  capture::PassCase c;                    ///< c.uniforms: the reference's
   std::vector<std::string> input_hashes;  ///< content_hash() of the reference's inputs
   /// Where a manifest says that inputs and uniforms lie, which may be shared with other runs: paths below the folder,
   /// those of inputs without their extension, one for each mip level; none and "" where none says.
@@ -31,8 +31,8 @@ struct ShadowPlan {
   std::string effect, variant, scene;
   std::vector<capture::PackPass> passes;  ///< in the order of execution
   std::vector<capture::PackEdge> edges;
-  std::vector<PlannedRun> runs;           ///< in the order of execution
-  std::set<int> frames;                   ///< whose runs are all known
+  std::vector<PlannedRun> runs;  ///< in the order of execution
+  std::set<int> frames;          ///< whose runs are all known
   /// Whether `runs` is all that there can be in these frames; else a port may have dumped other frames too.
   bool from_scene = false;
 

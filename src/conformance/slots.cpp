@@ -34,11 +34,16 @@ std::vector<Slot> slots_of(const capture::PassCase& c) {
 
 float stored_value(const Slot& slot, const std::byte* at) {
   switch (slot.kind) {
-    case FormatInfo::unorm8: return to_float(loaded<Unorm8>(at));
-    case FormatInfo::srgb8: return static_cast<float>(decode_srgb(loaded<Unorm8>(at).code / 255.0));
-    case FormatInfo::float16: return to_float(loaded<Half>(at));
-    case FormatInfo::float32: return loaded<float>(at);
-    case FormatInfo::uint32: return static_cast<float>(loaded<std::uint32_t>(at));
+    case FormatInfo::unorm8:
+      return to_float(loaded<Unorm8>(at));
+    case FormatInfo::srgb8:
+      return static_cast<float>(decode_srgb(loaded<Unorm8>(at).code / 255.0));
+    case FormatInfo::float16:
+      return to_float(loaded<Half>(at));
+    case FormatInfo::float32:
+      return loaded<float>(at);
+    case FormatInfo::uint32:
+      return static_cast<float>(loaded<std::uint32_t>(at));
   }
   return 0;
 }
@@ -58,10 +63,17 @@ void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at
     std::memcpy(at, &stored, sizeof stored);
   };
   switch (slot.kind) {
-    case FormatInfo::unorm8: put(Unorm8{}); return;
-    case FormatInfo::float16: put(Half{}); return;
-    case FormatInfo::float32: put(float{}); return;
-    default: throw Error(ExitCode::internal, "store_value: no pass stores this format by envelope");
+    case FormatInfo::unorm8:
+      put(Unorm8{});
+      return;
+    case FormatInfo::float16:
+      put(Half{});
+      return;
+    case FormatInfo::float32:
+      put(float{});
+      return;
+    default:
+      throw Error(ExitCode::internal, "store_value: no pass stores this format by envelope");
   }
 }
 

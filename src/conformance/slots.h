@@ -18,7 +18,8 @@ struct Slot {
   double range;  ///< extent of the declared range
 
   std::size_t offset(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * static_cast<std::size_t>(texel_bytes) +
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(texel_bytes) +
            static_cast<std::size_t>(channel * channel_bytes);
   }
   const std::byte* at(const capture::Array& a, int x, int y) const { return a.levels[0].data() + offset(x, y); }

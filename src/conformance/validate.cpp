@@ -30,15 +30,18 @@ void require_reference(const Pack& pack, const PassCase& c, const capture::PassM
     const Array& expected = c.outputs[o].array;
     if (reference[o].levels == expected.levels) continue;
     if (c.outputs[o].judge == capture::Judge::keyed && same_records(reference[o], expected)) continue;
-    throw Error(ExitCode::port_files,
-                fmt::format("{}: {}/out.{}: expected what this version computes, found other values: the pack was made by rainref {}; make it again",
-                            pack.folder().string(), c.folder(), c.outputs[o].name, pack.producer));
+    throw Error(
+        ExitCode::port_files,
+        fmt::format(
+            "{}: {}/out.{}: expected what this version computes, found other values: the pack was made by rainref {}; make it again",
+            pack.folder().string(), c.folder(), c.outputs[o].name, pack.producer));
   }
 }
 
 std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
   std::vector<Array> out;
-  for (const capture::CaseOutput& o : c.outputs) out.push_back(o.judge == capture::Judge::input_only ? o.array : port.read(c.folder(), "out." + o.name, o.array));
+  for (const capture::CaseOutput& o : c.outputs)
+    out.push_back(o.judge == capture::Judge::input_only ? o.array : port.read(c.folder(), "out." + o.name, o.array));
   return out;
 }
 
@@ -46,13 +49,17 @@ std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
 void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
   FileErrors errors;
   const auto is_wanted = [&](const PackCase& c) {
-    return (only.empty() || c.pass == only) && std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.rules.judge != capture::Judge::input_only; });
+    return (only.empty() || c.pass == only) &&
+           std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.rules.judge != capture::Judge::input_only; });
   };
   // Of a folder where nothing is one sentence says more than one for each file.
   const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), is_wanted);
   std::error_code ignored;
-  if (first != pack.cases.end() && std::none_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) { return is_wanted(c) && std::filesystem::is_directory(port.folder() / c.id, ignored); }))
-    throw Error(ExitCode::port_files, fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
+  if (first != pack.cases.end() && std::none_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) {
+        return is_wanted(c) && std::filesystem::is_directory(port.folder() / c.id, ignored);
+      }))
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
   for (const PackCase& entry : pack.cases) {
     if (!only.empty() && entry.pass != only) continue;
     for (const capture::PackOutput& output : entry.outputs) {
@@ -60,7 +67,8 @@ void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
       capture::Array shape = output.shape;
       shape.levels.resize(output.levels.size());
       errors.attempt([&] {
-        require_apart(pack.folder() / output.levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, "out." + output.name).path);
+        require_apart(pack.folder() / output.levels.front().path,
+                      port_dump::find_dump_file(port.folder() / entry.id, "out." + output.name).path);
         port.read(entry.id, "out." + output.name, shape);
       });
     }
@@ -106,7 +114,8 @@ std::optional<HalfMode> declared_mode(const port_dump::PortInfo& port) {
 PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, const ValidateOptions& options) {
   const enclosed::Profile& chosen = profile(options.profile);
   if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
-  if (!pack.with_inputs) throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
+  if (!pack.with_inputs)
+    throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
   check_pack(pack);
   require_apart(pack.folder(), folder);
   PortFiles port(folder);

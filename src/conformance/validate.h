@@ -61,8 +61,9 @@ std::vector<Cause> diagnose(const capture::PackPass& pass, const capture::PassCa
                             const enclosed::Profile& profile, HalfMode mode, const parallel::Executor& executor);
 
 /// The same for the lists of a case that are matched by id: what explains the failing ids. `model` may be null.
-std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, const capture::PassModel* model,
-                                  const std::vector<capture::Array>& port, const enclosed::Profile& profile, const parallel::Executor& executor);
+std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
+                                  const capture::PassModel* model, const std::vector<capture::Array>& port,
+                                  const enclosed::Profile& profile, const parallel::Executor& executor);
 
 /// The three best of them, of those that explain enough.
 std::vector<Cause> best_causes(std::vector<Cause> causes);

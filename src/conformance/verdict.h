@@ -12,11 +12,11 @@ namespace rainref::conformance {
 
 enum class Status : std::uint8_t {
   pass,
-  warn,     ///< inside what the profile allows, but outside what real devices do, or with an open question
-  fail,     ///< an element outside, a NaN, a crash
-  untested, ///< nothing was judged, or too much of it was vacuous
-  known,    ///< fails, and the baseline says why it may
-  data      ///< taken as it is, because no GPU can reproduce it: neither judged nor a failure
+  warn,      ///< inside what the profile allows, but outside what real devices do, or with an open question
+  fail,      ///< an element outside, a NaN, a crash
+  untested,  ///< nothing was judged, or too much of it was vacuous
+  known,     ///< fails, and the baseline says why it may
+  data       ///< taken as it is, because no GPU can reproduce it: neither judged nor a failure
 };
 /// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA".
 const char* name(Status status);
@@ -57,17 +57,17 @@ struct OutputJudgement {
   Format format = Format::r8;
   bool records = false;
   Counted counted = Counted::values;
-  int width = 0, height = 0;      ///< of records their expected number and 1
-  std::int64_t elements = 0;      ///< as `counted` says; of keyed lists the fields of every record in either list
+  int width = 0, height = 0;  ///< of records their expected number and 1
+  std::int64_t elements = 0;  ///< as `counted` says; of keyed lists the fields of every record in either list
   std::int64_t failing = 0;
-  std::int64_t differing = 0;     ///< not the reference's bits
-  std::int64_t vacuous = 0;       ///< envelope wider than 1/16 of the declared range; of a record's field of its own
-  std::int64_t loose = 0;         ///< wider than 1/256
-  std::int64_t atypical = 0;      ///< inside the profile, outside what real devices do
-  std::int64_t free = 0;          ///< declared as not reproducible: held to a range of its own
-  std::string known;              ///< why the baseline lets it fail; "": it does not
+  std::int64_t differing = 0;              ///< not the reference's bits
+  std::int64_t vacuous = 0;                ///< envelope wider than 1/16 of the declared range; of a record's field of its own
+  std::int64_t loose = 0;                  ///< wider than 1/256
+  std::int64_t atypical = 0;               ///< inside the profile, outside what real devices do
+  std::int64_t free = 0;                   ///< declared as not reproducible: held to a range of its own
+  std::string known;                       ///< why the baseline lets it fail; "": it does not
   double median_width = 0, p99_width = 0;  ///< of the accepted codes, in codes: 0 where one code is accepted
-  std::vector<Failure> worst;     ///< in order of distance, then of place; at most max_failures
+  std::vector<Failure> worst;              ///< in order of distance, then of place; at most max_failures
   static constexpr std::size_t max_failures = 100;
   /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical), 3 (outside); row 0 first. Empty for records.
   std::vector<std::uint8_t> map;
@@ -77,8 +77,8 @@ struct OutputJudgement {
 struct CaseJudgement {
   std::string id;
   Status status = Status::untested;
-  std::string reason;             ///< why, where it is not a plain pass or fail
-  bool broken = false;            ///< fails for `reason`, whatever its outputs are: a race, an input that is not the output it comes from
+  std::string reason;   ///< why, where it is not a plain pass or fail
+  bool broken = false;  ///< fails for `reason`, whatever its outputs are: a race, an input that is not the output it comes from
   std::int64_t invocations = 0;
   std::int64_t failing = 0;       ///< invocations that no alternative accepts
   std::int64_t ambiguous = 0;     ///< invocations with more than one alternative
@@ -114,7 +114,7 @@ struct PortJudgement {
   std::string command;  ///< that reproduces this
   Status status = Status::untested;
   std::string reason;
-  std::string first_bad_pass;  ///< in the order of dataflow
+  std::string first_bad_pass;         ///< in the order of dataflow
   std::vector<PassJudgement> passes;  ///< in the order of execution
   std::vector<std::string> notes;
   std::vector<std::string> stale;  ///< what the baseline lists and did not fail: each a sentence, each fails the run

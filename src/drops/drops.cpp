@@ -42,7 +42,8 @@ DropArrays::DropArrays(std::int64_t capacity) : capacity_(capacity) {
   }
   stride_ = stride_bytes(capacity);
   memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, memory_bytes(capacity))));
-  if (!memory_) throw Error(ExitCode::usage, fmt::format("{} drops: {} of memory could not be had", capacity, memory_text(memory_bytes(capacity))));
+  if (!memory_)
+    throw Error(ExitCode::usage, fmt::format("{} drops: {} of memory could not be had", capacity, memory_text(memory_bytes(capacity))));
   std::memset(memory_.get(), 0, memory_bytes(capacity));
 }
 
@@ -74,7 +75,9 @@ std::size_t DropArrays::place(std::span<const Drop> records) {
   return placed;
 }
 
-std::int64_t DropArrays::live() const { return std::count_if(life().begin(), life().end(), [](float x) { return x > 0; }); }
+std::int64_t DropArrays::live() const {
+  return std::count_if(life().begin(), life().end(), [](float x) { return x > 0; });
+}
 
 std::int64_t DropArrays::water() const {
   std::int64_t sum = 0;

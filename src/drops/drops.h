@@ -53,7 +53,9 @@ class DropArrays {
   std::span<const float> velocity_v() const { return floats(3); }
   std::span<const float> mass() const { return floats(4); }
   std::span<const float> life() const { return floats(5); }
-  std::span<const std::uint32_t> id() const { return {reinterpret_cast<const std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)}; }
+  std::span<const std::uint32_t> id() const {
+    return {reinterpret_cast<const std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)};
+  }
 
   /// The record of a slot, and back; set() needs i < extent().
   Drop get(std::int64_t i) const;

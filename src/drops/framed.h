@@ -21,7 +21,8 @@ class Framed {
     const std::size_t channels = static_cast<std::size_t>(info(input.array.format).channels);
     for (int y = 0; y < height_; ++y)
       for (int x = -1; x <= width_; ++x)
-        texels_.push_back(all[channels * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(std::clamp(x, 0, width_ - 1)))]);
+        texels_.push_back(all[channels * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                                          static_cast<std::size_t>(std::clamp(x, 0, width_ - 1)))]);
   }
   /// Texel 0 of the row y or the nearest one.
   const float* row(int y) const { return texels_.data() + static_cast<std::ptrdiff_t>(std::clamp(y, 0, height_ - 1)) * (width_ + 2) + 1; }

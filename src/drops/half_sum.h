@@ -30,9 +30,12 @@ inline deviant::Deviant half_of(deviant::Deviant x, Rounding own) {
   const auto stored = [&](Rounding r) { return deviant::Deviant::of(to_float(to_half(x.v, r))); };
   if (!b.liberties || b.liberties->rules.reference) return stored(own);
   switch (b.liberties->rules.half_store) {
-    case enclosed::StoreRounding::rne: return stored(Rounding::rne);
-    case enclosed::StoreRounding::rtz: return stored(Rounding::rtz);
-    default: break;
+    case enclosed::StoreRounding::rne:
+      return stored(Rounding::rne);
+    case enclosed::StoreRounding::rtz:
+      return stored(Rounding::rtz);
+    default:
+      break;
   }
   const deviant::Deviant cut = stored(Rounding::rtz);
   b.random += 0x9e3779b97f4a7c15u;

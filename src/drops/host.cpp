@@ -13,8 +13,8 @@ namespace {
 constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double rest_speed = 1e-6;  // m/s: a millimetre in a quarter of an hour
 constexpr double golden_section = 0x1.3c6ef372fe95p-1;
-constexpr int classes = 1024;        // the upper ten bits of a word
-constexpr int cells = 2000;          // of the integral over diameters: the table's corners bound its error to 1e-5
+constexpr int classes = 1024;  // the upper ten bits of a word
+constexpr int cells = 2000;    // of the integral over diameters: the table's corners bound its error to 1e-5
 
 double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 double volume_of_quantum() { return quantum / water_density; }
@@ -32,7 +32,9 @@ std::vector<SizeCell> sizes_in_air(const Settings& s) {
   return out;
 }
 /// [1/m^2/s]
-double arrivals_of(const SizeCell& c, double normal_z, double normal_wind) { return c.number * std::max(0.0, c.fall * normal_z - normal_wind); }
+double arrivals_of(const SizeCell& c, double normal_z, double normal_wind) {
+  return c.number * std::max(0.0, c.fall * normal_z - normal_wind);
+}
 double water_mass(double diameter_mm) { return water_density * pi / 6 * diameter_mm * diameter_mm * diameter_mm * 1e-9; }
 float quanta_of(double diameter_mm) {
   // Whole, at least 1, and a float has them all.
@@ -88,7 +90,8 @@ MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double 
 }
 
 std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, double steps_per_second) {
-  return std::min(events_in(s.film_drying * texel_area * water_density / quantum, n, steps_per_second), static_cast<std::int64_t>(most_quanta));
+  return std::min(events_in(s.film_drying * texel_area * water_density / quantum, n, steps_per_second),
+                  static_cast<std::int64_t>(most_quanta));
 }
 
 Flux flux(const Settings& s, double normal_z, double normal_wind) {
@@ -125,10 +128,12 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
       const double arrivals = arrivals_of(c, e.normal_z, e.normal_wind);
       sum += arrivals;
       const auto next = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
-      while (arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next()) plan_.masses.push_back({quanta_of(c.diameter)});
+      while (arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next())
+        plan_.masses.push_back({quanta_of(c.diameter)});
     }
     // Where no drop arrives, the table is still one.
-    while (static_cast<int>(plan_.masses.size()) < classes) plan_.masses.push_back(plan_.masses.empty() ? SpawnMass{1} : plan_.masses.back());
+    while (static_cast<int>(plan_.masses.size()) < classes)
+      plan_.masses.push_back(plan_.masses.empty() ? SpawnMass{1} : plan_.masses.back());
   }
   plan_.uniforms.threshold_count = static_cast<std::int32_t>(plan_.thresholds.size());
   plan_.uniforms.seed[0] = static_cast<std::uint32_t>(settings_.seed);
@@ -138,7 +143,8 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
   made_rate_ = steps_per_second;
 }
 
-const SpawnPlan& Arrivals::plan(const Exposure& exposure, std::int64_t n, double steps_per_second, std::uint32_t first_id, std::int64_t room) {
+const SpawnPlan& Arrivals::plan(const Exposure& exposure, std::int64_t n, double steps_per_second, std::uint32_t first_id,
+                                std::int64_t room) {
   make_tables(exposure, steps_per_second);
   plan_.uniforms.step = static_cast<std::uint32_t>(n);
   plan_.uniforms.first_id = first_id;

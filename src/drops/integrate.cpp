@@ -8,7 +8,9 @@ namespace {
 template <class Body>
 Ledger over_chunks(const parallel::Executor& executor, std::int64_t extent, Body body) {
   std::vector<Ledger> of_chunk(static_cast<std::size_t>((extent + chunk_slots - 1) / chunk_slots));
-  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) { of_chunk[static_cast<std::size_t>(begin / chunk_slots)] = body(begin, end); });
+  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+    of_chunk[static_cast<std::size_t>(begin / chunk_slots)] = body(begin, end);
+  });
   Ledger sum;
   for (const Ledger& l : of_chunk) sum += l;
   return sum;
@@ -16,7 +18,8 @@ Ledger over_chunks(const parallel::Executor& executor, std::int64_t extent, Body
 
 }  // namespace
 
-Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass) {
+Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                              const GlassFrame& glass) {
   const Slots slots(drops);
   return over_chunks(executor, drops.extent(), [&](std::int64_t begin, std::int64_t end) {
     Ledger ledger;
@@ -25,9 +28,11 @@ Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& dr
   });
 }
 
-Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass) {
+Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                           const GlassFrame& glass) {
   const Slots slots(drops);
-  return over_chunks(executor, drops.extent(), [&](std::int64_t begin, std::int64_t end) { return integrate_range_corrected(uniforms, glass, slots, begin, end); });
+  return over_chunks(executor, drops.extent(),
+                     [&](std::int64_t begin, std::int64_t end) { return integrate_range_corrected(uniforms, glass, slots, begin, end); });
 }
 
 }  // namespace rainref::drops

@@ -43,10 +43,14 @@ struct Integrated {
 };
 /// The length [m] of a vector in glass coordinates.
 template <class N>
-RAINREF_FN N length_on_glass(const float* frame, N u, N v) { return length(N(frame[0]) * u + N(frame[1]) * v, N(frame[2]) * v); }
+RAINREF_FN N length_on_glass(const float* frame, N u, N v) {
+  return length(N(frame[0]) * u + N(frame[1]) * v, N(frame[2]) * v);
+}
 /// The cube root of the mass of a live drop; 1 for a free slot.
 template <class N>
-RAINREF_FN N cube_root_of_mass(N mass) { return pow(max(mass, N(1.0f)), N(0x1.555556p-2f)); }
+RAINREF_FN N cube_root_of_mass(N mass) {
+  return pow(max(mass, N(1.0f)), N(0x1.555556p-2f));
+}
 
 /// e^-x, f(x) and g(x) for x >= 0. Below 1/8 by their series, to 1e-8.
 template <class N>
@@ -74,8 +78,10 @@ RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const G
 
   const N wind_u(g.wind[0]), wind_v(g.wind[1]);
   const N push = (N(c.wind_push) * length_on_glass(c.frame, wind_u, wind_v)) * inverse;
-  const N a_u = sum_any_order(N(g.gravity[0]), N(g.spin[0]) * d.u + N(g.spin[1]) * d.v, N(g.coriolis[0]) * d.velocity_u + N(g.coriolis[1]) * d.velocity_v, push * wind_u);
-  const N a_v = sum_any_order(N(g.gravity[1]), N(g.spin[2]) * d.u + N(g.spin[3]) * d.v, N(g.coriolis[2]) * d.velocity_u + N(g.coriolis[3]) * d.velocity_v, push * wind_v);
+  const N a_u = sum_any_order(N(g.gravity[0]), N(g.spin[0]) * d.u + N(g.spin[1]) * d.v,
+                              N(g.coriolis[0]) * d.velocity_u + N(g.coriolis[1]) * d.velocity_v, push * wind_u);
+  const N a_v = sum_any_order(N(g.gravity[1]), N(g.spin[2]) * d.u + N(g.spin[3]) * d.v,
+                              N(g.coriolis[2]) * d.velocity_u + N(g.coriolis[3]) * d.velocity_v, push * wind_v);
 
   const N pull = max(length_on_glass(c.frame, a_u, a_v), N(1e-6f));
   const N share = max(one - (N(c.hold) * inverse_sq) / pull, zero);  // of the force that is left to move the drop

@@ -46,7 +46,8 @@ HWY_INLINE std::int64_t whole_sum(Lanes x, int count) {
   return sum;
 }
 
-std::int64_t IntegrateAsPublished(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin, std::int64_t end) {
+std::int64_t IntegrateAsPublished(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin,
+                                  std::int64_t end) {
   const Lanes zero(0.0f);
   std::int64_t ended = 0;
   for (std::int64_t i = begin; i < end; i += Lanes::size()) {
@@ -58,7 +59,8 @@ std::int64_t IntegrateAsPublished(const IntegrateUniforms& uniforms, const Glass
   return ended;
 }
 
-Ledger IntegrateCorrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin, std::int64_t end) {
+Ledger IntegrateCorrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin,
+                          std::int64_t end) {
   Ledger ledger;
   for (std::int64_t i = begin; i < end; i += Lanes::size()) {
     const int count = lanes_left(i, end);
@@ -108,7 +110,8 @@ void FindLarger(const MergeGrid& g, std::int64_t begin, std::int64_t end, std::i
       const int left = std::max(0, column - 1), right = std::min(grid.columns - 1, column + 1);
       for (int y = std::max(0, row - 1); y <= std::min(grid.rows - 1, row + 1); ++y) {
         const std::uint32_t first = grid.first_cell + static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(grid.columns);
-        best = largest_touching(g, i, g.cell_start[first + static_cast<std::uint32_t>(left)], g.cell_start[first + static_cast<std::uint32_t>(right) + 1], best);
+        best = largest_touching(g, i, g.cell_start[first + static_cast<std::uint32_t>(left)],
+                                g.cell_start[first + static_cast<std::uint32_t>(right) + 1], best);
       }
     }
     larger[i] = best;
@@ -159,13 +162,16 @@ RAINREF_EXPORT(FindLarger);
 RAINREF_EXPORT(Trails);
 RAINREF_EXPORT(DryRow);
 
-std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin, std::int64_t end) {
+std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots,
+                                          std::int64_t begin, std::int64_t end) {
   return RAINREF_DISPATCH(IntegrateAsPublished)(uniforms, glass, slots, begin, end);
 }
-Ledger integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin, std::int64_t end) {
+Ledger integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
+                                 std::int64_t end) {
   return RAINREF_DISPATCH(IntegrateCorrected)(uniforms, glass, slots, begin, end);
 }
-void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y, float* radius) {
+void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,
+                   float* radius) {
   RAINREF_DISPATCH(Measure)(uniforms, slots, begin, end, x, y, radius);
 }
 void find_larger_range(const MergeGrid& grid, std::int64_t begin, std::int64_t end, std::int32_t* larger) {

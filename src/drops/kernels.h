@@ -15,15 +15,23 @@ namespace rainref::drops {
 struct Slots {
   float *u, *v, *velocity_u, *velocity_v, *mass, *life;
   explicit Slots(DropArrays& d)
-      : u(d.u().data()), v(d.v().data()), velocity_u(d.velocity_u().data()), velocity_v(d.velocity_v().data()), mass(d.mass().data()), life(d.life().data()) {}
+      : u(d.u().data()),
+        v(d.v().data()),
+        velocity_u(d.velocity_u().data()),
+        velocity_v(d.velocity_v().data()),
+        mass(d.mass().data()),
+        life(d.life().data()) {}
 };
 
 /// Returns how many lives ended.
-std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin, std::int64_t end);
-Ledger integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin, std::int64_t end);
+std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots,
+                                          std::int64_t begin, std::int64_t end);
+Ledger integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
+                                 std::int64_t end);
 
 /// Plane coordinates and base radius [m] of slots, free ones too, into arrays with room for a whole vector beyond `end`.
-void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y, float* radius);
+void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,
+                   float* radius);
 /// For each of the sorted drops [begin, end): the index of the drop that it points to, or -1.
 void find_larger_range(const MergeGrid& grid, std::int64_t begin, std::int64_t end, std::int32_t* larger);
 

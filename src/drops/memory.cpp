@@ -18,7 +18,8 @@ MemoryPeak memory(const Settings& s, int columns, int rows, std::int64_t live) {
   if (!s.corrected) return m;
   m.hold(Image::memory_bytes(Format::r32f, columns, rows));
   // merge: place, radius and cell by slot; cell and slot; place, radius, mass, id and slot by cell; the larger one; the cells.
-  m.hold(drops * (3 * sizeof(float) + sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) + 4 * sizeof(float) + 2 * sizeof(std::uint32_t) + sizeof(std::int32_t) + sizeof(std::uint32_t)));
+  m.hold(drops * (3 * sizeof(float) + sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) + 4 * sizeof(float) + 2 * sizeof(std::uint32_t) +
+                  sizeof(std::int32_t) + sizeof(std::uint32_t)));
   m.pass(drops * sizeof(Deposit));
   return m;
 }

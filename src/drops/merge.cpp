@@ -58,7 +58,8 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
     for (std::size_t k = i; k != root;) k = static_cast<std::size_t>(std::exchange(larger[k], static_cast<std::int32_t>(root)));
     members.push_back({grid.id[root], grid.id[i], grid.slot[root], grid.slot[i]});
   }
-  std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) { return std::tie(a.root_id, a.id) < std::tie(b.root_id, b.id); });
+  std::sort(members.begin(), members.end(),
+            [](const Member& a, const Member& b) { return std::tie(a.root_id, a.id) < std::tie(b.root_id, b.id); });
 
   std::int64_t ended = 0;
   for (std::size_t i = 0; i < members.size();) {
@@ -102,7 +103,8 @@ Ledger dry_film(const parallel::Executor& executor, const MergeUniforms& uniform
   if (!(uniforms.drying > 0)) return ledger;
   std::vector<std::int64_t> of_row(static_cast<std::size_t>(film.height()));
   executor.for_range(film.height(), 16, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t y = begin; y < end; ++y) of_row[static_cast<std::size_t>(y)] = dry_row(uniforms, film.row<float>(static_cast<int>(y)), film.width());
+    for (std::int64_t y = begin; y < end; ++y)
+      of_row[static_cast<std::size_t>(y)] = dry_row(uniforms, film.row<float>(static_cast<int>(y)), film.width());
   });
   for (const std::int64_t sum : of_row) ledger.evaporated += sum;
   ledger.to_film = -ledger.evaporated;

@@ -3,16 +3,24 @@
 
 /// Base radius [m].
 template <class N>
-RAINREF_FN N base_radius(const MergeUniforms& c, N mass) { return N(c.radius) * cube_root_of_mass(mass); }
+RAINREF_FN N base_radius(const MergeUniforms& c, N mass) {
+  return N(c.radius) * cube_root_of_mass(mass);
+}
 /// Plane coordinates [m] of a drop.
 template <class N>
-RAINREF_FN N plane_x(const MergeUniforms& c, N u, N v) { return N(c.frame[0]) * u + N(c.frame[1]) * v; }
+RAINREF_FN N plane_x(const MergeUniforms& c, N u, N v) {
+  return N(c.frame[0]) * u + N(c.frame[1]) * v;
+}
 template <class N>
-RAINREF_FN N plane_y(const MergeUniforms& c, N v) { return N(c.frame[2]) * v; }
+RAINREF_FN N plane_y(const MergeUniforms& c, N v) {
+  return N(c.frame[2]) * v;
+}
 
 /// Whether two base circles overlap: centres [m] and radii [m].
 template <class N>
-RAINREF_FN auto touches(N x1, N y1, N radius1, N x2, N y2, N radius2) { return square(x1 - x2) + square(y1 - y2) < square(radius1 + radius2); }
+RAINREF_FN auto touches(N x1, N y1, N radius1, N x2, N y2, N radius2) {
+  return square(x1 - x2) + square(y1 - y2) < square(radius1 + radius2);
+}
 
 /// a with b in it: mass and momentum are kept, the place is the centre of mass. id and life stay a's. (physics: W8)
 template <class N>
@@ -29,7 +37,9 @@ RAINREF_FN DropState<N> absorb(const DropState<N>& a, const DropState<N>& b) {
 
 /// The film after a step of drying. Trails come on top of it.
 template <class N>
-RAINREF_FN N dried(const MergeUniforms& c, N film) { return max(film - N(c.drying), N(0.0f)); }
+RAINREF_FN N dried(const MergeUniforms& c, N film) {
+  return max(film - N(c.drying), N(0.0f));
+}
 
 /// What a sliding drop leaves on the glass, and where: under its tail, one base radius behind the centre.
 template <class N>
@@ -52,7 +62,9 @@ RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
 }
 /// A drop keeps a quantum.
 template <class N>
-RAINREF_FN N whole_trail(N mass, N whole) { return max(min(mass - N(1.0f), whole), N(0.0f)); }
+RAINREF_FN N whole_trail(N mass, N whole) {
+  return max(min(mass - N(1.0f), whole), N(0.0f));
+}
 template <class N>
 RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {
   Trail<N> out = tail(c, d);

@@ -9,8 +9,8 @@ namespace rainref::drops {
 namespace {
 
 constexpr std::uint32_t no_cell = 0xffffffffu;
-constexpr std::size_t room_behind = 64;     // slots of a vector, and more
-constexpr double slack = 1.0001;            // more than the rounding of radii and coordinates
+constexpr std::size_t room_behind = 64;      // slots of a vector, and more
+constexpr double slack = 1.0001;             // more than the rounding of radii and coordinates
 constexpr std::uint32_t most_buckets = 512;  // of the first step of the sort
 
 std::size_t chunks_of(std::int64_t count) { return static_cast<std::size_t>((count + chunk_slots - 1) / chunk_slots); }
@@ -67,7 +67,8 @@ void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, con
         continue;
       }
       const ClassGrid& g = classes[static_cast<std::size_t>(size_class_of(slots.mass[i]))];
-      slot_cell_[k] = g.first_cell + static_cast<std::uint32_t>(g.row(slot_y_[k])) * static_cast<std::uint32_t>(g.columns) + static_cast<std::uint32_t>(g.column(slot_x_[k]));
+      slot_cell_[k] = g.first_cell + static_cast<std::uint32_t>(g.row(slot_y_[k])) * static_cast<std::uint32_t>(g.columns) +
+                      static_cast<std::uint32_t>(g.column(slot_x_[k]));
     }
   });
   sort(executor, drops);
@@ -111,7 +112,8 @@ void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops
   const std::span<const std::uint32_t> ids = drops.id();
   executor.for_range(static_cast<std::int64_t>(buckets), 1, [&](std::int64_t b, std::int64_t) {
     const std::uint32_t first = bucket_start[index(b)], last = bucket_start[index(b) + 1];
-    const std::uint32_t first_cell = static_cast<std::uint32_t>(b) << shift, last_cell = std::min(cells, static_cast<std::uint32_t>(b + 1) << shift);
+    const std::uint32_t first_cell = static_cast<std::uint32_t>(b) << shift,
+                        last_cell = std::min(cells, static_cast<std::uint32_t>(b + 1) << shift);
     std::vector<std::uint32_t> next(last_cell - first_cell + 1u, 0);
     for (std::uint32_t k = first; k < last; ++k) ++next[entries_[k].cell - first_cell + 1];
     next[0] = first;

@@ -39,8 +39,8 @@ struct ClassGrid {
 /// The live drops sorted by class and cell.
 struct MergeGrid {
   std::array<ClassGrid, size_classes> classes;
-  std::vector<std::uint32_t> cell_start;          ///< one more than cells
-  std::vector<float> x, y, radius, mass;          ///< with room for a vector behind the last
+  std::vector<std::uint32_t> cell_start;  ///< one more than cells
+  std::vector<float> x, y, radius, mass;  ///< with room for a vector behind the last
   std::vector<std::uint32_t> id, slot;
   std::int64_t count = 0;
 

@@ -15,12 +15,14 @@ std::vector<scene::Parameter> parameters(const std::string& prefix) {
   using namespace rainref::scene;
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
-      integer(key("capacity"), "1", 1, static_cast<double>(DropArrays::most_slots), 100000, "Most drops at a time; an arrival that finds none free is lost."),
+      integer(key("capacity"), "1", 1, static_cast<double>(DropArrays::most_slots), 100000,
+              "Most drops at a time; an arrival that finds none free is lost."),
       real(key("lifetime"), "s", 0.01, 4096, 6, "Time after which a drop ends.").default_for(correct, 600.0),
       real(key("spawn_rate"), "1/s", 0, 1e6, 400, "New drops in a second, all over the glass.").only(published),
       real(key("mass_min"), "1", 0.01, 100, 0.4, "Mass of the lightest new drop; 1 is an ordinary drop.").only(published),
       real(key("mass_max"), "1", 0.01, 100, 1.6, "Mass of the heaviest new drop.").only(published),
-      real(key("inertia_coupling"), "1", 0, 100, 1, "Share of the vehicle's acceleration that a drop feels (inertiaCoupling).").only(published),
+      real(key("inertia_coupling"), "1", 0, 100, 1, "Share of the vehicle's acceleration that a drop feels (inertiaCoupling).")
+          .only(published),
       real(key("wind_coupling"), "1/s", 0, 100, 0.33, "Acceleration by a unit of apparent wind (windCoupling).").only(published),
       real(key("drag"), "1/s", 0.01, 1000, 12, "Rate at which the glass slows a drop down (effectiveDrag).").only(published),
       real("rain.rate", "mm/h", 0, 200, 5, "Rain rate; drops follow Marshall and Palmer's size distribution.").only(correct),
@@ -76,7 +78,8 @@ Settings read(const scene::Config& config, const std::string& prefix, bool still
     s.trail_thickness = real("trail_thickness");
     s.film_drying = real("film_drying");
     if (s.receding_deg > s.advancing_deg) {
-      throw Error(ExitCode::usage, fmt::format("{} is {} degrees: expected at most {} = {}", key("receding_angle"), s.receding_deg, key("advancing_angle"), s.advancing_deg));
+      throw Error(ExitCode::usage, fmt::format("{} is {} degrees: expected at most {} = {}", key("receding_angle"), s.receding_deg,
+                                               key("advancing_angle"), s.advancing_deg));
     }
   } else {
     s.spawn_rate = real("spawn_rate");
@@ -86,11 +89,13 @@ Settings read(const scene::Config& config, const std::string& prefix, bool still
     s.wind_coupling = real("wind_coupling");
     s.drag = real("drag");
     if (s.mass_min > s.mass_max) {
-      throw Error(ExitCode::usage, fmt::format("{} is {}: expected at most {} = {}", key("mass_min"), s.mass_min, key("mass_max"), s.mass_max));
+      throw Error(ExitCode::usage,
+                  fmt::format("{} is {}: expected at most {} = {}", key("mass_min"), s.mass_min, key("mass_max"), s.mass_max));
     }
     const double fps = config.real("run.fps");
     if (!(s.drag < 2 * fps)) {
-      throw Error(ExitCode::usage, fmt::format("{} is {}: expected less than {}, twice run.fps; the published step is unstable beyond", key("drag"), s.drag, 2 * fps));
+      throw Error(ExitCode::usage, fmt::format("{} is {}: expected less than {}, twice run.fps; the published step is unstable beyond",
+                                               key("drag"), s.drag, 2 * fps));
     }
   }
   return s;

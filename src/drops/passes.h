@@ -16,14 +16,18 @@ namespace rainref::drops {
 
 /// spawn, both variants: the step's arrivals, from integers and tables alone, without those beyond uniforms.room unless
 /// `all`. Throws Error(port_files) when the uniforms and tables cannot belong together.
-std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool all = false);
+std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
+                              bool all = false);
 /// spawn: puts the arrivals into free slots, lowest first. corrected: Ledger in quanta; as-published: in drops.
-Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected);
+Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
+             std::span<const SpawnMass> masses, bool corrected);
 
 /// integrate, as-published: live drops only. The Ledger counts the drops whose life ends, as removed.
-Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass);
+Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                              const GlassFrame& glass);
 /// integrate, corrected.
-Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass);
+Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                           const GlassFrame& glass);
 
 /// merge, corrected: drops that touch become one, the film (r32f, whole quanta in a texel) dries, and sliding drops leave
 /// trails on it. Keeps its working memory between calls.

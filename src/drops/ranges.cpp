@@ -12,7 +12,8 @@ const std::vector<capture::FieldRange>& drop_ranges(bool corrected) {
 
 const std::vector<capture::FieldRange>& frame_ranges() {
   // On a glass of a metre: the acceleration of gravity, the wind of a drive at 72 km/h, a turn of one radian in a second.
-  static const std::vector<capture::FieldRange> all{{"gravity", -10, 10}, {"wind", -20, 20}, {"acceleration", -10, 10}, {"spin", -1, 1}, {"coriolis", -2, 2}};
+  static const std::vector<capture::FieldRange> all{
+      {"gravity", -10, 10}, {"wind", -20, 20}, {"acceleration", -10, 10}, {"spin", -1, 1}, {"coriolis", -2, 2}};
   return all;
 }
 

@@ -30,7 +30,9 @@ every::DropState<N> state_of(const Drop& d) {
 
 // The corrected pass decides who stays and then sets the life of the others to 0: that decision is taken already.
 template <class N>
-bool is_ended(N life) { return life.v == 0; }
+bool is_ended(N life) {
+  return life.v == 0;
+}
 bool is_ended(Enclosure life) { return life.lo == 0 && life.hi == 0; }
 
 struct Integrate {
@@ -41,7 +43,8 @@ struct Integrate {
   template <class N>
   ListedDrop<N> operator()(const Drop& drop) const {
     const every::DropState<N> before = state_of<N>(drop);
-    const every::DropState<N> d = corrected ? every::integrate_corrected<N>(uniforms, glass, before).drop : every::integrate_as_published<N>(uniforms, glass, before);
+    const every::DropState<N> d =
+        corrected ? every::integrate_corrected<N>(uniforms, glass, before).drop : every::integrate_as_published<N>(uniforms, glass, before);
     return {d.u, d.v, d.velocity_u, d.velocity_v, d.mass, d.life, corrected ? !is_ended(d.life) : d.life > N(0.0f)};
   }
 };
@@ -58,7 +61,8 @@ std::vector<Drop> drops_input(const PassCase& c) {
   std::vector<Drop> drops = capture::records_of<Drop>(capture::record_input(c, "drops"));
   std::set<std::uint32_t> ids;
   for (const Drop& d : drops)
-    if (!ids.insert(d.id).second) throw Error(ExitCode::port_files, fmt::format("{}/in.drops: expected each id once, found {} twice", c.folder(), d.id));
+    if (!ids.insert(d.id).second)
+      throw Error(ExitCode::port_files, fmt::format("{}/in.drops: expected each id once, found {} twice", c.folder(), d.id));
   return drops;
 }
 
@@ -79,7 +83,8 @@ const enclosed::Profile& loosest_profile() {
 
 std::unique_ptr<capture::PassModel> bind_integrate(const PassCase& c) {
   const std::vector<GlassFrame> glass = capture::records_of<GlassFrame>(capture::record_input(c, "glass_frame"));
-  if (glass.size() != 1) throw Error(ExitCode::port_files, fmt::format("{}/in.glass_frame: expected one record, found {}", c.folder(), glass.size()));
+  if (glass.size() != 1)
+    throw Error(ExitCode::port_files, fmt::format("{}/in.glass_frame: expected one record, found {}", c.folder(), glass.size()));
   Integrate pass{capture::uniforms_of<IntegrateUniforms>(c), glass.front(), c.corrected()};
   return std::make_unique<capture::ListPass>("drops", std::make_unique<DropByDrop<Integrate>>(pass, drops_input(c), c.corrected()));
 }

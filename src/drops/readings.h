@@ -31,7 +31,8 @@ std::vector<std::byte> bytes_of(const std::vector<Drop>& drops);
 template <class Pass>
 class DropByDrop : public capture::KeyedModel {
  public:
-  DropByDrop(Pass pass, std::vector<Drop> drops, bool corrected) : pass_(std::move(pass)), drops_(std::move(drops)), corrected_(corrected) {}
+  DropByDrop(Pass pass, std::vector<Drop> drops, bool corrected)
+      : pass_(std::move(pass)), drops_(std::move(drops)), corrected_(corrected) {}
   int groups() const override { return static_cast<int>(drops_.size()); }
   const std::vector<capture::FieldRange>& ranges() const override { return drop_ranges(corrected_); }
   void enclose(int group, std::vector<capture::KeyedRecord>& out) const override {

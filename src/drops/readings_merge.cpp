@@ -40,7 +40,9 @@ every::DropState<N> state_of(const Drop& d) {
   return s;
 }
 template <class N>
-double mass_of(const every::DropState<N>& d) { return static_cast<double>(d.mass.v); }
+double mass_of(const every::DropState<N>& d) {
+  return static_cast<double>(d.mass.v);
+}
 double mass_of(const State& d) { return d.mass.lo; }
 
 bool is_larger(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass > b.mass : a.id < b.id; }
@@ -56,7 +58,8 @@ struct Deposit {
 
 class Merging {
  public:
-  Merging(const MergeUniforms& uniforms, std::vector<Drop> drops, std::vector<float> film) : u_(uniforms), drops_(std::move(drops)), film_(std::move(film)) {
+  Merging(const MergeUniforms& uniforms, std::vector<Drop> drops, std::vector<float> film)
+      : u_(uniforms), drops_(std::move(drops)), film_(std::move(film)) {
     std::erase_if(drops_, [](const Drop& d) { return !(d.life > 0); });
     std::sort(drops_.begin(), drops_.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
     make_groups();
@@ -102,7 +105,9 @@ class Merging {
   }
 
   template <class N>
-  every::Trail<N> trail(const every::DropState<N>& d) const { return every::trail(u_, d); }
+  every::Trail<N> trail(const every::DropState<N>& d) const {
+    return every::trail(u_, d);
+  }
   /// The trail without a decision about its rounding, its mass taken off `d`.
   Deposit take_trail(State& d) const {
     const every::Trail<Enclosure> t = every::tail(u_, d);
@@ -131,14 +136,14 @@ class Merging {
 
  private:
   struct Group {
-    std::vector<std::size_t> drops;                         ///< ascending
+    std::vector<std::size_t> drops;                          ///< ascending
     std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< that may touch, by place in `drops`
   };
 
   template <class N>
   bool touching(const every::DropState<N>& a, const every::DropState<N>& b) const {
-    return every::touches(every::plane_x(u_, a.u, a.v), every::plane_y(u_, a.v), every::base_radius(u_, a.mass), every::plane_x(u_, b.u, b.v), every::plane_y(u_, b.v),
-                          every::base_radius(u_, b.mass));
+    return every::touches(every::plane_x(u_, a.u, a.v), every::plane_y(u_, a.v), every::base_radius(u_, a.mass),
+                          every::plane_x(u_, b.u, b.v), every::plane_y(u_, b.v), every::base_radius(u_, b.mass));
   }
   bool may_touch(const Drop& a, const Drop& b) const {
     bool may = false;
@@ -215,7 +220,9 @@ class Merging {
       const int x0 = std::max(0, texel(u0 - reach_u, u_.film[0]) - 1), x1 = std::min(u_.film[0] - 1, texel(u1 + reach_u, u_.film[0]) + 1);
       const int y0 = std::max(0, texel(v0 - reach_v, u_.film[1]) - 1), y1 = std::min(u_.film[1] - 1, texel(v1 + reach_v, u_.film[1]) + 1);
       for (int y = y0; y <= y1; ++y)
-        for (int x = x0; x <= x1; ++x) over_[static_cast<std::size_t>(y) * static_cast<std::size_t>(u_.film[0]) + static_cast<std::size_t>(x)].push_back(static_cast<int>(g));
+        for (int x = x0; x <= x1; ++x)
+          over_[static_cast<std::size_t>(y) * static_cast<std::size_t>(u_.film[0]) + static_cast<std::size_t>(x)].push_back(
+              static_cast<int>(g));
     }
   }
 
@@ -273,7 +280,9 @@ class MergeModel : public capture::PassModel {
       sum.most += more.most;
     }
     const Enclosure dry = every::dried(merging_.uniforms(), Enclosure::load(&merging_.film(texel)));
-    const auto with = [](float before, std::int64_t added) { return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_quanta))); };
+    const auto with = [](float before, std::int64_t added) {
+      return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_quanta)));
+    };
     out[0] = Enclosure(with(dry.lo, sum.least), with(dry.hi, sum.most));
   }
   const capture::KeyedModel* keyed(std::string_view output) const override { return output == "drops" ? &drops_ : nullptr; }
@@ -327,13 +336,14 @@ std::unique_ptr<capture::PassModel> bind_merge(const PassCase& c) {
   const auto u = capture::uniforms_of<MergeUniforms>(c);
   const capture::Array& film = capture::image_input(c, "film").array;
   if (u.film[0] != film.width || u.film[1] != film.height || !(u.frame[0] > 0) || !(u.frame[2] > 0)) {
-    throw Error(ExitCode::port_files, fmt::format("{}: uniforms film and frame: expected {}x{} and positive scales, found {}x{} and {}, {}", c.folder(), film.width, film.height, u.film[0],
-                                                  u.film[1], u.frame[0], u.frame[2]));
+    throw Error(ExitCode::port_files, fmt::format("{}: uniforms film and frame: expected {}x{} and positive scales, found {}x{} and {}, {}",
+                                                  c.folder(), film.width, film.height, u.film[0], u.film[1], u.frame[0], u.frame[2]));
   }
   std::vector<Drop> drops = drops_input(c);
   for (const Drop& d : drops) {
     for (const float x : {d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life})
-      if (!(x - x == 0)) throw Error(ExitCode::port_files, fmt::format("{}/in.drops: expected finite numbers, found {} (id {})", c.folder(), x, d.id));
+      if (!(x - x == 0))
+        throw Error(ExitCode::port_files, fmt::format("{}/in.drops: expected finite numbers, found {} (id {})", c.folder(), x, d.id));
   }
   return std::make_unique<MergeModel>(u, std::move(drops), capture::decoded(film));
 }

@@ -62,7 +62,8 @@ const capture::CaseInput& sized_input(const capture::PassCase& c, const char* na
   const capture::CaseInput& input = capture::image_input(c, name);
   const capture::Array &a = input.array, &out = c.outputs.front().array;
   if (a.width != out.width || a.height != out.height) {
-    throw Error(ExitCode::port_files, fmt::format("{}: in.{} is {}x{}, expected {}x{} as out.{}", c.folder(), name, a.width, a.height, out.width, out.height, c.outputs.front().name));
+    throw Error(ExitCode::port_files, fmt::format("{}: in.{} is {}x{}, expected {}x{} as out.{}", c.folder(), name, a.width, a.height,
+                                                  out.width, out.height, c.outputs.front().name));
   }
   return input;
 }

@@ -21,7 +21,7 @@ struct Settings {
   double mass_min = 0.4, mass_max = 1.6;
   double inertia_coupling = 1, wind_coupling = 0.33, drag = 12;
   // corrected
-  double rain_rate = 5;      ///< [mm/h]
+  double rain_rate = 5;        ///< [mm/h]
   double smallest_drop = 0.5;  ///< diameter [mm]
   double advancing_deg = 50, receding_deg = 20;
   double wind_exposure = 0.4, wind_drag = 1;

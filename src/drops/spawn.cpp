@@ -9,14 +9,18 @@
 
 namespace rainref::drops {
 
-std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool all) {
+std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
+                              bool all) {
   constexpr std::uint32_t most_parts = 1u << 12;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
   constexpr std::int32_t most_without_thresholds = 1 << 26;
-  if (masses.size() != 1024 || c.threshold_count < 0 || static_cast<std::size_t>(c.threshold_count) > thresholds.size() || c.threshold_count > most || c.parts > most_parts ||
-      c.first_count < 0 || c.first_count > (c.threshold_count > 0 ? most : most_without_thresholds)) {
-    throw Error(ExitCode::port_files, fmt::format("spawn: expected 1024 masses, at most {} thresholds and at most {} parts, found {} masses, {} thresholds, threshold_count {}, first_count {}, parts {}",
-                                                  most, most_parts, masses.size(), thresholds.size(), c.threshold_count, c.first_count, c.parts));
+  if (masses.size() != 1024 || c.threshold_count < 0 || static_cast<std::size_t>(c.threshold_count) > thresholds.size() ||
+      c.threshold_count > most || c.parts > most_parts || c.first_count < 0 ||
+      c.first_count > (c.threshold_count > 0 ? most : most_without_thresholds)) {
+    throw Error(ExitCode::port_files,
+                fmt::format("spawn: expected 1024 masses, at most {} thresholds and at most {} parts, found {} masses, {} thresholds, "
+                            "threshold_count {}, first_count {}, parts {}",
+                            most, most_parts, masses.size(), thresholds.size(), c.threshold_count, c.first_count, c.parts));
   }
   const std::uint64_t seed = c.seed[0] | static_cast<std::uint64_t>(c.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(c.threshold_count));
@@ -36,7 +40,8 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   return out;
 }
 
-Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses, bool corrected) {
+Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
+             std::span<const SpawnMass> masses, bool corrected) {
   const std::vector<Drop> arrivals = arrivals_of(uniforms, thresholds, masses, true);
   const std::size_t placed = drops.place(arrivals);
   Ledger ledger;

@@ -25,11 +25,14 @@ std::vector<scene::Parameter> splat_parameters(const std::string& prefix) {
       scene::choice(key("kernel"), kernel_names, "paraboloid", "How the height of a drop falls from its centre to its rim."),
       scene::choice(key("blend"), {"add", "max"}, "add", "How drops join in a texel."),
       scene::choice(key("accumulate"), {"half", "float"}, "half",
-                    "half: the sum is rounded after each drop, as a blending unit does with an r16f target; float: once.").only(published),
+                    "half: the sum is rounded after each drop, as a blending unit does with an r16f target; float: once.")
+          .only(published),
       scene::choice(key("rounding"), {"rne", "rtz"}, "rne", "How results are stored: to nearest even, or toward zero as many GPUs do."),
       scene::real(key("drop_radius"), "m", 1e-5, 1, 4e-3, "Radius of a drop of mass 1.").only(published),
       scene::real(key("drop_height"), "mm", 0, 100, 0.8, "Height of a drop of mass 1.").only(published),
-      scene::real(key("smallest_radius"), "texel", 0, 16, 1.5, "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.").only(correct),
+      scene::real(key("smallest_radius"), "texel", 0, 16, 1.5,
+                  "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.")
+          .only(correct),
   };
 }
 
@@ -62,11 +65,16 @@ double cap_radius(double contact_angle) {
 
 double kernel_volume(SplatKernel kernel) {
   switch (kernel) {
-    case SplatKernel::paraboloid: return pi / 2;
-    case SplatKernel::quartic: return pi / 3;
-    case SplatKernel::smoothstep: return pi * 3 / 10;
-    case SplatKernel::hemisphere: return pi * 2 / 3;
-    default: return pi;
+    case SplatKernel::paraboloid:
+      return pi / 2;
+    case SplatKernel::quartic:
+      return pi / 3;
+    case SplatKernel::smoothstep:
+      return pi * 3 / 10;
+    case SplatKernel::hemisphere:
+      return pi * 2 / 3;
+    default:
+      return pi;
   }
 }
 
@@ -98,10 +106,12 @@ SplatUniforms splat_uniforms(const SplatSettings& s) {
   return u;
 }
 
-void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding, std::span<const Drop> drops,
-           const Image* film, Image& height, SplatScratch& scratch) {
-  const bool fits = height.format() == Format::r16f && height.width() == static_cast<int>(uniforms.size[0]) && height.height() == static_cast<int>(uniforms.size[1]);
-  const bool film_fits = !film || (film->format() == Format::r32f && film->width() == height.width() && film->height() == height.height() && !half_accumulation);
+void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding,
+           std::span<const Drop> drops, const Image* film, Image& height, SplatScratch& scratch) {
+  const bool fits = height.format() == Format::r16f && height.width() == static_cast<int>(uniforms.size[0]) &&
+                    height.height() == static_cast<int>(uniforms.size[1]);
+  const bool film_fits = !film || (film->format() == Format::r32f && film->width() == height.width() && film->height() == height.height() &&
+                                   !half_accumulation);
   if (!fits || !film_fits) throw Error(ExitCode::internal, "splat: the images do not fit the uniforms");
   uniforms.drop_count = static_cast<std::int32_t>(drops.size());
   const Bands bands = splat_bands(height.height());
@@ -109,7 +119,8 @@ void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half
   if (scratch.chunks.size() < chunk_count) scratch.chunks.resize(chunk_count);
   const std::span<StampChunk> chunks(scratch.chunks.data(), chunk_count);
   executor.for_range(static_cast<std::int64_t>(drops.size()), drops_of_chunk, [&](std::int64_t begin, std::int64_t end) {
-    make_stamps(uniforms, bands, drops.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)), chunks[static_cast<std::size_t>(begin / drops_of_chunk)]);
+    make_stamps(uniforms, bands, drops.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)),
+                chunks[static_cast<std::size_t>(begin / drops_of_chunk)]);
   });
   const SplatJob job{uniforms, half_accumulation, rounding, film, &height};
   executor.for_range(bands.count, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -120,26 +131,28 @@ void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half
 capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from) {
   using scene::member;
   const scene::UniformBlock block = scene::uniform_block<SplatUniforms>(
-      "SplatUniforms", {member<&SplatUniforms::size>("size", "texel", {1, 65536}, "Columns and rows of the height texture."),
-                        member<&SplatUniforms::radius_scale>("radius_scale", "m", scene::share, "Radius of a drop of mass 1."),
-                        member<&SplatUniforms::height_scale>("height_scale", "mm", {0, 1e4}, "Height of a drop of mass 1."),
-                        member<&SplatUniforms::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-                        member<&SplatUniforms::smallest_radius>("smallest_radius", "m", {0, 1e5}, "A smaller drop is drawn this wide, and as much lower."),
-                        member<&SplatUniforms::kernel>("kernel", "1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
-                        member<&SplatUniforms::blend>("blend", "1", {0, 2}, "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
-                        member<&SplatUniforms::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
-                        member<&SplatUniforms::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a quantum in a texel.")});
+      "SplatUniforms",
+      {member<&SplatUniforms::size>("size", "texel", {1, 65536}, "Columns and rows of the height texture."),
+       member<&SplatUniforms::radius_scale>("radius_scale", "m", scene::share, "Radius of a drop of mass 1."),
+       member<&SplatUniforms::height_scale>("height_scale", "mm", {0, 1e4}, "Height of a drop of mass 1."),
+       member<&SplatUniforms::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+       member<&SplatUniforms::smallest_radius>("smallest_radius", "m", {0, 1e5}, "A smaller drop is drawn this wide, and as much lower."),
+       member<&SplatUniforms::kernel>("kernel", "1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
+       member<&SplatUniforms::blend>("blend", "1", {0, 2},
+                                     "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
+       member<&SplatUniforms::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
+       member<&SplatUniforms::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a quantum in a texel.")});
   return {"splat",
           "The height of the water: every live drop, in slot order; corrected: on the film.",
           {{published, 1, capture::Judge::envelope, "SplatUniforms"}, {correct, 1, capture::Judge::envelope, "SplatUniforms"}},
-          {{"drops", drops_from[0], false, published}, {"drops", drops_from[1], false, correct}, capture::per_texel({"film", film_from, false, correct})},
+          {{"drops", drops_from[0], false, published},
+           {"drops", drops_from[1], false, correct},
+           capture::per_texel({"film", film_from, false, correct})},
           {"height"},
           {block},
           "ordered_scatter"};
 }
 
-std::vector<capture::BufferInfo> splat_buffers() {
-  return {{"height", "r16f", "Height of the water over the glass.", "mm", {0, 8}}};
-}
+std::vector<capture::BufferInfo> splat_buffers() { return {{"height", "r16f", "Height of the water over the glass.", "mm", {0, 8}}}; }
 
 }  // namespace rainref::drops

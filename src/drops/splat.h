@@ -54,10 +54,11 @@ struct SplatScratch {
 /// The pass: height (r16f, of uniforms.size) is cleared and drawn anew. Drops in slot order; dead ones draw nothing.
 /// uniforms.drop_count is taken from them. film: r32f of the same size, or null for none; corrected only, with float
 /// accumulation.
-void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding, std::span<const Drop> drops,
-           const Image* film, Image& height, SplatScratch& scratch);
+void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding,
+           std::span<const Drop> drops, const Image* film, Image& height, SplatScratch& scratch);
 
-/// The pass, and the buffer that it writes; the film is the drops' own. `drops_from` and `film_from` are passes; drops_from of as-published first.
+/// The pass, and the buffer that it writes; the film is the drops' own. `drops_from` and `film_from` are passes; drops_from of as-published
+/// first.
 capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from);
 std::vector<capture::BufferInfo> splat_buffers();
 

@@ -13,7 +13,9 @@ struct Stamp {
 };
 /// x / max(x, least): the share of a drop's own radius in the one that it is drawn with.
 template <class N>
-RAINREF_FN N over_larger(N x, float least) { return x / max(x, N(least)); }
+RAINREF_FN N over_larger(N x, float least) {
+  return x / max(x, N(least));
+}
 template <class N>
 RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position_v, N mass, N life) {
   Stamp<N> s;
@@ -33,11 +35,16 @@ template <class N>
 RAINREF_FN N splat_profile(SplatKernel kernel, N q_sq) {
   const N inside = max(N(1.0f) - q_sq, N(0.0f));
   switch (kernel) {
-    case SplatKernel::paraboloid: return inside;
-    case SplatKernel::quartic: return square(inside);
-    case SplatKernel::smoothstep: return N(1.0f) - smoothstep(0.0f, 1.0f, sqrt(q_sq));
-    case SplatKernel::hemisphere: return sqrt(inside);
-    default: return select(q_sq <= N(1.0f), N(1.0f), N(0.0f));
+    case SplatKernel::paraboloid:
+      return inside;
+    case SplatKernel::quartic:
+      return square(inside);
+    case SplatKernel::smoothstep:
+      return N(1.0f) - smoothstep(0.0f, 1.0f, sqrt(q_sq));
+    case SplatKernel::hemisphere:
+      return sqrt(inside);
+    default:
+      return select(q_sq <= N(1.0f), N(1.0f), N(0.0f));
   }
 }
 /// What a drop gives to the texel with its centre at (x, y) [texel].
@@ -52,8 +59,8 @@ RAINREF_FN N splat_blend(SplatBlend blend, N before, N drop) {
   return blend == SplatBlend::max ? max(before, drop) : before + drop;
 }
 
-/// The drops in a texel, which has all stamps offered. `blended` gives what the target holds after a drop: with `accumulate = half` its half, else the
-/// number itself.
+/// The drops in a texel, which has all stamps offered. `blended` gives what the target holds after a drop: with `accumulate = half` its
+/// half, else the number itself.
 template <class N, class Blended>
 RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, int y, Blended blended) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
@@ -68,9 +75,13 @@ RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, 
 /// corrected: the film, whole quanta in each texel, under a tent of 3 x 3 texels, which keeps its volume. Rows are readable
 /// one texel to both sides, where the nearest texel stands again.
 template <class N>
-RAINREF_FN N film_tent(N before, N here, N after) { return N(0.5f) * here + N(0.25f) * (before + after); }
+RAINREF_FN N film_tent(N before, N here, N after) {
+  return N(0.5f) * here + N(0.25f) * (before + after);
+}
 template <class N>
-RAINREF_FN N film_row(const float* row, int x) { return film_tent(N::load(row + x - 1), N::load(row + x), N::load(row + x + 1)); }
+RAINREF_FN N film_row(const float* row, int x) {
+  return film_tent(N::load(row + x - 1), N::load(row + x), N::load(row + x + 1));
+}
 template <class N>
 RAINREF_FN N film_height(const SplatUniforms& u, const float* below, const float* here, const float* above, int x) {
   return N(u.film_scale) * film_tent(film_row<N>(below, x), film_row<N>(here, x), film_row<N>(above, x));

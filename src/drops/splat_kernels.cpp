@@ -129,7 +129,8 @@ void band_of(const SplatJob& job, Bands bands, int band, std::span<const StampCh
   };
   if (job.half_accumulation) {
     for (int y = y0; y < y1; ++y) std::memset(image.row<Half>(y), 0, static_cast<std::size_t>(width) * sizeof(Half));
-    for_stamps_of(chunks, band, [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); }); });
+    for_stamps_of(chunks, band,
+                  [&](const StampRecord& r) RAINREF_LAMBDA { rows_of(r, [&](int y) RAINREF_LAMBDA { return image.row<Half>(y); }); });
     return;
   }
   const std::size_t pitch = static_cast<std::size_t>(width + n);
@@ -157,11 +158,16 @@ void band_of(const SplatJob& job, Bands bands, int band, std::span<const StampCh
 }
 void SplatBand(const SplatJob& job, Bands bands, int band, std::span<const StampChunk> chunks) {
   switch (static_cast<SplatKernel>(job.uniforms.kernel)) {
-    case SplatKernel::paraboloid: return band_of<SplatKernel::paraboloid>(job, bands, band, chunks);
-    case SplatKernel::quartic: return band_of<SplatKernel::quartic>(job, bands, band, chunks);
-    case SplatKernel::smoothstep: return band_of<SplatKernel::smoothstep>(job, bands, band, chunks);
-    case SplatKernel::hemisphere: return band_of<SplatKernel::hemisphere>(job, bands, band, chunks);
-    case SplatKernel::disc: return band_of<SplatKernel::disc>(job, bands, band, chunks);
+    case SplatKernel::paraboloid:
+      return band_of<SplatKernel::paraboloid>(job, bands, band, chunks);
+    case SplatKernel::quartic:
+      return band_of<SplatKernel::quartic>(job, bands, band, chunks);
+    case SplatKernel::smoothstep:
+      return band_of<SplatKernel::smoothstep>(job, bands, band, chunks);
+    case SplatKernel::hemisphere:
+      return band_of<SplatKernel::hemisphere>(job, bands, band, chunks);
+    case SplatKernel::disc:
+      return band_of<SplatKernel::disc>(job, bands, band, chunks);
   }
 }
 #undef RAINREF_LAMBDA

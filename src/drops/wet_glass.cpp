@@ -7,8 +7,15 @@ namespace rainref::drops {
 using capture::records;
 using capture::Stopwatch;
 
-WetGlass::WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows, const parallel::Executor& executor)
-    : drops(settings.capacity), settings_(settings), frame_(frame), area_(area), steps_per_second_(steps_per_second), executor_(executor), arrivals_(settings) {
+WetGlass::WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows,
+                   const parallel::Executor& executor)
+    : drops(settings.capacity),
+      settings_(settings),
+      frame_(frame),
+      area_(area),
+      steps_per_second_(steps_per_second),
+      executor_(executor),
+      arrivals_(settings) {
   if (settings.corrected) film = Image(Format::r32f, columns, rows);
 }
 
@@ -24,7 +31,8 @@ std::int64_t WetGlass::balance() const {
 void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n) {
   const SpawnPlan& plan = arrivals_.plan(exposure, n, steps_per_second_, drops.next_id(), drops.free_slots());
   if (now.recorder) {
-    const PassInput before{"drops", list_for(now, "spawn")}, thresholds{"count_thresholds", records(plan.thresholds)}, masses{"spawn_masses", records(plan.masses)};
+    const PassInput before{"drops", list_for(now, "spawn")}, thresholds{"count_thresholds", records(plan.thresholds)},
+        masses{"spawn_masses", records(plan.masses)};
     if (settings_.corrected) {
       now.before("spawn", plan.uniforms, std::array{before, thresholds, masses});
     } else {
@@ -39,9 +47,12 @@ void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int
 
 void WetGlass::integrate(const pass::Moment& now, const GlassFrame& glass) {
   const IntegrateUniforms uniforms = integrate_uniforms(settings_, frame_, 1 / steps_per_second_);
-  if (now.recorder) now.before("integrate", uniforms, std::array{PassInput{"drops", list_for(now, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
+  if (now.recorder)
+    now.before("integrate", uniforms,
+               std::array{PassInput{"drops", list_for(now, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
   const Stopwatch clock;
-  ledger += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass) : integrate_as_published(executor_, drops, uniforms, glass);
+  ledger += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass)
+                                : integrate_as_published(executor_, drops, uniforms, glass);
   const double seconds = clock.seconds();
   if (now.recorder) now.after("integrate", std::array{PassOutput{"drops", list_for(now, "integrate")}}, seconds);
 }
@@ -67,7 +78,8 @@ void WetGlass::splat(const pass::Moment& now, const SplatSettings& splat, Image&
     now.before("splat", uniforms, std::array{drawn});
   }
   const Stopwatch clock;
-  drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, settings_.corrected ? &film : nullptr, height, scratch_);
+  drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, settings_.corrected ? &film : nullptr,
+               height, scratch_);
   now.after("splat", std::array{PassOutput{"height", height}}, clock.seconds());
 }
 

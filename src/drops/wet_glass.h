@@ -19,7 +19,8 @@ namespace rainref::drops {
 class WetGlass {
  public:
   /// frame and area [m^2] of the glass; columns and rows of the film, which corrected has. The executor must outlive it.
-  WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows, const parallel::Executor& executor);
+  WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows,
+           const parallel::Executor& executor);
 
   // The passes of one step; n counts the steps before it.
   void spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n);
@@ -32,7 +33,9 @@ class WetGlass {
   /// The live drops as records, in slot order; valid until the next call or pass.
   RecordView list();
   /// The same for the recorder of a pass; none where it does not read them.
-  RecordView list_for(const pass::Moment& now, std::string_view pass) { return now.is_read(pass) ? list() : RecordView{nullptr, 0, sizeof(Drop)}; }
+  RecordView list_for(const pass::Moment& now, std::string_view pass) {
+    return now.is_read(pass) ? list() : RecordView{nullptr, 0, sizeof(Drop)};
+  }
   /// Quanta (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
   std::int64_t balance() const;
 

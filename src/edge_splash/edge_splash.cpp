@@ -11,7 +11,6 @@
 namespace rainref::edge_splash {
 namespace {
 
-
 constexpr int tile_rows = 8;
 
 Settings with_size(Settings s, const Image& colour) {
@@ -35,8 +34,13 @@ struct EdgeSplash::State {
   std::vector<std::string> warnings;
 
   State(const Settings& s, const Inputs& in, const parallel::Executor& e)
-      : settings(with_size(s, in.colour)), executor(e), corrected(s.variant == Variant::corrected), scene(prepare_scene(in)), depth_image(prepare_depth(in, s.depth)),
-        layer(prepare_layer(in)), noise_image(prepare_noise(in, s)) {
+      : settings(with_size(s, in.colour)),
+        executor(e),
+        corrected(s.variant == Variant::corrected),
+        scene(prepare_scene(in)),
+        depth_image(prepare_depth(in, s.depth)),
+        layer(prepare_layer(in)),
+        noise_image(prepare_noise(in, s)) {
     const Address edges = corrected ? Address::clamp : Address::border, tile = corrected ? Address::repeat : Address::border;
     depth = TextureData(depth_image, edges, edges);
     noise_map = TextureData(noise_image, tile, tile);
@@ -72,14 +76,17 @@ void EdgeSplash::render(Recorder* recorder) {
     io.colour = s.colour;
     return io;
   };
-  const auto run = [&](auto splash) { pass::run_and_display(splash, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now); };
+  const auto run = [&](auto splash) {
+    pass::run_and_display(splash, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now);
+  };
   const int noise_columns = s.noise_image.width(), noise_rows = s.noise_image.height();
   if (s.corrected) {
     auto io = bound(pass::HostIo<SplashPass>());
     io.layer = s.layer;
     run(pass::Run<SplashPass>(splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), true, rounding, io));
   } else {
-    run(pass::Run<PublishedSplashPass>(published_splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), false, rounding, bound(pass::HostIo<PublishedSplashPass>())));
+    run(pass::Run<PublishedSplashPass>(published_splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), false, rounding,
+                                       bound(pass::HostIo<PublishedSplashPass>())));
   }
   ++s.frame;
 }

@@ -31,17 +31,22 @@ void put_pair(double low, double high, float* a, float* b) {
 double first_channel(const Image& image, int x, int y) {
   const int at = x * image.channels();
   switch (info(image.format()).kind) {
-    case FormatInfo::float32: return image.row<float>(y)[at];
-    case FormatInfo::float16: return to_float(image.row<Half>(y)[at]);
+    case FormatInfo::float32:
+      return image.row<float>(y)[at];
+    case FormatInfo::float16:
+      return to_float(image.row<Half>(y)[at]);
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: return to_float(image.row<Unorm8>(y)[at]);
-    case FormatInfo::uint32: break;
+    case FormatInfo::srgb8:
+      return to_float(image.row<Unorm8>(y)[at]);
+    case FormatInfo::uint32:
+      break;
   }
   throw Error(ExitCode::usage, fmt::format("an image of format {} cannot be read as numbers", info(image.format()).name));
 }
 void require_size(const Image& image, const Image& colour, const char* key) {
   if (image.width() == colour.width() && image.height() == colour.height()) return;
-  throw Error(ExitCode::usage, fmt::format("{}: expected {}x{} texels as scene.image has, found {}x{}", key, colour.width(), colour.height(), image.width(), image.height()));
+  throw Error(ExitCode::usage, fmt::format("{}: expected {}x{} texels as scene.image has, found {}x{}", key, colour.width(),
+                                           colour.height(), image.width(), image.height()));
 }
 
 }  // namespace
@@ -65,10 +70,12 @@ scene::Camera camera(const Settings& s) {
 
 void check(const Settings& s) {
   if (!(s.depth.near_plane > 0 && s.depth.near_plane < s.depth.far_plane)) {
-    throw Error(ExitCode::usage, fmt::format("scene.near, scene.far: expected 0 < near < far, found {} and {}", s.depth.near_plane, s.depth.far_plane));
+    throw Error(ExitCode::usage,
+                fmt::format("scene.near, scene.far: expected 0 < near < far, found {} and {}", s.depth.near_plane, s.depth.far_plane));
   }
   if (s.variant == Variant::corrected && !(s.smallest_band <= s.largest_band)) {
-    throw Error(ExitCode::usage, fmt::format("edge_splash.smallest_band: expected no more than edge_splash.largest_band, found {} and {}", s.smallest_band, s.largest_band));
+    throw Error(ExitCode::usage, fmt::format("edge_splash.smallest_band: expected no more than edge_splash.largest_band, found {} and {}",
+                                             s.smallest_band, s.largest_band));
   }
   require_memory(fmt::format("run.size {}x{}", s.width, s.height), memory_bytes(s));
   if (s.up[0] == 0 && s.up[1] == 0 && s.up[2] == 0) throw Error(ExitCode::usage, "edge_splash.up: expected a direction, found [0, 0, 0]");
@@ -143,10 +150,15 @@ Image prepare_scene(const Inputs& in) {
   for (int y = 0; y < from.height(); ++y) {
     Half* out = to.row<Half>(y);
     for (int i = 0; i < 4 * from.width(); ++i) {
-      if (kind == FormatInfo::float16) out[i] = from.row<Half>(y)[i];
-      else if (kind == FormatInfo::float32) out[i] = to_half(in.colour_is_encoded && i % 4 != 3 ? static_cast<float>(decode_srgb(from.row<float>(y)[i])) : from.row<float>(y)[i]);
-      else if (in.colour_is_encoded && i % 4 != 3) out[i] = to_half(static_cast<float>(linear[from.row<Unorm8>(y)[i].code]));
-      else out[i] = to_half(to_float(from.row<Unorm8>(y)[i]));
+      if (kind == FormatInfo::float16)
+        out[i] = from.row<Half>(y)[i];
+      else if (kind == FormatInfo::float32)
+        out[i] =
+            to_half(in.colour_is_encoded && i % 4 != 3 ? static_cast<float>(decode_srgb(from.row<float>(y)[i])) : from.row<float>(y)[i]);
+      else if (in.colour_is_encoded && i % 4 != 3)
+        out[i] = to_half(static_cast<float>(linear[from.row<Unorm8>(y)[i].code]));
+      else
+        out[i] = to_half(to_float(from.row<Unorm8>(y)[i]));
     }
   }
   return to;
@@ -160,9 +172,11 @@ Image prepare_depth(const Inputs& in, const DepthRange& range) {
       const double stored = first_channel(in.depth, x, y);
       const double lowest = in.depth_is_distance ? range.near_plane : 0, highest = in.depth_is_distance ? range.far_plane : 1;
       if (!(lowest <= stored && stored <= highest)) {
-        throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected {} from {} to {}, found {} at column {}, row {} from the bottom{}",
-                                                 in.depth_is_distance ? "distances [m]" : "device depths", lowest, highest, stored, x, y,
-                                                 in.depth_is_distance ? " (scene.near and scene.far are the limits)" : " (scene.depth_encoding = \"metres\" takes distances)"));
+        throw Error(ExitCode::usage,
+                    fmt::format("scene.depth_image: expected {} from {} to {}, found {} at column {}, row {} from the bottom{}",
+                                in.depth_is_distance ? "distances [m]" : "device depths", lowest, highest, stored, x, y,
+                                in.depth_is_distance ? " (scene.near and scene.far are the limits)"
+                                                     : " (scene.depth_encoding = \"metres\" takes distances)"));
       }
       to.row<float>(y)[x] = static_cast<float>(in.depth_is_distance ? depth_of(range, stored) : stored);
     }
@@ -174,7 +188,8 @@ Image prepare_layer(const Inputs& in) {
   if (!in.layer.empty()) require_size(in.layer, in.colour, "scene.layer_image");
   Image to(Format::r8, in.colour.width(), in.colour.height());
   for (int y = 0; y < to.height(); ++y) {
-    for (int x = 0; x < to.width(); ++x) to.row<Unorm8>(y)[x] = in.layer.empty() ? Unorm8{255} : to_unorm8(static_cast<float>(first_channel(in.layer, x, y)));
+    for (int x = 0; x < to.width(); ++x)
+      to.row<Unorm8>(y)[x] = in.layer.empty() ? Unorm8{255} : to_unorm8(static_cast<float>(first_channel(in.layer, x, y)));
   }
   return to;
 }
@@ -182,7 +197,8 @@ Image prepare_layer(const Inputs& in) {
 Image prepare_noise(const Inputs& in, const Settings& s) {
   const Image made = in.noise.empty() ? make_noise(s.seed) : Image();
   const Image& from = in.noise.empty() ? made : in.noise;
-  if (from.width() < 2 || from.height() < 2) throw Error(ExitCode::usage, fmt::format("scene.noise_image: expected at least 2x2 texels, found {}x{}", from.width(), from.height()));
+  if (from.width() < 2 || from.height() < 2)
+    throw Error(ExitCode::usage, fmt::format("scene.noise_image: expected at least 2x2 texels, found {}x{}", from.width(), from.height()));
   Image map(Format::r8, from.width(), from.height());
   for (int y = 0; y < from.height(); ++y) {
     for (int x = 0; x < from.width(); ++x) map.row<Unorm8>(y)[x] = to_unorm8(static_cast<float>(first_channel(from, x, y)));
@@ -192,7 +208,8 @@ Image prepare_noise(const Inputs& in, const Settings& s) {
   texture.build_mips(2);
   const Texture& t = texture.view();
   Image half(Format::r32f, t.width[1], t.height[1]);
-  for (int y = 0; y < half.height(); ++y) std::copy_n(t.texels + t.offset[1] + static_cast<std::ptrdiff_t>(y) * half.width(), half.width(), half.row<float>(y));
+  for (int y = 0; y < half.height(); ++y)
+    std::copy_n(t.texels + t.offset[1] + static_cast<std::ptrdiff_t>(y) * half.width(), half.width(), half.row<float>(y));
   return half;
 }
 
@@ -202,14 +219,16 @@ std::string seam_warning(const Image& noise) {
   for (int y = 0; y < h; ++y) {
     for (int x = 0; x < w; ++x) {
       const double here = first_channel(noise, x, y);
-      const double across = std::abs(first_channel(noise, (x + 1) % w, y) - here), along = std::abs(first_channel(noise, x, (y + 1) % h) - here);
+      const double across = std::abs(first_channel(noise, (x + 1) % w, y) - here),
+                   along = std::abs(first_channel(noise, x, (y + 1) % h) - here);
       (x + 1 == w ? seam : inside) += across / h;
       (y + 1 == h ? seam : inside) += along / w;
     }
   }
   inside /= std::max(w, h) - 1;
   if (seam <= 6 * inside + 2.0 / 255) return "";
-  return fmt::format("scene.noise_image does not tile: neighbours over its seams differ by {:.3f}, others by {:.3f}; the seams will show", seam / 2, inside / 2);
+  return fmt::format("scene.noise_image does not tile: neighbours over its seams differ by {:.3f}, others by {:.3f}; the seams will show",
+                     seam / 2, inside / 2);
 }
 
 }  // namespace rainref::edge_splash

@@ -26,8 +26,11 @@ EffectInfo make() {
       {"layer", "r8", "1 where splashes may be.", "1", one, "none", "none", "none", "", "", correct},
   };
   for (const BufferInfo& written : pass::buffers_of<PublishedSplashPass, SplashPass>()) info.buffers.push_back(written);
-  info.buffers.push_back({"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
-  info.depth = "device depth of a perspective projection: uniforms depth_scale and depth_bias (corrected), scene keys scene.near, scene.far, scene.reversed_depth";
+  info.buffers.push_back(
+      {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
+  info.depth =
+      "device depth of a perspective projection: uniforms depth_scale and depth_bias (corrected), scene keys scene.near, scene.far, "
+      "scene.reversed_depth";
   return info;
 }
 

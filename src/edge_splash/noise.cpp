@@ -23,7 +23,8 @@ class Octave {
     for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(cells); ++y)
       for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(cells); ++x)
         gradients_.push_back(static_cast<std::uint8_t>(
-            random::pcg4d({static_cast<std::uint32_t>(seed) ^ x, static_cast<std::uint32_t>(seed >> 32) ^ y, 0x73706c73u, layer})[0] >> 29));
+            random::pcg4d({static_cast<std::uint32_t>(seed) ^ x, static_cast<std::uint32_t>(seed >> 32) ^ y, 0x73706c73u, layer})[0] >>
+            29));
   }
   double operator()(double x, double y) const {
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));

@@ -14,30 +14,42 @@ constexpr const char *published = "as-published", *correct = "corrected";
 std::span<const scene::Parameter> parameters() {
   static const std::vector<scene::Parameter> table{
       // The published settings, in the article's order.
-      real3("edge_splash.drop_color", "1", 0, 1000, {1, 1, 1}, "Colour of the drops, linear RGB.").default_for(correct, Real3{0.34, 0.40, 0.43}),
+      real3("edge_splash.drop_color", "1", 0, 1000, {1, 1, 1}, "Colour of the drops, linear RGB.")
+          .default_for(correct, Real3{0.34, 0.40, 0.43}),
       real("edge_splash.drop_alpha", "1", 0, 1, 1, "Opacity of the drops.").default_for(correct, 0.85),
-      integer("edge_splash.thickness", "texel", 0, 20, 3, "Distance of the Sobel taps where the device depth is 1; it shrinks with the square of the depth.").only(published),
+      integer("edge_splash.thickness", "texel", 0, 20, 3,
+              "Distance of the Sobel taps where the device depth is 1; it shrinks with the square of the depth.")
+          .only(published),
       real("edge_splash.edge_threshold", "1", 0, 16, 0.166, "Sobel sum of device depths that counts as an edge.").only(published),
-      real("edge_splash.rain_drop_scale", "1", 0, 1, 0.5, "Threshold of the noise: drops are where it lies above.").default_for(correct, 0.52),
+      real("edge_splash.rain_drop_scale", "1", 0, 1, 0.5, "Threshold of the noise: drops are where it lies above.")
+          .default_for(correct, 0.52),
       real("edge_splash.drop_speed", "texel/s", -1e6, 1e6, 100, "Speed of the noise, in x and in y.").only(published),
       choice("edge_splash.rounding", {"rne", "rtz"}, "rne", "Rounding of every store: to nearest even, or toward zero as many GPUs do."),
       // In metres and picture heights.
       real("edge_splash.band", "m", 1e-4, 100, 0.03, "Width of the splashes beside an edge.").only(correct),
-      real("edge_splash.smallest_band", "picture height", 1e-5, 0.05, 1.0 / 720, "A band is no narrower, and no narrower than a texel.").only(correct),
+      real("edge_splash.smallest_band", "picture height", 1e-5, 0.05, 1.0 / 720, "A band is no narrower, and no narrower than a texel.")
+          .only(correct),
       real("edge_splash.largest_band", "picture height", 1e-5, 0.05, 0.01, "A band is no wider.").only(correct),
       real("edge_splash.edge_step", "m", 1e-4, 1000, 0.15, "Smallest step of distance that counts as an edge.").only(correct),
-      real("edge_splash.edge_bend", "1", 1e-4, 1, 0.02, "Smallest share of its distance by which an edge stands before what is behind it; a plane has none.").only(correct),
-      real("edge_splash.softness", "1", 1e-4, 10, 0.3, "Every threshold t of the masks ends at (1 + softness) t; those of noise and angle that share of their way to 1 further.").only(correct),
+      real("edge_splash.edge_bend", "1", 1e-4, 1, 0.02,
+           "Smallest share of its distance by which an edge stands before what is behind it; a plane has none.")
+          .only(correct),
+      real("edge_splash.softness", "1", 1e-4, 10, 0.3,
+           "Every threshold t of the masks ends at (1 + softness) t; those of noise and angle that share of their way to 1 further.")
+          .only(correct),
       real("edge_splash.widest_angle", "deg", 1, 90, 62, "Between an edge's normal and the way up.").only(correct),
       real3("edge_splash.up", "1", -1, 1, {0, 1, 0}, "Where the rain comes from, world axes.").only(correct),
       real("edge_splash.noise_size", "picture height", 0.01, 100, 0.3, "Height of the noise tile.").only(correct),
       real2("edge_splash.drop_velocity", "picture height/s", -1000, 1000, {0.25, -1.0}, "Velocity of the noise.").only(correct),
       // The picture.
-      choice("scene.source", {"shapes", "street", "files"}, "shapes", "A mine track in fog, the street at night, both made here, or the files below."),
+      choice("scene.source", {"shapes", "street", "files"}, "shapes",
+             "A mine track in fog, the street at night, both made here, or the files below."),
       text("scene.image", "", "Picture that rain falls on, EXR, HDR, PNG or NPY; needs scene.depth_image."),
       text("scene.depth_image", "", "Its depth, EXR, 16-bit PNG or NPY."),
-      choice("scene.depth_encoding", {"device", "metres"}, "device", "What the depth image holds: device depth in [0, 1], or metres along the view axis."),
-      real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image, where it holds metres (65.535 for 16-bit millimetres)."),
+      choice("scene.depth_encoding", {"device", "metres"}, "device",
+             "What the depth image holds: device depth in [0, 1], or metres along the view axis."),
+      real("scene.depth_scale", "m", 1e-9, 1e9, 1,
+           "Metres in a unit of the depth image, where it holds metres (65.535 for 16-bit millimetres)."),
       text("scene.noise_image", "", "Noise map, a tile; empty: gradient noise made here."),
       text("scene.layer_image", "", "Where splashes may be, white; empty: everywhere.").only(correct),
       real("scene.near", "m", 1e-4, 1e5, 0.3, "Near plane of the device depth."),

@@ -57,7 +57,8 @@ class PublishedModel : public capture::ModelOf<Published> {
                                 }).decide();
     const auto noise = MaskSet<1>([&] { return std::array{every::noise_mask(p.uniforms, noise_map, x, y)}; }).decide();
     p.with_cursors(column, row, out, [&](const auto& io) {
-      every::give(io, every::blend_as_published<Enclosure>(p.uniforms, {edge_and_angle[0], edge_and_angle[1]}, noise[0], every::scene_of<Enclosure>(io), x, y));
+      every::give(io, every::blend_as_published<Enclosure>(p.uniforms, {edge_and_angle[0], edge_and_angle[1]}, noise[0],
+                                                           every::scene_of<Enclosure>(io), x, y));
     });
   }
 };

@@ -30,8 +30,10 @@ struct Solid {
   double bound() const { return 0.5 * size_of(b - a) + radius; }
 
   void meet(const Vec& from, const Vec& way, Hit& hit) const {
-    if (is_box) meet_box(from, way, hit);
-    else meet_rod(from, way, hit);
+    if (is_box)
+      meet_box(from, way, hit);
+    else
+      meet_rod(from, way, hit);
   }
 
  private:
@@ -183,7 +185,8 @@ ShapesView render_shapes(const scene::Camera& camera, int width, int height, dou
   const scene::Camera::Basis basis = camera.basis();
   const double half_height = camera.half_height(), half_width = half_height * width / height;
   const auto way = [&](double x, double y) {
-    return scene::normalized(basis.forward + (2 * x / width - 1) * half_width * basis.right + (2 * y / height - 1) * half_height * basis.up);
+    return scene::normalized(basis.forward + (2 * x / width - 1) * half_width * basis.right +
+                             (2 * y / height - 1) * half_height * basis.up);
   };
   ShapesView view{Image(Format::rgba32f, width, height), Image(Format::r32f, width, height)};
   executor.for_tiles(width, height, tile, tile, [&](const parallel::Tile& t) {
@@ -213,7 +216,8 @@ ShapesView render_shapes(const scene::Camera& camera, int width, int height, dou
         out[3] = 1;
         const Vec centre = way(x + 0.5, y + 0.5);
         radiance(near, camera.position, centre, &distance);
-        view.depth.row<float>(y)[x] = static_cast<float>(distance >= 1e30 ? far : std::min(far, distance * glm::dot(centre, basis.forward)));
+        view.depth.row<float>(y)[x] =
+            static_cast<float>(distance >= 1e30 ? far : std::min(far, distance * glm::dot(centre, basis.forward)));
       }
     }
   });

@@ -13,9 +13,12 @@ template <class B>
 struct SplashResults {
   using Mask = typename B::template Result<Format::r8>;
   using Colour = typename B::template Result<Format::rgba16f>;
-  static constexpr pass::Out edge{.name = "edge", .sentence = "1 at an edge of the depth."}, angle{.name = "angle", .sentence = "1 where the edge faces up."},
-      noise{.name = "noise", .sentence = "1 where a drop is."},
-      colour{.name = "colour", .sentence = "Linear radiance with drops; the scene's alpha, as published blended like a colour.", .colour_space = "linear Rec. 709", .alpha = "straight"};
+  static constexpr pass::Out edge{.name = "edge", .sentence = "1 at an edge of the depth."},
+      angle{.name = "angle", .sentence = "1 where the edge faces up."}, noise{.name = "noise", .sentence = "1 where a drop is."},
+      colour{.name = "colour",
+             .sentence = "Linear radiance with drops; the scene's alpha, as published blended like a colour.",
+             .colour_space = "linear Rec. 709",
+             .alpha = "straight"};
 };
 
 /// As published. A read outside the depth or the noise is 0.
@@ -25,17 +28,18 @@ struct PublishedSplashPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("PublishedSplashUniforms",
-                                   {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
-                                   member<&U::width>("width", "texel", {1, 65536}, "Columns of the picture."),
-                                   member<&U::height>("height", "texel", {1, 65536}, "Rows of the picture."),
-                                   member<&U::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
-                                   member<&U::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
-                                   member<&U::edge_threshold>("edge_threshold", "1", {0, 16}, "Sobel sum of device depths that counts as an edge."),
-                                   member<&U::rain_drop_scale>("rain_drop_scale", "1", scene::share, "Threshold of the noise."),
-                                   member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-                                   member<&U::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
-                                   member<&U::thickness>("thickness", "texel", {0, 20}, "Distance of the taps where the depth is 1.")});
+    return scene::uniform_block<U>(
+        "PublishedSplashUniforms",
+        {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
+         member<&U::width>("width", "texel", {1, 65536}, "Columns of the picture."),
+         member<&U::height>("height", "texel", {1, 65536}, "Rows of the picture."),
+         member<&U::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
+         member<&U::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
+         member<&U::edge_threshold>("edge_threshold", "1", {0, 16}, "Sobel sum of device depths that counts as an edge."),
+         member<&U::rain_drop_scale>("rain_drop_scale", "1", scene::share, "Threshold of the noise."),
+         member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
+         member<&U::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),
+         member<&U::thickness>("thickness", "texel", {0, 20}, "Distance of the taps where the depth is 1.")});
   }
   template <class B>
   struct Io {
@@ -53,26 +57,27 @@ struct SplashPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("SplashUniforms",
-                                   {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
-                                   member<&U::up>("up", "1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
-                                   member<&U::reach>("reach", "texel", {0, 1e9}, "Texels that the band covers at 1 m."),
-                                   member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-                                   member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-                                   member<&U::depth_scale>("depth_scale", "1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
-                                   member<&U::depth_bias>("depth_bias", "1/m", {0, 1e4}, "See depth_scale."),
-                                   member<&U::reach_min>("reach_min", "texel", scene::whole(1, 4096), "Smallest reach of the taps."),
-                                   member<&U::reach_max>("reach_max", "texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
-                                   member<&U::step_low>("step_low", "m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
-                                   member<&U::step_high>("step_high", "m", {0, 1e5}, "Sobel sum from which it is whole."),
-                                   member<&U::bend_low>("bend_low", "1", {0, 11}, "Bend at which an edge begins."),
-                                   member<&U::bend_high>("bend_high", "1", {0, 11}, "Bend from which it is whole."),
-                                   member<&U::cosine_low>("cosine_low", "1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
-                                   member<&U::cosine_high>("cosine_high", "1", {0, 11}, "Cosine from which it is whole."),
-                                   member<&U::noise_low>("noise_low", "1", {0, 11}, "Noise at which a drop begins."),
-                                   member<&U::noise_high>("noise_high", "1", {0, 11}, "Noise from which it is whole."),
-                                   member<&U::noise_scale>("noise_scale", "1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
-                                   member<&U::noise_offset>("noise_offset", "1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
+    return scene::uniform_block<U>(
+        "SplashUniforms",
+        {member<&U::drop_color>("drop_color", "1", scene::radiance, "Linear RGB and opacity of the drops."),
+         member<&U::up>("up", "1", scene::component, "Unit vector that points up, camera axes: right, up, forward."),
+         member<&U::reach>("reach", "texel", {0, 1e9}, "Texels that the band covers at 1 m."),
+         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+         member<&U::depth_scale>("depth_scale", "1/m", {-1e4, 1e4}, "1 / z = depth_scale d + depth_bias."),
+         member<&U::depth_bias>("depth_bias", "1/m", {0, 1e4}, "See depth_scale."),
+         member<&U::reach_min>("reach_min", "texel", scene::whole(1, 4096), "Smallest reach of the taps."),
+         member<&U::reach_max>("reach_max", "texel", scene::whole(1, 4096), "Largest reach of the taps; whole."),
+         member<&U::step_low>("step_low", "m", {0, 1e5}, "Sobel sum of distances at which an edge begins."),
+         member<&U::step_high>("step_high", "m", {0, 1e5}, "Sobel sum from which it is whole."),
+         member<&U::bend_low>("bend_low", "1", {0, 11}, "Bend at which an edge begins."),
+         member<&U::bend_high>("bend_high", "1", {0, 11}, "Bend from which it is whole."),
+         member<&U::cosine_low>("cosine_low", "1", {0, 11}, "Cosine between an edge's normal and up at which the mask begins."),
+         member<&U::cosine_high>("cosine_high", "1", {0, 11}, "Cosine from which it is whole."),
+         member<&U::noise_low>("noise_low", "1", {0, 11}, "Noise at which a drop begins."),
+         member<&U::noise_high>("noise_high", "1", {0, 11}, "Noise from which it is whole."),
+         member<&U::noise_scale>("noise_scale", "1", {0, 1e7}, "Texture coordinates of the noise in a pixel."),
+         member<&U::noise_offset>("noise_offset", "1", scene::share, "Texture coordinates that the noise has scrolled, in [0, 1).")});
   }
   template <class B>
   struct Io {
@@ -103,12 +108,16 @@ RAINREF_FN N texel_at(const T& t, N x, N y) {
   return load_texel<0, 1, N>(t, texel_column<N>(t, l, to_int(x)), texel_row<N>(t, l, to_int(y)))[0];
 }
 template <class N, class M>
-RAINREF_FN N one_where(M mask) { return select(mask, N(1.0f), N(0.0f)); }
+RAINREF_FN N one_where(M mask) {
+  return select(mask, N(1.0f), N(0.0f));
+}
 
 // ---- as published --------------------------------------------------------------------------------------------------
 /// A float cut to an integer as HLSL does: toward zero.
 template <class N>
-RAINREF_FN N truncated(N x) { return select(x < N(0.0f), -floor(-x), floor(x)); }
+RAINREF_FN N truncated(N x) {
+  return select(x < N(0.0f), -floor(-x), floor(x));
+}
 /// x - size trunc(x / size), the remainder that % of floats means: in (-size, size), with the sign of x.
 template <class N>
 RAINREF_FN N remainder_of(N x, float size) {
@@ -152,7 +161,8 @@ RAINREF_FN N noise_mask(const PublishedSplashUniforms& u, const T& noise_map, N 
   return one_where<N>(texel_at<N>(noise_map, column, row) >= N(u.rain_drop_scale));
 }
 template <class N>
-RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const EdgeMasks<N>& masks, N noise, const Channels<N, 4>& scene, N x, N y) {
+RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const EdgeMasks<N>& masks, N noise, const Channels<N, 4>& scene,
+                                        N x, N y) {
   const N zero(0.0f), thickness(static_cast<float>(u.thickness)), width(static_cast<float>(u.width)), height(static_cast<float>(u.height));
   const auto passed = (x + thickness >= width) | (y + thickness >= height) | (x - thickness < zero) | (y - thickness < zero);
   // The edge is multiplied by the angle twice, which a mask of zeros and ones does not feel.
@@ -167,7 +177,8 @@ RAINREF_FN Splash<N> blend_as_published(const PublishedSplashUniforms& u, const 
 }
 /// A read outside the depth or the noise is 0.
 template <class N, class T>
-RAINREF_FN Splash<N> splash_as_published(const PublishedSplashUniforms& u, const T& depth, const T& noise_map, const Channels<N, 4>& scene, int column, int row) {
+RAINREF_FN Splash<N> splash_as_published(const PublishedSplashUniforms& u, const T& depth, const T& noise_map, const Channels<N, 4>& scene,
+                                         int column, int row) {
   const N x = N::index(column), y(static_cast<float>(row));
   return blend_as_published(u, edge_masks(u, depth, x, y), noise_mask(u, noise_map, x, y), scene, x, y);
 }
@@ -185,10 +196,14 @@ struct Taps {
   RAINREF_FN Taps() {}
 };
 template <class N, class T>
-RAINREF_FN N inverse_distance(const SplashUniforms& u, const T& depth, N x, N y) { return texel_at<N>(depth, x, y) * N(u.depth_scale) + N(u.depth_bias); }
+RAINREF_FN N inverse_distance(const SplashUniforms& u, const T& depth, N x, N y) {
+  return texel_at<N>(depth, x, y) * N(u.depth_scale) + N(u.depth_bias);
+}
 /// The reach that belongs to a distance, in whole texels.
 template <class N>
-RAINREF_FN N reach_of(const SplashUniforms& u, N q) { return floor(clamp(N(u.reach) * q, N(u.reach_min), N(u.reach_max)) + N(0.5f)); }
+RAINREF_FN N reach_of(const SplashUniforms& u, N q) {
+  return floor(clamp(N(u.reach) * q, N(u.reach_min), N(u.reach_max)) + N(0.5f));
+}
 
 /// Sobel's sums: the kernels (-1 0 1, -2 0 2, -1 0 1) and its transpose.
 template <class N>
@@ -217,14 +232,22 @@ RAINREF_FN Taps<N> taps_corrected(const SplashUniforms& u, const T& depth, N x, 
   Taps<N> taps;
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) {
-      if (i != 1 || j != 1) taps.q[3 * j + i] = inverse_distance(u, depth, i == 0 ? x - reach : i == 2 ? x + reach : x, j == 0 ? y - reach : j == 2 ? y + reach : y);
+      if (i != 1 || j != 1)
+        taps.q[3 * j + i] = inverse_distance(u, depth,
+                                             i == 0   ? x - reach
+                                             : i == 2 ? x + reach
+                                                      : x,
+                                             j == 0   ? y - reach
+                                             : j == 2 ? y + reach
+                                                      : y);
     }
   }
   taps.q[4] = q;
   return taps;
 }
 template <class N, class T, class R>
-RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, const R& noise_map, N layer, const Channels<N, 4>& scene, int column, int row) {
+RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, const R& noise_map, N layer, const Channels<N, 4>& scene,
+                                      int column, int row) {
   const N x = N::index(column), y(static_cast<float>(row)), half(0.5f);
   const Taps<N> taps = taps_corrected(u, depth, x, y);
   const Gradient<N> g = sobel(taps);
@@ -237,7 +260,8 @@ RAINREF_FN Splash<N> splash_corrected(const SplashUniforms& u, const T& depth, c
   const N facing = ((g.x * up_x + g.y * up_y) / max(magnitude, N(u.step_low))) / max(length(up_x, up_y), N(1e-4f));
   const N angle = smoothstep(u.cosine_low, u.cosine_high, facing);
 
-  const N s = sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]), (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1]))[0];
+  const N s = sample_bilinear<0, 1, N>(noise_map, (x + half) * N(u.noise_scale[0]) + N(u.noise_offset[0]),
+                                       (y + half) * N(u.noise_scale[1]) + N(u.noise_offset[1]))[0];
   const N noise = smoothstep(u.noise_low, u.noise_high, s);
 
   const N weight = ((edge * angle) * noise) * (layer * N(u.drop_color[3]));

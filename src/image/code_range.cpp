@@ -29,8 +29,7 @@ std::int64_t highest_half(float x, const StoreRules& rules) {
   if (rules.half == StoreRounding::rtz && x >= 0x1p16f) code = half_infinity;
   if (rules.half == StoreRounding::rtz && x <= -0x1p16f) code = -half_infinity;
   if (code >= half_infinity) return rules.half_overflow == StoreOverflow::max ? half_max : half_infinity;
-  if (x <= -0x1p16f || code <= -half_infinity)
-    return rules.half_overflow == StoreOverflow::inf ? -half_infinity : -half_max;
+  if (x <= -0x1p16f || code <= -half_infinity) return rules.half_overflow == StoreOverflow::inf ? -half_infinity : -half_max;
   return code;
 }
 
@@ -39,10 +38,8 @@ double ceil_of(double x) { return -floor_of(-x); }
 
 // Codes within ulp of the reals [low, high]; above half a code at most the neighbours.
 CodeRange codes_near(double low, double high, double ulp) {
-  const double first = std::max(ceil_of(low - ulp), floor_of(low)),
-               last = std::min(floor_of(high + ulp), ceil_of(high));
-  return {static_cast<std::int64_t>(std::clamp(first, 0.0, 255.0)),
-          static_cast<std::int64_t>(std::clamp(last, 0.0, 255.0))};
+  const double first = std::max(ceil_of(low - ulp), floor_of(low)), last = std::min(floor_of(high + ulp), ceil_of(high));
+  return {static_cast<std::int64_t>(std::clamp(first, 0.0, 255.0)), static_cast<std::int64_t>(std::clamp(last, 0.0, 255.0))};
 }
 
 float held(float x) { return x < 0 ? 0.0f : 1 < x ? 1.0f : x; }
@@ -59,8 +56,7 @@ CodeRange unorm_range(const Enclosure& v, const StoreRules& rules) {
     const CodeRange cut{to_unorm8(low, Rounding::rtz).code, to_unorm8(high, Rounding::rtz).code};
     // The reference rounds 255 x to a float first; a device may cut the exact product, or the float above it.
     return rules.unorm_ulp == 0 ? cut
-                                : CodeRange{static_cast<std::int64_t>(255.0 * low),
-                                            static_cast<std::int64_t>(float_above(255.0 * high))};
+                                : CodeRange{static_cast<std::int64_t>(255.0 * low), static_cast<std::int64_t>(float_above(255.0 * high))};
   }
   CodeRange out{to_unorm8(low).code, to_unorm8(high).code};
   if (rules.unorm_ulp > 0) {
@@ -70,9 +66,7 @@ CodeRange unorm_range(const Enclosure& v, const StoreRules& rules) {
   return out;
 }
 
-double encode_srgb(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * pow_real(Real64(x), Real64(1 / 2.4)).v - 0.055;
-}
+double encode_srgb(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow_real(Real64(x), Real64(1 / 2.4)).v - 0.055; }
 
 CodeRange srgb_range(const Enclosure& v, const StoreRules& rules) {
   const double low = 255 * encode_srgb(held(v.lo)), high = 255 * encode_srgb(held(v.hi));

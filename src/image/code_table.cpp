@@ -22,7 +22,8 @@ CodeTable::CodeTable(int width, int height, Pass pass) : pass_(std::move(pass)) 
   if (static_cast<std::int64_t>(width) * height < texels_for_all) return;
   code_.resize(65536);
   Image colour(Format::rgba16f, side, lines), picture(Format::rgba8, side, lines);
-  for_every_half([&](std::uint32_t bits, int x, int y, int channel) { colour.row<Half>(y)[4 * x + channel] = {static_cast<std::uint16_t>(bits)}; });
+  for_every_half(
+      [&](std::uint32_t bits, int x, int y, int channel) { colour.row<Half>(y)[4 * x + channel] = {static_cast<std::uint16_t>(bits)}; });
   pass_(colour, picture, 0, lines);
   for_every_half([&](std::uint32_t bits, int x, int y, int channel) { code_[bits] = picture.row<Unorm8>(y)[4 * x + channel].code; });
 }

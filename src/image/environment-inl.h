@@ -19,7 +19,9 @@ RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d, N lod) {
   return Vec3<N>(texel[0], texel[1], texel[2]);
 }
 template <class N, class T>
-RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d) { return sample_latlong(t, d, N(0.0f)); }
+RAINREF_FN Vec3<N> sample_latlong(const T& t, const Vec3<N>& d) {
+  return sample_latlong(t, d, N(0.0f));
+}
 
 template <class N, class T>
 RAINREF_FN Vec3<N> sample_cube(const T& t, const Vec3<N>& d, N lod) {

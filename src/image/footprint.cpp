@@ -53,8 +53,8 @@ float texel_of(const Texels& t, int column, int row, int channel) {
 }
 
 // The hull of texels [x0, x1] x [y0, y1] by the address rules.
-Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0,
-                     std::int64_t y1, int channel) {
+Enclosure texel_hull(const Texels& t, const Span& x, const Span& y, std::int64_t x0, std::int64_t x1, std::int64_t y0, std::int64_t y1,
+                     int channel) {
   // One period of indices holds every texel; the other rules have only a few indices outside.
   if (x.address == Address::repeat) x1 = std::min(x1, x0 + x.size - 1);
   if (y.address == Address::repeat) y1 = std::min(y1, y0 + y.size - 1);
@@ -73,9 +73,7 @@ double magnitude(double x) { return x < 0 ? -x : x; }
 
 // How far rounding the four weights of a cell may move its value. Rows and columns keep their sums, so that the error of
 // one weight enters the others with alternating signs; an H100 rounds by half a step, twice that is allowed.
-double weight_slack(double a, double b, double c, double d) {
-  return power_of_two(-profile().subtexel_bits) * magnitude(a - b - c + d);
-}
+double weight_slack(double a, double b, double c, double d) { return power_of_two(-profile().subtexel_bits) * magnitude(a - b - c + d); }
 // The same where the level's share is in the weights. With s the share, X = s f_x + e and the weights X f_y + e' and
 // (s - X) f_y + e'' of the second row, the value is off by e ((b - a)(1 - f_y) + (d - c) f_y) + e' (d - b) + e'' (c - a).
 double joint_slack(double a, double b, double c, double d) {
@@ -175,10 +173,12 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, J
   return Enclosure::checked(out.lo, out.hi);
 }
 
-Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enclosure coarse, const JointRounding& coarse_rounding, float low, float high) {
+Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enclosure coarse, const JointRounding& coarse_rounding,
+                         float low, float high) {
   const Enclosure out = mix(fine, coarse, Enclosure(low, high));
   if (out.is_vacuous() || profile().subtexel_bits == 0) return out;
-  const double fine_most = 1.0 - static_cast<double>(low), fine_least = 1.0 - static_cast<double>(high), coarse_most = high, coarse_least = low;
+  const double fine_most = 1.0 - static_cast<double>(low), fine_least = 1.0 - static_cast<double>(high), coarse_most = high,
+               coarse_least = low;
   // A level adds no more than its share of it; what its own hull has already counts.
   const auto of_level = [](const JointRounding& r, double most_share) { return std::min(r.slack, most_share * (r.greatest - r.least)); };
   const double weights = of_level(fine_rounding, fine_most) + of_level(coarse_rounding, coarse_most);
@@ -186,8 +186,10 @@ Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enc
   const double below = slack - fine_least * fine_rounding.below - coarse_least * coarse_rounding.below;
   const double above = slack - fine_least * fine_rounding.above - coarse_least * coarse_rounding.above;
   // The weights are not negative and sum to 1: beyond all texels lies nothing that the mix itself does not allow.
-  const double least = std::min(fine_rounding.least, coarse_rounding.least), greatest = std::max(fine_rounding.greatest, coarse_rounding.greatest);
-  return Enclosure::checked(std::min(out.lo, float_below(std::max(out.lo - below, least))), std::max(out.hi, float_above(std::min(out.hi + above, greatest))));
+  const double least = std::min(fine_rounding.least, coarse_rounding.least),
+               greatest = std::max(fine_rounding.greatest, coarse_rounding.greatest);
+  return Enclosure::checked(std::min(out.lo, float_below(std::max(out.lo - below, least))),
+                            std::max(out.hi, float_above(std::min(out.hi + above, greatest))));
 }
 
 Pick pick(const Span& x, const Span& y) {

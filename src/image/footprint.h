@@ -46,14 +46,15 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel);
 /// level's share in them: the share times f_x first, each of the two parts times f_y then, every product to the nearest step, the
 /// rest beside it; or y before x. An NVIDIA H100 does the first.
 struct JointRounding {
-  double slack = 0;  ///< added to the sum of the two levels, whatever the share
+  double slack = 0;             ///< added to the sum of the two levels, whatever the share
   double below = 0, above = 0;  ///< what filtered() has added for the level alone, at either end
   TexelPrecision precision = TexelPrecision::float32;
   double least = 0, greatest = 0;  ///< of the level's texels
 };
 Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, JointRounding& joint);
 /// The level `fine` and the one below it, mixed by a share of the coarse one in [low, high], with the weights rounded either way.
-Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enclosure coarse, const JointRounding& coarse_rounding, float low, float high);
+Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enclosure coarse, const JointRounding& coarse_rounding,
+                         float low, float high);
 
 /// The texel that an unfiltered lookup takes: decided where the spans leave up to Replay::max_runs open.
 struct Pick {

@@ -63,8 +63,8 @@ Image::Image(Format format, int width, int height) : format_(format), width_(wid
   const std::size_t bytes = memory_bytes(format, width, height);
   memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, bytes)));
   if (!memory_) {
-    throw Error(ExitCode::usage, fmt::format("image {}x{} {}: {:.1f} GiB of memory could not be had", width, height,
-                                             info(format).name, static_cast<double>(bytes) / (1u << 30)));
+    throw Error(ExitCode::usage, fmt::format("image {}x{} {}: {:.1f} GiB of memory could not be had", width, height, info(format).name,
+                                             static_cast<double>(bytes) / (1u << 30)));
   }
   std::memset(memory_.get(), 0, bytes);
   // The margin keeps the first texel of every row aligned to 16 texels' worth of bytes.

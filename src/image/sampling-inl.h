@@ -33,7 +33,9 @@ struct Level {
 };
 /// Where a texture's rows have texels between them.
 template <class T>
-concept Pitched = requires(const T& t) { t.pitch[0]; };
+concept Pitched = requires(const T& t) {
+  t.pitch[0];
+};
 /// The same level for every element.
 template <class N, class T>
 RAINREF_FN Level<N> uniform_level(const T& t, int level) {
@@ -68,10 +70,13 @@ RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
 template <class N>
 RAINREF_FN N address_coordinate(Address address, N u) {
   switch (address) {
-    case Address::repeat: return fract(u);
-    case Address::mirror: return N(1.0f) - abs(N(2.0f) * fract(u * N(0.5f)) - N(1.0f));
+    case Address::repeat:
+      return fract(u);
+    case Address::mirror:
+      return N(1.0f) - abs(N(2.0f) * fract(u * N(0.5f)) - N(1.0f));
     case Address::clamp:
-    case Address::border: break;
+    case Address::border:
+      break;
   }
   return u;
 }
@@ -85,10 +90,14 @@ RAINREF_FN N texel_coordinate(Address address, N u, N size) {
 }
 /// Of a nearest lookup: held within one texel of the image before the cut to integers; the index rule does the rest.
 template <class N>
-RAINREF_FN N nearest_coordinate(Address address, N u, N size) { return clamp(address_coordinate(address, u) * size, N(-1.0f), size); }
+RAINREF_FN N nearest_coordinate(Address address, N u, N size) {
+  return clamp(address_coordinate(address, u) * size, N(-1.0f), size);
+}
 /// As the sampler takes it: a number whose sampler is not exact has its own.
 template <class N>
-RAINREF_FN N level_of_detail(N lod) { return lod; }
+RAINREF_FN N level_of_detail(N lod) {
+  return lod;
+}
 template <class Int>
 RAINREF_FN Int texel_index(Address address, Int i, Int size) {
   return address == Address::repeat ? wrap_index(i, size) : clamp_index(i, size);
@@ -138,7 +147,9 @@ RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
 
 /// Bilinear filtering of texels a, b in one row and c, d in the next. A number that a sampler may filter has its own.
 template <class N>
-RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy) { return mix(mix(a, b, fx), mix(c, d, fx), fy); }
+RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy) {
+  return mix(mix(a, b, fx), mix(c, d, fx), fy);
+}
 
 template <int First, int Count, class N, class T>
 RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
@@ -168,13 +179,14 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
   const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
   const auto xi = to_int(x0), yi = to_int(y0);
-  const auto a = texel_column<N>(t, l, xi + -1), b = texel_column<N>(t, l, xi), c = texel_column<N>(t, l, xi + 1), d = texel_column<N>(t, l, xi + 2);
+  const auto a = texel_column<N>(t, l, xi + -1), b = texel_column<N>(t, l, xi), c = texel_column<N>(t, l, xi + 1),
+             d = texel_column<N>(t, l, xi + 2);
   const auto p = texel_row<N>(t, l, yi + -1), q = texel_row<N>(t, l, yi), r = texel_row<N>(t, l, yi + 1), s = texel_row<N>(t, l, yi + 2);
   const auto texel = [&](const auto& column, const auto& row) RAINREF_LAMBDA { return load_texel<Channel, 1, N>(t, column, row)[0]; };
   const N bq = texel(b, q), cq = texel(c, q), br = texel(b, r), cr = texel(c, r);
   const auto filtered = [&](N e, N f, N g, N h) RAINREF_LAMBDA { return blend(t.precision, e, f, g, h, fx, fy); };
-  return {filtered(texel(a, q), bq, texel(a, r), br), filtered(cq, texel(d, q), cr, texel(d, r)), filtered(texel(b, p), texel(c, p), bq, cq),
-          filtered(br, cr, texel(b, s), texel(c, s))};
+  return {filtered(texel(a, q), bq, texel(a, r), br), filtered(cq, texel(d, q), cr, texel(d, r)),
+          filtered(texel(b, p), texel(c, p), bq, cq), filtered(br, cr, texel(b, s), texel(c, s))};
 }
 
 template <int First, int Count, class N, class T>
@@ -197,4 +209,6 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
 }
 /// One LOD for all elements: a uniform.
 template <int First, int Count, class N, class T>
-RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) { return sample_trilinear<First, Count, N>(t, u, v, N(lod)); }
+RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) {
+  return sample_trilinear<First, Count, N>(t, u, v, N(lod));
+}

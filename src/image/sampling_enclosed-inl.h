@@ -33,8 +33,7 @@ RAINREF_FN enclosed::Texels texels_of(const T& t, const Level<enclosed::Enclosur
 }
 
 template <int First, int Count, class N, class T>
-  requires std::same_as<N, enclosed::Enclosure>
-RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
+requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
   using Single = plain::Plain<float>;
   if (as_reference(u, v)) return points(sample_nearest<First, Count, Single>(t, Single(u.lo), Single(v.lo)));
   const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, 0));
@@ -46,8 +45,7 @@ RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
 }
 
 template <int First, int Count, class N, class T>
-  requires std::same_as<N, enclosed::Enclosure>
-RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
+requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
   using Single = plain::Plain<float>;
   if (as_reference(u, v)) {
     return points(sample_level<First, Count, Single>(t, plain_level(l), Single(u.lo), Single(v.lo)));
@@ -61,8 +59,7 @@ RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N
 }
 
 template <int Channel, class N, class T>
-  requires std::same_as<N, enclosed::Enclosure>
-RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
+requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   using Single = plain::Plain<float>;
   if (as_reference(u, v)) {
     const Neighbours<Single> near = sample_neighbours<Channel, Single>(t, Single(u.lo), Single(v.lo));
@@ -71,13 +68,12 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, 0));
   const enclosed::Span x = filtered_span(t.address_u, u, texels.width);
   const enclosed::Span y = filtered_span(t.address_v, v, texels.height);
-  return {filtered(texels, x.moved(-1), y, Channel), filtered(texels, x.moved(1), y, Channel),
-          filtered(texels, x, y.moved(-1), Channel), filtered(texels, x, y.moved(1), Channel)};
+  return {filtered(texels, x.moved(-1), y, Channel), filtered(texels, x.moved(1), y, Channel), filtered(texels, x, y.moved(-1), Channel),
+          filtered(texels, x, y.moved(1), Channel)};
 }
 
 template <int First, int Count, class N, class T>
-  requires std::same_as<N, enclosed::Enclosure>
-RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
+requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_mip(const T& t, N u, N v, N lod) {
   const N range = level_range(lod, t.levels), level = floor(N(range.lo, range.hi) + N(0.5f));
   Channels<N, Count> out = sample_level<First, Count, N>(t, uniform_level<N>(t, static_cast<int>(level.lo)), u, v);
   // Too many levels to decide: the hull of all.
@@ -108,8 +104,7 @@ RAINREF_FN JointLevel<Count> sample_level_jointly(const T& t, int level, enclose
   return out;
 }
 template <int First, int Count, class N, class T>
-  requires std::same_as<N, enclosed::Enclosure>
-RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
+requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   using Single = plain::Plain<float>;
   if (as_reference(u, v) && lod.is_point()) {
     return points(sample_trilinear<First, Count, Single>(t, Single(u.lo), Single(v.lo), Single(lod.lo)));
@@ -132,5 +127,6 @@ RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
   return out;
 }
 template <int First, int Count, class N, class T>
-  requires std::same_as<N, enclosed::Enclosure>
-RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) { return sample_trilinear<First, Count, N>(t, u, v, N(lod)); }
+requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, float lod) {
+  return sample_trilinear<First, Count, N>(t, u, v, N(lod));
+}

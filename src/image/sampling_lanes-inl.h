@@ -21,12 +21,14 @@ RAINREF_FN Lanes widen_low(hn::Vec<Lanes::DI> words) {
   const hn::Rebind<hwy::float16_t, Lanes::D> d16;
   return hn::PromoteTo(Lanes::D(), hn::BitCast(d16, hn::TruncateTo(Lanes::DH(), hn::BitCast(Lanes::DU(), words))));
 }
-RAINREF_FN Lanes widen_high(hn::Vec<Lanes::DI> words) { return widen_low(hn::BitCast(Lanes::DI(), hn::ShiftRight<16>(hn::BitCast(Lanes::DU(), words)))); }
+RAINREF_FN Lanes widen_high(hn::Vec<Lanes::DI> words) {
+  return widen_low(hn::BitCast(Lanes::DI(), hn::ShiftRight<16>(hn::BitCast(Lanes::DU(), words))));
+}
 
 template <int First, int Count, class N, class T, class Line>
-  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, float> && T::channels == 4 && T::address_u != Address::border && T::address_v != Address::border &&
-           First % 2 == 0 && Count > 1)
-RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float>&& T::channels == 4 && T::address_u != Address::border &&
+         T::address_v != Address::border && First % 2 == 0 &&
+         Count > 1) RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const auto bytes = hn::ShiftLeft<2>((row.place + column.place).i);
   Channels<N, Count> out;
   RAINREF_UNROLL for (int k = 0; k < Count; k += 2) {
@@ -37,8 +39,8 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
   return out;
 }
 template <int First, int Count, class N, class T, class Line>
-  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, Half> && T::channels == 4 && First == 0 && Count > 2)
-RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, Half>&& T::channels == 4 && First == 0 &&
+         Count > 2) RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const WordPair pair = gather_words(t.texels, hn::ShiftLeft<1>((row.place + column.place).i));
   Channels<N, Count> out;
   out[0] = widen_low(pair.first);
@@ -48,9 +50,10 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
   return out;
 }
 template <int First, int Count, class N, class T, class Line>
-  requires(std::same_as<N, Lanes> && std::same_as<typename T::Stored, Half> && T::channels == 4 && First % 2 == 0 && Count <= 2)
-RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
-  const auto words = hn::GatherOffset(Lanes::DI(), reinterpret_cast<const std::int32_t*>(t.texels + First), hn::ShiftLeft<1>((row.place + column.place).i));
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, Half>&& T::channels == 4 && First % 2 == 0 &&
+         Count <= 2) RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+  const auto words = hn::GatherOffset(Lanes::DI(), reinterpret_cast<const std::int32_t*>(t.texels + First),
+                                      hn::ShiftLeft<1>((row.place + column.place).i));
   Channels<N, Count> out;
   out[0] = widen_low(words);
   if constexpr (Count > 1) out[1] = widen_high(words);
@@ -76,8 +79,8 @@ RAINREF_FN TexelPair load_pair(const T& t, const Line& left, const Line& right, 
   }
 }
 template <int First, int Count, class N, class T>
-  requires(std::same_as<N, Lanes> && Pitched<T> && T::channels == 1 && T::address_u == Address::clamp && Count == 1 && First == 0)
-RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
+requires(std::same_as<N, Lanes>&& Pitched<T>&& T::channels == 1 && T::address_u == Address::clamp && Count == 1 &&
+         First == 0) RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
   const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
   const N x0 = floor(x), y0 = floor(y);
   const auto xi = to_int(x0), yi = to_int(y0);

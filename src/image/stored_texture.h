@@ -14,7 +14,8 @@ template <class S>
 struct StoredTexture {
   const S* texels = nullptr;
   int channels = 0, levels = 0;
-  std::int32_t width[Texture::max_levels] = {}, height[Texture::max_levels] = {}, offset[Texture::max_levels] = {}, pitch[Texture::max_levels] = {};
+  std::int32_t width[Texture::max_levels] = {}, height[Texture::max_levels] = {}, offset[Texture::max_levels] = {},
+               pitch[Texture::max_levels] = {};
 };
 
 /// A view of the image, which must outlive it; S is its storage type, Half or float.

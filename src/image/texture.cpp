@@ -19,8 +19,10 @@ void decode_rows(const Image& image, std::vector<float>& out) {
     const Storage* in = image.row<Storage>(y);
     float* to = out.data() + y * row;
     for (std::size_t i = 0; i < row; ++i) {
-      if constexpr (std::is_same_v<Storage, float>) to[i] = in[i];
-      else to[i] = to_float(in[i]);
+      if constexpr (std::is_same_v<Storage, float>)
+        to[i] = in[i];
+      else
+        to[i] = to_float(in[i]);
     }
   }
 }
@@ -49,14 +51,21 @@ TextureData::TextureData(std::vector<float> texels, int channels, int width, int
 }
 
 TextureData::TextureData(const Image& image, Address u, Address v)
-    : TextureData(std::vector<float>(static_cast<std::size_t>(image.width()) * image.height() * image.channels()),
-                  image.channels(), image.width(), image.height(), u, v) {
+    : TextureData(std::vector<float>(static_cast<std::size_t>(image.width()) * image.height() * image.channels()), image.channels(),
+                  image.width(), image.height(), u, v) {
   switch (info(image.format()).kind) {
     case FormatInfo::unorm8:
-    case FormatInfo::srgb8: decode_rows<Unorm8>(image, texels_); break;
-    case FormatInfo::float16: decode_rows<Half>(image, texels_); break;
-    case FormatInfo::float32: decode_rows<float>(image, texels_); break;
-    case FormatInfo::uint32: throw Error(ExitCode::internal, "an integer image cannot be sampled");
+    case FormatInfo::srgb8:
+      decode_rows<Unorm8>(image, texels_);
+      break;
+    case FormatInfo::float16:
+      decode_rows<Half>(image, texels_);
+      break;
+    case FormatInfo::float32:
+      decode_rows<float>(image, texels_);
+      break;
+    case FormatInfo::uint32:
+      throw Error(ExitCode::internal, "an integer image cannot be sampled");
   }
 }
 

@@ -56,10 +56,9 @@ ChannelPick pick_channels(std::string_view file, std::span<const std::string> na
     const int grey = members[0] == alpha ? members[1] : members[0];
     return {{grey, grey, grey, alpha}};
   }
-  throw Error(ExitCode::usage,
-              fmt::format("{}: channels {} are not understood; expected R G B, X Y Z or U V, or a single grey channel, "
-                          "each with or without A",
-                          file, fmt::join(names, " ")));
+  throw Error(ExitCode::usage, fmt::format("{}: channels {} are not understood; expected R G B, X Y Z or U V, or a single grey channel, "
+                                           "each with or without A",
+                                           file, fmt::join(names, " ")));
 }
 
 }  // namespace rainref::image_io

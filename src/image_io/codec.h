@@ -55,7 +55,8 @@ struct Codec {
   std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> bytes);
   /// The bytes of a file of interleaved texels in the channels' types; the same ones at any time. Of `picture` are stored: size,
   /// channels, compression and colour space. `name` is for messages.
-  std::optional<std::vector<std::byte>> (*encode)(const char* format, const std::string& name, const StoredPicture& picture, const std::byte* texels);
+  std::optional<std::vector<std::byte>> (*encode)(const char* format, const std::string& name, const StoredPicture& picture,
+                                                  const std::byte* texels);
 };
 
 /// Opens the library at the first call, from the run path of the program; any thread may call. Throws Error(io) when it cannot be

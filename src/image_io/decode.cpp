@@ -18,9 +18,7 @@ namespace {
 
 constexpr int max_side = 65536;
 
-[[noreturn]] void refuse(std::string_view file, const std::string& why) {
-  throw Error(ExitCode::usage, fmt::format("{}: {}", file, why));
-}
+[[noreturn]] void refuse(std::string_view file, const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", file, why)); }
 
 const char* format_name(FileKind kind) {
   switch (kind) {
@@ -46,10 +44,12 @@ std::string reason(std::string text) {
 /// What the picture needs at once: the decoded samples and the image made of them. A header of a few bytes can ask for
 /// 64 GiB, and filling that would get the process killed rather than refused.
 void check_memory(std::string_view file, const StoredPicture& spec, std::size_t texel_bytes) {
-  const std::size_t bytes = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                            (texel_bytes + info(Format::rgba32f).texel_bytes());
+  const std::size_t bytes =
+      static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * (texel_bytes + info(Format::rgba32f).texel_bytes());
   const MemoryLimit limit = memory_limit();
-  if (bytes > limit.bytes) refuse(file, fmt::format("{}x{} needs {} of memory; {} {}", spec.width, spec.height, memory_text(bytes), limit.owner, memory_text(limit.bytes)));
+  if (bytes > limit.bytes)
+    refuse(file, fmt::format("{}x{} needs {} of memory; {} {}", spec.width, spec.height, memory_text(bytes), limit.owner,
+                             memory_text(limit.bytes)));
 }
 
 void check_shape(std::string_view file, FileKind kind, const StoredPicture& spec) {
@@ -61,14 +61,12 @@ void check_shape(std::string_view file, FileKind kind, const StoredPicture& spec
   if (spec.channels.empty()) refuse(file, "no channels");
   // A crop or an overscan would shift every texel coordinate without a word. (The offset that a PNG may carry is a
   // position on a printed page.)
-  if (kind == FileKind::exr && (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
-                                spec.height != spec.full_height)) {
-    refuse(file, fmt::format("data window {}x{}{:+}{:+} differs from display window {}x{}{:+}{:+}; save it uncropped",
-                             spec.width, spec.height, spec.x, spec.y, spec.full_width, spec.full_height, spec.full_x,
-                             spec.full_y));
+  if (kind == FileKind::exr &&
+      (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width || spec.height != spec.full_height)) {
+    refuse(file, fmt::format("data window {}x{}{:+}{:+} differs from display window {}x{}{:+}{:+}; save it uncropped", spec.width,
+                             spec.height, spec.x, spec.y, spec.full_width, spec.full_height, spec.full_x, spec.full_y));
   }
-  if (spec.orientation != 1)
-    refuse(file, fmt::format("stored rotated or mirrored (orientation {}); save it upright", spec.orientation));
+  if (spec.orientation != 1) refuse(file, fmt::format("stored rotated or mirrored (orientation {}); save it upright", spec.orientation));
 }
 
 Sample sample_of(std::string_view file, const StoredChannel& channel) {
@@ -94,7 +92,8 @@ std::string compression_of(FileKind kind, const StoredPicture& spec) {
 }
 
 bool is_linear(std::string_view colour_space) {
-  return std::ranges::equal(colour_space, std::string_view("linear"), [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+  return std::ranges::equal(colour_space, std::string_view("linear"),
+                            [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
 }  // namespace

@@ -33,18 +33,15 @@ bool is_png(std::span<const std::byte> bytes) { return starts_with(bytes, "\x89P
 EvidenceSize exr_size(std::string_view file, std::span<const std::byte> bytes) {
   const ExrHeader header = parse_exr_header(file, bytes);
   if (!is_lossless_exr(header.compression)) {
-    refuse(file,
-           fmt::format(
-               "EXR compression '{}' is lossy: its values are not the buffer's; save with none, rle, zips, zip or piz",
-               exr_compression_name(header.compression)));
+    refuse(file, fmt::format("EXR compression '{}' is lossy: its values are not the buffer's; save with none, rle, zips, zip or piz",
+                             exr_compression_name(header.compression)));
   }
   if (header.data_window != header.display_window) {
     refuse(file, "its data window differs from its display window; save it uncropped");
   }
   if (header.is_tiled && header.tile_mode != 0) refuse(file, "mip levels in one EXR; save one file a level");
   if (header.is_tiled && (header.tile_width > largest_tile || header.tile_height > largest_tile)) {
-    refuse(file,
-           fmt::format("tiles of {}x{}; expected at most {}", header.tile_width, header.tile_height, largest_tile));
+    refuse(file, fmt::format("tiles of {}x{}; expected at most {}", header.tile_width, header.tile_height, largest_tile));
   }
   const auto& w = header.data_window;
   const std::int64_t width = std::int64_t{w[2]} - w[0] + 1, height = std::int64_t{w[3]} - w[1] + 1;
@@ -57,8 +54,7 @@ EvidenceSize png_size(std::string_view file, std::span<const std::byte> bytes) {
   const auto header = parse_png_header(bytes);
   if (!header) refuse(file, "damaged: a PNG that does not start with its header");
   if (header->colour_type == 3) refuse(file, "a PNG with a palette; save its codes as they are");
-  if (header->bit_depth != 8)
-    refuse(file, fmt::format("a PNG of {} bits; a buffer's 8-bit codes need 8", header->bit_depth));
+  if (header->bit_depth != 8) refuse(file, fmt::format("a PNG of {} bits; a buffer's 8-bit codes need 8", header->bit_depth));
   if (header->has_transparent_colour) refuse(file, "a PNG with a transparent colour (tRNS); save alpha as a channel");
   return {header->width, header->height};
 }
@@ -131,17 +127,14 @@ std::vector<std::size_t> channel_order(std::string_view file, std::span<const st
   for (const std::string_view order : {"RGBA", "XYZW", "UV", "YA"}) {
     if (auto found = in_order(names, order); !found.empty()) return found;
   }
-  refuse(file,
-         fmt::format("the order of channels {} cannot be told (EXR sorts them by name); name them R G B A or X Y Z W",
-                     fmt::join(names, " ")));
+  refuse(file, fmt::format("the order of channels {} cannot be told (EXR sorts them by name); name them R G B A or X Y Z W",
+                           fmt::join(names, " ")));
 }
 
 EvidenceSize evidence_size(std::string_view file, std::span<const std::byte> bytes) {
   if (bytes.empty()) refuse(file, "empty file");
-  if (starts_with(bytes, "\xff\xd8\xff"))
-    refuse(file, "its content is JPEG, which is lossy: no evidence of a buffer's values");
-  if (starts_with(bytes, "#?"))
-    refuse(file, "its content is Radiance HDR, 8 bits and a shared exponent: no evidence of a buffer's values");
+  if (starts_with(bytes, "\xff\xd8\xff")) refuse(file, "its content is JPEG, which is lossy: no evidence of a buffer's values");
+  if (starts_with(bytes, "#?")) refuse(file, "its content is Radiance HDR, 8 bits and a shared exponent: no evidence of a buffer's values");
   if (!is_exr(bytes) && !is_png(bytes)) refuse(file, "not an EXR or PNG file");
   const EvidenceSize size = is_exr(bytes) ? exr_size(file, bytes) : png_size(file, bytes);
   if (size.width < 1 || size.height < 1 || size.width > max_side || size.height > max_side) {

@@ -12,8 +12,7 @@
 namespace rainref::image_io {
 namespace {
 
-constexpr std::array<std::string_view, 10> compressions{"none",  "rle", "zips", "zip",  "piz",
-                                                        "pxr24", "b44", "b44a", "dwaa", "dwab"};
+constexpr std::array<std::string_view, 10> compressions{"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
 
 // What OpenEXR reads of these types is of this size, whatever the size beside it says: with another one it would take the bytes behind
 // for the next attribute.
@@ -21,17 +20,36 @@ struct FixedSize {
   std::string_view type;
   std::size_t bytes;
 };
-constexpr FixedSize fixed_sizes[] = {{"box2f", 16},  {"box2i", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1}, {"double", 8},   {"envmap", 1}, {"float", 4}, {"int", 4},
-                                     {"keycode", 28}, {"lineOrder", 1}, {"m33d", 72}, {"m33f", 36}, {"m44d", 128}, {"m44f", 64}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8},
-                                     {"v2d", 16}, {"v2f", 8}, {"v2i", 8}, {"v3d", 24}, {"v3f", 12}, {"v3i", 12}};
+constexpr FixedSize fixed_sizes[] = {{"box2f", 16},
+                                     {"box2i", 16},
+                                     {"chromaticities", 32},
+                                     {"compression", 1},
+                                     {"deepImageState", 1},
+                                     {"double", 8},
+                                     {"envmap", 1},
+                                     {"float", 4},
+                                     {"int", 4},
+                                     {"keycode", 28},
+                                     {"lineOrder", 1},
+                                     {"m33d", 72},
+                                     {"m33f", 36},
+                                     {"m44d", 128},
+                                     {"m44f", 64},
+                                     {"rational", 8},
+                                     {"tiledesc", 9},
+                                     {"timecode", 8},
+                                     {"v2d", 16},
+                                     {"v2f", 8},
+                                     {"v2i", 8},
+                                     {"v3d", 24},
+                                     {"v3f", 12},
+                                     {"v3i", 12}};
 
 class Reader {
  public:
   Reader(std::string_view file, std::span<const std::byte> rest) : file_(file), rest_(rest) {}
 
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw Error(ExitCode::port_files, fmt::format("{}: {}", file_, why));
-  }
+  [[noreturn]] void refuse(const std::string& why) const { throw Error(ExitCode::port_files, fmt::format("{}: {}", file_, why)); }
   std::span<const std::byte> take(std::size_t count) {
     if (count > rest_.size()) refuse("truncated in its EXR header");
     const auto out = rest_.first(count);
@@ -65,13 +83,16 @@ class Reader {
 /// Channels end with an empty name, strings with the attribute: both must fill it, for OpenEXR goes by what they say themselves.
 void check_size(std::string_view name, std::string_view type, Reader value) {
   const auto is = [&](const FixedSize& f) { return f.type == type; };
-  if (const auto* fixed = std::find_if(std::begin(fixed_sizes), std::end(fixed_sizes), is); fixed != std::end(fixed_sizes) && fixed->bytes != value.left()) {
-    value.refuse(fmt::format("damaged in its EXR header: attribute '{}' of type {} has {} bytes; expected {}", name, type, value.left(), fixed->bytes));
+  if (const auto* fixed = std::find_if(std::begin(fixed_sizes), std::end(fixed_sizes), is);
+      fixed != std::end(fixed_sizes) && fixed->bytes != value.left()) {
+    value.refuse(fmt::format("damaged in its EXR header: attribute '{}' of type {} has {} bytes; expected {}", name, type, value.left(),
+                             fixed->bytes));
   }
   if (type == "chlist") {
     constexpr std::size_t behind_name = 16;  // type, two flags, sampling
     while (!value.name().empty()) value.take(behind_name);
-    if (!value.empty()) value.refuse(fmt::format("damaged in its EXR header: {} bytes behind the last channel of '{}'", value.left(), name));
+    if (!value.empty())
+      value.refuse(fmt::format("damaged in its EXR header: {} bytes behind the last channel of '{}'", value.left(), name));
   } else if (type == "stringvector") {
     while (!value.empty()) value.take(value.number<std::uint32_t>());
   }

@@ -40,8 +40,7 @@ std::optional<PngHeader> parse_png_header(std::span<const std::byte> bytes) {
   if (bytes.size() < data + data_bytes + checksum || big_endian(bytes, signature) != data_bytes) return std::nullopt;
   if (!is(reinterpret_cast<const char*>(&bytes[signature + 4]), "IHDR")) return std::nullopt;
   return PngHeader{big_endian(bytes, data), big_endian(bytes, data + 4), std::to_integer<int>(bytes[data + 8]),
-                   std::to_integer<int>(bytes[data + 9]),
-                   any_chunk(bytes, [](const char* type, std::size_t) { return is(type, "tRNS"); })};
+                   std::to_integer<int>(bytes[data + 9]), any_chunk(bytes, [](const char* type, std::size_t) { return is(type, "tRNS"); })};
 }
 
 }  // namespace rainref::image_io

@@ -108,9 +108,8 @@ void require_finite(const std::string& file, const Decoded& in, const Image& ima
         value = row[i];
       }
       if (std::isfinite(value)) continue;
-      throw Error(ExitCode::usage,
-                  fmt::format("{}: {} at x {}, y {} (from the top), channel '{}'", file,
-                              std::isnan(value) ? "NaN" : "infinity", i / 4, y, in.channels[i % 4].name));
+      throw Error(ExitCode::usage, fmt::format("{}: {} at x {}, y {} (from the top), channel '{}'", file,
+                                               std::isnan(value) ? "NaN" : "infinity", i / 4, y, in.channels[i % 4].name));
     }
   }
 }

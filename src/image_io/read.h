@@ -19,10 +19,10 @@ struct Picture {
   /// absent alpha is 1. Colour is not multiplied by alpha.
   Image image;
   std::vector<std::string> channel_names;  ///< of every channel in the file, read or not
-  bool srgb_encoded = false;  ///< integers are display-encoded, unless the file declares them linear; floats are linear
-  bool lossy = false;         ///< from a lossy code (EXR DWAA DWAB B44 B44A PXR24, HDR, JPEG): not for goldens or packs
-  std::string compression;    ///< EXR: its method ("zip", "none", ...); else "deflate", "rgbe", "jpeg"
-  Hash128 decoded_hash;       ///< of the image's canonical bytes
+  bool srgb_encoded = false;               ///< integers are display-encoded, unless the file declares them linear; floats are linear
+  bool lossy = false;                      ///< from a lossy code (EXR DWAA DWAB B44 B44A PXR24, HDR, JPEG): not for goldens or packs
+  std::string compression;                 ///< EXR: its method ("zip", "none", ...); else "deflate", "rgbe", "jpeg"
+  Hash128 decoded_hash;                    ///< of the image's canonical bytes
   int file_width = 0, file_height = 0;
 };
 

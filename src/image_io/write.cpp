@@ -20,7 +20,8 @@ void require(bool holds, std::string_view what) {
 }
 
 /// The bytes of the file. `name` is for messages.
-std::vector<std::byte> encoded(const std::string& name, const char* format, const StoredPicture& picture, const std::vector<std::byte>& texels) try {
+std::vector<std::byte> encoded(const std::string& name, const char* format, const StoredPicture& picture,
+                               const std::vector<std::byte>& texels) try {
   auto bytes = codec().encode(format, name, picture, texels.data());
   require(bytes.has_value(), fmt::format("this OpenImageIO cannot write {} to memory", format));
   return std::move(*bytes);

@@ -64,8 +64,7 @@ double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std
 
 double bound_of(double exact, const Accuracy& a, double x) {
   // A little less, for what `exact` itself is off by.
-  return ((a.ulp + a.ulp_per_x * magnitude(x)) * enclosed::ulp_of(exact) + a.relative * magnitude(exact) + a.absolute) *
-         (1 - 0x1p-20);
+  return ((a.ulp + a.ulp_per_x * magnitude(x)) * enclosed::ulp_of(exact) + a.relative * magnitude(exact) + a.absolute) * (1 - 0x1p-20);
 }
 bool within(float r, double exact, double bound, const Accuracy& a) {
   const bool changes_sign = a.absolute == 0 && r != 0 && (r < 0) != (exact < 0);
@@ -131,8 +130,7 @@ Deviant operator/(Deviant a, Deviant b) {
   const double quotient = exact(a) / b.v;
   if (take(&Liberties::reciprocal)) {
     const Accuracy& allowed = current.liberties->rules.division;
-    if (const float r = a.v * (1.0f / b.v); within(r, quotient, bound_of(quotient, allowed, 0), allowed))
-      return finish(r, 0);
+    if (const float r = a.v * (1.0f / b.v); within(r, quotient, bound_of(quotient, allowed, 0), allowed)) return finish(r, 0);
   }
   return erring(a.v / b.v, quotient, &Profile::division);
 }
@@ -200,8 +198,7 @@ Deviant wave(float nearest, double exact, double x) {
 }
 }  // namespace
 Deviant log(Deviant a) {
-  return erring(log(reference(a)).v, log_real(Real64(exact(a))).v,
-                near_one(a) ? &Profile::log_near_one : &Profile::log);
+  return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
 }
 Deviant pow(Deviant a, Deviant b) {
   if (is(Slip::pow_squared)) return a * a;
@@ -260,9 +257,7 @@ Deviant smoothstep(float edge0, float edge1, Deviant x) {
   const Deviant t = plain::saturate((x - Deviant(edge0)) / (Deviant(edge1) - Deviant(edge0)));
   return t * t * (Deviant(3.0f) - Deviant(2.0f) * t);
 }
-Deviant uniform_quotient(float a, float b, Deviant) {
-  return current.liberties ? Deviant(a) / Deviant(b) : Deviant(a / b);
-}
+Deviant uniform_quotient(float a, float b, Deviant) { return current.liberties ? Deviant(a) / Deviant(b) : Deviant(a / b); }
 plain::Vec3<Deviant> normalize(const plain::Vec3<Deviant>& a) {
   if (is(Slip::normalize_missing)) return a;
   if (take(&Liberties::normalize_any)) {
@@ -302,8 +297,7 @@ float snapped(float x, int bits) {
 }  // namespace
 float Sampler::texel(float x) const { return is_used ? snapped(x, current.liberties->rules.subtexel_bits) : x; }
 float Sampler::level(float lod) const {
-  return current.liberties && current.liberties->rules.lod_bits > 0 ? snapped(lod, current.liberties->rules.lod_bits)
-                                                                    : lod;
+  return current.liberties && current.liberties->rules.lod_bits > 0 ? snapped(lod, current.liberties->rules.lod_bits) : lod;
 }
 
 float Sampler::blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const {
@@ -365,8 +359,7 @@ const std::vector<SlipInfo>& slips() {
       {Slip::sum_backwards, "sum backwards", "sums are added from the last term to the first"},
       {Slip::sum_otherwise_paired, "sum paired otherwise", "sums are added in other pairs"},
       {Slip::division_by_estimate, "division by estimate", "1 / b is an estimate, one ULP off"},
-      {Slip::half_intermediates, "half intermediates",
-       "intermediate results have half precision (min16float, mediump, half)"},
+      {Slip::half_intermediates, "half intermediates", "intermediate results have half precision (min16float, mediump, half)"},
       {Slip::half_constants, "half constants", "literals and uniforms have half precision"},
       {Slip::strict_for_weak, "> for >=", "a comparison with equality is strict (or < for <=)"},
       {Slip::weak_for_strict, ">= for >", "a strict comparison includes equality (or <= for <)"},

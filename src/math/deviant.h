@@ -143,21 +143,13 @@ class Deviant {
     a.factor_ = -a.factor_;
     return a;
   }
-  friend bool operator<(Deviant a, Deviant b) {
-    return behaviour().slip == Slip::weak_for_strict ? a.v <= b.v : a.v < b.v;
-  }
-  friend bool operator<=(Deviant a, Deviant b) {
-    return behaviour().slip == Slip::strict_for_weak ? a.v < b.v : a.v <= b.v;
-  }
+  friend bool operator<(Deviant a, Deviant b) { return behaviour().slip == Slip::weak_for_strict ? a.v <= b.v : a.v < b.v; }
+  friend bool operator<=(Deviant a, Deviant b) { return behaviour().slip == Slip::strict_for_weak ? a.v < b.v : a.v <= b.v; }
   friend bool operator>(Deviant a, Deviant b) { return b < a; }
   friend bool operator>=(Deviant a, Deviant b) { return b <= a; }
   friend Deviant select(bool m, Deviant a, Deviant b) { return m ? a : b; }
-  friend Deviant min(Deviant a, Deviant b) {
-    return of(behaviour().slip == Slip::minimum_missing ? a.v : b.v < a.v ? b.v : a.v);
-  }
-  friend Deviant max(Deviant a, Deviant b) {
-    return of(behaviour().slip == Slip::maximum_missing ? a.v : a.v < b.v ? b.v : a.v);
-  }
+  friend Deviant min(Deviant a, Deviant b) { return of(behaviour().slip == Slip::minimum_missing ? a.v : b.v < a.v ? b.v : a.v); }
+  friend Deviant max(Deviant a, Deviant b) { return of(behaviour().slip == Slip::maximum_missing ? a.v : a.v < b.v ? b.v : a.v); }
   friend Deviant abs(Deviant a) { return a.v < 0 && behaviour().slip != Slip::abs_missing ? -a : a; }
   friend Deviant sqrt(Deviant a);
   friend Deviant square(Deviant a) { return behaviour().slip == Slip::square_missing ? a : a * a; }

@@ -37,7 +37,9 @@ struct DoubleLanes {
     friend HWY_INLINE HWY_ATTR Int operator+(Int a, Int b) { return {hn::Add(a.i, b.i)}; }
     friend HWY_INLINE HWY_ATTR Int operator*(Int a, std::int32_t b) { return {hn::Mul(a.i, hn::Set(DI(), b))}; }
     friend HWY_INLINE HWY_ATTR Int operator*(Int a, Int b) { return {hn::Mul(a.i, b.i)}; }
-    friend HWY_INLINE HWY_ATTR Int clamp_index(Int a, Int size) { return {hn::Max(hn::Min(a.i, hn::Sub(size.i, hn::Set(DI(), 1))), hn::Zero(DI()))}; }
+    friend HWY_INLINE HWY_ATTR Int clamp_index(Int a, Int size) {
+      return {hn::Max(hn::Min(a.i, hn::Sub(size.i, hn::Set(DI(), 1))), hn::Zero(DI()))};
+    }
     friend HWY_INLINE HWY_ATTR Int wrap_index(Int a, Int size) {
       const auto below = hn::Lt(a.i, hn::Zero(DI())), within = hn::Lt(a.i, size.i);
       return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
@@ -84,7 +86,9 @@ struct DoubleLanes {
 
   friend HWY_INLINE HWY_ATTR DoubleLanes exp(DoubleLanes a) { return exp_real(Real64Lanes(a.v)); }
   friend HWY_INLINE HWY_ATTR DoubleLanes atan2(DoubleLanes y, DoubleLanes x) { return atan2_real(Real64Lanes(y.v), Real64Lanes(x.v)); }
-  friend HWY_INLINE HWY_ATTR DoubleLanes fetch(const float* texels, Int offset, DoubleLanes) { return widen(hn::GatherIndex(NarrowTag(), texels, offset.i)); }
+  friend HWY_INLINE HWY_ATTR DoubleLanes fetch(const float* texels, Int offset, DoubleLanes) {
+    return widen(hn::GatherIndex(NarrowTag(), texels, offset.i));
+  }
 };
 
 }  // namespace HWY_NAMESPACE

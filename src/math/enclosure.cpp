@@ -34,7 +34,8 @@ Range products(Enclosure a, Enclosure b) {
 Enclosure product(Range r) {
   const Profile& p = profile();
   const bool nearest = p.basic == BasicRounding::nearest;
-  Enclosure out = nearest ? Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high)) : Enclosure::checked(float_below(r.low), float_above(r.high));
+  Enclosure out = nearest ? Enclosure::checked(static_cast<float>(r.low), static_cast<float>(r.high))
+                          : Enclosure::checked(float_below(r.low), float_above(r.high));
   if (p.contraction && !out.is_vacuous()) {
     out.is_product = true;
     out.product_lo = r.low;
@@ -121,16 +122,14 @@ Enclosure operator/(Enclosure a, Enclosure b) {
 
 Enclosure inverse_sqrt(Enclosure a) {
   if (a.is_vacuous() || a.lo <= 0) return Enclosure::vacuous();
-  const double low = 1 / __builtin_sqrt(static_cast<double>(a.hi)),
-               high = 1 / __builtin_sqrt(static_cast<double>(a.lo));
+  const double low = 1 / __builtin_sqrt(static_cast<double>(a.hi)), high = 1 / __builtin_sqrt(static_cast<double>(a.lo));
   return widened(low, high, profile().inverse_sqrt, 0);
 }
 
 Enclosure sqrt(Enclosure a) {
   const Profile& p = profile();
   if (a.is_vacuous() || a.lo < 0) return Enclosure::vacuous();
-  if (p.reference || (p.sqrt.is_zero() && !p.sqrt_is_inherited))
-    return Enclosure::checked(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi));
+  if (p.reference || (p.sqrt.is_zero() && !p.sqrt_is_inherited)) return Enclosure::checked(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi));
   // The root of 0 is 0 by every formula: 1 / infinity.
   const Enclosure positive(a.lo > 0 ? a.lo : std::min(smallest_normal, a.hi), a.hi);
   if (a.hi == 0) return Enclosure(0.0f);
@@ -138,8 +137,7 @@ Enclosure sqrt(Enclosure a) {
   if (p.sqrt_is_inherited) {
     root = Enclosure(1.0f) / inverse_sqrt(positive);
   } else {
-    root = widened(__builtin_sqrt(static_cast<double>(positive.lo)), __builtin_sqrt(static_cast<double>(positive.hi)),
-                   p.sqrt, 0);
+    root = widened(__builtin_sqrt(static_cast<double>(positive.lo)), __builtin_sqrt(static_cast<double>(positive.hi)), p.sqrt, 0);
   }
   if (root.is_vacuous()) return root;
   return {a.lo > 0 ? std::max(root.lo, 0.0f) : 0.0f, root.hi};

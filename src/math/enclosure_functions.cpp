@@ -177,8 +177,8 @@ plain::Vec3<Enclosure> normalize(const plain::Vec3<Enclosure>& a) {
   const Enclosure length = sqrt(squared), inverse = Enclosure(1.0f) / length, direct = inverse_sqrt(squared);
   // No component is longer than the whole, but for the errors of the formulas: two divisions, a root, a sum and
   // products.
-  const double slack = (10 + 2 * p.division.ulp + p.sqrt.ulp + 2 * p.inverse_sqrt.ulp) * 0x1p-23 +
-                       2 * p.division.relative + p.sqrt.relative + 2 * p.inverse_sqrt.relative;
+  const double slack = (10 + 2 * p.division.ulp + p.sqrt.ulp + 2 * p.inverse_sqrt.ulp) * 0x1p-23 + 2 * p.division.relative +
+                       p.sqrt.relative + 2 * p.inverse_sqrt.relative;
   const float limit = float_above(1 + slack);
   const auto component = [&](Enclosure c) {
     const Enclosure any = hull(hull(inverse * c, c / length), c * direct);

@@ -25,9 +25,9 @@
 #undef RAINREF_TARGET_BEGIN
 #undef RAINREF_TARGET_END
 // The target comes last: GCC 14 forgets what a macro says after the pragma in it.
-#define RAINREF_TARGET_BEGIN(room) \
-  namespace rainref::room::HWY_NAMESPACE { \
-  using namespace rainref::HWY_NAMESPACE;  /* NOLINT: the room's kernels read the lane type of their own target */ \
+#define RAINREF_TARGET_BEGIN(room)                                                                                \
+  namespace rainref::room::HWY_NAMESPACE {                                                                        \
+  using namespace rainref::HWY_NAMESPACE; /* NOLINT: the room's kernels read the lane type of their own target */ \
   HWY_BEFORE_NAMESPACE();
 #define RAINREF_TARGET_END(room) \
   }                              \

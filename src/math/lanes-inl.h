@@ -234,8 +234,8 @@ HWY_INLINE void store4(Half* p, const Lanes (&c)[4], Rounding rounding) {
                         Lanes::DH(), reinterpret_cast<std::uint16_t*>(p));
 }
 HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
-  hn::StoreInterleaved4(c[0].unorm8_codes(rounding), c[1].unorm8_codes(rounding), c[2].unorm8_codes(rounding),
-                        c[3].unorm8_codes(rounding), Lanes::DB(), reinterpret_cast<std::uint8_t*>(p));
+  hn::StoreInterleaved4(c[0].unorm8_codes(rounding), c[1].unorm8_codes(rounding), c[2].unorm8_codes(rounding), c[3].unorm8_codes(rounding),
+                        Lanes::DB(), reinterpret_cast<std::uint8_t*>(p));
 }
 
 #define RAINREF_FN HWY_INLINE HWY_ATTR

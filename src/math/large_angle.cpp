@@ -25,8 +25,7 @@ ReducedAngle reduce_large_angle(double x) {
   std::uint64_t carry_low = 0, carry_high = 0;
   std::uint64_t previous = 0;  // the window word one place below
   for (int i = window_words - 1; i >= 0; --i) {
-    const std::uint64_t pair =
-        std::uint64_t{coefficients::two_over_pi_bits[word + i]} << 32 | coefficients::two_over_pi_bits[word + i + 1];
+    const std::uint64_t pair = std::uint64_t{coefficients::two_over_pi_bits[word + i]} << 32 | coefficients::two_over_pi_bits[word + i + 1];
     const std::uint64_t window = (pair << shift) >> 32;
     const std::uint64_t low = m_low * window + carry_low;
     const std::uint64_t sum = m_high * previous + (low & 0xffffffffu) + carry_high;

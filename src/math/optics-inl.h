@@ -19,7 +19,9 @@ RAINREF_FN N fresnel_dielectric(N cos_i, Ratio eta) {
 }
 /// Beer's law: exp(-extinction * path).
 template <class N>
-RAINREF_FN N transmittance(N extinction, N path) { return exp(-(extinction * path)); }
+RAINREF_FN N transmittance(N extinction, N path) {
+  return exp(-(extinction * path));
+}
 
 /// Linear radiance to sRGB code values, components in [0, 1] (IEC 61966-2-1).
 template <class N>
@@ -32,4 +34,6 @@ RAINREF_FN Vec3<N> encode_srgb(const Vec3<N>& c) {
 }
 /// The same of any radiance, held within [0, 1] first.
 template <class N>
-RAINREF_FN Vec3<N> display_code(const Vec3<N>& c) { return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z))); }
+RAINREF_FN Vec3<N> display_code(const Vec3<N>& c) {
+  return encode_srgb(Vec3<N>(saturate(c.x), saturate(c.y), saturate(c.z)));
+}

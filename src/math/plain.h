@@ -59,7 +59,9 @@ struct Plain {
   Plain(U x) : v(x) {}
 
   template <class Storage>
-  static Plain load(const Storage* p) { return Plain(static_cast<T>(to_float(*p))); }
+  static Plain load(const Storage* p) {
+    return Plain(static_cast<T>(to_float(*p)));
+  }
   /// The number first + lane, exact below 2^24.
   static Plain index(int first) { return Plain(static_cast<T>(first)); }
   static Int uniform_int(int value) { return {value}; }
@@ -78,8 +80,10 @@ struct Plain {
   friend Plain max(Plain a, Plain b) { return a.v < b.v ? b : a; }
   friend Plain abs(Plain a) { return a.v < 0 ? Plain(-a.v) : a; }
   friend Plain sqrt(Plain a) {
-    if constexpr (std::is_same_v<T, float>) return Plain(__builtin_sqrtf(a.v));
-    else return Plain(__builtin_sqrt(a.v));
+    if constexpr (std::is_same_v<T, float>)
+      return Plain(__builtin_sqrtf(a.v));
+    else
+      return Plain(__builtin_sqrt(a.v));
   }
   friend Plain square(Plain a) { return a * a; }
   /// Largest integer not above a; the zero is positive.
@@ -109,8 +113,10 @@ struct Plain {
 
  private:
   static Plain real(Real64 x) {
-    if constexpr (std::is_same_v<T, float>) return Plain(round_to_float(x));
-    else return Plain(x.v);
+    if constexpr (std::is_same_v<T, float>)
+      return Plain(round_to_float(x));
+    else
+      return Plain(x.v);
   }
 };
 

@@ -51,7 +51,7 @@ struct Profile {
   bool pow_is_inherited = false;  ///< pow is exp2(y log2 x); `pow` does not count
   Accuracy sin_cos;               ///< for |x| <= sin_cos_domain
   double sin_cos_domain = 0;      ///< 0: every float
-  double sin_cos_beyond = 0;  ///< error for each unit of |x| beyond the domain, by convention; 0: nothing is promised
+  double sin_cos_beyond = 0;      ///< error for each unit of |x| beyond the domain, by convention; 0: nothing is promised
   Accuracy atan2;
 
   /// Fractional bits of the coordinate of a filtered lookup; 0: filters are computed like any other arithmetic.

@@ -53,24 +53,17 @@ struct Real64 {
   /// For a whole number k carried as whole_bias + k: whether k is odd.
   friend Mask is_odd(Real64 biased) { return (biased.bits() & 1) != 0; }
   /// a, negated where k modulo 4 is 2 or 3.
-  friend Real64 flip_sign_in_half_turn(Real64 a, Real64 biased) {
-    return from_bits(a.bits() ^ ((biased.bits() & 2) << 62));
-  }
+  friend Real64 flip_sign_in_half_turn(Real64 a, Real64 biased) { return from_bits(a.bits() ^ ((biased.bits() & 2) << 62)); }
   /// a 2^k. Exact; a and the result must be normal.
   friend Real64 scale_by_power_of_two(Real64 a, Real64 biased) { return from_bits(a.bits() + (biased.bits() << 52)); }
   /// For a positive normal a: the whole number k with a 2^-k in [sqrt(1/2), sqrt(2)).
-  friend Real64 binary_exponent(Real64 a) {
-    return from_bits(((a.bits() + exponent_offset) >> 52) | two_to_52) - (0x1p52 + 1024);
-  }
+  friend Real64 binary_exponent(Real64 a) { return from_bits(((a.bits() + exponent_offset) >> 52) | two_to_52) - (0x1p52 + 1024); }
 
   /// Where x > largest_small_angle, puts its reduction in turns and rest.
-  friend void reduce_large_angles(Real64 x, Real64& turns, Real64& rest) {
-    reduce_large_angles(&x.v, &turns.v, &rest.v, 1);
-  }
+  friend void reduce_large_angles(Real64 x, Real64& turns, Real64& rest) { reduce_large_angles(&x.v, &turns.v, &rest.v, 1); }
 
   /// Bits of binary_exponent: adding the offset to the bits of a double puts 1024 + k in their upper 12.
-  static constexpr std::uint64_t exponent_offset =
-      std::bit_cast<std::uint64_t>(2.0) - std::bit_cast<std::uint64_t>(0x1.6a09e667f3bcdp-1);
+  static constexpr std::uint64_t exponent_offset = std::bit_cast<std::uint64_t>(2.0) - std::bit_cast<std::uint64_t>(0x1.6a09e667f3bcdp-1);
   static constexpr std::uint64_t two_to_52 = std::bit_cast<std::uint64_t>(0x1p52);
   static constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63;
 

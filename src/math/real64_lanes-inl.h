@@ -61,9 +61,7 @@ struct Real64Lanes {
   friend HWY_INLINE HWY_ATTR Mask operator<=(Real64Lanes a, Real64Lanes b) { return {hn::Le(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator>(Real64Lanes a, Real64Lanes b) { return {hn::Gt(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator>=(Real64Lanes a, Real64Lanes b) { return {hn::Ge(a.v, b.v)}; }
-  friend HWY_INLINE HWY_ATTR Real64Lanes select(Mask m, Real64Lanes a, Real64Lanes b) {
-    return hn::IfThenElse(m.m, a.v, b.v);
-  }
+  friend HWY_INLINE HWY_ATTR Real64Lanes select(Mask m, Real64Lanes a, Real64Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
   static HWY_INLINE HWY_ATTR bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
 
   friend HWY_INLINE HWY_ATTR Real64Lanes abs(Real64Lanes a) { return hn::Abs(a.v); }
@@ -103,9 +101,7 @@ struct Real64Lanes {
   HWY_INLINE HWY_ATTR VU bits() const { return hn::BitCast(DU(), v); }
   static HWY_INLINE HWY_ATTR V from_bits(VU bits) { return hn::BitCast(D(), bits); }
   /// The mask of lanes that hold 1, all others holding 0.
-  static HWY_INLINE HWY_ATTR Mask from_lowest_bit(VU bit) {
-    return {hn::MaskFromVec(from_bits(hn::Sub(hn::Zero(DU()), bit)))};
-  }
+  static HWY_INLINE HWY_ATTR Mask from_lowest_bit(VU bit) { return {hn::MaskFromVec(from_bits(hn::Sub(hn::Zero(DU()), bit)))}; }
 };
 
 /// Several vectors of doubles, operation by operation in turn: the halves of a vector of floats, or pairs of pairs for
@@ -123,9 +119,9 @@ struct Real64Pair {
   HWY_INLINE HWY_ATTR Real64Pair(A low, B high) : lower(low), upper(high) {}
   HWY_INLINE HWY_ATTR Real64Pair(double x) : lower(x), upper(x) {}
 
-#define RAINREF_PAIRWISE(result, op)                                                               \
-  friend HWY_INLINE HWY_ATTR result operator op(const Real64Pair& a, const Real64Pair& b) {        \
-    return {a.lower op b.lower, a.upper op b.upper};                                               \
+#define RAINREF_PAIRWISE(result, op)                                                        \
+  friend HWY_INLINE HWY_ATTR result operator op(const Real64Pair& a, const Real64Pair& b) { \
+    return {a.lower op b.lower, a.upper op b.upper};                                        \
   }
   RAINREF_PAIRWISE(Real64Pair, +)
   RAINREF_PAIRWISE(Real64Pair, -)
@@ -136,9 +132,9 @@ struct Real64Pair {
   RAINREF_PAIRWISE(Mask, >)
   RAINREF_PAIRWISE(Mask, >=)
 #undef RAINREF_PAIRWISE
-#define RAINREF_PAIRWISE(function)                                                                 \
-  friend HWY_INLINE HWY_ATTR Real64Pair function(const Real64Pair& a, const Real64Pair& b) {       \
-    return {function(a.lower, b.lower), function(a.upper, b.upper)};                               \
+#define RAINREF_PAIRWISE(function)                                                           \
+  friend HWY_INLINE HWY_ATTR Real64Pair function(const Real64Pair& a, const Real64Pair& b) { \
+    return {function(a.lower, b.lower), function(a.upper, b.upper)};                         \
   }
   RAINREF_PAIRWISE(flip_sign)
   RAINREF_PAIRWISE(flip_sign_in_half_turn)
@@ -150,7 +146,9 @@ struct Real64Pair {
   }
   static HWY_INLINE HWY_ATTR bool any(const Mask& m) { return A::any(m.lower) || B::any(m.upper); }
   friend HWY_INLINE HWY_ATTR Real64Pair abs(const Real64Pair& a) { return {abs(a.lower), abs(a.upper)}; }
-  friend HWY_INLINE HWY_ATTR Real64Pair binary_exponent(const Real64Pair& a) { return {binary_exponent(a.lower), binary_exponent(a.upper)}; }
+  friend HWY_INLINE HWY_ATTR Real64Pair binary_exponent(const Real64Pair& a) {
+    return {binary_exponent(a.lower), binary_exponent(a.upper)};
+  }
   friend HWY_INLINE HWY_ATTR Mask has_sign_bit(const Real64Pair& a) { return {has_sign_bit(a.lower), has_sign_bit(a.upper)}; }
   friend HWY_INLINE HWY_ATTR Mask is_odd(const Real64Pair& a) { return {is_odd(a.lower), is_odd(a.upper)}; }
   friend HWY_INLINE HWY_ATTR void reduce_large_angles(const Real64Pair& x, Real64Pair& turns, Real64Pair& rest) {
@@ -173,9 +171,7 @@ using NarrowTag = hn::Rebind<float, Real64Lanes::D>;
 HWY_INLINE Real64Lanes widen(hn::Vec<NarrowTag> x) { return hn::PromoteTo(Real64Lanes::D(), x); }
 
 /// The one rounding to float, as round_to_float(Real64).
-HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) {
-  return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v);
-}
+HWY_INLINE hn::Vec<NarrowTag> round_to_float(Real64Lanes x) { return hn::DemoteTo(NarrowTag(), saturate_to_float(x).v); }
 
 /// The doubles of a vector of floats, and back. The scalar target has one lane and no halves.
 #if HWY_TARGET == HWY_SCALAR

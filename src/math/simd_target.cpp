@@ -16,9 +16,8 @@ struct Named {
   std::int64_t bit;
 };
 // EMU128 is what Highway builds in place of SCALAR with clang: the same operations on arrays of four.
-constexpr Named known[] = {{"avx3", HWY_AVX3},   {"avx2", HWY_AVX2},     {"sse4", HWY_SSE4},
-                           {"ssse3", HWY_SSSE3}, {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128},
-                           {"neon", HWY_NEON}};
+constexpr Named known[] = {{"avx3", HWY_AVX3},     {"avx2", HWY_AVX2},     {"sse4", HWY_SSE4}, {"ssse3", HWY_SSSE3},
+                           {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128}, {"neon", HWY_NEON}};
 
 std::int64_t usable() {
   static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
@@ -52,9 +51,12 @@ void select_simd_target(std::string_view name) {
   if (bit == 0) {
     const std::vector<std::string> here = simd_targets();
     // AVX-512 is the one target whose usual name is not near the one here.
-    const bool is_avx512 = name.starts_with("avx512") || name.starts_with("AVX512") || name.starts_with("avx-512") || name.starts_with("AVX-512");
+    const bool is_avx512 =
+        name.starts_with("avx512") || name.starts_with("AVX512") || name.starts_with("avx-512") || name.starts_with("AVX-512");
     throw Error(ExitCode::usage, fmt::format("SIMD target '{}': this machine has {}{}", name, fmt::join(here, ", "),
-                                             !is_avx512 ? did_you_mean(name, here) : here.front() == "avx3" ? "; did you mean 'avx3'?" : "; AVX-512 is called avx3, which is not among them"));
+                                             !is_avx512               ? did_you_mean(name, here)
+                                             : here.front() == "avx3" ? "; did you mean 'avx3'?"
+                                                                      : "; AVX-512 is called avx3, which is not among them"));
   }
   hwy::SetSupportedTargetsForTest(bit);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());

@@ -73,12 +73,8 @@ void exp2_array(const float* x, float* out, std::size_t count) { HWY_DYNAMIC_DIS
 void log_array(const float* x, float* out, std::size_t count) { HWY_DYNAMIC_DISPATCH(log_kernel)(x, out, count); }
 void sin_array(const float* x, float* out, std::size_t count) { HWY_DYNAMIC_DISPATCH(sin_kernel)(x, out, count); }
 void cos_array(const float* x, float* out, std::size_t count) { HWY_DYNAMIC_DISPATCH(cos_kernel)(x, out, count); }
-void pow_array(const float* x, const float* y, float* out, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(pow_kernel)(x, y, out, count);
-}
-void atan2_array(const float* y, const float* x, float* out, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(atan2_kernel)(y, x, out, count);
-}
+void pow_array(const float* x, const float* y, float* out, std::size_t count) { HWY_DYNAMIC_DISPATCH(pow_kernel)(x, y, out, count); }
+void atan2_array(const float* y, const float* x, float* out, std::size_t count) { HWY_DYNAMIC_DISPATCH(atan2_kernel)(y, x, out, count); }
 
 }  // namespace rainref
 #endif  // HWY_ONCE

@@ -9,23 +9,35 @@
 // ---- sums ----------------------------------------------------------------------------------------------------------
 // The order of these sums is free to a GPU. The reference adds from left to right.
 template <class N>
-RAINREF_FN N sum_any_order(N a, N b, N c) { return (a + b) + c; }
+RAINREF_FN N sum_any_order(N a, N b, N c) {
+  return (a + b) + c;
+}
 template <class N>
-RAINREF_FN N sum_any_order(N a, N b, N c, N d) { return ((a + b) + c) + d; }
+RAINREF_FN N sum_any_order(N a, N b, N c, N d) {
+  return ((a + b) + c) + d;
+}
 /// (a + b) + (c + d): symmetric in the pairs and within each.
 template <class N>
-RAINREF_FN N sum_any_order_in_pairs(N a, N b, N c, N d) { return (a + b) + (c + d); }
+RAINREF_FN N sum_any_order_in_pairs(N a, N b, N c, N d) {
+  return (a + b) + (c + d);
+}
 
 // ---- uniforms ------------------------------------------------------------------------------------------------------
 /// a / b of two uniforms: the same for every element, but by the arithmetic of the device.
 template <class N>
-RAINREF_FN N uniform_quotient(float a, float b, N) { return N(a / b); }
+RAINREF_FN N uniform_quotient(float a, float b, N) {
+  return N(a / b);
+}
 
 // ---- shaping -------------------------------------------------------------------------------------------------------
 template <class N>
-RAINREF_FN N clamp(N x, N low, N high) { return min(max(x, low), high); }
+RAINREF_FN N clamp(N x, N low, N high) {
+  return min(max(x, low), high);
+}
 template <class N>
-RAINREF_FN N saturate(N x) { return clamp(x, N(0.0f), N(1.0f)); }
+RAINREF_FN N saturate(N x) {
+  return clamp(x, N(0.0f), N(1.0f));
+}
 /// t t (3 - 2 t) with t = saturate((x - edge0) / (edge1 - edge0)). Defined here for edge0 > edge1 too, where GLSL leaves it open.
 template <class N>
 RAINREF_FN N smoothstep(float edge0, float edge1, N x) {
@@ -56,23 +68,35 @@ struct Vec3 {
   friend RAINREF_FN Vec3 operator*(N s, const Vec3& a) { return Vec3(s * a.x, s * a.y, s * a.z); }
 };
 template <class N>
-RAINREF_FN N dot(const Vec3<N>& a, const Vec3<N>& b) { return sum_any_order(a.x * b.x, a.y * b.y, a.z * b.z); }
+RAINREF_FN N dot(const Vec3<N>& a, const Vec3<N>& b) {
+  return sum_any_order(a.x * b.x, a.y * b.y, a.z * b.z);
+}
 template <class N>
-RAINREF_FN N length(N x, N y) { return sqrt(square(x) + square(y)); }
+RAINREF_FN N length(N x, N y) {
+  return sqrt(square(x) + square(y));
+}
 template <class N>
-RAINREF_FN N length(const Vec3<N>& a) { return sqrt(sum_any_order(square(a.x), square(a.y), square(a.z))); }
+RAINREF_FN N length(const Vec3<N>& a) {
+  return sqrt(sum_any_order(square(a.x), square(a.y), square(a.z)));
+}
 /// a / |a|, by one division; a must not be zero.
 template <class N>
-RAINREF_FN Vec3<N> normalize(const Vec3<N>& a) { return (N(1.0f) / length(a)) * a; }
+RAINREF_FN Vec3<N> normalize(const Vec3<N>& a) {
+  return (N(1.0f) / length(a)) * a;
+}
 template <class M, class N>
 RAINREF_FN Vec3<N> select(M m, const Vec3<N>& a, const Vec3<N>& b) {
   return Vec3<N>(select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z));
 }
 template <class N>
-RAINREF_FN Vec3<N> mix(const Vec3<N>& a, const Vec3<N>& b, N t) { return Vec3<N>(mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t)); }
+RAINREF_FN Vec3<N> mix(const Vec3<N>& a, const Vec3<N>& b, N t) {
+  return Vec3<N>(mix(a.x, b.x, t), mix(a.y, b.y, t), mix(a.z, b.z, t));
+}
 /// Component by component. Lanes evaluate the three side by side.
 template <class N>
-RAINREF_FN Vec3<N> pow(const Vec3<N>& a, N b) { return Vec3<N>(pow(a.x, b), pow(a.y, b), pow(a.z, b)); }
+RAINREF_FN Vec3<N> pow(const Vec3<N>& a, N b) {
+  return Vec3<N>(pow(a.x, b), pow(a.y, b), pow(a.z, b));
+}
 /// Two numbers for which a function is wanted; lanes evaluate them side by side.
 template <class N>
 struct Two {
@@ -80,10 +104,14 @@ struct Two {
   RAINREF_FN Two(N a_, N b_) : a(a_), b(b_) {}
 };
 template <class N>
-RAINREF_FN Two<N> atan2(const Two<N>& y, const Two<N>& x) { return Two<N>(atan2(y.a, x.a), atan2(y.b, x.b)); }
+RAINREF_FN Two<N> atan2(const Two<N>& y, const Two<N>& x) {
+  return Two<N>(atan2(y.a, x.a), atan2(y.b, x.b));
+}
 /// v - 2 (n . v) n
 template <class N>
-RAINREF_FN Vec3<N> reflect(const Vec3<N>& v, const Vec3<N>& n) { return v - (N(2.0f) * dot(n, v)) * n; }
+RAINREF_FN Vec3<N> reflect(const Vec3<N>& v, const Vec3<N>& n) {
+  return v - (N(2.0f) * dot(n, v)) * n;
+}
 /// Snell's refraction of unit v at unit n (against v), eta = n1 / n2; zero vector at total internal reflection. The ratio
 /// is a float, or a double where N takes one.
 template <class N, class Ratio>

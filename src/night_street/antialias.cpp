@@ -47,8 +47,8 @@ bool differs(const Centres& centres, int x, int y, Edge edge) {
 
 }  // namespace
 
-Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of,
-                  const AtCentre& at_centre, const parallel::Executor& executor) {
+Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of, const AtCentre& at_centre,
+                  const parallel::Executor& executor) {
   Image image(Format::rgba32f, width, height);
   const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   Centres centres{width,

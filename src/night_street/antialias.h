@@ -20,7 +20,7 @@ enum class Edge : std::uint8_t { clamp, wrap };
 
 /// An rgba32f image of linear radiance, alpha 1. A texel is the mean of its 9 parts, or of the three on a diagonal, where
 /// it differs from a neighbour in object or in brightness, and its centre alone elsewhere. Nothing is clamped.
-Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of,
-                  const AtCentre& at_centre, const parallel::Executor& executor);
+Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of, const AtCentre& at_centre,
+                  const parallel::Executor& executor);
 
 }  // namespace rainref::night_street

@@ -7,8 +7,7 @@ namespace {
 
 constexpr std::array<Vec, 7> neon{Vec{9, 0.35, 5.2},  Vec{0.4, 6.5, 8.2}, Vec{10, 0.5, 0.35}, Vec{0.5, 8, 1.6},
                                   Vec{9.5, 4.2, 0.4}, Vec{2.0, 1.4, 10},  Vec{9, 0.9, 2.2}};
-constexpr std::array<std::string_view, 9> upright_words{"HOTEL", "BAR",   "CAFE", "KINO", "RAMEN",
-                                                        "CLUB",  "PIZZA", "DELI", "TAXI"};
+constexpr std::array<std::string_view, 9> upright_words{"HOTEL", "BAR", "CAFE", "KINO", "RAMEN", "CLUB", "PIZZA", "DELI", "TAXI"};
 constexpr std::array<std::string_view, 10> level_words{"NOODLES", "BOOKS",  "COFFEE", "FLOWERS",  "PHARMACY",
                                                        "TAILOR",  "MARKET", "CINEMA", "LATE BAR", "RECORDS"};
 
@@ -39,8 +38,7 @@ Lot draw_lot(const City& city, std::uint64_t id, double z) {
   lot.wall = (0.75 + 0.5 * r(Purpose::lot_tone)) * pick(walls, r(Purpose::lot_wall));
   const double kind = r(Purpose::lot_shop);
   lot.shop = kind < 0.42 ? Shop::glazed : kind < 0.66 ? Shop::cafe : kind < 0.82 ? Shop::shutter : Shop::entrance;
-  constexpr std::array<Vec, 4> lights{Vec{1.55, 1.35, 1.05}, Vec{1.1, 1.45, 1.6}, Vec{1.8, 1.15, 0.55},
-                                      Vec{1.7, 1.05, 1.2}};
+  constexpr std::array<Vec, 4> lights{Vec{1.55, 1.35, 1.05}, Vec{1.1, 1.45, 1.6}, Vec{1.8, 1.15, 0.55}, Vec{1.7, 1.05, 1.2}};
   lot.shop_light = lot.shop == Shop::cafe ? Vec{1.8, 0.92, 0.32} : pick(lights, r(Purpose::lot_light));
   return lot;
 }
@@ -53,9 +51,7 @@ std::string_view deal(const City& city, const List& list, Purpose purpose, std::
 }
 
 /// A few signs are about to die.
-double brightness(const City& city, const Lot& lot) {
-  return city.random(lot.id, Purpose::sign_fault) < 0.07 ? 0.2 : 1;
-}
+double brightness(const City& city, const Lot& lot) { return city.random(lot.id, Purpose::sign_fault) < 0.07 ? 0.2 : 1; }
 
 void add_fascia(City& city, Lot& lot, double side) {
   const std::string_view text = deal(city, level_words, Purpose::fascia_word, lot.id + lot.id / 20000, 3);
@@ -65,14 +61,8 @@ void add_fascia(City& city, Lot& lot, double side) {
   const Vec colour = pick(neon, city.random(lot.id, Purpose::sign_colour));
   lot.fascia = static_cast<int>(city.signs.size());
   const double x = side * lot.front;
-  city.signs.push_back({text,
-                        0.8 * colour,
-                        false,
-                        unit,
-                        {{x, 3.36, middle - width / 2 - 0.2}, {x, 4.0, middle + width / 2 + 0.2}},
-                        share});
-  city.sources.push_back(
-      {{side * (lot.front - 0.35), 3.6, middle}, (0.07 * share * width) * colour, {}, 0, 0, 0.6, false});
+  city.signs.push_back({text, 0.8 * colour, false, unit, {{x, 3.36, middle - width / 2 - 0.2}, {x, 4.0, middle + width / 2 + 0.2}}, share});
+  city.sources.push_back({{side * (lot.front - 0.35), 3.6, middle}, (0.07 * share * width) * colour, {}, 0, 0, 0.6, false});
 }
 
 void add_blade(City& city, const Lot& lot, double side) {
@@ -95,20 +85,18 @@ void add_blade(City& city, const Lot& lot, double side) {
 }
 
 void add_awning(City& city, const Lot& lot, double side) {
-  constexpr std::array<Vec, 4> cloths{Vec{0.25, 0.03, 0.03}, Vec{0.03, 0.13, 0.06}, Vec{0.04, 0.06, 0.16},
-                                      Vec{0.3, 0.24, 0.16}};
+  constexpr std::array<Vec, 4> cloths{Vec{0.25, 0.03, 0.03}, Vec{0.03, 0.13, 0.06}, Vec{0.04, 0.06, 0.16}, Vec{0.3, 0.24, 0.16}};
   const int cloth = city.add_material({pick(cloths, city.random(lot.id, Purpose::awning)), {}, 0.02, false});
   const double depth = 1.25, top = 3.3, drop = 0.55, z0 = lot.z0 + 0.7, z1 = lot.z1 - 0.7;
   const double wall = lot.front, lip = lot.front - depth;
   const Vec slope = unit({-side * drop, depth, 0});
-  city.add_convex(
-      {{slope, dot(slope, {side * wall, top, 0})},
-       {{0, 0, 1}, z1},
-       {{0, 0, -1}, -z0},
-       {{-side, 0, 0}, -lip},
-       {{side, 0, 0}, wall},
-       {{0, -1, 0}, -(top - drop - 0.2)}},
-      {{min_of(side * lip, side * wall), top - drop - 0.21, z0}, {max_of(side * lip, side * wall), top, z1}}, cloth);
+  city.add_convex({{slope, dot(slope, {side * wall, top, 0})},
+                   {{0, 0, 1}, z1},
+                   {{0, 0, -1}, -z0},
+                   {{-side, 0, 0}, -lip},
+                   {{side, 0, 0}, wall},
+                   {{0, -1, 0}, -(top - drop - 0.2)}},
+                  {{min_of(side * lip, side * wall), top - drop - 0.21, z0}, {max_of(side * lip, side * wall), top, z1}}, cloth);
 }
 
 }  // namespace

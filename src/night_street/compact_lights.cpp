@@ -14,7 +14,7 @@
 RAINREF_TARGET_BEGIN(night_street)
 namespace {
 
-constexpr double halo_reach = 30;  ///< metres from a source at which its halo has faded to nothing
+constexpr double halo_reach = 30;                         ///< metres from a source at which its halo has faded to nothing
 constexpr float aureole = 0.0040f, aureole_core = 0.03f;  ///< the tight glow: weight, and squared metres of its core
 constexpr float veil = 0.0070f, veil_core = 5.0f;         ///< the wide one
 constexpr float faded = aureole / (900 + aureole_core) + veil / (900 + veil_core);  ///< both at halo_reach
@@ -24,9 +24,7 @@ constexpr float lobe_end = 1 / (1 + 5.4f * 5.4f);
 struct Sum {
   float red[8] = {}, green[8] = {}, blue[8] = {};
   Vec total() const {
-    const auto fold = [](const float* a) {
-      return static_cast<double>(((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])));
-    };
+    const auto fold = [](const float* a) { return static_cast<double>(((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))); };
     return {fold(red), fold(green), fold(blue)};
   }
 };
@@ -37,10 +35,8 @@ inline float positive(float a) { return 0.5f * (a + std::fabs(a)); }
 }  // namespace
 
 Vec Halo(const LightGroup* groups, std::size_t count, const Ray& ray, double farthest) {
-  const auto ox = static_cast<float>(ray.origin.x), oy = static_cast<float>(ray.origin.y),
-             oz = static_cast<float>(ray.origin.z);
-  const auto dx = static_cast<float>(ray.direction.x), dy = static_cast<float>(ray.direction.y),
-             dz = static_cast<float>(ray.direction.z);
+  const auto ox = static_cast<float>(ray.origin.x), oy = static_cast<float>(ray.origin.y), oz = static_cast<float>(ray.origin.z);
+  const auto dx = static_cast<float>(ray.direction.x), dy = static_cast<float>(ray.direction.y), dz = static_cast<float>(ray.direction.z);
   const auto end = static_cast<float>(farthest);
   const Vec last = ray.at(farthest);
   const double z0 = min_of(ray.origin.z, last.z) - halo_reach, z1 = max_of(ray.origin.z, last.z) + halo_reach;
@@ -105,8 +101,7 @@ Vec Highlight(const LightGroup* groups, std::size_t count, const Vec& point, con
       const float fresnel = 0.02f + 0.98f * graze2 * graze2 * graze;
       const float towards = positive(-g.facing[i] * uz);
       const float shown = g.aside[i] + (1 - g.aside[i]) * towards * towards;
-      const float weight =
-          shown * lobe * lobe * fresnel * nl * 0.31830989f / (wide2 * view_shadow * (nl * (1 - k) + k) * squared);
+      const float weight = shown * lobe * lobe * fresnel * nl * 0.31830989f / (wide2 * view_shadow * (nl * (1 - k) + k) * squared);
       sum.red[i] += weight * g.red[i];
       sum.green[i] += weight * g.green[i];
       sum.blue[i] += weight * g.blue[i];
@@ -128,8 +123,7 @@ CompactLights::CompactLights(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     if (source.compact) ordered.push_back(&source);
   }
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const Source* a, const Source* b) { return a->position.z < b->position.z; });
+  std::stable_sort(ordered.begin(), ordered.end(), [](const Source* a, const Source* b) { return a->position.z < b->position.z; });
   for (std::size_t first = 0; first < ordered.size(); first += LightGroup::lanes) {
     LightGroup group{};  // lanes without a source keep zero light
     const Vec place = ordered[first]->position;
@@ -160,7 +154,9 @@ CompactLights::CompactLights(const std::vector<Source>& sources) {
   }
 }
 
-Vec CompactLights::halo(const Ray& ray, double farthest) const { return RAINREF_DISPATCH(Halo)(groups_.data(), groups_.size(), ray, farthest); }
+Vec CompactLights::halo(const Ray& ray, double farthest) const {
+  return RAINREF_DISPATCH(Halo)(groups_.data(), groups_.size(), ray, farthest);
+}
 Vec CompactLights::highlight(const Vec& point, const Vec& view, const Vec& normal, double roughness) const {
   return RAINREF_DISPATCH(Highlight)(groups_.data(), groups_.size(), point, view, normal, roughness);
 }

@@ -73,17 +73,11 @@ void build_signals(City& city) {
 }
 
 void build_walkers(City& city) {
-  constexpr std::array<Vec, 5> canopies{Vec{0.02, 0.02, 0.025}, Vec{0.35, 0.03, 0.03}, Vec{0.03, 0.05, 0.10},
-                                        Vec{0.40, 0.28, 0.03}, Vec{0.02, 0.02, 0.02}};
+  constexpr std::array<Vec, 5> canopies{Vec{0.02, 0.02, 0.025}, Vec{0.35, 0.03, 0.03}, Vec{0.03, 0.05, 0.10}, Vec{0.40, 0.28, 0.03},
+                                        Vec{0.02, 0.02, 0.02}};
   constexpr double diagonal = 0.7071067811865476;
-  constexpr std::array<std::array<double, 2>, 8> around{{{1, 0},
-                                                         {diagonal, diagonal},
-                                                         {0, 1},
-                                                         {-diagonal, diagonal},
-                                                         {-1, 0},
-                                                         {-diagonal, -diagonal},
-                                                         {0, -1},
-                                                         {diagonal, -diagonal}}};
+  constexpr std::array<std::array<double, 2>, 8> around{
+      {{1, 0}, {diagonal, diagonal}, {0, 1}, {-diagonal, diagonal}, {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}}};
   for (int i = 0; i < 26; ++i) {
     const auto id = static_cast<std::uint64_t>(3000 + i);
     const double side = i % 2 == 0 ? -1 : 1;

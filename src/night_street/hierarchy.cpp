@@ -40,8 +40,7 @@ int Hierarchy::build(std::vector<Box>& boxes, int begin, int end, int depth) {
   nodes_.emplace_back();
   Node node;
   node.box = boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])];
-  for (int i = begin + 1; i < end; ++i)
-    grow(node.box, boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])]);
+  for (int i = begin + 1; i < end; ++i) grow(node.box, boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])]);
   if (end - begin <= leaf_size) {
     node.first = begin;
     node.count = end - begin;

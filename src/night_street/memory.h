@@ -7,7 +7,9 @@
 namespace rainref::night_street {
 
 /// One ray for each texel, before neighbours are compared: radiance, tone, object, ground.
-inline std::size_t centres_bytes(int width, int height) { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * (24 + 4 + 4 + 1); }
+inline std::size_t centres_bytes(int width, int height) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * (24 + 4 + 4 + 1);
+}
 
 /// Street::view. Holds colour, depth and normal.
 inline MemoryPeak view_memory(int width, int height) {

@@ -60,7 +60,8 @@ class Street {
     Image normal;  ///< rgba32f, world normal at the texel centre, alpha 1 on surfaces; 0 0 0 0 where depth is `far`
   };
   /// The street seen by a camera; row 0 = bottom (v = 0). Throws Error(usage) when `far` is not positive and finite.
-  View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor, Parts parts = Parts::nine) const;
+  View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
+            Parts parts = Parts::nine) const;
 
   /// What one ray sees. `direction` is unit. From several threads at once, each with a FloatingPointGuard.
   struct Sight {

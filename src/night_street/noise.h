@@ -93,8 +93,7 @@ class Noise {
 
   /// In [0, 1), a hash of the lattice point.
   double lattice(std::int64_t x, std::int64_t y) const {
-    std::uint32_t h =
-        salt_ ^ (static_cast<std::uint32_t>(x) * 0x85ebca6bu) ^ (static_cast<std::uint32_t>(y) * 0xc2b2ae35u);
+    std::uint32_t h = salt_ ^ (static_cast<std::uint32_t>(x) * 0x85ebca6bu) ^ (static_cast<std::uint32_t>(y) * 0xc2b2ae35u);
     h = (h ^ (h >> 16)) * 0x7feb352du;
     h = (h ^ (h >> 15)) * 0x846ca68bu;
     return static_cast<double>(h ^ (h >> 16)) * 0x1p-32;

@@ -29,8 +29,7 @@ Image Street::panorama(int width, int height, const scene::Vector3& eye, const p
   const Angles azimuth(3 * width, -pi, 2 * pi), elevation(3 * height, -0.5 * pi, pi);
   const auto ray_of = [&](int i, int j) {
     const auto a = static_cast<std::size_t>(i), e = static_cast<std::size_t>(j);
-    const Vec direction{elevation.cosine[e] * azimuth.cosine[a], elevation.sine[e],
-                        elevation.cosine[e] * azimuth.sine[a]};
+    const Vec direction{elevation.cosine[e] * azimuth.cosine[a], elevation.sine[e], elevation.cosine[e] * azimuth.sine[a]};
     return Ray(origin, unit(direction));
   };
   return antialiased(

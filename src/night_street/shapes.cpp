@@ -78,12 +78,9 @@ bool enter_convex(const Solid& s, const std::vector<Plane>& planes, const Ray& r
 }  // namespace
 
 Vec entry_normal(const Box& box, const Ray& ray) {
-  const double x =
-      min_of((box.low.x - ray.origin.x) * ray.reciprocal.x, (box.high.x - ray.origin.x) * ray.reciprocal.x);
-  const double y =
-      min_of((box.low.y - ray.origin.y) * ray.reciprocal.y, (box.high.y - ray.origin.y) * ray.reciprocal.y);
-  const double z =
-      min_of((box.low.z - ray.origin.z) * ray.reciprocal.z, (box.high.z - ray.origin.z) * ray.reciprocal.z);
+  const double x = min_of((box.low.x - ray.origin.x) * ray.reciprocal.x, (box.high.x - ray.origin.x) * ray.reciprocal.x);
+  const double y = min_of((box.low.y - ray.origin.y) * ray.reciprocal.y, (box.high.y - ray.origin.y) * ray.reciprocal.y);
+  const double z = min_of((box.low.z - ray.origin.z) * ray.reciprocal.z, (box.high.z - ray.origin.z) * ray.reciprocal.z);
   if (x >= y && x >= z) return {ray.direction.x > 0 ? -1.0 : 1.0, 0, 0};
   if (y >= z) return {0, ray.direction.y > 0 ? -1.0 : 1.0, 0};
   return {0, 0, ray.direction.z > 0 ? -1.0 : 1.0};
@@ -104,8 +101,7 @@ Box Solid::bounds() const {
   return {a, b};
 }
 
-bool intersect(const Solid& solid, const std::vector<Plane>& planes, const Ray& ray, double nearest, double farthest,
-               SolidHit& hit) {
+bool intersect(const Solid& solid, const std::vector<Plane>& planes, const Ray& ray, double nearest, double farthest, SolidHit& hit) {
   bool met = false;
   switch (solid.shape) {
     case Solid::sphere:

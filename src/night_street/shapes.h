@@ -41,8 +41,7 @@ struct SolidHit {
 
 /// The first entry of the ray into the solid with t in (nearest, farthest); false when there is none. A ray that
 /// starts inside a solid does not see it.
-bool intersect(const Solid& solid, const std::vector<Plane>& planes, const Ray& ray, double nearest, double farthest,
-               SolidHit& hit);
+bool intersect(const Solid& solid, const std::vector<Plane>& planes, const Ray& ray, double nearest, double farthest, SolidHit& hit);
 
 /// Whether the ray crosses the box within (0, farthest), and where it enters; entry < 0 when it starts inside.
 inline bool crosses(const Box& box, const Ray& ray, double farthest, double& entry) {

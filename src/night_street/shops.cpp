@@ -70,8 +70,7 @@ Vec entrance(const City& city, const Lot& lot, const FacadePoint& at, double wid
   const double x = fraction(at.u / 2.4);
   if (from_middle > 1.2 && at.y > 1.1 && at.y < 2.9 && x > 0.25 && x < 0.75) {
     const std::uint64_t key = scramble(lot.id * 31 + static_cast<std::uint64_t>(floor_int(at.u / 2.4)));
-    if (x < 0.27 || x > 0.73 || magnitude(x - 0.5) < 0.012 || at.y < 1.15 || at.y > 2.85 ||
-        magnitude(at.y - 2.35) < 0.03)
+    if (x < 0.27 || x > 0.73 || magnitude(x - 0.5) < 0.012 || at.y < 1.15 || at.y > 2.85 || magnitude(at.y - 2.35) < 0.03)
       return 0.5 * wall;
     if (city.random(key, Purpose::window_lit) > 0.3) return glass_reflection(at);
     const double fold = 0.8 + 0.3 * fraction(x * 22);  // a drawn curtain

@@ -12,9 +12,7 @@ namespace {
 constexpr double nothing = 1e9;
 
 /// The ray crosses the plane where its coordinate is `level`, going from o by d; t <= 0 when it does not.
-double cross_at(double level, double o, double d, double reciprocal) {
-  return magnitude(d) < 1e-12 ? -1 : (level - o) * reciprocal;
-}
+double cross_at(double level, double o, double d, double reciprocal) { return magnitude(d) < 1e-12 ? -1 : (level - o) * reciprocal; }
 
 void trace_ground(const Ray& ray, Hit& hit) {
   const Vec& o = ray.origin;
@@ -50,11 +48,9 @@ void trace_buildings(const City& city, const Ray& ray, int side, Hit& hit) {
   if (!crosses(row, ray, hit.t, entry)) return;
   // Walk the lots in the order of the ray.
   const int step = ray.direction.z < 0 ? -1 : 1;
-  for (int i = lot_at(lots, ray.origin.z + max_of(entry, 0) * ray.direction.z);
-       i >= 0 && i < static_cast<int>(lots.size()); i += step) {
+  for (int i = lot_at(lots, ray.origin.z + max_of(entry, 0) * ray.direction.z); i >= 0 && i < static_cast<int>(lots.size()); i += step) {
     const Lot& lot = lots[static_cast<std::size_t>(i)];
-    const Box box{{side == 0 ? -plan::back : lot.front, 0, lot.z0},
-                  {side == 0 ? -lot.front : plan::back, lot.height, lot.z1}};
+    const Box box{{side == 0 ? -plan::back : lot.front, 0, lot.z0}, {side == 0 ? -lot.front : plan::back, lot.height, lot.z1}};
     double t = 0;
     if (crosses(box, ray, hit.t, t) && t > 0) {
       hit = {Hit::building, t, entry_normal(box, ray), side, i};
@@ -87,9 +83,7 @@ Hit trace(const City& city, const Ray& ray, bool with_lamps) {
   int first = 0;  // of solids at the same distance the one with the lowest index, whatever the order of the walk
   city.hierarchy.walk(ray, farthest, [&](int index, double& limit) {
     const Solid& solid = city.solids[static_cast<std::size_t>(index)];
-    if (!with_lamps && solid.shape == Solid::sphere &&
-        city.materials[static_cast<std::size_t>(solid.material)].emission.x > 0)
-      return;
+    if (!with_lamps && solid.shape == Solid::sphere && city.materials[static_cast<std::size_t>(solid.material)].emission.x > 0) return;
     SolidHit met;
     if (!intersect(solid, city.planes, ray, 1e-9, nothing, met) || met.t > limit) return;
     if (met.t == limit && index >= first) return;

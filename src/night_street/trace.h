@@ -15,9 +15,7 @@ struct Hit {
   int index = 0;  ///< building: lot; solid: index in City::solids
   bool is_surface() const { return kind != sky; }
   /// Equal for two hits only when they lie on the same object.
-  std::uint32_t object() const {
-    return static_cast<std::uint32_t>(kind) << 24 ^ static_cast<std::uint32_t>(2 * index + side);
-  }
+  std::uint32_t object() const { return static_cast<std::uint32_t>(kind) << 24 ^ static_cast<std::uint32_t>(2 * index + side); }
 };
 
 /// The nearest surface. Lamps (emissive spheres) are left out when with_lamps is false.

@@ -74,8 +74,7 @@ double distance_to_letter(char letter, double x, double y) {
   const std::string_view code = strokes(letter);
   double nearest = 100;
   for (std::size_t i = 0; i + 4 <= code.size(); i += 5) {
-    nearest =
-        min_of(nearest, squared_distance(x, y, code[i] - '0', code[i + 1] - '0', code[i + 2] - '0', code[i + 3] - '0'));
+    nearest = min_of(nearest, squared_distance(x, y, code[i] - '0', code[i + 1] - '0', code[i + 2] - '0', code[i + 3] - '0'));
   }
   return nearest;
 }
@@ -97,8 +96,8 @@ Vec tube_radiance(const Sign& sign, double width, double height, double u, doubl
     const double pitch = 6, left = 0.5 * (board_x - (pitch * static_cast<double>(letters) - 2));
     const std::int64_t i = floor_int((x - left + 1) / pitch);
     if (i >= 0 && i < letters) {
-      squared = distance_to_letter(sign.text[static_cast<std::size_t>(i)], x - left - pitch * static_cast<double>(i),
-                                   y - 0.5 * (board_y - 6));
+      squared =
+          distance_to_letter(sign.text[static_cast<std::size_t>(i)], x - left - pitch * static_cast<double>(i), y - 0.5 * (board_y - 6));
     }
   }
   if (sign.upright) {  // a tube round the board

@@ -6,17 +6,14 @@
 
 namespace rainref::night_street {
 
-Street::View Street::view(const scene::Camera& camera, int width, int height, double far,
-                          const parallel::Executor& executor, Parts parts) const {
-  if (!(far > 0 && far < 1e300))
-    throw Error(ExitCode::usage, fmt::format("far: expected a positive distance in metres, found {}", far));
+Street::View Street::view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
+                          Parts parts) const {
+  if (!(far > 0 && far < 1e300)) throw Error(ExitCode::usage, fmt::format("far: expected a positive distance in metres, found {}", far));
   const scene::Camera::Basis basis = camera.basis();
-  const Vec origin = from(camera.position), right = from(basis.right), up = from(basis.up),
-            forward = from(basis.forward);
+  const Vec origin = from(camera.position), right = from(basis.right), up = from(basis.up), forward = from(basis.forward);
   const double half_height = camera.half_height(), half_width = half_height * width / height;
   const auto ray_of = [&](int i, int j) {
-    const double x = half_width * ((2 * i + 1) / (3.0 * width) - 1),
-                 y = half_height * ((2 * j + 1) / (3.0 * height) - 1);
+    const double x = half_width * ((2 * i + 1) / (3.0 * width) - 1), y = half_height * ((2 * j + 1) / (3.0 * height) - 1);
     return Ray(origin, unit(forward + x * right + y * up));
   };
   View result;

@@ -16,8 +16,7 @@ double road_paint(double x, double z) {
     const double along = magnitude(z - crossing);
     if (along < plan::crossing_half_length) {
       paint = across < 4.2 ? soft_band(0.0, 0.5, 0.03, fraction(x + 0.25)) : 0;
-    } else if (along < plan::crossing_half_length + 1.6 && across > 0.1 && across < 2.6 &&
-               along > plan::crossing_half_length + 1.2) {
+    } else if (along < plan::crossing_half_length + 1.6 && across > 0.1 && across < 2.6 && along > plan::crossing_half_length + 1.2) {
       paint = 1;  // stop line
     }
   }

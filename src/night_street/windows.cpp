@@ -29,8 +29,7 @@ Room draw_room(const City& city, std::uint64_t id) {
 }
 
 /// The lit room seen through the pane; x, y in [0, 1] on the pane, u and height in metres in the room.
-Vec room_radiance(const Room& room, const FacadePoint& at, double x, double y, double u, double v, double width,
-                  double height) {
+Vec room_radiance(const Room& room, const FacadePoint& at, double x, double y, double u, double v, double width, double height) {
   const RoomPoint seen = look_into_room(u, v, at.into, width, height, 3.6);
   const Vec lamp{0.5 * width, height - 0.35, 1.7}, away = seen.p - lamp;
   const double distance = 1.0 / (0.35 + 0.22 * dot(away, away));
@@ -75,9 +74,8 @@ Vec storey_radiance(const City& city, const Lot& lot, const FacadePoint& at) {
     if (is_lintel) return 1.4 * wall;
     // Courses of brick or blocks, near the viewer only.
     const double course = fraction(at.y * 3.2) < 0.12 ? 0.8 : 1.0;
-    const double block =
-        0.86 + 0.28 * city.stain.lattice(floor_int(at.u * 1.9 + 0.5 * static_cast<double>(floor_int(at.y * 3.2) & 1)),
-                                         floor_int(at.y * 3.2));
+    const double block = 0.86 + 0.28 * city.stain.lattice(floor_int(at.u * 1.9 + 0.5 * static_cast<double>(floor_int(at.y * 3.2) & 1)),
+                                                          floor_int(at.y * 3.2));
     return mix(course * block, 1, at.soft) * wall;
   }
   const double edge_x = min_of(x, 1 - x) * pane_width, edge_y = min_of(y, 1 - y) * pane_height;
@@ -86,8 +84,7 @@ Vec storey_radiance(const City& city, const Lot& lot, const FacadePoint& at) {
   const bool is_transom = lot.style != 1 && magnitude(y - (lot.style == 2 ? 0.5 : 0.72)) * pane_height < 0.03;
   if (min_of(edge_x, edge_y) < 0.055 || bar < 0.026 || is_transom) return 0.55 * wall + 0.002 * Vec{1, 1, 1};
 
-  const std::uint64_t id =
-      scramble(lot.id * 4096 + static_cast<std::uint64_t>(storey) * 64 + static_cast<std::uint64_t>(column));
+  const std::uint64_t id = scramble(lot.id * 4096 + static_cast<std::uint64_t>(storey) * 64 + static_cast<std::uint64_t>(column));
   const Vec reflection = glass_reflection(at);
   // Offices light whole floors, homes single rooms.
   const std::uint64_t floor_id = scramble(lot.id * 64 + static_cast<std::uint64_t>(storey) + 7);

@@ -39,8 +39,7 @@ Executor::~Executor() = default;
 
 int Executor::threads() const { return pool_->arena.max_concurrency(); }
 
-void Executor::for_range(std::int64_t count, std::int64_t chunk,
-                         const std::function<void(std::int64_t, std::int64_t)>& body) const {
+void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t, std::int64_t)>& body) const {
   if (count <= 0) return;
   const FloatingPointGuard caller;
   const std::int64_t chunks = (count + chunk - 1) / chunk;
@@ -69,8 +68,7 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk,
   });
 }
 
-void Executor::for_tiles(int width, int height, int tile_width, int tile_height,
-                         const std::function<void(const Tile&)>& body) const {
+void Executor::for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body) const {
   const int columns = (width + tile_width - 1) / tile_width, rows = (height + tile_height - 1) / tile_height;
   for_range(static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {

@@ -87,8 +87,10 @@ constexpr bool holds(std::index_sequence<I...>) {
 }
 template <class T, int n = 10>
 constexpr int count() {
-  if constexpr (n == 0 || holds<T>(std::make_index_sequence<n>())) return n;
-  else return count<T, n - 1>();
+  if constexpr (n == 0 || holds<T>(std::make_index_sequence<n>()))
+    return n;
+  else
+    return count<T, n - 1>();
 }
 /// f(member, ...) with all n members.
 template <int n, class S, class F>

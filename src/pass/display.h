@@ -22,7 +22,8 @@ CodeTable display_table(int width, int height, double exposure, Rounding roundin
 /// A run that gives `colour`, and display after it by table. display reads no neighbours, so that a tile goes through both while it
 /// lies in the cache; what they read, neither overwrites, so that their starts may be recorded after both have run.
 template <class P>
-void run_and_display(Run<P>& run, const CodeTable& table, double exposure, const Image& colour, Image& picture, const parallel::Executor& executor, int tile_rows, const Moment& now) {
+void run_and_display(Run<P>& run, const CodeTable& table, double exposure, const Image& colour, Image& picture,
+                     const parallel::Executor& executor, int tile_rows, const Moment& now) {
   Run<DisplayPass> display = display_run(exposure, now.rounding, colour, picture);
   executor.for_tiles(picture.width(), picture.height(), picture.width(), tile_rows, [&](const parallel::Tile& t) {
     run.tile(t);

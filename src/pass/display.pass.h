@@ -18,7 +18,8 @@ struct DisplayPass {
   static constexpr About about{"display", "Display code.", {1}, {1}};
   using Uniforms = DisplayUniforms;
   static scene::UniformBlock uniforms() {
-    return scene::uniform_block<Uniforms>("DisplayUniforms", {scene::member<&Uniforms::exposure>("exposure", "1", scene::exposure_factor, "Factor of the radiance.")});
+    return scene::uniform_block<Uniforms>(
+        "DisplayUniforms", {scene::member<&Uniforms::exposure>("exposure", "1", scene::exposure_factor, "Factor of the radiance.")});
   }
   template <class B>
   struct Io {
@@ -32,9 +33,13 @@ struct DisplayPass {
 #else
 
 template <class N>
-RAINREF_FN Vec3<N> display(const DisplayUniforms& u, const Vec3<N>& colour) { return display_code(N(u.exposure) * colour); }
+RAINREF_FN Vec3<N> display(const DisplayUniforms& u, const Vec3<N>& colour) {
+  return display_code(N(u.exposure) * colour);
+}
 struct DisplayPassText {
   template <class N, bool, class Io>
-  static RAINREF_FN void run(const DisplayUniforms& u, const Io& io, int, int) { io.picture(display<N>(u, io.colour.rgb()), N(1.0f)); }
+  static RAINREF_FN void run(const DisplayUniforms& u, const Io& io, int, int) {
+    io.picture(display<N>(u, io.colour.rgb()), N(1.0f));
+  }
 };
 #endif

@@ -11,7 +11,8 @@
 namespace rainref::pass {
 
 std::string count_fault(const scene::UniformBlock& block, std::span<const std::byte> uniforms, const In& list, std::size_t records) {
-  const auto member = std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == list.count; });
+  const auto member =
+      std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == list.count; });
   if (member == block.members.end()) throw Error(ExitCode::internal, fmt::format("{} has no uniform {}", block.name, list.count));
   std::int32_t count = 0;
   std::memcpy(&count, uniforms.data() + member->offset, sizeof count);

@@ -21,12 +21,14 @@ capture::PassInfo info_of() {
   add("corrected", P::about.corrected);
   const typename P::template Io<Declared> io;
   each<P>(io, [&](const auto& m) {
-    if constexpr (requires { m.outs; }) all.writes.emplace_back(m.outs[0].name);
-    else all.reads.push_back({std::string(m.name), std::string(m.from), m.previous, std::string(m.variant), m.same_size || requires { m.reach; }});
-  });
-  for (const std::string_view sum : P::about.order_free_sums)
-    if (!sum.empty()) all.order_free_sums.emplace_back(sum);
-  return all;
+    if constexpr (requires { m.outs; })
+      all.writes.emplace_back(m.outs[0].name);
+    else all.reads.push_back({std::string(m.name), std::string(m.from), m.previous, std::string(m.variant), m.same_size || requires { m.reach; }
+});
+});
+for (const std::string_view sum : P::about.order_free_sums)
+  if (!sum.empty()) all.order_free_sums.emplace_back(sum);
+return all;
 }
 
 /// Of a pass that each variant defines by itself: as published, corrected.
@@ -37,7 +39,9 @@ capture::PassInfo info_of() {
   const capture::PassInfo other = info_of<Q>();
   all.variants.push_back(other.variants.front());
   all.uniforms.push_back(other.uniforms.front());
-  const auto reads = [](const capture::PassInfo& p, const std::string& buffer) { return std::any_of(p.reads.begin(), p.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == buffer; }); };
+  const auto reads = [](const capture::PassInfo& p, const std::string& buffer) {
+    return std::any_of(p.reads.begin(), p.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == buffer; });
+  };
   for (capture::ReadInfo& r : all.reads)
     if (!reads(other, r.buffer)) r.variant = "as-published";
   for (const capture::ReadInfo& r : other.reads) {
@@ -61,7 +65,8 @@ std::vector<capture::BufferInfo> buffers_of() {
   const auto add = [&](const Out& o, Format format, std::string_view variant) {
     if (o.sentence.empty()) return;
     const auto text = [](std::string_view s) { return std::string(s); };
-    all.push_back({text(o.name), text(info(format).name), text(o.sentence), text(o.unit), o.range, text(o.encoding), text(o.colour_space), text(o.alpha), "", "", text(variant)});
+    all.push_back({text(o.name), text(info(format).name), text(o.sentence), text(o.unit), o.range, text(o.encoding), text(o.colour_space),
+                   text(o.alpha), "", "", text(variant)});
   };
   const bool published = P::about.as_published.revision != 0, corrected = P::about.corrected.revision != 0;
   const typename P::template Io<Declared> io;
@@ -80,14 +85,20 @@ template <class P, class Q>
 std::vector<capture::BufferInfo> buffers_of() {
   std::vector<capture::BufferInfo> all;
   const std::vector<capture::BufferInfo> corrected = buffers_of<Q>();
-  const auto named = [](const std::vector<capture::BufferInfo>& list, const std::string& name) { return std::find_if(list.begin(), list.end(), [&](const auto& b) { return b.name == name; }); };
+  const auto named = [](const std::vector<capture::BufferInfo>& list, const std::string& name) {
+    return std::find_if(list.begin(), list.end(), [&](const auto& b) { return b.name == name; });
+  };
   for (const capture::BufferInfo& b : buffers_of<P>()) {
     all.push_back(b);
     const auto other = named(corrected, b.name);
     if (other == corrected.end()) continue;
-    const auto meaning = [](const capture::BufferInfo& x) { return std::tie(x.format, x.sentence, x.unit, x.range, x.encoding, x.colour_space, x.alpha); };
-    if (meaning(b) == meaning(*other)) all.back().variant = "";
-    else all.push_back(*other);
+    const auto meaning = [](const capture::BufferInfo& x) {
+      return std::tie(x.format, x.sentence, x.unit, x.range, x.encoding, x.colour_space, x.alpha);
+    };
+    if (meaning(b) == meaning(*other))
+      all.back().variant = "";
+    else
+      all.push_back(*other);
   }
   for (const capture::BufferInfo& b : corrected)
     if (named(all, b.name) == all.end()) all.push_back(b);

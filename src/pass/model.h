@@ -29,8 +29,10 @@ struct Captured {
       width = input.array.width;
       height = input.array.height;
       texels.resize(static_cast<std::size_t>(channels) * static_cast<std::size_t>(width + 2 * around) * static_cast<std::size_t>(height));
-      if constexpr (std::is_same_v<DecodedOf<f>, Unorm8>) frame(reinterpret_cast<const Unorm8*>(input.array.levels.at(0).data()));
-      else frame(capture::decoded(input.array).data());
+      if constexpr (std::is_same_v<DecodedOf<f>, Unorm8>)
+        frame(reinterpret_cast<const Unorm8*>(input.array.levels.at(0).data()));
+      else
+        frame(capture::decoded(input.array).data());
     }
     /// Column x of the row y or the nearest one.
     const DecodedOf<f>* at(int x, int y) const {
@@ -113,8 +115,10 @@ struct Bound {
   void operator()(int x, int y, N* out) const {
     with_cursors(x, y, out, [&](const auto& io) {
       const auto run = [&](auto is_corrected) {
-        if constexpr (requires { Text::views(io); }) Text::template run<N, is_corrected()>(uniforms, io, Text::views(io), x, y);
-        else Text::template run<N, is_corrected()>(uniforms, io, x, y);
+        if constexpr (requires { Text::views(io); })
+          Text::template run<N, is_corrected()>(uniforms, io, Text::views(io), x, y);
+        else
+          Text::template run<N, is_corrected()>(uniforms, io, x, y);
       };
       if constexpr (P::about.corrected.revision != 0)
         if (corrected) return run(std::true_type());
@@ -125,7 +129,8 @@ struct Bound {
 /// Throws Error(port_files) where the case lacks an input of its variant, or has one of another shape.
 template <class P, class Text>
 Bound<P, Text> bound(const capture::PassCase& c) {
-  Bound<P, Text> m{c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
+  Bound<P, Text> m{
+      c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
   const scene::UniformBlock block = P::uniforms();
   each<P>(m.captured, [&](auto& member) {
     if constexpr (requires { member.is.from; }) {
@@ -137,7 +142,9 @@ Bound<P, Text> bound(const capture::PassCase& c) {
         if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
       } else {
         const capture::CaseInput& image = capture::image_input(c, member.is.name);
-        if constexpr (requires { member.format; }) require_image(c, image, member.format, requires { member.texels; }, member.is.same_size || requires { member.texels; });
+        if constexpr (requires { member.format; })
+          require_image(
+              c, image, member.format, requires { member.texels; }, member.is.same_size || requires { member.texels; });
         member.read(image);
       }
     } else {

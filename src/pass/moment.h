@@ -19,7 +19,9 @@ struct Moment {
 
   template <class Uniforms>
   void before(std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs, int level = -1) const {
-    if (recorder) recorder->before({frame, step, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(time), static_cast<float>(dt), rounding, level});
+    if (recorder)
+      recorder->before({frame, step, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(time), static_cast<float>(dt),
+                        rounding, level});
   }
   template <class Uniforms>
   void before(std::string_view pass, const Uniforms& uniforms, std::initializer_list<PassInput> inputs, int level = -1) const {

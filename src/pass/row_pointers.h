@@ -124,7 +124,8 @@ template <class P>
 int width_of(const HostIo<P>& host) {
   int width = 0;
   each<P>(host, [&](const auto& member) {
-    if constexpr (requires { member.image; } && !requires { member.view; })
+    if constexpr (
+        requires { member.image; } && !requires { member.view; })
       if (member.image) width = member.image->width();
   });
   return width;

@@ -48,8 +48,10 @@ struct LaneCursors {
 struct NoViews {};
 template <class Text, class Io>
 HWY_INLINE HWY_ATTR auto views_of(const Io& io) {
-  if constexpr (requires { Text::views(io); }) return Text::views(io);
-  else return NoViews();
+  if constexpr (requires { Text::views(io); })
+    return Text::views(io);
+  else
+    return NoViews();
 }
 
 /// The vector at x, whose neighbours lie beyond an end of the row. It makes cursors of its own: were those of the row handed to
@@ -64,8 +66,10 @@ HWY_NOINLINE HWY_ATTR void at_an_end(const typename P::Uniforms& u, Rounding rou
   pass::move_to<P>(io, x, x1 - x < n ? x1 - x : n);
   pass::copy_ends<P>(host, io, room, pass::width_of<P>(host), n);
   const auto views = views_of<Text>(io);
-  if constexpr (std::is_same_v<decltype(views), const NoViews>) Text::template run<Lanes, corrected>(u, io, x, y);
-  else Text::template run<Lanes, corrected>(u, io, views, x, y);
+  if constexpr (std::is_same_v<decltype(views), const NoViews>)
+    Text::template run<Lanes, corrected>(u, io, x, y);
+  else
+    Text::template run<Lanes, corrected>(u, io, views, x, y);
 }
 template <class P, class Text, bool corrected>
 HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, const pass::HostIo<P>& host, const parallel::Tile& tile) {
@@ -81,8 +85,10 @@ HWY_ATTR void rows_of(const typename P::Uniforms& uniforms, Rounding rounding, c
         at_an_end<P, Text, corrected>(uniforms, rounding, host, x, y, x1);
       } else {
         pass::move_to<P>(io, x, x1 - x < n ? x1 - x : n);
-        if constexpr (std::is_same_v<decltype(views), const NoViews>) Text::template run<Lanes, corrected>(u, io, x, y);
-        else Text::template run<Lanes, corrected>(u, io, views, x, y);
+        if constexpr (std::is_same_v<decltype(views), const NoViews>)
+          Text::template run<Lanes, corrected>(u, io, x, y);
+        else
+          Text::template run<Lanes, corrected>(u, io, views, x, y);
       }
     }
   }
@@ -94,27 +100,27 @@ HWY_AFTER_NAMESPACE();
 
 // Inside the target's namespace of a room, after the arithmetic of pass P.
 #undef RAINREF_PASS_ROWS
-#define RAINREF_PASS_ROWS(P)                                                                                                        \
+#define RAINREF_PASS_ROWS(P)                                                                                                              \
   HWY_ATTR void P##Rows(const P::Uniforms& u, bool corrected, Rounding rounding, const pass::HostIo<P>& io, const parallel::Tile& tile) { \
-    if constexpr (P::about.corrected.revision != 0)                                                                                  \
-      if (corrected) return rows_of<P, P##Text, true>(u, rounding, io, tile);                                                        \
-    if constexpr (P::about.as_published.revision != 0)                                                                               \
-      if (!corrected) return rows_of<P, P##Text, false>(u, rounding, io, tile);                                                      \
+    if constexpr (P::about.corrected.revision != 0)                                                                                       \
+      if (corrected) return rows_of<P, P##Text, true>(u, rounding, io, tile);                                                             \
+    if constexpr (P::about.as_published.revision != 0)                                                                                    \
+      if (!corrected) return rows_of<P, P##Text, false>(u, rounding, io, tile);                                                           \
   }
 // Once, outside every namespace. What is dispatched stands in the room: where one target alone is compiled, its namespace is named.
 #undef RAINREF_PASS_DISPATCH
-#define RAINREF_PASS_DISPATCH(room, P)                                                                                               \
-  namespace rainref::room {                                                                                                          \
-  RAINREF_EXPORT(P##Rows);                                                                                                           \
-  static void P##Dispatched(const P::Uniforms& u, bool corrected, Rounding rounding, const pass::HostIo<P>& io,                      \
-                            const parallel::Tile& tile) {                                                                            \
-    RAINREF_DISPATCH(P##Rows)(u, corrected, rounding, io, tile);                                                                     \
-  }                                                                                                                                  \
-  }                                                                                                                                  \
-  template <>                                                                                                                        \
-  void rainref::pass::rows<rainref::room::P>(const rainref::room::P::Uniforms& u, bool corrected, Rounding rounding,                 \
+#define RAINREF_PASS_DISPATCH(room, P)                                                                                                 \
+  namespace rainref::room {                                                                                                            \
+  RAINREF_EXPORT(P##Rows);                                                                                                             \
+  static void P##Dispatched(const P::Uniforms& u, bool corrected, Rounding rounding, const pass::HostIo<P>& io,                        \
+                            const parallel::Tile& tile) {                                                                              \
+    RAINREF_DISPATCH(P##Rows)(u, corrected, rounding, io, tile);                                                                       \
+  }                                                                                                                                    \
+  }                                                                                                                                    \
+  template <>                                                                                                                          \
+  void rainref::pass::rows<rainref::room::P>(const rainref::room::P::Uniforms& u, bool corrected, Rounding rounding,                   \
                                              const rainref::pass::HostIo<rainref::room::P>& io, const rainref::parallel::Tile& tile) { \
-    rainref::room::P##Dispatched(u, corrected, rounding, io, tile);                                                                  \
+    rainref::room::P##Dispatched(u, corrected, rounding, io, tile);                                                                    \
   }
 
 #endif  // RAINREF_PASS_ROWS_INL_H_

@@ -27,11 +27,15 @@ class Run {
  public:
   /// Throws Error(internal) where the variant does not run it, an image is missing or of another format or size than the others, or a
   /// uniform counts more records than there are.
-  Run(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io) : uniforms_(uniforms), corrected_(corrected), rounding_(rounding), io_(io) {
-    if ((corrected ? P::about.corrected : P::about.as_published).revision == 0) throw Error(ExitCode::internal, fmt::format("{} does not run {}", P::about.name, corrected ? "corrected" : "as-published"));
+  Run(const typename P::Uniforms& uniforms, bool corrected, Rounding rounding, const HostIo<P>& io)
+      : uniforms_(uniforms), corrected_(corrected), rounding_(rounding), io_(io) {
+    if ((corrected ? P::about.corrected : P::about.as_published).revision == 0)
+      throw Error(ExitCode::internal, fmt::format("{} does not run {}", P::about.name, corrected ? "corrected" : "as-published"));
     const Image* first = nullptr;
     each<P>(io_, [&](const auto& member) {
-      const auto misfit = [&](std::string_view why) { throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why)); };
+      const auto misfit = [&](std::string_view why) {
+        throw Error(ExitCode::internal, fmt::format("{}: {} {}", P::about.name, member.is.name, why));
+      };
       bool is_needed = is_of(member.is.variant, corrected);
       if constexpr (requires { member.is.optional; }) is_needed = is_needed && !member.is.optional;
       if constexpr (requires { member.view; }) {
@@ -55,7 +59,8 @@ class Run {
     height_ = first->height();
     each<P>(io_, [&](const auto& member) {
       if constexpr (requires { member.view; })
-        if (member.is.same_size && member.image && (member.image->width() != width_ || member.image->height() != height_)) throw Error(ExitCode::internal, fmt::format("{}: {} has another size", P::about.name, member.is.name));
+        if (member.is.same_size && member.image && (member.image->width() != width_ || member.image->height() != height_))
+          throw Error(ExitCode::internal, fmt::format("{}: {} has another size", P::about.name, member.is.name));
     });
   }
 
@@ -71,7 +76,8 @@ class Run {
   /// All of them.
   void tiles(const parallel::Executor& executor, int tile_rows) {
     const capture::Stopwatch watch;
-    executor.for_tiles(width_, height_, width_, tile_rows, [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
+    executor.for_tiles(width_, height_, width_, tile_rows,
+                       [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
     seconds_ += watch.seconds();
   }
   void start(const Moment& m) const {
@@ -80,13 +86,18 @@ class Run {
     each<P>(io_, [&](const auto& member) {
       if constexpr (requires { member.texture; }) {
         const Address address = member.texture ? member.texture->address_u : member.address;
-        if (member.recorded) inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, address});
-        else if (member.texture) inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
+        if (member.recorded)
+          inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, address});
+        else if (member.texture)
+          inputs.push_back({member.is.name, member.texture, member.is.filter, member.is.mip_filter});
       } else if constexpr (requires { member.view; }) {
-        if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
-        else if (!member.levels.empty()) inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
+        if (member.image)
+          inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
+        else if (!member.levels.empty())
+          inputs.push_back({member.is.name, member.levels, member.is.filter, member.is.mip_filter});
       } else if constexpr (requires { member.records; }) {
-        if (member.is_set) inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});
+        if (member.is_set)
+          inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});
       } else if constexpr (requires { member.is.from; }) {
         if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
       }

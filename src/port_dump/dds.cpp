@@ -59,9 +59,7 @@ struct Reader {
     std::memcpy(&value, bytes.data() + at, sizeof value);
     return value;
   }
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why));
-  }
+  [[noreturn]] void refuse(const std::string& why) const { throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why)); }
 };
 
 const PixelFormat* dxgi_format(std::uint32_t dxgi) {
@@ -98,8 +96,7 @@ PixelFormat format_of_code(const Reader& in, std::uint32_t code) {
   if (text.starts_with("DXT") || text.starts_with("ATI") || text.starts_with("BC")) {
     in.refuse(fmt::format("'{}': block compression is lossy; export it uncompressed", text));
   }
-  in.refuse(fmt::format("pixel format '{}' (0x{:08x}) is none that a buffer of rainref has; export with a DX10 header",
-                        text, code));
+  in.refuse(fmt::format("pixel format '{}' (0x{:08x}) is none that a buffer of rainref has; export with a DX10 header", text, code));
 }
 
 PixelFormat format_of_header(const Reader& in) {
@@ -113,10 +110,10 @@ PixelFormat format_of_header(const Reader& in) {
   if ((flags & rgb) && bits == 32 && masks == Masks{0xff0000, 0xff00, 0xff, 0xff000000}) return *dxgi_format(87);
   if ((flags & rgb) && bits == 32 && masks == Masks{0xff0000, 0xff00, 0xff, 0}) return *dxgi_format(88);
   if ((flags & luminance) && bits == 8 && masks[0] == 0xff) return *dxgi_format(61);
-  in.refuse(fmt::format(
-      "pixel format of {} bits with masks {:08x} {:08x} {:08x} {:08x} is none that a buffer of rainref has; "
-      "export with a DX10 header",
-      bits, masks[0], masks[1], masks[2], masks[3]));
+  in.refuse(
+      fmt::format("pixel format of {} bits with masks {:08x} {:08x} {:08x} {:08x} is none that a buffer of rainref has; "
+                  "export with a DX10 header",
+                  bits, masks[0], masks[1], masks[2], masks[3]));
 }
 
 StoredImage level_of(const PixelFormat& format, const std::string& file, std::size_t width, std::size_t height) {
@@ -139,8 +136,7 @@ Dds parse_dds(std::span<const std::byte> bytes, const std::string& file) {
   if (std::memcmp(bytes.data(), "DDS ", std::min<std::size_t>(bytes.size(), 4)) != 0) in.refuse("not a DDS file");
   if (bytes.size() < header_end) in.refuse("truncated in its DDS header");
   if (in.u32(4) != 124) in.refuse("damaged: the size of its DDS header is not 124");
-  const std::uint32_t flags = in.u32(8), height = in.u32(12), width = in.u32(16), pitch = in.u32(20),
-                      caps2 = in.u32(112);
+  const std::uint32_t flags = in.u32(8), height = in.u32(12), width = in.u32(16), pitch = in.u32(20), caps2 = in.u32(112);
   constexpr std::uint32_t has_pitch = 0x8, has_levels = 0x20000, cube = 0x200, volume = 0x200000;
   if (width < 1 || height < 1 || width > max_side || height > max_side) {
     in.refuse(fmt::format("size {}x{}: each side must be from 1 to {}", width, height, max_side));
@@ -161,15 +157,13 @@ Dds parse_dds(std::span<const std::byte> bytes, const std::string& file) {
   }
   const std::size_t found = bytes.size() - start;
   StoredImage& first = out.levels.front();
-  if (found != expected && count == 1 && (flags & has_pitch) && pitch > first.row_pitch &&
-      found == std::size_t{pitch} * height) {
+  if (found != expected && count == 1 && (flags & has_pitch) && pitch > first.row_pitch && found == std::size_t{pitch} * height) {
     first.row_pitch = pitch;
     expected = found;
   }
   if (found != expected) {
     in.refuse(fmt::format("{}: {}x{} {} with {} mip levels needs {} bytes behind the header, found {}",
-                          found < expected ? "truncated" : "bytes too many", width, height, format.name, count,
-                          expected, found));
+                          found < expected ? "truncated" : "bytes too many", width, height, format.name, count, expected, found));
   }
   std::size_t at = start;
   for (StoredImage& level : out.levels) {

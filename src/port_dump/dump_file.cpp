@@ -22,16 +22,15 @@ struct RefusedType {
   const char* extension;
   const char* reason;
 };
-constexpr std::array<RefusedType, 9> refused_types{
-    {{".jpg", "JPEG is lossy"},
-     {".jpeg", "JPEG is lossy"},
-     {".hdr", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
-     {".rgbe", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
-     {".bmp", "BMP writers change the channels (RenderDoc makes RGB of R8)"},
-     {".tga", "TGA writers change the channels"},
-     {".tif", "TIFF is not read"},
-     {".tiff", "TIFF is not read"},
-     {".ktx2", "KTX2 is not read"}}};
+constexpr std::array<RefusedType, 9> refused_types{{{".jpg", "JPEG is lossy"},
+                                                    {".jpeg", "JPEG is lossy"},
+                                                    {".hdr", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
+                                                    {".rgbe", "Radiance HDR keeps 8 bits and a shared exponent of each value"},
+                                                    {".bmp", "BMP writers change the channels (RenderDoc makes RGB of R8)"},
+                                                    {".tga", "TGA writers change the channels"},
+                                                    {".tif", "TIFF is not read"},
+                                                    {".tiff", "TIFF is not read"},
+                                                    {".ktx2", "KTX2 is not read"}}};
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::port_files, message); }
 
@@ -43,8 +42,7 @@ bool is_there(const fs::path& path) {
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> out;
   std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end && out.size() < most_names;
-       i.increment(error)) {
+  for (fs::directory_iterator i(folder, error), end; !error && i != end && out.size() < most_names; i.increment(error)) {
     out.push_back(i->path().filename().string());
   }
   std::ranges::sort(out);
@@ -53,17 +51,14 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 [[noreturn]] void refuse_missing(const fs::path& folder, const std::string& stem) {
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored))
-    refuse(fmt::format("no folder '{}': the port wrote nothing of this run", folder.string()));
+  if (!fs::is_directory(folder, ignored)) refuse(fmt::format("no folder '{}': the port wrote nothing of this run", folder.string()));
   for (const RefusedType& type : refused_types) {
     const fs::path path = folder / (stem + type.extension);
     if (is_there(path))
-      refuse(fmt::format("'{}': {}: no evidence of a buffer's values; save NPY, EXR, DDS or raw bytes", path.string(),
-                         type.reason));
+      refuse(fmt::format("'{}': {}: no evidence of a buffer's values; save NPY, EXR, DDS or raw bytes", path.string(), type.reason));
   }
   if (is_there(folder / (stem + ".json")))
-    refuse(
-        fmt::format("'{}' describes raw bytes, but '{}.bin' is missing", (folder / (stem + ".json")).string(), stem));
+    refuse(fmt::format("'{}' describes raw bytes, but '{}.bin' is missing", (folder / (stem + ".json")).string(), stem));
   const std::vector<std::string> names = names_in(folder);
   std::string hint;
   for (const char* extension : extensions) {
@@ -87,8 +82,7 @@ DumpFile find_dump_file(const fs::path& folder, std::string_view stem_view) {
     out = {path, static_cast<FileType>(i), {}};
   }
   if (found.empty()) refuse_missing(folder, stem);
-  if (found.size() > 1)
-    refuse(fmt::format("'{}': {} hold the same buffer; keep one", folder.string(), fmt::join(found, " and ")));
+  if (found.size() > 1) refuse(fmt::format("'{}': {} hold the same buffer; keep one", folder.string(), fmt::join(found, " and ")));
   const fs::path sidecar = folder / (stem + ".json");
   if (out.type == FileType::bin) {
     if (!is_there(sidecar)) {

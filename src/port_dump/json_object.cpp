@@ -56,10 +56,8 @@ std::string shown(const Json& value) {
 
 }  // namespace
 
-JsonObject::JsonObject(std::string_view text, std::string file, std::span<const std::string> known_keys)
-    : file_(std::move(file)) {
-  if (text.size() > largest_file)
-    fail(fmt::format("{}: {} bytes; expected at most {}", file_, text.size(), largest_file));
+JsonObject::JsonObject(std::string_view text, std::string file, std::span<const std::string> known_keys) : file_(std::move(file)) {
+  if (text.size() > largest_file) fail(fmt::format("{}: {} bytes; expected at most {}", file_, text.size(), largest_file));
   object_ = std::make_unique<const Json>(parse(text, file_));
   if (!object_->is_object()) fail(fmt::format("{}: expected an object {{...}}, found {}", file_, shown(*object_)));
   for (const auto& [key, value] : object_->items()) {
@@ -74,9 +72,7 @@ JsonObject::JsonObject(std::string_view text, std::string file, std::span<const 
 JsonObject::~JsonObject() = default;
 JsonObject::JsonObject(JsonObject&&) noexcept = default;
 
-void JsonObject::refuse(const std::string& key, const std::string& why) const {
-  fail(fmt::format("{}: {}: {}", file_, key, why));
-}
+void JsonObject::refuse(const std::string& key, const std::string& why) const { fail(fmt::format("{}: {}: {}", file_, key, why)); }
 
 void JsonObject::refuse_value(const std::string& key, const std::string& expected, const Json& found) const {
   refuse(key, fmt::format("expected {}, found {}", expected, shown(found)));
@@ -128,8 +124,7 @@ std::optional<std::vector<std::pair<std::string, std::size_t>>> JsonObject::coun
   if (!value->is_object()) refuse_value(key, "an object of whole numbers, as {\"x\": 0, \"y\": 4}", *value);
   std::vector<std::pair<std::string, std::size_t>> out;
   for (const auto& [name, number] : value->items()) {
-    if (!number.is_number_unsigned())
-      refuse_value(key + "." + name.substr(0, 40), "a whole number, at least 0", number);
+    if (!number.is_number_unsigned()) refuse_value(key + "." + name.substr(0, 40), "a whole number, at least 0", number);
     out.emplace_back(name, number.get<std::size_t>());
   }
   return out;

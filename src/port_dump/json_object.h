@@ -40,8 +40,7 @@ class JsonObject {
 
  private:
   const nlohmann::json* find(const std::string& key) const;
-  [[noreturn]] void refuse_value(const std::string& key, const std::string& expected,
-                                 const nlohmann::json& found) const;
+  [[noreturn]] void refuse_value(const std::string& key, const std::string& expected, const nlohmann::json& found) const;
 
   std::string file_;
   std::unique_ptr<const nlohmann::json> object_;

@@ -10,8 +10,7 @@
 namespace rainref::port_dump {
 
 PortInfo parse_port_info(std::string_view text, const std::string& file) {
-  static const std::array<std::string, 8> keys{"api",    "device",  "driver", "half_store", "flush_denormals",
-                                               "origin", "precise", "notes"};
+  static const std::array<std::string, 8> keys{"api", "device", "driver", "half_store", "flush_denormals", "origin", "precise", "notes"};
   static const std::array<std::string, 3> roundings{"rne", "rtz", "unknown"};
   static const std::array<std::string, 2> origins{"top-left", "bottom-left"};
   const JsonObject object(text, file, keys);
@@ -33,8 +32,7 @@ PortInfo read_port_info(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (std::filesystem::symlink_status(path, ignored).type() == std::filesystem::file_type::not_found) return {};
   const std::vector<std::byte> bytes = read_file(path);
-  return parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
-                         fmt::format("'{}'", path.string()));
+  return parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, fmt::format("'{}'", path.string()));
 }
 
 }  // namespace rainref::port_dump

@@ -11,8 +11,7 @@ namespace {
   throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why));
 }
 
-std::span<const std::byte> behind_offset(std::span<const std::byte> bytes, const std::string& file,
-                                         const Sidecar& sidecar) {
+std::span<const std::byte> behind_offset(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar) {
   if (sidecar.offset > bytes.size()) {
     refuse(file, fmt::format("truncated: offset {} in a file of {} bytes", sidecar.offset, bytes.size()));
   }
@@ -23,16 +22,15 @@ void check_encoding(const std::string& file, const Sidecar& sidecar, Format expe
   if (!sidecar.is_srgb || info(expected).channel_bytes != 1) return;
   const bool srgb = info(expected).kind == FormatInfo::srgb8;
   if (*sidecar.is_srgb != srgb) {
-    refuse(file,
-           fmt::format("encoding: {} stores {} codes, the sidecar says '{}'; converted codes are not the buffer's",
-                       info(expected).name, srgb ? "sRGB" : "linear", *sidecar.is_srgb ? "srgb" : "linear"));
+    refuse(file, fmt::format("encoding: {} stores {} codes, the sidecar says '{}'; converted codes are not the buffer's",
+                             info(expected).name, srgb ? "sRGB" : "linear", *sidecar.is_srgb ? "srgb" : "linear"));
   }
 }
 
 }  // namespace
 
-StoredImage image_in(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar,
-                     const capture::Array& expected, int level) {
+StoredImage image_in(std::span<const std::byte> bytes, const std::string& file, const Sidecar& sidecar, const capture::Array& expected,
+                     int level) {
   check_level_size(file, sidecar.width, sidecar.height, expected, level);
   check_encoding(file, sidecar, expected.format);
   StoredImage out;
@@ -51,8 +49,7 @@ StoredImage image_in(std::span<const std::byte> bytes, const std::string& file, 
   // The last row may lack its padding. Compared by division, because height times pitch may not fit.
   const std::size_t found = out.rows.size();
   const auto text = [&] {
-    return fmt::format("{} rows of {} bytes behind offset {}, found {} bytes", out.height, out.row_pitch,
-                       sidecar.offset, found);
+    return fmt::format("{} rows of {} bytes behind offset {}, found {} bytes", out.height, out.row_pitch, sidecar.offset, found);
   };
   if (found < row || (found - row) / out.row_pitch < out.height - 1) refuse(file, "truncated: expected " + text());
   const std::size_t rest = found - (out.height - 1) * out.row_pitch;
@@ -71,10 +68,9 @@ StoredRecords records_in(std::span<const std::byte> bytes, const std::string& fi
     for (const scene::Member& member : record.members) out.fields.push_back({member.name, "", member.offset, 1});
   }
   for (const auto& [name, offset] : sidecar.fields) out.fields.push_back({name, "", offset, 1});
-  if (out.bytes.size() / out.stride > out.count ||
-      (out.bytes.size() / out.stride == out.count && out.bytes.size() % out.stride != 0)) {
-    refuse(file, fmt::format("bytes too many: expected {} records of {} bytes behind offset {}, found {} bytes",
-                             out.count, out.stride, sidecar.offset, out.bytes.size()));
+  if (out.bytes.size() / out.stride > out.count || (out.bytes.size() / out.stride == out.count && out.bytes.size() % out.stride != 0)) {
+    refuse(file, fmt::format("bytes too many: expected {} records of {} bytes behind offset {}, found {} bytes", out.count, out.stride,
+                             sidecar.offset, out.bytes.size()));
   }
   return out;
 }

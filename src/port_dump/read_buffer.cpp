@@ -32,8 +32,7 @@ Kind kind_of_npy(const std::string& type) {
 StoredImage npy_image(const FileBytes& file) {
   const capture::NpyHeader header = capture::parse_npy_header(file.bytes, file.file);
   if (header.type.empty()) refuse(file, "records; an image was expected");
-  if (header.shape.size() < 2 || header.shape.size() > 3 ||
-      (header.shape.size() == 3 && (header.shape[2] < 1 || header.shape[2] > 4))) {
+  if (header.shape.size() < 2 || header.shape.size() > 3 || (header.shape.size() == 3 && (header.shape[2] < 1 || header.shape[2] > 4))) {
     refuse(file, fmt::format("expected a shape of (height, width) or (height, width, channels up to 4), found ({})",
                              fmt::join(header.shape, ", ")));
   }
@@ -50,12 +49,10 @@ StoredImage npy_image(const FileBytes& file) {
 // What an 8-bit file says about its encoding is a label: the codes are taken as they are, and a contradiction is named.
 void note_encoding(const FileBytes& file, bool is_srgb, std::string_view label, Format expected, ReadNotes& notes) {
   if (info(expected).channel_bytes != 1 || is_srgb == (info(expected).kind == Kind::srgb8)) return;
-  notes.lines.push_back(
-      fmt::format("{}: {}, the buffer is {}: the codes are taken as they are", file.file, label, info(expected).name));
+  notes.lines.push_back(fmt::format("{}: {}, the buffer is {}: the codes are taken as they are", file.file, label, info(expected).name));
 }
 
-std::vector<StoredImage> dds_levels(const FileBytes& file, const capture::Array& expected, int level,
-                                    ReadNotes& notes) {
+std::vector<StoredImage> dds_levels(const FileBytes& file, const capture::Array& expected, int level, ReadNotes& notes) {
   Dds dds = parse_dds(file.bytes, file.file);
   const std::size_t missing = expected.levels.size() - static_cast<std::size_t>(level);
   if (dds.levels.size() > 1 && level == 0 && dds.levels.size() < missing) {
@@ -67,8 +64,7 @@ std::vector<StoredImage> dds_levels(const FileBytes& file, const capture::Array&
     dds.levels.resize(wanted);
   }
   const Kind kind = dds.levels[0].channels[0].kind;
-  if (kind == Kind::unorm8 && !dds.format.ends_with("TYPELESS"))
-    note_encoding(file, dds.is_srgb, dds.format, expected.format, notes);
+  if (kind == Kind::unorm8 && !dds.format.ends_with("TYPELESS")) note_encoding(file, dds.is_srgb, dds.format, expected.format, notes);
   return std::move(dds.levels);
 }
 
@@ -88,8 +84,7 @@ StoredImage picture(const FileBytes& file, const capture::Array& expected, int l
   out.texel_bytes = storage.texel_bytes;
   out.row_pitch = storage.width * storage.texel_bytes;
   out.rows = storage.texels;
-  for (const image_io::Evidence::Channel& channel : storage.channels)
-    out.channels.push_back({channel.kind, channel.offset});
+  for (const image_io::Evidence::Channel& channel : storage.channels) out.channels.push_back({channel.kind, channel.offset});
   return out;
 }
 
@@ -114,8 +109,8 @@ struct LoadedFile {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file.path, error);
     if (!error && size > longest_file(expected)) {
-      throw Error(ExitCode::port_files, fmt::format("{}: {} bytes are too many for {}x{} texels of {}", file.quoted(),
-                                                    size, expected.width, expected.height, info(expected.format).name));
+      throw Error(ExitCode::port_files, fmt::format("{}: {} bytes are too many for {}x{} texels of {}", file.quoted(), size, expected.width,
+                                                    expected.height, info(expected.format).name));
     }
     bytes = read_file(file.path);
     if (!file.sidecar.empty()) sidecar = read_file(file.sidecar);
@@ -131,8 +126,8 @@ struct LoadedFile {
 
 }  // namespace
 
-void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port,
-                 capture::Array& out, ReadNotes& notes) {
+void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port, capture::Array& out,
+                 ReadNotes& notes) {
   image_io::Evidence storage;  // outlives what looks into it
   std::vector<StoredImage> levels;
   Origin origin = port.origin;
@@ -166,10 +161,8 @@ void read_records(const FileBytes& file, const capture::Array& expected, capture
   StoredRecords stored;
   if (file.type == FileType::npy) {
     const capture::NpyHeader header = capture::parse_npy_header(file.bytes, file.file);
-    if (!header.type.empty())
-      refuse(file, fmt::format("expected a structured array of {}, found '{}'", expected.record.name, header.type));
-    if (header.shape.size() != 1)
-      refuse(file, fmt::format("expected a shape of (records,), found ({})", fmt::join(header.shape, ", ")));
+    if (!header.type.empty()) refuse(file, fmt::format("expected a structured array of {}, found '{}'", expected.record.name, header.type));
+    if (header.shape.size() != 1) refuse(file, fmt::format("expected a shape of (records,), found ({})", fmt::join(header.shape, ", ")));
     stored = {file.file, header.fields, header.record_bytes, header.shape[0], file.bytes.subspan(header.data_offset)};
   } else if (file.type == FileType::bin) {
     const Sidecar sidecar = parse_sidecar(file.sidecar, file.sidecar_file);
@@ -186,8 +179,8 @@ void read_records(const FileBytes& file, const capture::Array& expected, capture
   out.height = 1;
 }
 
-capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem,
-                                const capture::Array& expected, const PortInfo& port, ReadNotes& notes) {
+capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem, const capture::Array& expected,
+                                const PortInfo& port, ReadNotes& notes) {
   if (expected.levels.empty() || (!expected.is_records && (expected.width < 1 || expected.height < 1))) {
     throw Error(ExitCode::internal, fmt::format("buffer '{}' was asked for without a size", stem));
   }

@@ -22,8 +22,8 @@ namespace rainref::port_dump {
 ///
 /// Throws Error(port_files) with one sentence that names the file, what was expected and what was found; Error(io) when
 /// a file cannot be read. Memory goes with the size of `expected` and of the file, not with what a header claims.
-capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem,
-                                const capture::Array& expected, const PortInfo& port, ReadNotes& notes);
+capture::Array read_port_buffer(const std::filesystem::path& folder, std::string_view stem, const capture::Array& expected,
+                                const PortInfo& port, ReadNotes& notes);
 
 /// The same for the bytes of one file, as a level or as records. `sidecar` is the text beside a .bin. This is what
 /// read_port_buffer does to each file, for callers that hold the bytes.
@@ -35,8 +35,8 @@ struct FileBytes {
   std::string sidecar_file;  ///< quoted
 };
 /// Fills out.levels from `level` on: one level, or all that a DDS holds. `out` is `expected` without levels at first.
-void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port,
-                 capture::Array& out, ReadNotes& notes);
+void read_levels(const FileBytes& file, const capture::Array& expected, int level, const PortInfo& port, capture::Array& out,
+                 ReadNotes& notes);
 /// Fills out.levels[0] and out.width.
 void read_records(const FileBytes& file, const capture::Array& expected, capture::Array& out, ReadNotes& notes);
 

@@ -27,15 +27,13 @@ std::size_t required(const JsonObject& object, const std::string& key) {
 }
 
 void read_image_keys(const JsonObject& object, Sidecar& out) {
-  static const std::array<std::string, 2> origins{"top-left", "bottom-left"}, orders{"rgba", "bgra"},
-      encodings{"linear", "srgb"};
+  static const std::array<std::string, 2> origins{"top-left", "bottom-left"}, orders{"rgba", "bgra"}, encodings{"linear", "srgb"};
   out.height = required(object, "height");
   out.row_pitch = object.count("row_pitch").value_or(0);
   if (const auto origin = object.choice("origin", origins)) out.origin = static_cast<Origin>(*origin);
   out.is_bgra = object.choice("channel_order", orders).value_or(0) == 1;
   if (out.is_bgra && info(out.format).channels != 4) {
-    object.refuse("channel_order", fmt::format("'bgra' needs four channels; {} has {}", info(out.format).name,
-                                               info(out.format).channels));
+    object.refuse("channel_order", fmt::format("'bgra' needs four channels; {} has {}", info(out.format).name, info(out.format).channels));
   }
   if (const auto encoding = object.choice("encoding", encodings)) {
     out.is_srgb = *encoding == 1;

@@ -25,7 +25,7 @@ struct Sidecar {
   bool is_bgra = false;                                     ///< channel_order: blue lies first
   std::size_t struct_stride = 0;                            ///< bytes from record to record; 0: as the pack declares
   std::vector<std::pair<std::string, std::size_t>> fields;  ///< name and offset in a record; none: as the pack declares
-  std::optional<bool> is_srgb;  ///< encoding "srgb" or "linear" of 8-bit codes; nothing when not said
+  std::optional<bool> is_srgb;                              ///< encoding "srgb" or "linear" of 8-bit codes; nothing when not said
 };
 
 /// Keys: format, width (both required), height (required for images), offset, row_pitch, origin, channel_order ("rgba",

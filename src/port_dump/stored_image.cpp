@@ -26,8 +26,7 @@ std::string mismatch(Kind found, Format format) {
   const bool codes = expected == Kind::unorm8 || expected == Kind::srgb8;
   if (found == expected || (codes && found == Kind::unorm8)) return "";
   if (expected == Kind::float16 && found == Kind::float32) return "";
-  std::string why =
-      fmt::format("expected {} as {}, found {}", info(format).name, kind_text(expected), kind_text(found));
+  std::string why = fmt::format("expected {} as {}, found {}", info(format).name, kind_text(expected), kind_text(found));
   if (expected == Kind::float32 && found == Kind::float16)
     why += ": the exporter has rounded; export floats";
   else if (codes)
@@ -40,15 +39,13 @@ std::string mismatch(Kind found, Format format) {
 void check_channels(const StoredImage& stored, Format format, ReadNotes& notes) {
   const auto wanted = static_cast<std::size_t>(info(format).channels);
   if (stored.channels.size() < wanted) {
-    refuse(stored,
-           fmt::format("expected {} channels of {}, found {}", wanted, info(format).name, stored.channels.size()));
+    refuse(stored, fmt::format("expected {} channels of {}, found {}", wanted, info(format).name, stored.channels.size()));
   }
   for (std::size_t c = 0; c < wanted; ++c) {
     if (const std::string why = mismatch(stored.channels[c].kind, format); !why.empty()) refuse(stored, why);
   }
   if (stored.channels.size() > wanted) {
-    notes.lines.push_back(fmt::format("{}: {} channels, the buffer has {}: {} not read", stored.file,
-                                      stored.channels.size(), wanted,
+    notes.lines.push_back(fmt::format("{}: {} channels, the buffer has {}: {} not read", stored.file, stored.channels.size(), wanted,
                                       channel_names.substr(wanted, stored.channels.size() - wanted)));
   }
 }
@@ -61,17 +58,15 @@ T load(const std::byte* from) {
 }
 
 // The half that equals the float at `from`.
-std::uint16_t exact_half(const StoredImage& stored, const std::byte* from, std::size_t x, std::size_t y,
-                         std::size_t c) {
+std::uint16_t exact_half(const StoredImage& stored, const std::byte* from, std::size_t x, std::size_t y, std::size_t c) {
   const auto value = load<float>(from);
   const Half half = to_half(value);
   const auto bits = std::bit_cast<std::uint32_t>(value);
   const bool is_nan = (bits & 0x7fffffffu) > 0x7f800000u;
   if (!is_nan && std::bit_cast<std::uint32_t>(to_float(half)) != bits) {
-    refuse(stored,
-           fmt::format("texel x {}, y {}, channel {} is {} (0x{:08x}), which no half equals; the buffer stores halves, "
-                       "so these are not its values",
-                       x, y, channel_names[c], value, bits));
+    refuse(stored, fmt::format("texel x {}, y {}, channel {} is {} (0x{:08x}), which no half equals; the buffer stores halves, "
+                               "so these are not its values",
+                               x, y, channel_names[c], value, bits));
   }
   return half.bits;
 }
@@ -103,8 +98,7 @@ void copy_row(const StoredImage& stored, const FormatInfo& format, std::size_t y
 
 }  // namespace
 
-void check_level_size(const std::string& file, std::size_t width, std::size_t height, const capture::Array& expected,
-                      int level) {
+void check_level_size(const std::string& file, std::size_t width, std::size_t height, const capture::Array& expected, int level) {
   const auto wanted_width = static_cast<std::size_t>(expected.level_width(level));
   const auto wanted_height = static_cast<std::size_t>(expected.level_height(level));
   if (width == wanted_width && height == wanted_height) return;
@@ -136,14 +130,12 @@ std::string kind_text(FormatInfo::Kind kind) {
   return "";
 }
 
-std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level,
-                                       ReadNotes& notes) {
+std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level, ReadNotes& notes) {
   check_level_size(stored.file, stored.width, stored.height, expected, level);
   check_channels(stored, expected.format, notes);
   const FormatInfo& format = info(expected.format);
   // Readers have checked this against their own headers; a defect there must not become a read out of bounds.
-  if (stored.height > 0 &&
-      stored.rows.size() < (stored.height - 1) * stored.row_pitch + stored.width * stored.texel_bytes) {
+  if (stored.height > 0 && stored.rows.size() < (stored.height - 1) * stored.row_pitch + stored.width * stored.texel_bytes) {
     throw Error(ExitCode::internal, fmt::format("{}: rows do not lie in the file", stored.file));
   }
   const std::size_t row_bytes = stored.width * format.texel_bytes();

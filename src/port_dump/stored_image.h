@@ -38,8 +38,7 @@ struct StoredImage {
 std::string kind_text(FormatInfo::Kind kind);
 
 /// Throws Error(port_files) unless width x height is the size of this level of the expected buffer.
-void check_level_size(const std::string& file, std::size_t width, std::size_t height, const capture::Array& expected,
-                      int level);
+void check_level_size(const std::string& file, std::size_t width, std::size_t height, const capture::Array& expected, int level);
 
 /// The canonical bytes of this level of the expected buffer: rows from v = 0, no padding. Values keep their bits; a
 /// float is taken for a half only when it equals one (a NaN becomes the half NaN of its sign). Channels beyond the
@@ -47,7 +46,6 @@ void check_level_size(const std::string& file, std::size_t width, std::size_t he
 ///
 /// Throws Error(port_files) when size, channels or type differ, when the file stores less precision than the buffer, or
 /// when a float is no half; the message gives the texel.
-std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level,
-                                       ReadNotes& notes);
+std::vector<std::byte> canonical_level(const StoredImage& stored, const capture::Array& expected, int level, ReadNotes& notes);
 
 }  // namespace rainref::port_dump

@@ -26,7 +26,6 @@ struct StoredRecords {
 ///
 /// Throws Error(port_files) when a field is missing or has another type or number of components, or when a field or the
 /// last record does not lie within the stride or the bytes.
-std::vector<std::byte> canonical_records(const StoredRecords& stored, const scene::UniformBlock& record,
-                                         ReadNotes& notes);
+std::vector<std::byte> canonical_records(const StoredRecords& stored, const scene::UniformBlock& record, ReadNotes& notes);
 
 }  // namespace rainref::port_dump

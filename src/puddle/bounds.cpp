@@ -81,9 +81,12 @@ std::string doubt_bounds(const capture::PassCase& c) {
       const Extent& e = blocks[static_cast<std::size_t>(x)];
       const double top = static_cast<double>(e.height) * u.height_scale, slope = e.difference * to_slope;
       const auto text = [&](const std::string& what, float said_top, float said_slope) {
-        return fmt::format("{} says height {:.6g} m and slope {:.6g}, the water in block ({}, {}) has {:.6g} m and {:.6g}: of another frame?", what, said_top, said_slope, x, y, top, slope);
+        return fmt::format(
+            "{} says height {:.6g} m and slope {:.6g}, the water in block ({}, {}) has {:.6g} m and {:.6g}: of another frame?", what,
+            said_top, said_slope, x, y, top, slope);
       };
-      if (top > u.surface_top || slope > u.surface_slope) return text("uniform surface_top or surface_slope", u.surface_top, u.surface_slope);
+      if (top > u.surface_top || slope > u.surface_slope)
+        return text("uniform surface_top or surface_slope", u.surface_top, u.surface_slope);
       for (int v = std::max(0, y - 1); v <= std::min(rows - 1, y + 1); ++v) {
         for (int w = std::max(0, x - 1); w <= std::min(columns - 1, x + 1); ++w) {
           const float* texel = said.texels + 2 * (static_cast<std::ptrdiff_t>(v) * columns + w);

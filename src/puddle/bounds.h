@@ -15,7 +15,8 @@ namespace rainref::puddle {
 /// block or in the eight around it is above this, or below its negative [m]. Channel 1: no slope there is above this [1].
 /// Sets the uniforms that go with it, and those that hold for all of the water. `decoded` holds stored values,
 /// row-major, of the corrected wave; heights beyond its edge are 0.
-TextureData surface_bounds(const Settings& settings, const float* decoded, const parallel::Executor& executor, SurfaceHitUniforms& uniforms);
+TextureData surface_bounds(const Settings& settings, const float* decoded, const parallel::Executor& executor,
+                           SurfaceHitUniforms& uniforms);
 
 /// Whether the texture `bounds` and the uniforms of a run of surface_hit, corrected, hold for its wave: "", or the first
 /// place where the water is higher or steeper than they say, as it is when they are another frame's.

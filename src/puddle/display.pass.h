@@ -14,17 +14,22 @@ struct DisplayPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("DisplayUniforms", {member<&U::vignette>("vignette", "1", {0, 1.5}, "Loss at distance 1 from the centre."),
-                                                       member<&U::exposure>("exposure", "1", scene::exposure_factor, "corrected: factor of the radiance."),
-                                                       member<&U::width>("width", "pixel", scene::whole(1, 65536), "Columns of the picture."),
-                                                       member<&U::height>("height", "pixel", scene::whole(1, 65536), "Rows of the picture.")});
+    return scene::uniform_block<U>("DisplayUniforms",
+                                   {member<&U::vignette>("vignette", "1", {0, 1.5}, "Loss at distance 1 from the centre."),
+                                    member<&U::exposure>("exposure", "1", scene::exposure_factor, "corrected: factor of the radiance."),
+                                    member<&U::width>("width", "pixel", scene::whole(1, 65536), "Columns of the picture."),
+                                    member<&U::height>("height", "pixel", scene::whole(1, 65536), "Rows of the picture.")});
   }
   template <class B>
   struct Io {
     static constexpr std::string_view meaning = "Display code, alpha 1. Row 0 is the bottom of the picture.";
     typename B::template Texels<Format::rgba16f> colour = pass::In{.name = "colour", .from = "shade"};
     typename B::template Result<Format::rgba8> picture = {
-        pass::Out{.name = "picture", .sentence = meaning, .encoding = "code = power 0.4545 of the radiance", .colour_space = "Rec. 709 primaries", .alpha = "1"},
+        pass::Out{.name = "picture",
+                  .sentence = meaning,
+                  .encoding = "code = power 0.4545 of the radiance",
+                  .colour_space = "Rec. 709 primaries",
+                  .alpha = "1"},
         pass::Out{.name = "picture", .sentence = meaning, .encoding = "sRGB (IEC 61966-2-1)", .colour_space = "sRGB", .alpha = "1"}};
   };
 };

@@ -23,8 +23,10 @@ std::vector<float> recode(const Image& image, bool is_encoded, Variant variant) 
     for (int k = 0; k < 3; ++k) {
       // Resampled panoramas have slightly negative texels; radiance has none.
       const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
-      if (is_encoded == (variant == Variant::as_published)) out[i * 4 + k] = x;
-      else out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+      if (is_encoded == (variant == Variant::as_published))
+        out[i * 4 + k] = x;
+      else
+        out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
     }
     if (c == 4) out[i * 4 + 3] = in[i * c + 3];
   }

@@ -13,8 +13,8 @@ namespace {
 
 // Lattice value in [0, 1) of cell (x, y), layer n.
 double lattice(std::uint64_t seed, int x, int y, std::uint32_t layer) {
-  const random::Block b = random::block(seed, random::Purpose::puddle_bed, static_cast<std::uint32_t>(x) * 0x9e3779b9u + layer,
-                                        static_cast<std::uint32_t>(y));
+  const random::Block b =
+      random::block(seed, random::Purpose::puddle_bed, static_cast<std::uint32_t>(x) * 0x9e3779b9u + layer, static_cast<std::uint32_t>(y));
   return b[0] * 0x1p-32;
 }
 double ease(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }

@@ -12,7 +12,7 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr double stability_limit = 0x1.6a09e667f3bcdp-1;  // sqrt(1/2): five-point leapfrog in two dimensions
+constexpr double stability_limit = 0x1.6a09e667f3bcdp-1;   // sqrt(1/2): five-point leapfrog in two dimensions
 constexpr double box_half_side = 42, box_half_height = 5;  // the article's box of 84 x 10 x 84
 
 bool corrected(const Settings& s) { return s.variant == Variant::corrected; }
@@ -24,9 +24,7 @@ void put(const Vector& from, float (&to)[3]) {
 
 }  // namespace
 
-std::array<int, 2> wave_size(const Settings& s) {
-  return corrected(s) ? s.grid : std::array<int, 2>{s.width, s.height};
-}
+std::array<int, 2> wave_size(const Settings& s) { return corrected(s) ? s.grid : std::array<int, 2>{s.width, s.height}; }
 
 Encoding encoding(const Settings& s) {
   if (!corrected(s)) return {2, -1, 0.5f};
@@ -41,9 +39,7 @@ double gamma_of_step(const Settings& s) {
   return corrected(s) ? pow_real(Real64(s.damping), Real64(60 / s.step_rate)).v : s.damping;
 }
 
-double courant_number(const Settings& s) {
-  return corrected(s) ? s.wave_speed / (s.step_rate * s.cell_size) : stability_limit * s.step;
-}
+double courant_number(const Settings& s) { return corrected(s) ? s.wave_speed / (s.step_rate * s.cell_size) : stability_limit * s.step; }
 
 std::int64_t steps_until(const Settings& s, int frames) {
   if (!corrected(s)) return frames;
@@ -54,10 +50,11 @@ std::int64_t steps_until(const Settings& s, int frames) {
 void check(const Settings& s) {
   const double courant = courant_number(s);
   if (corrected(s) && !(courant <= stability_limit)) {
-    throw Error(ExitCode::usage,
-                fmt::format("puddle.wave_speed / (puddle.step_rate * puddle.cell_size) = {:.6g}: the wave step is unstable above the Courant "
-                            "number sqrt(1/2) = 0.707107; raise puddle.step_rate to {:.0f} or more",
-                            courant, std::ceil(s.wave_speed / (stability_limit * s.cell_size))));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("puddle.wave_speed / (puddle.step_rate * puddle.cell_size) = {:.6g}: the wave step is unstable above the Courant "
+                    "number sqrt(1/2) = 0.707107; raise puddle.step_rate to {:.0f} or more",
+                    courant, std::ceil(s.wave_speed / (stability_limit * s.cell_size))));
   }
   camera_uniforms(s);  // throws for a camera that looks nowhere
 }

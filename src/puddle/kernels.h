@@ -17,10 +17,10 @@ struct WaveJob {
   bool corrected;
   Rounding rounding;
   Boundary boundary;
-  const Image* newest;          ///< ghost columns filled
-  Image* previous;              ///< in: the previous level; out: the next one, ghost columns filled
-  const Image* rest_row;        ///< one row at rest, for Boundary::fixed
-  const Image* shore;           ///< r32f, or null
+  const Image* newest;    ///< ghost columns filled
+  Image* previous;        ///< in: the previous level; out: the next one, ghost columns filled
+  const Image* rest_row;  ///< one row at rest, for Boundary::fixed
+  const Image* shore;     ///< r32f, or null
   std::span<const Drop> drops;
 };
 

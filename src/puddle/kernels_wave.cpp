@@ -88,9 +88,12 @@ void step_rows(const WaveJob& job, const parallel::Tile& tile) {
 }
 void StepRows(const WaveJob& job, const parallel::Tile& tile) {
   switch (info(job.newest->format()).kind) {
-    case FormatInfo::float16: return step_rows<Half>(job, tile);
-    case FormatInfo::float32: return step_rows<float>(job, tile);
-    default: return step_rows<Unorm8>(job, tile);
+    case FormatInfo::float16:
+      return step_rows<Half>(job, tile);
+    case FormatInfo::float32:
+      return step_rows<float>(job, tile);
+    default:
+      return step_rows<Unorm8>(job, tile);
   }
 }
 
@@ -114,9 +117,12 @@ void previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile)
 }
 void PreviousRows(const WaveJob& job, Image& plane, const parallel::Tile& tile) {
   switch (info(plane.format()).kind) {
-    case FormatInfo::float16: return previous_rows<Half>(job, plane, tile);
-    case FormatInfo::float32: return previous_rows<float>(job, plane, tile);
-    default: return previous_rows<Unorm8>(job, plane, tile);
+    case FormatInfo::float16:
+      return previous_rows<Half>(job, plane, tile);
+    case FormatInfo::float32:
+      return previous_rows<float>(job, plane, tile);
+    default:
+      return previous_rows<Unorm8>(job, plane, tile);
   }
 }
 
@@ -136,9 +142,12 @@ void encode(const float* stored, Image& plane, Boundary boundary, float rest, Ro
 }
 void EncodeRows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding) {
   switch (info(plane.format()).kind) {
-    case FormatInfo::float16: return encode<Half>(stored, plane, boundary, rest, rounding);
-    case FormatInfo::float32: return encode<float>(stored, plane, boundary, rest, rounding);
-    default: return encode<Unorm8>(stored, plane, boundary, rest, rounding);
+    case FormatInfo::float16:
+      return encode<Half>(stored, plane, boundary, rest, rounding);
+    case FormatInfo::float32:
+      return encode<float>(stored, plane, boundary, rest, rounding);
+    default:
+      return encode<Unorm8>(stored, plane, boundary, rest, rounding);
   }
 }
 
@@ -153,9 +162,12 @@ void decode(const Image& plane, float* out, const parallel::Tile& tile) {
 }
 void DecodeRows(const Image& plane, float* out, const parallel::Tile& tile) {
   switch (info(plane.format()).kind) {
-    case FormatInfo::float16: return decode<Half>(plane, out, tile);
-    case FormatInfo::float32: return decode<float>(plane, out, tile);
-    default: return decode<Unorm8>(plane, out, tile);
+    case FormatInfo::float16:
+      return decode<Half>(plane, out, tile);
+    case FormatInfo::float32:
+      return decode<float>(plane, out, tile);
+    default:
+      return decode<Unorm8>(plane, out, tile);
   }
 }
 
@@ -223,9 +235,7 @@ void encode_rows(const float* stored, Image& plane, Boundary boundary, float res
   RAINREF_DISPATCH(EncodeRows)(stored, plane, boundary, rest, rounding);
 }
 void wave_step_rows(const WaveJob& job, const parallel::Tile& tile) { RAINREF_DISPATCH(StepRows)(job, tile); }
-void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile) {
-  RAINREF_DISPATCH(PreviousRows)(job, plane, tile);
-}
+void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile) { RAINREF_DISPATCH(PreviousRows)(job, plane, tile); }
 void decode_rows(const Image& plane, float* out, const parallel::Tile& tile) { RAINREF_DISPATCH(DecodeRows)(plane, out, tile); }
 void extents_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile, Extent* blocks) {
   RAINREF_DISPATCH(ExtentsOfRows)(decoded, width, height, rest, tile, blocks);

@@ -12,7 +12,7 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr int own_ground = 512;             // make_asphalt
+constexpr int own_ground = 512;              // make_asphalt
 constexpr std::array<int, 2> bed{768, 768};  // make_bed, at most
 
 /// recode and the texture made of it.
@@ -52,12 +52,14 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
       m.hold(Image::memory_bytes(Format::r32f, columns, rows));
     }
   }
-  m.hold(Image::memory_bytes(Format::rgba32f, s.width, s.height) + 2 * Image::memory_bytes(Format::rgba16f, s.width, s.height) + Image::memory_bytes(Format::rgba8, s.width, s.height));
+  m.hold(Image::memory_bytes(Format::rgba32f, s.width, s.height) + 2 * Image::memory_bytes(Format::rgba16f, s.width, s.height) +
+         Image::memory_bytes(Format::rgba8, s.width, s.height));
   if (!corrected) m.hold(Image::memory_bytes(Format::r32f, s.width, s.height));
   m.hold(wave_floats);  // decoded for lookups
   m.release(made);
   if (corrected) {
-    const std::size_t blocks = static_cast<std::size_t>((columns + extent_block - 1) / extent_block) * static_cast<std::size_t>((rows + extent_block - 1) / extent_block);
+    const std::size_t blocks = static_cast<std::size_t>((columns + extent_block - 1) / extent_block) *
+                               static_cast<std::size_t>((rows + extent_block - 1) / extent_block);
     m.pass(blocks * (sizeof(Extent) + 2 * sizeof(float)));
   }
   return m;

@@ -22,8 +22,13 @@ ScalarWave<Storage>::ScalarWave(const Settings& settings) : ScalarWave(settings,
 
 template <class Storage>
 ScalarWave<Storage>::ScalarWave(const Settings& s, const WaveStepUniforms& uniforms)
-    : corrected_(s.variant == Variant::corrected), rounding_(s.rounding), boundary_(s.boundary), width_(wave_size(s)[0]),
-      height_(wave_size(s)[1]), ghosts_(static_cast<int>(uniforms.step) + 1), uniforms_(uniforms) {
+    : corrected_(s.variant == Variant::corrected),
+      rounding_(s.rounding),
+      boundary_(s.boundary),
+      width_(wave_size(s)[0]),
+      height_(wave_size(s)[1]),
+      ghosts_(static_cast<int>(uniforms.step) + 1),
+      uniforms_(uniforms) {
   store(&rest_, Number<Storage>(uniforms.rest), rounding_);
   newest.assign(static_cast<std::size_t>(width_) * height_, rest_);
   previous = newest;

@@ -16,19 +16,29 @@ std::span<const scene::Parameter> parameters() {
   static const std::vector<scene::Parameter> table{
       // The published parameters, in the article's order.
       integer("puddle.drop_count", "1", 1, 10, 5, "Number of simultaneous raindrops.").only(published),
-      real("puddle.drop_intensity", "1", 0, 4, 0.5, "Strength of each raindrop's impact; corrected: factor of the crater's depth.").default_for(correct, 1.0),
+      real("puddle.drop_intensity", "1", 0, 4, 0.5, "Strength of each raindrop's impact; corrected: factor of the crater's depth.")
+          .default_for(correct, 1.0),
       real("puddle.rain_speed", "1/s", 0, 20, 1.5, "How quickly new drops appear: pulses of each drop a second.").only(published),
-      real("puddle.damping", "1", 0.5, 1, 0.98, "How fast ripples fade: energy kept in 1/60 s (as-published: in a frame), 0.95 to 0.999 in the article.").default_for(correct, 0.96),
-      real("puddle.reflectivity", "1", 0, 1, 0.6, "How much the water reflects against showing the ground; corrected: factor of the Fresnel reflectance.").default_for(correct, 1.0),
+      real("puddle.damping", "1", 0.5, 1, 0.98,
+           "How fast ripples fade: energy kept in 1/60 s (as-published: in a frame), 0.95 to 0.999 in the article.")
+          .default_for(correct, 0.96),
+      real("puddle.reflectivity", "1", 0, 1, 0.6,
+           "How much the water reflects against showing the ground; corrected: factor of the Fresnel reflectance.")
+          .default_for(correct, 1.0),
       // Beyond sqrt(2) the published display pass takes a power of a negative number.
-      real("puddle.vignette", "1", 0, 0x1.6a09e6p+0, 0.4, "Darkening of the picture's edges: loss at distance 1 from the centre in picture sides.").default_for(correct, 0.2),
+      real("puddle.vignette", "1", 0, 0x1.6a09e6p+0, 0.4,
+           "Darkening of the picture's edges: loss at distance 1 from the centre in picture sides.")
+          .default_for(correct, 0.2),
       real("puddle.fog_depth", "1/m", 0, 10, 0.01, "Density of the distance fog.").default_for(correct, 0.02),
       real("puddle.env_rotation", "rad", 0, 6.2831853071795862, 0, "Rotation of the environment about the vertical axis."),
       boolean("puddle.use_checkerboard", true, "Checkerboard ground instead of the ground image.").default_for(correct, false),
-      real("puddle.ground_scale", "1/m", 1e-4, 100, 0.15, "Tiles of the ground, or of the checkerboard, in a metre.").default_for(correct, 1.6),
+      real("puddle.ground_scale", "1/m", 1e-4, 100, 0.15, "Tiles of the ground, or of the checkerboard, in a metre.")
+          .default_for(correct, 1.6),
       real("puddle.water_turbidity", "1/m", 0, 1000, 0.05, "Attenuation of light in the water by Beer's law.").default_for(correct, 6.0),
-      real("puddle.puddle_depth", "m", 0.001, 100, 5, "Depth of the ground under y = 0; corrected: of the puddle's deepest point.").default_for(correct, 0.03),
-      real3("puddle.tint", "1", 0, 1, {0.02, 0.05, 0.06}, "Colour of the water's body, linear RGB.").default_for(correct, Real3{0.05, 0.045, 0.04}),
+      real("puddle.puddle_depth", "m", 0.001, 100, 5, "Depth of the ground under y = 0; corrected: of the puddle's deepest point.")
+          .default_for(correct, 0.03),
+      real3("puddle.tint", "1", 0, 1, {0.02, 0.05, 0.06}, "Colour of the water's body, linear RGB.")
+          .default_for(correct, Real3{0.05, 0.045, 0.04}),
       // How the water is stored and computed.
       choice("puddle.storage", {"rg16f", "rg32f", "rgba8"}, "rg16f", "Storage format of the wave: newest and previous level."),
       choice("puddle.rounding", {"rne", "rtz"}, "rne", "Rounding of every store: to nearest even, or toward zero as many GPUs do."),
@@ -46,7 +56,8 @@ std::span<const scene::Parameter> parameters() {
       real("rain.rate", "mm/h", 0, 200, 5, "Rain rate; drops follow Marshall and Palmer's size distribution.").only(correct),
       real("rain.smallest_drop", "mm", 0, 5, 1.6, "Drops below this diameter leave no crater.").only(correct),
       text("environment.image", "", "Picture of the surroundings, EXR, HDR or PNG; empty: the street at night made here."),
-      choice("environment.layout", {"latlong", "cube"}, "latlong", "Latitude/longitude panorama, or six cube faces in a row or column (+x -x +y -y +z -z)."),
+      choice("environment.layout", {"latlong", "cube"}, "latlong",
+             "Latitude/longitude panorama, or six cube faces in a row or column (+x -x +y -y +z -z)."),
       real("display.exposure", "EV", -20, 20, 0.7, "Exposure of the picture.").only(correct),
       real3("camera.position", "m", -1e5, 1e5, {20, 18, 14}, "Eye of the camera.").default_for(correct, Real3{0.25, 0.36, 1.8}),
       real3("camera.target", "m", -1e5, 1e5, {-6, -4, 10}, "Point that the camera looks at.").default_for(correct, Real3{0.0, 0.0, 0.1}),

@@ -32,10 +32,14 @@ constexpr int wave_tile_rows = 32, picture_tile_rows = 8;
 
 Format channel_format(Format storage) {
   switch (storage) {
-    case Format::rg16f: return Format::r16f;
-    case Format::rg32f: return Format::r32f;
-    case Format::rgba8: return Format::r8;
-    default: throw Error(ExitCode::usage, "puddle.storage: expected rg16f, rg32f or rgba8");
+    case Format::rg16f:
+      return Format::r16f;
+    case Format::rg32f:
+      return Format::r32f;
+    case Format::rgba8:
+      return Format::r8;
+    default:
+      throw Error(ExitCode::usage, "puddle.storage: expected rg16f, rg32f or rgba8");
   }
 }
 
@@ -58,7 +62,10 @@ struct Puddle::State {
   Image hit, normal, noise, colour, picture;
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
-      : settings(s), executor(e), corrected(s.variant == Variant::corrected), encoding(puddle::encoding(s)),
+      : settings(s),
+        executor(e),
+        corrected(s.variant == Variant::corrected),
+        encoding(puddle::encoding(s)),
         rainfall(corrected ? s : no_rain(s), 1 / encoding.scale) {
     const auto [columns, rows] = wave_size(s);
     const Format format = channel_format(s.storage);
@@ -104,7 +111,9 @@ struct Puddle::State {
     stored_rest = TextureData(rest_row, Address::clamp, Address::clamp).texels()[0];
   }
   // Stored values, row-major, into a plane with its ghosts.
-  void encode(const std::vector<float>& stored, Image& plane) const { encode_rows(stored.data(), plane, settings.boundary, encoding.rest, settings.rounding); }
+  void encode(const std::vector<float>& stored, Image& plane) const {
+    encode_rows(stored.data(), plane, settings.boundary, encoding.rest, settings.rounding);
+  }
 
   void wave_tiles(const std::function<void(const parallel::Tile&)>& body) const {
     executor.for_tiles(newest.width(), newest.height(), newest.width(), wave_tile_rows, body);
@@ -113,11 +122,14 @@ struct Puddle::State {
   double frame_time() const { return 1 / settings.fps; }
   double step_time() const { return corrected ? 1 / settings.step_rate : frame_time(); }
   /// Of a pass of this frame that advances by dt.
-  pass::Moment moment(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.rounding}; }
+  pass::Moment moment(Recorder* recorder, int step, double dt) const {
+    return {recorder, frame, step, frame / settings.fps, dt, settings.rounding};
+  }
   /// The wave as wave_step loads it: the boundary rule is an address rule, the border the stored rest value.
   PassInput loaded_wave(BufferView wave) const {
     constexpr Address rules[] = {Address::clamp, Address::repeat, Address::border};
-    return {"wave", std::move(wave), Filter::none, Filter::none, rules[static_cast<int>(settings.boundary)], {stored_rest, stored_rest, 0, 0}};
+    return {
+        "wave", std::move(wave), Filter::none, Filter::none, rules[static_cast<int>(settings.boundary)], {stored_rest, stored_rest, 0, 0}};
   }
 };
 
@@ -139,7 +151,8 @@ void Puddle::simulate(Recorder* recorder) {
     if (s.corrected) {
       const std::vector<Drop>& craters = s.rainfall.craters();
       const std::vector<std::uint32_t>& thresholds = s.rainfall.count_thresholds();
-      now.before("raindrops", s.rainfall.uniforms(s.steps), std::array{PassInput{"craters", records(craters)}, PassInput{"count_thresholds", records(thresholds)}});
+      now.before("raindrops", s.rainfall.uniforms(s.steps),
+                 std::array{PassInput{"craters", records(craters)}, PassInput{"count_thresholds", records(thresholds)}});
     } else {
       now.before("raindrops", raindrops_uniforms(s.settings, s.frame), {});
     }
@@ -148,9 +161,9 @@ void Puddle::simulate(Recorder* recorder) {
         s.corrected ? s.rainfall.drops(s.steps) : raindrops_as_published(raindrops_uniforms(s.settings, s.frame));
     now.after("raindrops", std::array{PassOutput{"drops", records(drops)}}, rain_time.seconds());
 
-    WaveJob job{wave_step_uniforms(s.settings), s.corrected, s.settings.rounding, s.settings.boundary,
-                &s.newest,                      &s.previous, &s.rest_row,         s.shore.empty() ? nullptr : &s.shore,
-                drops};
+    WaveJob job{
+        wave_step_uniforms(s.settings),       s.corrected, s.settings.rounding, s.settings.boundary, &s.newest, &s.previous, &s.rest_row,
+        s.shore.empty() ? nullptr : &s.shore, drops};
     job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
     std::vector<PassInput> inputs{s.loaded_wave(wave()), {"drops", records(drops)}};
     if (job.shore) inputs.push_back({"shore", s.shore});

@@ -12,11 +12,11 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr double gravity = 9.80665;       // m/s^2, CGPM 1901
-constexpr double energy_share = 0.01;     // of the impact that goes into the wave; the rest splashes and stirs
-constexpr double crater_per_diameter = 7; // crater radius over drop diameter
+constexpr double gravity = 9.80665;                              // m/s^2, CGPM 1901
+constexpr double energy_share = 0.01;                            // of the impact that goes into the wave; the rest splashes and stirs
+constexpr double crater_per_diameter = 7;                        // crater radius over drop diameter
 constexpr std::int32_t reflecting = 0, periodic = 1, fixed = 2;  // RainfallUniforms::boundary
-constexpr double least_radius = 3;        // texels; a smaller crater would not be resolved, so its energy is spread
+constexpr double least_radius = 3;                               // texels; a smaller crater would not be resolved, so its energy is spread
 
 /// A drop with its images beyond the edges, as Rainfall::drops says.
 void add_with_images(const Drop& drop, const RainfallUniforms& u, std::vector<Drop>& out) {
@@ -31,7 +31,8 @@ void add_with_images(const Drop& drop, const RainfallUniforms& u, std::vector<Dr
   const auto xs = images(drop.x, u.columns), ys = images(drop.y, u.rows);
   for (std::size_t j = 0; j < ys.size(); ++j) {
     for (std::size_t i = 0; i < xs.size(); ++i) {
-      if ((i > 0 || j > 0) && reaches(xs[i], u.columns) && reaches(ys[j], u.rows)) out.push_back({xs[i], ys[j], drop.amplitude, drop.radius});
+      if ((i > 0 || j > 0) && reaches(xs[i], u.columns) && reaches(ys[j], u.rows))
+        out.push_back({xs[i], ys[j], drop.amplitude, drop.radius});
     }
   }
 }
@@ -60,10 +61,13 @@ std::vector<Drop> drops_of(const RainfallUniforms& u, std::span<const Drop> crat
   std::vector<Drop> out;
   if (craters.empty()) return out;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
-  if (craters.size() != Rainfall::sizes || u.threshold_count < 0 || static_cast<std::size_t>(u.threshold_count) > thresholds.size() || u.first_count < 0 || u.first_count > most ||
-      u.threshold_count > most) {
-    throw Error(ExitCode::port_files, fmt::format("raindrops: expected {} craters and at most {} thresholds, found {} craters, {} thresholds, first_count {}, threshold_count {}",
-                                                  int{Rainfall::sizes}, most, craters.size(), thresholds.size(), u.first_count, u.threshold_count));
+  if (craters.size() != Rainfall::sizes || u.threshold_count < 0 || static_cast<std::size_t>(u.threshold_count) > thresholds.size() ||
+      u.first_count < 0 || u.first_count > most || u.threshold_count > most) {
+    throw Error(
+        ExitCode::port_files,
+        fmt::format(
+            "raindrops: expected {} craters and at most {} thresholds, found {} craters, {} thresholds, first_count {}, threshold_count {}",
+            int{Rainfall::sizes}, most, craters.size(), thresholds.size(), u.first_count, u.threshold_count));
   }
   const std::uint64_t seed = u.seed[0] | static_cast<std::uint64_t>(u.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(u.threshold_count));

@@ -98,7 +98,8 @@ std::unique_ptr<PassModel> bind_wave_of(const PassCase& c, Format plane_format) 
   m.newest = plane_of(wave, 0, plane_format, m.boundary, m.uniforms.rest);
   m.previous = plane_of(wave, 1, plane_format, m.boundary, m.uniforms.rest);
   m.rest_row = Image(plane_format, m.width, 1);
-  encode_rows(std::vector<float>(static_cast<std::size_t>(m.width), m.uniforms.rest).data(), m.rest_row, m.boundary, m.uniforms.rest, Rounding::rne);
+  encode_rows(std::vector<float>(static_cast<std::size_t>(m.width), m.uniforms.rest).data(), m.rest_row, m.boundary, m.uniforms.rest,
+              Rounding::rne);
   m.has_shore = c.input("shore") != nullptr;
   if (m.has_shore) m.shore = BoundTexture(capture::image_input(c, "shore"));
   m.drops = capture::records_of<Drop>(capture::record_input(c, "drops"));
@@ -106,9 +107,12 @@ std::unique_ptr<PassModel> bind_wave_of(const PassCase& c, Format plane_format) 
 }
 std::unique_ptr<PassModel> bind_wave_step(const PassCase& c) {
   switch (info(capture::image_input(c, "wave").array.format).kind) {
-    case FormatInfo::float16: return bind_wave_of<Half>(c, Format::r16f);
-    case FormatInfo::float32: return bind_wave_of<float>(c, Format::r32f);
-    default: return bind_wave_of<Unorm8>(c, Format::r8);
+    case FormatInfo::float16:
+      return bind_wave_of<Half>(c, Format::r16f);
+    case FormatInfo::float32:
+      return bind_wave_of<float>(c, Format::r32f);
+    default:
+      return bind_wave_of<Unorm8>(c, Format::r8);
   }
 }
 
@@ -117,8 +121,9 @@ std::unique_ptr<PassModel> bind_shade(const PassCase& c) {
   auto m = pass::bound<ShadePass, every::ShadePassText>(c);
   const Texture& around = m.captured.environment.texture;
   if (m.uniforms.environment_is_cube != 0 && around.height[0] != 6 * around.width[0]) {
-    throw Error(ExitCode::port_files, fmt::format("{}: uniform environment_is_cube is {}, but in.environment is {}x{}: six faces below each other were expected", c.folder(),
-                                                  m.uniforms.environment_is_cube, around.width[0], around.height[0]));
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: uniform environment_is_cube is {}, but in.environment is {}x{}: six faces below each other were expected",
+                            c.folder(), m.uniforms.environment_is_cube, around.width[0], around.height[0]));
   }
   return capture::model_of(std::move(m));
 }
@@ -126,7 +131,8 @@ std::unique_ptr<PassModel> bind_shade(const PassCase& c) {
 // ---- raindrops, corrected --------------------------------------------------------------------------------------------
 std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
   std::vector<std::uint32_t> thresholds;
-  for (const CountThreshold& t : capture::records_of<CountThreshold>(capture::record_input(c, "count_thresholds"))) thresholds.push_back(t.threshold);
+  for (const CountThreshold& t : capture::records_of<CountThreshold>(capture::record_input(c, "count_thresholds")))
+    thresholds.push_back(t.threshold);
   const std::vector<Drop> craters = capture::records_of<Drop>(capture::record_input(c, "craters"));
   const std::vector<Drop> drops = drops_of(capture::uniforms_of<RainfallUniforms>(c), craters, thresholds);
   capture::Array out = c.outputs.front().array;
@@ -139,8 +145,11 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
-  static const std::vector<capture::PassReadings> all{
-      {"raindrops", nullptr, recompute_raindrops}, {"wave_step", bind_wave_step}, {"surface_hit", bind_surface_hit, nullptr, doubt_bounds}, {"shade", bind_shade}, {"display", pass::bind<DisplayPass, every::DisplayPassText>}};
+  static const std::vector<capture::PassReadings> all{{"raindrops", nullptr, recompute_raindrops},
+                                                      {"wave_step", bind_wave_step},
+                                                      {"surface_hit", bind_surface_hit, nullptr, doubt_bounds},
+                                                      {"shade", bind_shade},
+                                                      {"display", pass::bind<DisplayPass, every::DisplayPassText>}};
   return all;
 }
 

@@ -9,10 +9,16 @@ namespace rainref::puddle {
 
 /// The sine hash as published, which no GPU reproduces.
 struct GroundNoisePass {
-  static constexpr pass::About about{"ground_noise", "The sine hash of the ground point, which shade takes as data.", {1, capture::Judge::input_only}, {}, {"dot", "length", "normalize"}};
+  static constexpr pass::About about{"ground_noise",
+                                     "The sine hash of the ground point, which shade takes as data.",
+                                     {1, capture::Judge::input_only},
+                                     {},
+                                     {"dot", "length", "normalize"}};
   using Uniforms = GroundNoiseUniforms;
   static scene::UniformBlock uniforms() {
-    return scene::uniform_block<Uniforms>("GroundNoiseUniforms", with_camera<Uniforms>({scene::member<&Uniforms::puddle_depth>("puddle_depth", "m", {0, 100}, "Depth of the ground under y = 0.")}));
+    return scene::uniform_block<Uniforms>(
+        "GroundNoiseUniforms",
+        with_camera<Uniforms>({scene::member<&Uniforms::puddle_depth>("puddle_depth", "m", {0, 100}, "Depth of the ground under y = 0.")}));
   }
   template <class B>
   struct Io {
@@ -23,7 +29,8 @@ struct GroundNoisePass {
 };
 
 struct ShadePass {
-  static constexpr pass::About about{"shade", "Reflection, refraction, water and ground: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
+  static constexpr pass::About about{
+      "shade", "Reflection, refraction, water and ground: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
   using Uniforms = ShadeUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -32,24 +39,26 @@ struct ShadePass {
         "ShadeUniforms",
         with_camera<U>(
             {member<&U::tint>("tint", "1", scene::share, "Colour of the water's body, linear RGB."),
-              member<&U::reflectivity>("reflectivity", "1", scene::share, "Weight of the reflection."),
-              member<&U::rotation>("rotation", "1", scene::component, "Cosine and sine of env_rotation."),
-              member<&U::ground_scale>("ground_scale", "1/m", {0, 100}, "Tiles of the ground in a metre."),
-              member<&U::water_turbidity>("water_turbidity", "1/m", {0, 1000}, "Extinction of light in the water."),
-              member<&U::puddle_depth>("puddle_depth", "m", {0, 100}, "as-published: depth of the ground under y = 0."),
-              member<&U::fog_depth>("fog_depth", "1/m", {0, 10}, "Extinction of the fog."),
-              member<&U::use_checkerboard>("use_checkerboard", "1", scene::flag, "1: checkerboard ground, 0: image."),
-              member<&U::environment_is_cube>("environment_is_cube", "1", scene::flag, "1: cube faces, 0: latitude/longitude."),
-              member<&U::ambient>("ambient", "1", scene::radiance, "corrected: radiance of a white diffuse level ground."),
-              member<&U::gloss_level>("gloss_level", "1", scene::mip_level, "corrected: mip level of the environment in wet ground."),
-              member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
-              member<&U::shore_width>("shore_width", "m", scene::share, "corrected: depth over which wet ground turns into water."),
-              member<&U::ground_footprint>("ground_footprint", "1/m", {0, 1e9}, "corrected: texels of the ground under a pixel at distance 1."),
-              member<&U::fog_colour>("fog_colour", "1", scene::radiance, "corrected: radiance of the fog."),
-              member<&U::exact_fresnel>("exact_fresnel", "1", scene::flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
-              member<&U::wetness>("wetness", "1", scene::share, "corrected: reflectance of the wet ground over that of water."),
-              member<&U::background_level>("background_level", "1", scene::mip_level, "corrected: mip level of the environment behind the scene."),
-              member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water.")}));
+             member<&U::reflectivity>("reflectivity", "1", scene::share, "Weight of the reflection."),
+             member<&U::rotation>("rotation", "1", scene::component, "Cosine and sine of env_rotation."),
+             member<&U::ground_scale>("ground_scale", "1/m", {0, 100}, "Tiles of the ground in a metre."),
+             member<&U::water_turbidity>("water_turbidity", "1/m", {0, 1000}, "Extinction of light in the water."),
+             member<&U::puddle_depth>("puddle_depth", "m", {0, 100}, "as-published: depth of the ground under y = 0."),
+             member<&U::fog_depth>("fog_depth", "1/m", {0, 10}, "Extinction of the fog."),
+             member<&U::use_checkerboard>("use_checkerboard", "1", scene::flag, "1: checkerboard ground, 0: image."),
+             member<&U::environment_is_cube>("environment_is_cube", "1", scene::flag, "1: cube faces, 0: latitude/longitude."),
+             member<&U::ambient>("ambient", "1", scene::radiance, "corrected: radiance of a white diffuse level ground."),
+             member<&U::gloss_level>("gloss_level", "1", scene::mip_level, "corrected: mip level of the environment in wet ground."),
+             member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+             member<&U::shore_width>("shore_width", "m", scene::share, "corrected: depth over which wet ground turns into water."),
+             member<&U::ground_footprint>("ground_footprint", "1/m", {0, 1e9},
+                                          "corrected: texels of the ground under a pixel at distance 1."),
+             member<&U::fog_colour>("fog_colour", "1", scene::radiance, "corrected: radiance of the fog."),
+             member<&U::exact_fresnel>("exact_fresnel", "1", scene::flag, "corrected: 1: Fresnel's equations, 0: Schlick."),
+             member<&U::wetness>("wetness", "1", scene::share, "corrected: reflectance of the wet ground over that of water."),
+             member<&U::background_level>("background_level", "1", scene::mip_level,
+                                          "corrected: mip level of the environment behind the scene."),
+             member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water.")}));
   }
   template <class B>
   struct Io {
@@ -58,9 +67,11 @@ struct ShadePass {
     typename B::template Texels<Format::r32f> noise = pass::In{.name = "noise", .from = "ground_noise", .variant = "as-published"};
     typename B::Sampled environment = pass::In{.name = "environment", .filter = Filter::linear};
     typename B::Sampled ground = pass::In{.name = "ground", .filter = Filter::linear};
-    typename B::Sampled relief = pass::In{.name = "relief", .variant = "corrected", .filter = Filter::linear, .mip_filter = Filter::nearest};
+    typename B::Sampled relief =
+        pass::In{.name = "relief", .variant = "corrected", .filter = Filter::linear, .mip_filter = Filter::nearest};
     typename B::Sampled bed = pass::In{.name = "bed", .variant = "corrected", .filter = Filter::linear};
-    typename B::template Result<Format::rgba16f> colour = pass::Out{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+    typename B::template Result<Format::rgba16f> colour =
+        pass::Out{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
   };
 };
 
@@ -134,8 +145,8 @@ RAINREF_FN Vec3<N> checkerboard(N x, N z, float scale) {
 }
 
 template <class N>
-RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& environment, const Texture& ground, const Surface<N>& s, N noise,
-                                      int px, int py) {
+RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& environment, const Texture& ground, const Surface<N>& s,
+                                      N noise, int px, int py) {
   const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N zero(0.0f), one(1.0f);
   const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));
@@ -151,7 +162,8 @@ RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& env
     const N wobble = (noise - N(0.5f)) * N(0.05f);
     base = checkerboard(gx, gz, u.ground_scale) + Vec3<N>(wobble, wobble, wobble);
   } else {
-    const auto texel = sample_bilinear<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale));
+    const auto texel = sample_bilinear<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale),
+                                                gz * N(u.ground_scale));
     base = N(0.6f) * decode_gamma(Vec3<N>(texel[0], texel[1], texel[2]));
   }
   const Vec3<N> tint(u.tint);
@@ -190,7 +202,8 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const N lod = nearest_octave(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)));
   Vec3<N> normal = s.normal;
   if (any(emerges)) {
-    const auto tilt = sample_mip<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(relief), p.x * N(u.ground_scale), p.z * N(u.ground_scale), lod);
+    const auto tilt = sample_mip<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(relief), p.x * N(u.ground_scale),
+                                          p.z * N(u.ground_scale), lod);
     const Vec3<N> rough(tilt[0], one, tilt[1]);
     normal = select(emerges, normalize(mix(rough, s.normal, water)), normal);
   }
@@ -213,11 +226,13 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   if (u.use_checkerboard != 0) {
     albedo = checkerboard(gx, gz, u.ground_scale);
   } else {
-    const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale), gz * N(u.ground_scale), lod);
+    const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(ground), gx * N(u.ground_scale),
+                                           gz * N(u.ground_scale), lod);
     albedo = Vec3<N>(texel[0], texel[1], texel[2]);
   }
   const auto under_water = column > zero;
-  if (any(under_water)) albedo = select(under_water, mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column)), albedo);
+  if (any(under_water))
+    albedo = select(under_water, mix(Vec3<N>(u.tint), albedo, transmittance(N(u.water_turbidity), path + column)), albedo);
   const Vec3<N> body = albedo * Vec3<N>(u.ambient);
   Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
@@ -234,8 +249,10 @@ struct ShadePassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const ShadeUniforms& u, const Io& io, int px, int py) {
     const Surface<N> s = surface_of<N>(io);
-    if constexpr (corrected) io.colour(shade_corrected<N>(u, io.environment, io.ground, io.relief, io.bed, s, px, py), N(1.0f));
-    else io.colour(shade_as_published<N>(u, io.environment, io.ground, s, io.noise(), px, py), N(1.0f));
+    if constexpr (corrected)
+      io.colour(shade_corrected<N>(u, io.environment, io.ground, io.relief, io.bed, s, px, py), N(1.0f));
+    else
+      io.colour(shade_as_published<N>(u, io.environment, io.ground, s, io.noise(), px, py), N(1.0f));
   }
 };
 #endif

@@ -8,7 +8,8 @@
 namespace rainref::puddle {
 
 struct SurfaceHitPass {
-  static constexpr pass::About about{"surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {1}, {2}, {"dot", "length", "normalize"}};
+  static constexpr pass::About about{
+      "surface_hit", "Where each pixel's view ray meets the water, and the normal there.", {1}, {2}, {"dot", "length", "normalize"}};
   using Uniforms = SurfaceHitUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -16,18 +17,18 @@ struct SurfaceHitPass {
     return scene::uniform_block<U>(
         "SurfaceHitUniforms",
         with_camera<U>(
-           {member<&U::half_size>("half_size", "m", {0, 1e5}, "Half the puddle's extent."),
-            member<&U::epsilon>("epsilon", "m", {1e-5, 1}, "Distance that counts as a hit."),
-            member<&U::texel>("texel", "1", scene::share, "1 over the wave's columns and rows."),
-            member<&U::max_steps>("max_steps", "1", {1, 4096}, "Most steps of the march."),
-            member<&U::normal_gain>("normal_gain", "1", {0, 1e5}, "Factor from a height difference to a slope."),
-            member<&U::height_scale>("height_scale", "m", {0, 2}, "corrected: height = scale * stored + bias."),
-            member<&U::height_bias>("height_bias", "m", {-1, 0}, "corrected: see height_scale."),
-            member<&U::surface_top>("surface_top", "m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
-            member<&U::surface_slope>("surface_slope", "1", {0, 1e9}, "corrected: no slope of the surface is above this."),
-            member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
-            member<&U::bounds_scale>("bounds_scale", "1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
-            member<&U::bounds_reach>("bounds_reach", "m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
+            {member<&U::half_size>("half_size", "m", {0, 1e5}, "Half the puddle's extent."),
+             member<&U::epsilon>("epsilon", "m", {1e-5, 1}, "Distance that counts as a hit."),
+             member<&U::texel>("texel", "1", scene::share, "1 over the wave's columns and rows."),
+             member<&U::max_steps>("max_steps", "1", {1, 4096}, "Most steps of the march."),
+             member<&U::normal_gain>("normal_gain", "1", {0, 1e5}, "Factor from a height difference to a slope."),
+             member<&U::height_scale>("height_scale", "m", {0, 2}, "corrected: height = scale * stored + bias."),
+             member<&U::height_bias>("height_bias", "m", {-1, 0}, "corrected: see height_scale."),
+             member<&U::surface_top>("surface_top", "m", {0, 1e6}, "corrected: no height lies above this, or below its negative."),
+             member<&U::surface_slope>("surface_slope", "1", {0, 1e9}, "corrected: no slope of the surface is above this."),
+             member<&U::inverse_size>("inverse_size", "1/m", {0, 1e5}, "corrected: 1 over the puddle's extent in x and z."),
+             member<&U::bounds_scale>("bounds_scale", "1", scene::share, "corrected: texture coordinates of bounds to one of the water."),
+             member<&U::bounds_reach>("bounds_reach", "m", {0, 1e6}, "corrected: a texel of bounds holds this far around its points.")}));
   }
   template <class B>
   struct Io {
@@ -36,7 +37,8 @@ struct SurfaceHitPass {
     typename B::Sampled bounds = pass::In{.name = "bounds", .variant = "corrected", .filter = Filter::nearest};  // bounds.h
     typename B::template Result<Format::rgba32f> hit = {pass::Out{.name = "hit", .sentence = position, .unit = units, .range = {-42, 42}},
                                                         pass::Out{.name = "hit", .sentence = position, .unit = units, .range = {-2, 2}}};
-    typename B::template Result<Format::rgba16f> normal = pass::Out{.name = "normal", .sentence = "Unit normal x y z; 1 where the ray hit, 0 where not.", .range = {-1, 1}};
+    typename B::template Result<Format::rgba16f> normal =
+        pass::Out{.name = "normal", .sentence = "Unit normal x y z; 1 where the ray hit, 0 where not.", .range = {-1, 1}};
   };
 };
 
@@ -51,7 +53,9 @@ RAINREF_FN Vec3<N> to_image_plane(const CameraUniforms& c, N px, N py) {
   return Vec3<N>(c.forward) + sx * Vec3<N>(c.right) + sy * Vec3<N>(c.up);
 }
 template <class N>
-RAINREF_FN Vec3<N> camera_ray(const CameraUniforms& c, N px, N py) { return normalize(to_image_plane(c, px, py)); }
+RAINREF_FN Vec3<N> camera_ray(const CameraUniforms& c, N px, N py) {
+  return normalize(to_image_plane(c, px, py));
+}
 
 template <class N>
 struct SurfaceHit {
@@ -106,7 +110,7 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
     const N d = scene_distance(u, wave, s.position);
     const auto go = (d >= epsilon) & (d < gone);
     const MarchState<N> next{select(go, s.position + d * direction, s.position), d, N(static_cast<float>(round))};
-    return Round<decltype(go), MarchState<N>>{go, next};
+    return Round<decltype(go), MarchState<N> >{go, next};
   });
   const auto hit = state.distance < epsilon;
   SurfaceHit<N> out;
@@ -120,8 +124,9 @@ RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, c
 // ---- corrected -----------------------------------------------------------------------------------------------------
 // An infinite sheet at y = 0, displaced by the newest level inside the puddle's rectangle. `bounds` says for each block
 // of cells that around it no height is above `top` and no slope above S; the uniforms say so of all the water, for rays
-// that run further under `top` than a texel of bounds reaches. With that the gap e between a ray and the water closes by at most fall + S |d_xz| per unit of length and
-// opens by at most S |d_xz| - fall, fall = -d_y. So a step is proven not to cross the water if it is no longer than
+// that run further under `top` than a texel of bounds reaches. With that the gap e between a ray and the water closes by at most fall + S
+// |d_xz| per unit of length and opens by at most S |d_xz| - fall, fall = -d_y. So a step is proven not to cross the water if it is no
+// longer than
 //   e / (fall + S |d_xz|) + e' / (S |d_xz| - fall),
 // e' the gap at its end (over-relaxed sphere tracing: Keinert et al., Enhanced Sphere Tracing, 2014, 3.1). The march
 // tries e / (fall + S |d_xz| / 2), which level water always proves, and where the proof fails goes back and takes the
@@ -178,7 +183,8 @@ template <class N>
 RAINREF_FN WaterBounds<N> water_bounds(const SurfaceHitUniforms& u, const Texture& bounds, const Descent<N>& ray) {
   const N zero(0.0f), one(1.0f);
   const N s = ray.s0 + ray.t_plane * ray.ds, r = ray.r0 + ray.t_plane * ray.dr;
-  const auto local = sample_nearest<0, 2, N>(fixed_texture<Address::clamp, Address::clamp, 2>(bounds), s * N(u.bounds_scale[0]), r * N(u.bounds_scale[1]));
+  const auto local =
+      sample_nearest<0, 2, N>(fixed_texture<Address::clamp, Address::clamp, 2>(bounds), s * N(u.bounds_scale[0]), r * N(u.bounds_scale[1]));
   const auto holds = (local[0] * ray.run <= N(u.bounds_reach) * ray.fall) & (s >= zero) & (s <= one) & (r >= zero) & (r <= one);
   return {select(holds, local[0], N(u.surface_top)), select(holds, local[1], N(u.surface_slope))};
 }
@@ -221,7 +227,8 @@ RAINREF_FN N gap_above(const SurfaceHitUniforms& u, const T& wave, const Descent
 }
 /// The hit of a ray whose march ended at `state`.
 template <class N, class T>
-RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over, const DescentState<N>& state) {
+RAINREF_FN SurfaceHit<N> landed(const SurfaceHitUniforms& u, const T& wave, const Descent<N>& ray, const Stretch<N>& over,
+                                const DescentState<N>& state) {
   const N zero(0.0f), one(1.0f), epsilon(u.epsilon);
   SurfaceHit<N> out;
   out.normal = Vec3<N>(zero, one, zero);
@@ -267,7 +274,7 @@ RAINREF_FN SurfaceHit<N> surface_hit_corrected(const SurfaceHitUniforms& u, cons
     const DescentState<N> next{select(proven, t, now.t), select(proven, above, now.above), select(proven, above * over.bold, safe),
                                N(static_cast<float>(round))};
     const auto go = ((above >= epsilon) & (t < over.t_out)) | (!proven);
-    return Round<decltype(go), DescentState<N>>{go, next};
+    return Round<decltype(go), DescentState<N> >{go, next};
   });
   return landed(u, wave, ray, over, state);
 }
@@ -276,8 +283,10 @@ struct SurfaceHitPassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const SurfaceHitUniforms& u, const Io& io, int px, int py) {
     SurfaceHit<N> s;
-    if constexpr (corrected) s = surface_hit_corrected<N>(u, io.wave, io.bounds, px, py);
-    else s = surface_hit_as_published<N>(u, io.wave, px, py);
+    if constexpr (corrected)
+      s = surface_hit_corrected<N>(u, io.wave, io.bounds, px, py);
+    else
+      s = surface_hit_as_published<N>(u, io.wave, px, py);
     io.hit(s.position, s.iterations);
     io.normal(s.normal, s.flag);
   }

@@ -40,8 +40,7 @@ struct MarchedPass {
   }
   template <class N>
   static void write(const every::SurfaceHit<N>& hit, N* out) {
-    const N all[8] = {hit.position.x, hit.position.y, hit.position.z, hit.iterations,
-                      hit.normal.x,   hit.normal.y,   hit.normal.z,   hit.flag};
+    const N all[8] = {hit.position.x, hit.position.y, hit.position.z, hit.iterations, hit.normal.x, hit.normal.y, hit.normal.z, hit.flag};
     std::copy(all, all + 8, out);
   }
 };
@@ -140,8 +139,7 @@ class PublishedMarch {
     out.iterations = Enclosure(static_cast<float>(end.rounds));
     out.flag = Enclosure(end.hit ? 1.0f : 0.0f);
     // The normal is taken at the port's own position, which is stored without rounding.
-    const bool own =
-        out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
+    const bool own = out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
     out.normal = every::normal_as_published(u_, wave_, own ? Vector(port[0], port[1], port[2]) : out.position);
     return out;
   }
@@ -153,8 +151,7 @@ class PublishedMarch {
     const double unit = enclosed::profile().basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
     double far = 0;
     const Enclosure o[3] = {origin_.x, origin_.y, origin_.z}, d[3] = {d_.x, d_.y, d_.z};
-    for (int k = 0; k < 3; ++k)
-      far = std::max({far, o[k].magnitude(), std::abs(o[k].lo + t * d[k].lo), std::abs(o[k].hi + t * d[k].hi)});
+    for (int k = 0; k < 3; ++k) far = std::max({far, o[k].magnitude(), std::abs(o[k].lo + t * d[k].lo), std::abs(o[k].hi + t * d[k].hi)});
     return 1.01 * unit * (rounds * far + t);
   }
   Vector point(double low, double high, double off) const {
@@ -164,9 +161,7 @@ class PublishedMarch {
     };
     return Vector(coordinate(origin_.x, d_.x), coordinate(origin_.y, d_.y), coordinate(origin_.z, d_.z));
   }
-  Enclosure distance(double low, double high, double off) const {
-    return every::scene_distance(u_, wave_, point(low, high, off));
-  }
+  Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
 
   /// Whether f stays at epsilon or more from t = low on: beside a face of the box and moving away from it.
   bool passed_for_good(double low, double off) const {
@@ -194,8 +189,7 @@ class PublishedMarch {
     const double rise_low = d_.y.lo + x.low + z.low, rise_high = d_.y.hi + x.high + z.high;
     const bool over_box = abs(p.x).hi <= u_.half_size[0] && abs(p.z).hi <= u_.half_size[2];
     if (over_box && p.y.lo + lowest_ > 0) return std::min(rise_low, 0.0);
-    const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(),
-                 dz = d_.z.magnitude();
+    const double vertical = std::max(std::abs(rise_low), std::abs(rise_high)), dx = d_.x.magnitude(), dz = d_.z.magnitude();
     return -std::sqrt(dx * dx + vertical * vertical + dz * dz);
   }
   struct Range {
@@ -217,11 +211,9 @@ class PublishedMarch {
       if (last[k] - first[k] >= size[k]) last[k] = first[k] + size[k] - 1;
     }
     const auto value = [&](int x, int y) {
-      const auto held = [](int i, int n, Address a) {
-        return a == Address::repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1);
-      };
-      return static_cast<double>(wave_.texels[static_cast<std::ptrdiff_t>(held(y, size[1], wave_.address_v)) * size[0] +
-                                              held(x, size[0], wave_.address_u)]);
+      const auto held = [](int i, int n, Address a) { return a == Address::repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); };
+      return static_cast<double>(
+          wave_.texels[static_cast<std::ptrdiff_t>(held(y, size[1], wave_.address_v)) * size[0] + held(x, size[0], wave_.address_u)]);
     };
     const double scale = along_x ? size[0] / (2.0 * half[0]) : size[1] / (2.0 * half[1]);
     Range r{1e30, -1e30};
@@ -267,9 +259,7 @@ class CorrectedDescent {
         return every::SurfaceHit<Enclosure>();
       }
       const Landing& chosen =
-          landings[landings.size() == 1
-                       ? 0
-                       : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
+          landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
       if (!chosen.leaves) return hit_near(ray, over, port, chosen);
       state.t = chosen.t;
       state.above = min(chosen.above, stopping());
@@ -287,25 +277,21 @@ class CorrectedDescent {
     const enclosed::Profile& p = enclosed::profile();
     const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
     const double division = std::max(unit, p.division.ulp * 0x1p-23 + p.division.relative), many = 1 + 1e-6;
-    const double of_t = (division + 2 * unit) * many,
-                 of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
+    const double of_t = (division + 2 * unit) * many, of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
     const Vector v = every::to_image_plane(u_.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)));
     const double height = ray.origin.y.lo;
     // o + height * ratio (1 + e), |e| <= error.
     const auto coordinate = [&](Enclosure o, double low, double high, double error) {
-      const double a = height * low, b = height * high,
-                   slack = 0x1p-48 * (std::abs(a) + std::abs(b) + o.magnitude()) + 0x1p-120;
+      const double a = height * low, b = height * high, slack = 0x1p-48 * (std::abs(a) + std::abs(b) + o.magnitude()) + 0x1p-120;
       const double from = o.lo + (a - error * std::abs(a) - slack), to = o.hi + (b + error * std::abs(b) + slack);
-      return p.basic == enclosed::BasicRounding::nearest ? Enclosure(static_cast<float>(from), static_cast<float>(to))
-                                                         : around(from, to);
+      return p.basic == enclosed::BasicRounding::nearest ? Enclosure(static_cast<float>(from), static_cast<float>(to)) : around(from, to);
     };
     const auto sideways = [&](Enclosure o, Enclosure side) {
       const double q[4] = {-side.lo / static_cast<double>(v.y.lo), -side.lo / static_cast<double>(v.y.hi),
                            -side.hi / static_cast<double>(v.y.lo), -side.hi / static_cast<double>(v.y.hi)};
       return coordinate(o, *std::min_element(q, q + 4), *std::max_element(q, q + 4), of_ratio);
     };
-    if (!(v.y.hi < 0) || !(height >= 0))
-      return Vector(Enclosure::vacuous(), Enclosure::vacuous(), Enclosure::vacuous());
+    if (!(v.y.hi < 0) || !(height >= 0)) return Vector(Enclosure::vacuous(), Enclosure::vacuous(), Enclosure::vacuous());
     return Vector(sideways(ray.origin.x, v.x), coordinate(ray.origin.y, -1, -1, of_t), sideways(ray.origin.z, v.z));
   }
   static Vector common_part(const Vector& a, const Vector& b) {
@@ -337,8 +323,8 @@ class CorrectedDescent {
     std::vector<Landing> found;
     // Steps of a quarter of a cell: within one the gap is nearly linear.
     const double run = std::max(1e-6, static_cast<double>(ray.run.hi));
-    const double cell = 1 / std::max(static_cast<double>(wave_.width[0]) * u_.inverse_size[0],
-                                     static_cast<double>(wave_.height[0]) * u_.inverse_size[1]);
+    const double cell =
+        1 / std::max(static_cast<double>(wave_.width[0]) * u_.inverse_size[0], static_cast<double>(wave_.height[0]) * u_.inverse_size[1]);
     const double begin = over.t_in.lo, end = over.t_out.hi;
     const double step = std::max({0.25 * cell / run, (end - begin) / 20000, 0x1p-20 * std::abs(end)});
     bool crossed = false;
@@ -358,8 +344,7 @@ class CorrectedDescent {
         }
       }
     }
-    if (!crossed)
-      found.push_back({Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1), Enclosure(0.0f), true});
+    if (!crossed) found.push_back({Enclosure(over.t_out.hi, std::max(over.t_out.hi, ray.t_plane.hi) + 1), Enclosure(0.0f), true});
     for (Landing& l : found)
       if (!l.leaves) refine(ray, l);
     return found;
@@ -371,8 +356,7 @@ class CorrectedDescent {
     double low = l.t.hi, high = l.t.lo;
     Enclosure above = Enclosure::vacuous();
     for (int k = 0; k < pieces; ++k) {
-      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step),
-                      gap = every::gap_above(u_, wave_, ray, piece);
+      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, piece);
       if (gap.lo >= u_.epsilon || gap.hi < -0.5 * u_.epsilon) continue;
       above = above.is_vacuous() ? gap : hull(above, gap);
       low = std::min(low, static_cast<double>(piece.lo));
@@ -384,11 +368,10 @@ class CorrectedDescent {
   }
   /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did,
   /// each by itself, because t and the gap depend on each other. All of the stretch where no piece does.
-  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over,
-                                        const float* port, const Landing& stretch) const {
+  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port,
+                                        const Landing& stretch) const {
     const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
-    const double longest =
-        2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
+    const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
     double low = stretch.t.lo, high = stretch.t.hi;
     if (!own.is_vacuous()) {
       low = std::max<double>(low, own.lo - longest);
@@ -408,16 +391,13 @@ class CorrectedDescent {
         enclosed::Replay replay;
         const bool settled = replay.for_each_alternative([&] {
           const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
-          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) &&
-                end.position.z.contains(port[2])))
-            return;
+          if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
           out = found ? hull_of(out, end) : end;
           found = true;
           first = std::min(first, static_cast<double>(t.lo));
           last = std::max(last, static_cast<double>(t.hi));
         });
-        if (!settled)
-          return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+        if (!settled) return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
       }
       if (!found) break;
       low = first;
@@ -426,9 +406,7 @@ class CorrectedDescent {
     return found ? out : every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
   }
   static every::SurfaceHit<Enclosure> hull_of(every::SurfaceHit<Enclosure> a, const every::SurfaceHit<Enclosure>& b) {
-    const auto add = [](Vector& to, const Vector& v) {
-      to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z));
-    };
+    const auto add = [](Vector& to, const Vector& v) { to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z)); };
     add(a.position, b.position);
     add(a.normal, b.normal);
     return a;
@@ -455,8 +433,7 @@ class SurfaceHitModel : public capture::ModelOf<MarchedPass> {
     // Under exact rules the march itself is the only result.
     if (enclosed::profile().reference) return p(x, y, out);
     const Texture wave = p.wave.view();
-    if (p.corrected)
-      return MarchedPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
+    if (p.corrected) return MarchedPass::write(CorrectedDescent(p.uniforms, wave).hit(p.bounds.view(), x, y, port), out);
     const PublishedMarch march(p.uniforms, wave, p.lowest, x, y);
     const std::vector<PublishedMarch::End> ends = march.ends();
     if (ends.empty()) return enclosed::give_up();

@@ -25,11 +25,11 @@ struct RaindropsUniforms {
 
 /// raindrops, corrected: with the records CountThreshold and the Drop records of the craters all that it depends on.
 struct RainfallUniforms {
-  std::uint32_t seed[2];      ///< low word, high word
-  std::uint32_t step;         ///< wave steps made before, modulo 2^32
-  std::int32_t first_count;   ///< the count of a word below the first threshold
+  std::uint32_t seed[2];        ///< low word, high word
+  std::uint32_t step;           ///< wave steps made before, modulo 2^32
+  std::int32_t first_count;     ///< the count of a word below the first threshold
   std::uint32_t columns, rows;  ///< cells of the wave
-  std::int32_t boundary;      ///< 0 reflecting, 1 periodic, 2 fixed
+  std::int32_t boundary;        ///< 0 reflecting, 1 periodic, 2 fixed
   std::int32_t threshold_count;
 };
 /// A word not below k thresholds draws first_count + k drops.
@@ -63,7 +63,7 @@ struct SurfaceHitUniforms {
   float epsilon;       ///< distance that counts as a hit
   float texel[2];      ///< 1 / size of the wave buffer
   std::int32_t max_steps;
-  float normal_gain;  ///< as-published 2.5; corrected: metres of height per stored unit over twice the cell size
+  float normal_gain;                ///< as-published 2.5; corrected: metres of height per stored unit over twice the cell size
   float height_scale, height_bias;  ///< corrected: height = scale * stored + bias [m]
   float surface_top;                ///< corrected: no height is above this [m]
   float surface_slope;              ///< corrected: no slope is above this [1]
@@ -90,10 +90,10 @@ struct ShadeUniforms {
   float fog_depth;
   std::int32_t use_checkerboard;
   std::int32_t environment_is_cube;
-  float ambient[3];  ///< corrected: radiance of a white diffuse ground under the environment
-  float gloss_level;  ///< corrected: mip level of the environment that the wet ground mirrors
-  float inverse_size[2];  ///< corrected: 1 / extent of the puddle in x and z [1/m]
-  float shore_width;   ///< corrected: water depth over which wet ground turns into water [m]
+  float ambient[3];        ///< corrected: radiance of a white diffuse ground under the environment
+  float gloss_level;       ///< corrected: mip level of the environment that the wet ground mirrors
+  float inverse_size[2];   ///< corrected: 1 / extent of the puddle in x and z [1/m]
+  float shore_width;       ///< corrected: water depth over which wet ground turns into water [m]
   float ground_footprint;  ///< corrected: texels of the ground image that a pixel covers at distance 1
   float fog_colour[3];     ///< corrected
   std::int32_t exact_fresnel;

@@ -4,8 +4,8 @@
 template <class Storage>
 struct WaveRows {
   const Storage *here, *below, *above, *below_next, *above_next, *previous;
-  int reach;       ///< whole texels to the neighbours
-  float fraction;  ///< what is left of a fractional offset; *_next are the rows one texel further out
+  int reach;           ///< whole texels to the neighbours
+  float fraction;      ///< what is left of a fractional offset; *_next are the rows one texel further out
   const float* shore;  ///< corrected: share of the wave that the shore leaves; null: all of it
 };
 
@@ -18,7 +18,8 @@ RAINREF_FN N drop_as_published(const Drop& drop, N x, N y) {
   return N(drop.amplitude) * smoothstep(4.0f, 0.5f, distance);
 }
 template <class N, class Storage>
-RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, const Drop* drops, int drop_count, int x, int y) {
+RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, const Drop* drops, int drop_count, int x,
+                                    int y) {
   const int r = in.reach;
   N left = N::load(in.here + x - r), right = N::load(in.here + x + r), down = N::load(in.below + x), up = N::load(in.above + x);
   if (in.fraction != 0.0f) {
@@ -41,9 +42,9 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<St
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
 //   new = (1 + gamma) u - gamma p + C^2 (1 + gamma)/2 L(u) + impulse,     previous = u + impulse
-// and on a natural shore new = rest + shore (new - rest), with shore from 1 in the water to 0 on dry ground. L is the five-point Laplacian and C the Courant number. The weights of u and p add to 1, so the rest value and the
-// unit of the stored heights cancel out, and the mean has the roots 1 and gamma: it is kept. The impulse goes to both
-// levels: a displacement, not a kick. (physics: P3, P7)
+// and on a natural shore new = rest + shore (new - rest), with shore from 1 in the water to 0 on dry ground. L is the five-point Laplacian
+// and C the Courant number. The weights of u and p add to 1, so the rest value and the unit of the stored heights cancel out, and the mean
+// has the roots 1 and gamma: it is kept. The impulse goes to both levels: a displacement, not a kick. (physics: P3, P7)
 //
 // The crater of a drop at distance r, with q = r / R < 1: (1 - q^2)^2 (1 - 4 q^2). Its volume is exactly 0.
 template <class N>

@@ -38,8 +38,9 @@ double terminal_velocity(double diameter_mm) {
 
 DropSizes::DropSizes(double rate_mm_per_h, double smallest_mm) : rate_(rate_mm_per_h), smallest_(smallest_mm) {
   if (!(rate_ >= 0 && rate_ <= 1000) || !(smallest_ >= 0 && smallest_ < largest_mm)) {
-    throw Error(ExitCode::usage, fmt::format("rain of {} mm/h with drops from {} mm: expected a rate from 0 to 1000 and a diameter from 0 to {}",
-                                             rate_, smallest_, largest_mm));
+    throw Error(ExitCode::usage,
+                fmt::format("rain of {} mm/h with drops from {} mm: expected a rate from 0 to 1000 and a diameter from 0 to {}", rate_,
+                            smallest_, largest_mm));
   }
   if (rate_ == 0) return;
   lambda_ = 4.1 * pow_real(Real64(rate_), Real64(-0.21)).v;

@@ -26,7 +26,9 @@ void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around)
     const float* glass = surface.row<float>(y);
     for (int x = 0; x < s.width; ++x, glass += 4) {
       if (!(glass[2] > 0)) continue;
-      const double pixel = std::abs(static_cast<double>(surface.row<float>(y)[4 * std::min(x + 1, s.width - 1)]) - surface.row<float>(y)[4 * std::max(x - 1, 0)]) / 2 / o.bar_width;
+      const double pixel = std::abs(static_cast<double>(surface.row<float>(y)[4 * std::min(x + 1, s.width - 1)]) -
+                                    surface.row<float>(y)[4 * std::max(x - 1, 0)]) /
+                           2 / o.bar_width;
       const double at = place(glass[0]);
       const double cover = std::clamp((0.5 - std::abs(at)) / std::max(pixel, 1e-9) + 0.5, 0.0, 1.0);
       if (cover <= 0) continue;
@@ -61,11 +63,14 @@ Image defocused(const Image& image, double radius, const parallel::Executor& exe
         const float* row = image.row<float>(std::clamp(y + j, 0, height - 1));
         for (int i = 0; i < width + 2 * reach; ++i) {
           const float* texel = row + 4 * std::clamp(i - reach, 0, width - 1);
-          for (int k = 0; k < 3; ++k) before[static_cast<std::size_t>(3 * (i + 1) + k)] = before[static_cast<std::size_t>(3 * i + k)] + texel[k];
+          for (int k = 0; k < 3; ++k)
+            before[static_cast<std::size_t>(3 * (i + 1) + k)] = before[static_cast<std::size_t>(3 * i + k)] + texel[k];
         }
         const int w = half[static_cast<std::size_t>(std::abs(j))];
         for (int x = 0; x < width; ++x) {
-          for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(3 * x + k)] += before[static_cast<std::size_t>(3 * (x + reach + w + 1) + k)] - before[static_cast<std::size_t>(3 * (x + reach - w) + k)];
+          for (int k = 0; k < 3; ++k)
+            sum[static_cast<std::size_t>(3 * x + k)] +=
+                before[static_cast<std::size_t>(3 * (x + reach + w + 1) + k)] - before[static_cast<std::size_t>(3 * (x + reach - w) + k)];
         }
       }
       float* to = out.row<float>(y);

@@ -8,12 +8,18 @@ struct Baked {
 };
 
 template <class N>
-RAINREF_FN N texel_centre_x(const float* inverse_size, int x) { return (N::index(x) + N(0.5f)) * N(inverse_size[0]); }
+RAINREF_FN N texel_centre_x(const float* inverse_size, int x) {
+  return (N::index(x) + N(0.5f)) * N(inverse_size[0]);
+}
 template <class N>
-RAINREF_FN N texel_centre_y(const float* inverse_size, int y) { return N(static_cast<float>(y) + 0.5f) * N(inverse_size[1]); }
+RAINREF_FN N texel_centre_y(const float* inverse_size, int y) {
+  return N(static_cast<float>(y) + 0.5f) * N(inverse_size[1]);
+}
 /// The difference of two places, the short way round the tile.
 template <class N>
-RAINREF_FN N around(N difference) { return difference - floor(difference + N(0.5f)); }
+RAINREF_FN N around(N difference) {
+  return difference - floor(difference + N(0.5f));
+}
 
 /// Normal of a surface that rises with (gx, gy), stored.
 template <class N>
@@ -55,9 +61,11 @@ RAINREF_FN Baked<N> bake_raindrops(const BakeRaindropsUniforms& u, bool correcte
 /// Gradient noise of `cells` cells along a side: gradients of the lattice's channels First and First + 1, Perlin's fade.
 template <int First, class N>
 RAINREF_FN N gradient_noise(const Texture& lattice, int cells, N u, N v) {
-  const N x = u * N(static_cast<float>(cells)), y = v * N(static_cast<float>(cells)), x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
+  const N x = u * N(static_cast<float>(cells)), y = v * N(static_cast<float>(cells)), x0 = floor(x), y0 = floor(y), fx = x - x0,
+          fy = y - y0;
   // x0 lies in [0, cells); held there, so that no reading of this text leaves the lattice.
-  const auto columns = N::uniform_int(cells < lattice.width[0] ? cells : lattice.width[0]), rows = N::uniform_int(cells < lattice.height[0] ? cells : lattice.height[0]);
+  const auto columns = N::uniform_int(cells < lattice.width[0] ? cells : lattice.width[0]),
+             rows = N::uniform_int(cells < lattice.height[0] ? cells : lattice.height[0]);
   const auto column = clamp_index(to_int(x0), columns), row = clamp_index(to_int(y0), rows);
   const auto left = column * 4, right = wrap_index(column + 1, columns) * 4;
   const auto low = row * (4 * lattice.width[0]), high = wrap_index(row + 1, rows) * (4 * lattice.width[0]);
@@ -66,7 +74,8 @@ RAINREF_FN N gradient_noise(const Texture& lattice, int cells, N u, N v) {
     return fetch(lattice.texels + First, place, N()) * dx + fetch(lattice.texels + First + 1, place, N()) * dy;
   };
   const N one(1.0f);
-  const N a = corner(low, left, fx, fy), b = corner(low, right, fx - one, fy), c = corner(high, left, fx, fy - one), d = corner(high, right, fx - one, fy - one);
+  const N a = corner(low, left, fx, fy), b = corner(low, right, fx - one, fy), c = corner(high, left, fx, fy - one),
+          d = corner(high, right, fx - one, fy - one);
   const auto fade = [](N t) RAINREF_LAMBDA { return t * t * t * (t * (t * N(6.0f) - N(15.0f)) + N(10.0f)); };
   return mix(mix(a, b, fade(fx)), mix(c, d, fade(fx)), fade(fy));
 }

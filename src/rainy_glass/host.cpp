@@ -26,10 +26,13 @@ Code code_of(const Settings& s, Format stored) {
   return {0.5, 0.5};
 }
 
-scene::Camera camera(const Settings& s) { return {vector(s.camera_position), vector(s.camera_target), vector(s.camera_up), s.vertical_fov_deg}; }
+scene::Camera camera(const Settings& s) {
+  return {vector(s.camera_position), vector(s.camera_target), vector(s.camera_up), s.vertical_fov_deg};
+}
 
 void check(const Settings& s) {
-  if (s.map_storage != Format::rgba8 && s.map_storage != Format::rgba16f) throw Error(ExitCode::usage, "maps.storage: expected rgba8 or rgba16f");
+  if (s.map_storage != Format::rgba8 && s.map_storage != Format::rgba16f)
+    throw Error(ExitCode::usage, "maps.storage: expected rgba8 or rgba16f");
   const auto positive = [](double x, const char* key) {
     if (!(x > 0)) throw Error(ExitCode::usage, fmt::format("{}: expected more than 0, found {}", key, x));
   };
@@ -41,16 +44,20 @@ void check(const Settings& s) {
   positive(s.flow_period, "rain.flow_period");
   positive(s.rim, "rain.rim");
   if (!(s.smallest_droplet > 0 && s.smallest_droplet <= s.largest_droplet)) {
-    throw Error(ExitCode::usage, fmt::format("maps.smallest_droplet: expected a radius above 0 and at most maps.largest_droplet = {}, found {}", s.largest_droplet, s.smallest_droplet));
+    throw Error(ExitCode::usage,
+                fmt::format("maps.smallest_droplet: expected a radius above 0 and at most maps.largest_droplet = {}, found {}",
+                            s.largest_droplet, s.smallest_droplet));
   }
-  if (!(s.impact > 0 && s.impact < 1)) throw Error(ExitCode::usage, fmt::format("rain.impact: expected a share between 0 and 1, found {}", s.impact));
+  if (!(s.impact > 0 && s.impact < 1))
+    throw Error(ExitCode::usage, fmt::format("rain.impact: expected a share between 0 and 1, found {}", s.impact));
   camera(s).basis();  // throws for a camera that looks nowhere
 }
 
 void check(const Settings& s, const Surroundings& around) {
   const auto expect_size = [&](const Image& image, const char* key) {
     if (image.width() == s.width && image.height() == s.height) return;
-    throw Error(ExitCode::usage, fmt::format("{}: expected {}x{} like the picture and scene.image, found {}x{}", key, s.width, s.height, image.width(), image.height()));
+    throw Error(ExitCode::usage, fmt::format("{}: expected {}x{} like the picture and scene.image, found {}x{}", key, s.width, s.height,
+                                             image.width(), image.height()));
   };
   expect_size(around.colour, "scene.image");
   if (corrected(s)) {
@@ -58,14 +65,19 @@ void check(const Settings& s, const Surroundings& around) {
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
         const float d = around.depth.row<float>(y)[x];
-        if (!(d >= 0)) throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected depths of 0 m or more, found {} at column {}, row {} from the bottom", d, x, y));
+        if (!(d >= 0))
+          throw Error(
+              ExitCode::usage,
+              fmt::format("scene.depth_image: expected depths of 0 m or more, found {} at column {}, row {} from the bottom", d, x, y));
       }
     }
   }
   if (s.shape == Shape::image) expect_size(around.normals, "glass.normal_image");
   if (s.use_probe && around.probe.empty()) throw Error(ExitCode::usage, "glass.background: 'probe' needs a panorama, found none");
-  for (const auto& [map, key] : {std::pair{&around.raindrops, "maps.raindrops_image"}, std::pair{&around.rivulets, "maps.rivulets_image"}}) {
-    if (!map->empty() && map->channels() != 4) throw Error(ExitCode::usage, fmt::format("{}: expected four channels, found {}", key, map->channels()));
+  for (const auto& [map, key] :
+       {std::pair{&around.raindrops, "maps.raindrops_image"}, std::pair{&around.rivulets, "maps.rivulets_image"}}) {
+    if (!map->empty() && map->channels() != 4)
+      throw Error(ExitCode::usage, fmt::format("{}: expected four channels, found {}", key, map->channels()));
   }
 }
 

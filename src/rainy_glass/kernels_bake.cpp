@@ -30,18 +30,22 @@ HWY_INLINE void store_map(Image& map, int x, int y, const Baked<Lanes>& b, Round
   }
 }
 
-void BakeRaindropsRows(const BakeRaindropsUniforms& uniforms, bool corrected, Rounding rounding, std::span<const Droplet> droplets, Image& map, const parallel::Tile& tile) {
+void BakeRaindropsRows(const BakeRaindropsUniforms& uniforms, bool corrected, Rounding rounding, std::span<const Droplet> droplets,
+                       Image& map, const parallel::Tile& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      store_map(map, x, y, bake_raindrops<Lanes>(uniforms, corrected, droplets.data(), static_cast<int>(droplets.size()), x, y), rounding, std::min(Lanes::size(), tile.x1 - x));
+      store_map(map, x, y, bake_raindrops<Lanes>(uniforms, corrected, droplets.data(), static_cast<int>(droplets.size()), x, y), rounding,
+                std::min(Lanes::size(), tile.x1 - x));
     }
   }
 }
 
-void BakeRivuletsRows(const BakeRivuletsUniforms& uniforms, Rounding rounding, std::span<const Trail> trails, const Texture& lattice, Image& map, const parallel::Tile& tile) {
+void BakeRivuletsRows(const BakeRivuletsUniforms& uniforms, Rounding rounding, std::span<const Trail> trails, const Texture& lattice,
+                      Image& map, const parallel::Tile& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      store_map(map, x, y, bake_rivulets<Lanes>(uniforms, trails.data(), static_cast<int>(trails.size()), lattice, x, y), rounding, std::min(Lanes::size(), tile.x1 - x));
+      store_map(map, x, y, bake_rivulets<Lanes>(uniforms, trails.data(), static_cast<int>(trails.size()), lattice, x, y), rounding,
+                std::min(Lanes::size(), tile.x1 - x));
     }
   }
 }
@@ -53,10 +57,12 @@ namespace rainref::rainy_glass {
 RAINREF_EXPORT(BakeRaindropsRows);
 RAINREF_EXPORT(BakeRivuletsRows);
 
-void bake_raindrops_rows(const BakeRaindropsUniforms& uniforms, bool corrected, Rounding rounding, std::span<const Droplet> droplets, Image& map, const parallel::Tile& tile) {
+void bake_raindrops_rows(const BakeRaindropsUniforms& uniforms, bool corrected, Rounding rounding, std::span<const Droplet> droplets,
+                         Image& map, const parallel::Tile& tile) {
   RAINREF_DISPATCH(BakeRaindropsRows)(uniforms, corrected, rounding, droplets, map, tile);
 }
-void bake_rivulets_rows(const BakeRivuletsUniforms& uniforms, Rounding rounding, std::span<const Trail> trails, const Texture& lattice, Image& map, const parallel::Tile& tile) {
+void bake_rivulets_rows(const BakeRivuletsUniforms& uniforms, Rounding rounding, std::span<const Trail> trails, const Texture& lattice,
+                        Image& map, const parallel::Tile& tile) {
   RAINREF_DISPATCH(BakeRivuletsRows)(uniforms, rounding, trails, lattice, map, tile);
 }
 

@@ -23,7 +23,8 @@ RAINREF_TARGET_BEGIN(rainy_glass)
 #undef RAINREF_LAMBDA
 
 template <bool corrected, class Maps>
-HWY_INLINE HWY_ATTR void glass_rows(const RainOnGlassUniforms& u, Rounding rounding, const pass::HostIo<RainOnGlassPass>& host, const Maps& maps, const parallel::Tile& tile) {
+HWY_INLINE HWY_ATTR void glass_rows(const RainOnGlassUniforms& u, Rounding rounding, const pass::HostIo<RainOnGlassPass>& host,
+                                    const Maps& maps, const parallel::Tile& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     RainOnGlassPass::Io<LaneCursors> io;
     pass::begin_row<RainOnGlassPass>(host, io, y, rounding);
@@ -36,14 +37,20 @@ HWY_INLINE HWY_ATTR void glass_rows(const RainOnGlassUniforms& u, Rounding round
     }
   }
 }
-void RainOnGlassPassRows(const RainOnGlassUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<RainOnGlassPass>& host, const parallel::Tile& tile) {
-  const auto rows = [&](const auto& maps) HWY_ATTR { corrected ? glass_rows<true>(u, rounding, host, maps, tile) : glass_rows<false>(u, rounding, host, maps, tile); };
+void RainOnGlassPassRows(const RainOnGlassUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<RainOnGlassPass>& host,
+                         const parallel::Tile& tile) {
+  const auto rows = [&](const auto& maps) HWY_ATTR {
+    corrected ? glass_rows<true>(u, rounding, host, maps, tile) : glass_rows<false>(u, rounding, host, maps, tile);
+  };
   // Two maps of codes hold k / 255, which no half is: those were decoded.
   if (host.raindrops.texture && host.rivulets.texture) {
-    rows(GlassMaps<Texture, StoredTexture<Half>, StoredTexture<float>>{host.raindrops.texture, host.rivulets.texture, &host.scene.view, &host.near_depth.view, host.probe.texture});
+    rows(GlassMaps<Texture, StoredTexture<Half>, StoredTexture<float>>{host.raindrops.texture, host.rivulets.texture, &host.scene.view,
+                                                                       &host.near_depth.view, host.probe.texture});
   } else {
-    const auto raindrops = stored_texture<Half>(*host.raindrops.recorded->parts.front()), rivulets = stored_texture<Half>(*host.rivulets.recorded->parts.front());
-    rows(GlassMaps<StoredTexture<Half>, StoredTexture<Half>, StoredTexture<float>>{&raindrops, &rivulets, &host.scene.view, &host.near_depth.view, host.probe.texture});
+    const auto raindrops = stored_texture<Half>(*host.raindrops.recorded->parts.front()),
+               rivulets = stored_texture<Half>(*host.rivulets.recorded->parts.front());
+    rows(GlassMaps<StoredTexture<Half>, StoredTexture<Half>, StoredTexture<float>>{&raindrops, &rivulets, &host.scene.view,
+                                                                                   &host.near_depth.view, host.probe.texture});
   }
 }
 RAINREF_TARGET_END(rainy_glass)

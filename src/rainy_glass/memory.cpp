@@ -36,7 +36,7 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   }
   m.hold(image(Format::rgba32f) + image(Format::rgba16f));  // surface, orientation
   if (s.shape == Shape::image) m.pass(texel_bytes(s.width, s.height, 4));
-  m.hold(image(Format::rgba16f) + image(Format::rgba8));    // colour, picture
+  m.hold(image(Format::rgba16f) + image(Format::rgba8));  // colour, picture
   m.hold(decoded_maps);
   return m;
 }

@@ -14,22 +14,29 @@ constexpr const char* correct = "corrected";
 
 std::span<const scene::Parameter> parameters() {
   static const std::vector<scene::Parameter> table{
-      choice("glass.shape", {"pane", "sphere", "image"}, "pane", "An upright pane across the view, a ball, or the normals of glass.normal_image."),
-      real("glass.distance", "m", 0.01, 1000, 0.5, "From the eye to the glass: along the level view to a pane, along the view to the ball's centre."),
+      choice("glass.shape", {"pane", "sphere", "image"}, "pane",
+             "An upright pane across the view, a ball, or the normals of glass.normal_image."),
+      real("glass.distance", "m", 0.01, 1000, 0.5,
+           "From the eye to the glass: along the level view to a pane, along the view to the ball's centre."),
       real("glass.yaw", "deg", -80, 80, 0, "Turn of the pane about the vertical."),
       real("glass.radius", "m", 0.001, 1000, 0.2, "Of the ball."),
-      text("glass.normal_image", "", "World normals of the glass by pixel (a mesh's normal pass; integers n / 2 + 1/2), alpha where there is glass."),
+      text("glass.normal_image", "",
+           "World normals of the glass by pixel (a mesh's normal pass; integers n / 2 + 1/2), alpha where there is glass."),
       choice("glass.background", {"grab", "probe"}, "grab", "What lies behind the glass: the scene's picture, or a reflection probe."),
       real("glass.drop_tile", "m", 1e-3, 1000, 0.36, "Side of the raindrop map on the glass."),
       real("glass.rivulet_tile", "m", 1e-3, 1000, 0.4, "Side of the rivulet map on the glass."),
       real("glass.distortion", "1", -1, 1, 0.02, "Pictures by which the summed channels move the lookup.").only(published),
       real("glass.water_ior", "1", 1, 2, 1.333, "Refractive index of water.").only(correct),
       real("glass.probe_level", "1", 0, 16, 1, "Mip level of the probe."),
-      text("glass.probe_image", "", "Latitude/longitude panorama of the probe, EXR, HDR, PNG or NPY; empty: scene.panorama, or the street at night."),
-      real("rain.amount", "1", 0, 1, 1, "How heavy the rain is: droplets whose height in the map is below 1 - amount never show.").default_for(correct, 0.9),
-      real("rain.drop_period", "s", 1e-3, 1e6, 1, "Cycle of a droplet: it appears, dries from its rim, comes again.").default_for(correct, 9.0),
+      text("glass.probe_image", "",
+           "Latitude/longitude panorama of the probe, EXR, HDR, PNG or NPY; empty: scene.panorama, or the street at night."),
+      real("rain.amount", "1", 0, 1, 1, "How heavy the rain is: droplets whose height in the map is below 1 - amount never show.")
+          .default_for(correct, 0.9),
+      real("rain.drop_period", "s", 1e-3, 1e6, 1, "Cycle of a droplet: it appears, dries from its rim, comes again.")
+          .default_for(correct, 9.0),
       real("rain.flow_period", "s", 1e-3, 1e6, 1, "Cycle of each flow phase of the rivulets.").default_for(correct, 3.0),
-      real("rain.flow_strength", "1", 0, 10, 1, "Offset of a rivulet at full flow in a cycle, in tiles; corrected: across the glass.").default_for(correct, 0.015),
+      real("rain.flow_strength", "1", 0, 10, 1, "Offset of a rivulet at full flow in a cycle, in tiles; corrected: across the glass.")
+          .default_for(correct, 0.015),
       real("rain.rivulet_speed", "m/s", 0, 100, 0.03, "Mean speed of the rivulets down the glass.").only(correct),
       real("rain.run", "1", 0, 1, 0.9, "Share of that speed by which rivulets hold back and run.").only(correct),
       real("rain.rivulet_amount", "1", 0, 4, 1, "Weight of the rivulets' slopes.").only(correct),
@@ -50,12 +57,17 @@ std::span<const scene::Parameter> parameters() {
       real("maps.flow_gain", "1", 0, 10, 1.2, "Factor of the flow's noise before it is held in [-1, 1]."),
       text("maps.raindrops_image", "", "Raindrop map of your own: normal in R and G, time offset in B, height in A; empty: baked."),
       text("maps.rivulets_image", "", "Rivulet map of your own: normal in R and G, flow in B (across) and A (along); empty: baked."),
-      text("scene.image", "", "Picture behind the glass, of the run's size, EXR, HDR, PNG or NPY; empty: the street at night, through a camera that focuses on the glass."),
-      text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, EXR, HDR, PNG or NPY, seen through the camera; as far as the sky."),
-      text("scene.depth_image", "", "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY, needed beside scene.image.").only(correct),
+      text("scene.image", "",
+           "Picture behind the glass, of the run's size, EXR, HDR, PNG or NPY; empty: the street at night, through a camera that focuses "
+           "on the glass."),
+      text("scene.panorama", "",
+           "Latitude/longitude panorama behind the glass instead, EXR, HDR, PNG or NPY, seen through the camera; as far as the sky."),
+      text("scene.depth_image", "", "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY, needed beside scene.image.")
+          .only(correct),
       real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres).").only(correct),
       real("scene.defocus", "1", 0, 0.2, 0.012, "Of street and panorama: radius of a far point's disc, in picture heights."),
-      real("scene.bar_spacing", "m", 0, 100, 0.5, "Of street and panorama, behind a pane: distance of the conservatory's glazing bars, which stand before the glass; 0: none."),
+      real("scene.bar_spacing", "m", 0, 100, 0.5,
+           "Of street and panorama, behind a pane: distance of the conservatory's glazing bars, which stand before the glass; 0: none."),
       real("scene.bar_width", "m", 1e-4, 10, 0.03, "Width of a bar."),
       real("display.exposure", "EV", -20, 20, 1, "Exposure of the picture."),
       real3("camera.position", "m", -1e5, 1e5, {2.2, 1.7, 12}, "Eye of the camera."),
@@ -118,6 +130,8 @@ Settings settings_from(const scene::Config& c) {
   return s;
 }
 
-BackdropOptions backdrop_from(const scene::Config& c) { return {c.real("scene.defocus"), c.real("scene.bar_spacing"), c.real("scene.bar_width")}; }
+BackdropOptions backdrop_from(const scene::Config& c) {
+  return {c.real("scene.defocus"), c.real("scene.bar_spacing"), c.real("scene.bar_width")};
+}
 
 }  // namespace rainref::rainy_glass

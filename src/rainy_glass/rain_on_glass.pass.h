@@ -10,41 +10,46 @@ namespace rainref::rainy_glass {
 
 /// Its lanes are written by hand, because a scene key chooses how the maps are stored: see kernels_picture.cpp.
 struct RainOnGlassPass {
-  static constexpr pass::About about{"rain_on_glass", "The scene seen through the wet glass: linear radiance.", {1}, {1}, {"dot", "1 - normal squared"}};
+  static constexpr pass::About about{
+      "rain_on_glass", "The scene seen through the wet glass: linear radiance.", {1}, {1}, {"dot", "1 - normal squared"}};
   using Uniforms = RainOnGlassUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("RainOnGlassUniforms",
-                                   {member<&U::pixel>("pixel", "1", scene::share, "1 over the picture's columns and rows."),
-                                   member<&U::time>("time", "s", scene::frame_time, "as-published: frame number over frame rate, rounded once."),
-                                   member<&U::rain_amount>("rain_amount", "1", scene::share, "1: every droplet shows."),
-                                   member<&U::drop_tiles>("drop_tiles", "1/m", {0, 1000}, "Tiles of the raindrop map in a metre."),
-                                   member<&U::rivulet_tiles>("rivulet_tiles", "1/m", {0, 1000}, "Tiles of the rivulet map in a metre."),
-                                   member<&U::drop_rate>("drop_rate", "1/s", {0, 1000}, "as-published: cycles of a droplet in a second."),
-                                   member<&U::flow_rate>("flow_rate", "1/s", {0, 1000}, "as-published: cycles of the flow in a second."),
-                                   member<&U::flow_strength>("flow_strength", "1", {0, 10}, "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
-                                   member<&U::distortion>("distortion", "1", scene::component, "as-published: pictures per unit of the summed channels."),
-                                   member<&U::use_probe>("use_probe", "1", scene::flag, "1: the reflection probe, 0: the scene's picture."),
-                                   member<&U::probe_level>("probe_level", "1", {0, 16}, "Mip level of the probe."),
-                                   member<&U::drop_phase>("drop_phase", "1", scene::share, "corrected: fraction of the droplets' cycle."),
-                                   member<&U::flow_phase>("flow_phase", "1", scene::share, "corrected: fraction of the flow's cycle."),
-                                   member<&U::scroll>("scroll", "1", scene::share, "corrected: way of the rivulets down the glass, fraction of a tile."),
-                                   member<&U::run_strength>("run_strength", "1", {0, 1e11}, "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
-                                   member<&U::drop_neutral>("drop_neutral", "1", scene::share, "corrected: stored value of 0 in the raindrop map."),
-                                   member<&U::drop_scale>("drop_scale", "1", {1, 3}, "corrected: normal over stored value less neutral."),
-                                   member<&U::rivulet_neutral>("rivulet_neutral", "1", scene::share, "corrected: stored value of 0 in the rivulet map."),
-                                   member<&U::rivulet_scale>("rivulet_scale", "1", {1, 3}, "corrected: as drop_scale."),
-                                   member<&U::sharpness>("sharpness", "1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
-                                   member<&U::impact>("impact", "1", scene::share, "corrected: share of the cycle in which a droplet spreads."),
-                                   member<&U::bend>("bend", "1", scene::share, "corrected: refractive index of water less 1."),
-                                   member<&U::rivulet_amount>("rivulet_amount", "1", {0, 4}, "corrected: weight of the rivulets' slopes."),
-                                   member<&U::rain_to>("rain_to", "1", {-300, 300}, "corrected: its product with the normal is the share of the rain that the glass meets."),
-                                   member<&U::right>("right", "1", scene::component, "Unit vector to the right of the picture, world."),
-                                   member<&U::half_width>("half_width", "1", {0, 1e6}, "Half the width of the image plane at distance 1."),
-                                   member<&U::up>("up", "1", scene::component, "Unit vector to the top of the picture."),
-                                   member<&U::half_height>("half_height", "1", {0, 12}, "Half the height of the image plane at distance 1."),
-                                   member<&U::forward>("forward", "1", scene::component, "Unit vector into the picture.")});
+    return scene::uniform_block<U>(
+        "RainOnGlassUniforms",
+        {member<&U::pixel>("pixel", "1", scene::share, "1 over the picture's columns and rows."),
+         member<&U::time>("time", "s", scene::frame_time, "as-published: frame number over frame rate, rounded once."),
+         member<&U::rain_amount>("rain_amount", "1", scene::share, "1: every droplet shows."),
+         member<&U::drop_tiles>("drop_tiles", "1/m", {0, 1000}, "Tiles of the raindrop map in a metre."),
+         member<&U::rivulet_tiles>("rivulet_tiles", "1/m", {0, 1000}, "Tiles of the rivulet map in a metre."),
+         member<&U::drop_rate>("drop_rate", "1/s", {0, 1000}, "as-published: cycles of a droplet in a second."),
+         member<&U::flow_rate>("flow_rate", "1/s", {0, 1000}, "as-published: cycles of the flow in a second."),
+         member<&U::flow_strength>("flow_strength", "1", {0, 10},
+                                   "Tiles by which full flow moves a rivulet in a cycle; corrected: across."),
+         member<&U::distortion>("distortion", "1", scene::component, "as-published: pictures per unit of the summed channels."),
+         member<&U::use_probe>("use_probe", "1", scene::flag, "1: the reflection probe, 0: the scene's picture."),
+         member<&U::probe_level>("probe_level", "1", {0, 16}, "Mip level of the probe."),
+         member<&U::drop_phase>("drop_phase", "1", scene::share, "corrected: fraction of the droplets' cycle."),
+         member<&U::flow_phase>("flow_phase", "1", scene::share, "corrected: fraction of the flow's cycle."),
+         member<&U::scroll>("scroll", "1", scene::share, "corrected: way of the rivulets down the glass, fraction of a tile."),
+         member<&U::run_strength>("run_strength", "1", {0, 1e11},
+                                  "corrected: tiles by which full flow moves a rivulet along the glass in a cycle."),
+         member<&U::drop_neutral>("drop_neutral", "1", scene::share, "corrected: stored value of 0 in the raindrop map."),
+         member<&U::drop_scale>("drop_scale", "1", {1, 3}, "corrected: normal over stored value less neutral."),
+         member<&U::rivulet_neutral>("rivulet_neutral", "1", scene::share, "corrected: stored value of 0 in the rivulet map."),
+         member<&U::rivulet_scale>("rivulet_scale", "1", {1, 3}, "corrected: as drop_scale."),
+         member<&U::sharpness>("sharpness", "1", {0, 1e4}, "corrected: 1 over the height in which a rim turns visible."),
+         member<&U::impact>("impact", "1", scene::share, "corrected: share of the cycle in which a droplet spreads."),
+         member<&U::bend>("bend", "1", scene::share, "corrected: refractive index of water less 1."),
+         member<&U::rivulet_amount>("rivulet_amount", "1", {0, 4}, "corrected: weight of the rivulets' slopes."),
+         member<&U::rain_to>("rain_to", "1", {-300, 300},
+                             "corrected: its product with the normal is the share of the rain that the glass meets."),
+         member<&U::right>("right", "1", scene::component, "Unit vector to the right of the picture, world."),
+         member<&U::half_width>("half_width", "1", {0, 1e6}, "Half the width of the image plane at distance 1."),
+         member<&U::up>("up", "1", scene::component, "Unit vector to the top of the picture."),
+         member<&U::half_height>("half_height", "1", {0, 12}, "Half the height of the image plane at distance 1."),
+         member<&U::forward>("forward", "1", scene::component, "Unit vector into the picture.")});
   }
   template <class B>
   struct Io {
@@ -54,9 +59,11 @@ struct RainOnGlassPass {
     typename B::Sampled rivulets = pass::In{.name = "rivulets", .from = "bake_rivulets", .filter = Filter::linear};
     typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .same_size = true, .filter = Filter::linear};
     typename B::template Texels<Format::r32f> scene_depth = pass::In{.name = "scene_depth", .variant = "corrected"};
-    typename B::template Stored<Format::r32f> near_depth = pass::In{.name = "near_depth", .variant = "corrected", .same_size = true, .filter = Filter::linear};
+    typename B::template Stored<Format::r32f> near_depth =
+        pass::In{.name = "near_depth", .variant = "corrected", .same_size = true, .filter = Filter::linear};
     typename B::Sampled probe = pass::In{.name = "probe", .optional = true, .filter = Filter::linear, .mip_filter = Filter::linear};
-    typename B::template Result<Format::rgba16f> colour = pass::Out{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+    typename B::template Result<Format::rgba16f> colour =
+        pass::Out{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
   };
 };
 
@@ -113,7 +120,8 @@ RAINREF_FN FlowPhases<N> flow_phases(N phase) {
 template <class N, class Maps>
 RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
   const N zero(0.0f), one(1.0f);
-  const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
+  const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops),
+             rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
   const auto drop = sample_bilinear<0, 4, N>(raindrops, p.u * N(u.drop_tiles), p.v * N(u.drop_tiles));
   const N timer = fract(N(u.time) * N(u.drop_rate) + drop[2]);
   const N mask = select(drop[3] - N(1.0f - u.rain_amount) - timer > zero, one, zero);
@@ -130,7 +138,8 @@ RAINREF_FN Vec3<N> rain_on_glass_as_published(const RainOnGlassUniforms& u, cons
 
   const N su = (N::index(column) + N(0.5f)) * N(u.pixel[0]) + ox, sv = N(static_cast<float>(row) + 0.5f) * N(u.pixel[1]) + oy;
   const N two(2.0f);
-  const Vec3<N> behind = u.use_probe != 0 ? probe_at(u, m, (two * su - one) * N(u.half_width), (two * sv - one) * N(u.half_height)) : scene_at(m, su, sv);
+  const Vec3<N> behind =
+      u.use_probe != 0 ? probe_at(u, m, (two * su - one) * N(u.half_width), (two * sv - one) * N(u.half_height)) : scene_at(m, su, sv);
   return select(p.covered > N(0.5f), behind, p.own);
 }
 
@@ -147,17 +156,21 @@ RAINREF_FN Two<N> slope_of(N stored_x, N stored_y, float neutral, float scale) {
 template <class N>
 RAINREF_FN N droplet_shown(const RainOnGlassUniforms& u, N height, N offset, N amount) {
   const N one(1.0f), timer = fract(N(u.drop_phase) + offset);
-  const N threshold = max(one - timer * uniform_quotient(1.0f, u.impact, N()), (timer - N(u.impact)) * uniform_quotient(1.0f, 1.0f - u.impact, N()));
+  const N threshold =
+      max(one - timer * uniform_quotient(1.0f, u.impact, N()), (timer - N(u.impact)) * uniform_quotient(1.0f, 1.0f - u.impact, N()));
   return saturate((height - (one - amount) - threshold) * N(u.sharpness));
 }
 /// How upright glass of this normal stands: the sine of its slope.
 template <class N>
-RAINREF_FN N steepness(const Vec3<N>& normal) { return sqrt(square(normal.x) + square(normal.z)); }
+RAINREF_FN N steepness(const Vec3<N>& normal) {
+  return sqrt(square(normal.x) + square(normal.z));
+}
 /// Slope of the water at place (pu, pv) [m] of glass of this normal, up along (u, v). Slopes are decoded before they are masked, so
 /// that dry glass bends nothing.
 template <class N, class Maps>
 RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const Maps& m, N pu, N pv, const Vec3<N>& normal, N steep) {
-  const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops), rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
+  const auto raindrops = fixed_texture<Address::repeat, Address::repeat, 4>(*m.raindrops),
+             rivulets = fixed_texture<Address::repeat, Address::repeat, 4>(*m.rivulets);
   const N amount = N(u.rain_amount) * saturate(dot(normal, Vec3<N>(u.rain_to)));
   const N du = pu * N(u.drop_tiles), dv = pv * N(u.drop_tiles);
   const auto drop = sample_bilinear<0, 4, N>(raindrops, du, dv);
@@ -178,7 +191,9 @@ RAINREF_FN Two<N> water_slope(const RainOnGlassUniforms& u, const Maps& m, N pu,
 }
 /// Dry glass shows the scene's texel itself.
 template <class N>
-RAINREF_FN typename N::Mask is_wet(const Two<N>& slope) { return square(slope.a) + square(slope.b) > N(1e-8f); }
+RAINREF_FN typename N::Mask is_wet(const Two<N>& slope) {
+  return square(slope.a) + square(slope.b) > N(1e-8f);
+}
 /// How far a sheet of water of this slope moves, on the image plane, what lies far behind the glass. A thin sheet of slope s bends
 /// a ray by (ior - 1) s toward the thicker side.
 template <class N>
@@ -192,7 +207,9 @@ RAINREF_FN Two<N> prism(const RainOnGlassUniforms& u, const Vec3<N>& normal, N s
 }
 /// The share of that by which what lies at this depth is moved.
 template <class N>
-RAINREF_FN N share_beyond(const GlassPixel<N>& p) { return saturate(N(1.0f) - p.distance / max(p.own_depth, N(1e-3f))); }
+RAINREF_FN N share_beyond(const GlassPixel<N>& p) {
+  return saturate(N(1.0f) - p.distance / max(p.own_depth, N(1e-3f)));
+}
 // Where something nearer than the glass lies under any texel of the lookup the pixel shows its own scene texel.
 template <class N, class Maps>
 RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const Maps& m, const GlassPixel<N>& p, int column, int row) {
@@ -211,7 +228,8 @@ RAINREF_FN Vec3<N> rain_on_glass_corrected(const RainOnGlassUniforms& u, const M
     return select(seen, behind, p.own);
   }
   const N beyond = share_beyond(p);
-  const N su = cx + x * beyond * uniform_quotient(0.5f, u.half_width, N()), sv = cy + y * beyond * uniform_quotient(0.5f, u.half_height, N());
+  const N su = cx + x * beyond * uniform_quotient(0.5f, u.half_width, N()),
+          sv = cy + y * beyond * uniform_quotient(0.5f, u.half_height, N());
   const N nearest = sample_bilinear<0, 1, N>(fixed_texture<Address::clamp, Address::clamp, 1>(*m.near_depth), su, sv)[0];
   return select(seen & (nearest > p.distance), scene_at(m, su, sv), p.own);
 }
@@ -224,7 +242,9 @@ RAINREF_FN void give_glass(const RainOnGlassUniforms& u, const Io& io, const Vec
   io.orientation.load(n);
   if constexpr (corrected) depth = io.scene_depth();
   const GlassPixel<N> p{s[0], s[1], s[2], n[3], Vec3<N>(n[0], n[1], n[2]), own, depth};
-  if constexpr (corrected) io.colour(rain_on_glass_corrected<N>(u, maps, p, column, row), N(1.0f));
-  else io.colour(rain_on_glass_as_published<N>(u, maps, p, column, row), N(1.0f));
+  if constexpr (corrected)
+    io.colour(rain_on_glass_corrected<N>(u, maps, p, column, row), N(1.0f));
+  else
+    io.colour(rain_on_glass_as_published<N>(u, maps, p, column, row), N(1.0f));
 }
 #endif

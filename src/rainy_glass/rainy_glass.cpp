@@ -40,7 +40,11 @@ struct RainyGlass::State {
   CodeTable display;
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
-      : settings(s), executor(e), corrected(s.variant == Variant::corrected), bakes_raindrops(around.raindrops.empty()), bakes_rivulets(around.rivulets.empty()) {
+      : settings(s),
+        executor(e),
+        corrected(s.variant == Variant::corrected),
+        bakes_raindrops(around.raindrops.empty()),
+        bakes_rivulets(around.rivulets.empty()) {
     const auto code = [&](const Image& map) { return code_of(s, map.empty() ? s.map_storage : map.format()); };
     drop_code = code(around.raindrops);
     rivulet_code = code(around.rivulets);
@@ -62,7 +66,8 @@ struct RainyGlass::State {
       depth = copy(around.depth);
       least_depth = Image(Format::r32f, s.width, s.height);
       const std::vector<float> least = near_depth(depth);
-      for (int y = 0; y < s.height; ++y) std::copy_n(least.begin() + static_cast<std::ptrdiff_t>(y) * s.width, s.width, least_depth.row<float>(y));
+      for (int y = 0; y < s.height; ++y)
+        std::copy_n(least.begin() + static_cast<std::ptrdiff_t>(y) * s.width, s.width, least_depth.row<float>(y));
     }
     if (s.use_probe) {
       probe = TextureData(around.probe, Address::repeat, Address::clamp);

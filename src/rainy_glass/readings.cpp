@@ -39,11 +39,14 @@ struct Chosen {
       for (int x = 0; x < width; x += block) blocks.push_back(near(x, y, std::min(x + block, width), std::min(y + block, height)));
     }
   }
-  const std::vector<Record>& at(int x, int y) const { return blocks[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block)]; }
+  const std::vector<Record>& at(int x, int y) const {
+    return blocks[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block)];
+  }
 };
 const capture::Array& square_output(const PassCase& c, const char* name) {
   const capture::CaseOutput* out = c.output(name);
-  if (out == nullptr || out->array.width != out->array.height) throw Error(ExitCode::port_files, fmt::format("{}: expected a square output {}", c.folder(), name));
+  if (out == nullptr || out->array.width != out->array.height)
+    throw Error(ExitCode::port_files, fmt::format("{}: expected a square output {}", c.folder(), name));
   return out->array;
 }
 
@@ -66,7 +69,8 @@ std::unique_ptr<PassModel> bind_bake_raindrops(const PassCase& c) {
   m.uniforms = capture::uniforms_of<BakeRaindropsUniforms>(c);
   m.corrected = c.corrected();
   const auto all = capture::records_of<Droplet>(capture::record_input(c, "droplets"));
-  m.droplets.choose(m.width, m.height, [&](int x0, int y0, int x1, int y1) { return droplets_near(all, m.corrected, m.width, x0, y0, x1, y1); });
+  m.droplets.choose(m.width, m.height,
+                    [&](int x0, int y0, int x1, int y1) { return droplets_near(all, m.corrected, m.width, x0, y0, x1, y1); });
   return capture::model_of(std::move(m));
 }
 
@@ -91,9 +95,11 @@ std::unique_ptr<PassModel> bind_bake_rivulets(const PassCase& c) {
   m.trails.choose(m.width, m.height, [&](int x0, int y0, int x1, int y1) { return trails_near(all, m.width, x0, y0, x1, y1); });
   m.lattice = BoundTexture(capture::image_input(c, "lattice"));
   const std::int64_t side = 2 * std::int64_t{m.uniforms.flow_cells};
-  if (side < 2) throw Error(ExitCode::port_files, fmt::format("{}: flow_cells: expected 1 or more, found {}", c.folder(), m.uniforms.flow_cells));
+  if (side < 2)
+    throw Error(ExitCode::port_files, fmt::format("{}: flow_cells: expected 1 or more, found {}", c.folder(), m.uniforms.flow_cells));
   if (m.lattice.view().width[0] < side || m.lattice.view().height[0] < side) {
-    throw Error(ExitCode::port_files, fmt::format("{}: in.lattice: expected {} texels a side, found {}x{}", c.folder(), side, m.lattice.view().width[0], m.lattice.view().height[0]));
+    throw Error(ExitCode::port_files, fmt::format("{}: in.lattice: expected {} texels a side, found {}x{}", c.folder(), side,
+                                                  m.lattice.view().width[0], m.lattice.view().height[0]));
   }
   return capture::model_of(std::move(m));
 }
@@ -104,7 +110,8 @@ struct RainOnGlassText {
   static void run(const RainOnGlassUniforms& u, const Io& io, int x, int y) {
     const Texture& scene = *io.scene.texture;
     const float* c = scene.texels + 4 * (static_cast<std::ptrdiff_t>(y) * scene.width[0] + x);
-    const scalar::GlassMaps<Texture, Texture, Texture> maps{io.raindrops.texture, io.rivulets.texture, io.scene.texture, io.near_depth.texture, io.probe.texture};
+    const scalar::GlassMaps<Texture, Texture, Texture> maps{io.raindrops.texture, io.rivulets.texture, io.scene.texture,
+                                                            io.near_depth.texture, io.probe.texture};
     scalar::give_glass<N, corrected>(u, io, plain::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)), maps, x, y);
   }
 };
@@ -121,12 +128,14 @@ std::string doubt_near_depth(const PassCase& c) {
   const Texture d = depth.view(), n = near.view();
   if (d.width[0] != n.width[0] || d.height[0] != n.height[0]) return "in.near_depth has another size than in.scene_depth";
   Image image(Format::r32f, d.width[0], d.height[0]);
-  for (int y = 0; y < image.height(); ++y) std::copy_n(d.texels + static_cast<std::ptrdiff_t>(y) * image.width(), image.width(), image.row<float>(y));
+  for (int y = 0; y < image.height(); ++y)
+    std::copy_n(d.texels + static_cast<std::ptrdiff_t>(y) * image.width(), image.width(), image.row<float>(y));
   const std::vector<float> expected = near_depth(image);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (n.texels[i] > expected[i]) {
-      return fmt::format("in.near_depth at ({}, {}) is {:.6g} m, above the least depth of scene_depth around it, {:.6g} m", i % static_cast<std::size_t>(image.width()),
-                         i / static_cast<std::size_t>(image.width()), n.texels[i], expected[i]);
+      return fmt::format("in.near_depth at ({}, {}) is {:.6g} m, above the least depth of scene_depth around it, {:.6g} m",
+                         i % static_cast<std::size_t>(image.width()), i / static_cast<std::size_t>(image.width()), n.texels[i],
+                         expected[i]);
     }
   }
   return "";
@@ -135,8 +144,10 @@ std::string doubt_near_depth(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassReadings>& readings() {
-  static const std::vector<capture::PassReadings> all{
-      {"bake_raindrops", bind_bake_raindrops}, {"bake_rivulets", bind_bake_rivulets}, {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth}, {"display", pass::bind_display}};
+  static const std::vector<capture::PassReadings> all{{"bake_raindrops", bind_bake_raindrops},
+                                                      {"bake_rivulets", bind_bake_rivulets},
+                                                      {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth},
+                                                      {"display", pass::bind_display}};
   return all;
 }
 

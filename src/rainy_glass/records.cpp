@@ -73,8 +73,9 @@ std::vector<Trail> make_trails(const Settings& s) {
     const auto column = static_cast<float>(static_cast<std::uint32_t>((i + unit(a[0])) * 65536 / s.trail_count)) * 0x1p-16f;
     const double size = 0.35 + 0.65 * unit(a[2]) * unit(a[2]), length = 0.12 + 0.6 * unit(a[3]) * size;
     const double wiggles = 2 + 5 * unit(b[0]);
-    out.push_back({column, place(a[1]), static_cast<float>(size * s.trail_half_width), static_cast<float>(1 / length), static_cast<float>(size),
-                   static_cast<float>(s.trail_half_width * 1.2 * unit(b[1])), static_cast<float>(wiggles), static_cast<float>(unit(b[2]))});
+    out.push_back({column, place(a[1]), static_cast<float>(size * s.trail_half_width), static_cast<float>(1 / length),
+                   static_cast<float>(size), static_cast<float>(s.trail_half_width * 1.2 * unit(b[1])), static_cast<float>(wiggles),
+                   static_cast<float>(unit(b[2]))});
   }
   return out;
 }
@@ -84,7 +85,8 @@ Image make_lattice(const Settings& s) {
   Image lattice(Format::rgba32f, side, side);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const random::Block b = random::block(s.seed, random::Purpose::glass_flow, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+      const random::Block b =
+          random::block(s.seed, random::Purpose::glass_flow, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
       for (int k = 0; k < 2; ++k) {
         const Real64 angle(unit(b[k]) * turn);
         lattice.row<float>(y)[4 * x + 2 * k] = static_cast<float>(cos_real(angle).v);

@@ -29,8 +29,10 @@ Image stored_map(const Image& map, Format format) {
   const float* in = decoded.view().texels;
   for (int y = 0; y < map.height(); ++y) {
     for (int i = 0; i < 4 * map.width(); ++i, ++in) {
-      if (format == Format::rgba8) out.row<Unorm8>(y)[i] = to_unorm8(*in, Rounding::rne);
-      else out.row<Half>(y)[i] = to_half(*in);
+      if (format == Format::rgba8)
+        out.row<Unorm8>(y)[i] = to_unorm8(*in, Rounding::rne);
+      else
+        out.row<Half>(y)[i] = to_half(*in);
     }
   }
   return out;
@@ -49,7 +51,9 @@ double seam(const Image& map) {
   const float* texels = decoded.view().texels;
   const int width = map.width(), height = map.height(), channels = map.channels();
   if (width < 3 || height < 3) return 0;
-  const auto at = [&](int x, int y, int c) { return static_cast<double>(texels[(static_cast<std::ptrdiff_t>(y) * width + x) * channels + c]); };
+  const auto at = [&](int x, int y, int c) {
+    return static_cast<double>(texels[(static_cast<std::ptrdiff_t>(y) * width + x) * channels + c]);
+  };
   // B of a raindrop map jumps from cell to cell everywhere, so jumps are compared with jumps.
   double edge = 0, inside = 0;
   for (int y = 0; y < height; ++y) {

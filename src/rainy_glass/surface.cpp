@@ -24,7 +24,8 @@ Hit on_pane(const Vector3& ray, const Vector3& forward, const Vector3& normal, d
   return {glm::dot(at, across), at.y, t, normal};
 }
 Hit on_sphere(const Vector3& ray, const Vector3& centre, double radius) {
-  const double a = glm::dot(ray, ray), b = glm::dot(ray, centre), c = glm::dot(centre, centre) - radius * radius, discriminant = b * b - a * c;
+  const double a = glm::dot(ray, ray), b = glm::dot(ray, centre), c = glm::dot(centre, centre) - radius * radius,
+               discriminant = b * b - a * c;
   if (!(discriminant > 0)) return {};
   const double t = (b - __builtin_sqrt(discriminant)) / a;
   if (!(t > 0)) return {};
@@ -68,7 +69,8 @@ void make_surface(const Settings& s, const Image& normals, Image& surface, Image
       const Vector3 ray = basis.forward + x * basis.right + y * basis.up;
       const Hit h = s.shape == Shape::pane     ? on_pane(ray, level, normal, s.distance)
                     : s.shape == Shape::sphere ? on_sphere(ray, s.distance * basis.forward, s.radius)
-                                               : on_image(decoded.view().texels + 4 * (static_cast<std::ptrdiff_t>(row) * s.width + column), x, y, ray, s.distance);
+                                               : on_image(decoded.view().texels + 4 * (static_cast<std::ptrdiff_t>(row) * s.width + column),
+                                                          x, y, ray, s.distance);
       float* place = surface.row<float>(row) + 4 * column;
       place[0] = static_cast<float>(h.u);
       place[1] = static_cast<float>(h.v);

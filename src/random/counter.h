@@ -26,15 +26,25 @@ constexpr Block pcg4d(Block v) {
 
 /// What a stream of random numbers is for. A new use takes a new number; an old number never changes its meaning.
 enum class Purpose : std::uint32_t {
-  puddle_drop_count = 1, puddle_drop = 2, puddle_bed = 3, puddle_ground = 4,
-  drop_count = 5, drop_arrival = 6,
-  glass_drop = 50, glass_trail = 51, glass_flow = 52,
-  screen_noise = 60, screen_layer = 61, screen_cell = 62, screen_drop = 63
+  puddle_drop_count = 1,
+  puddle_drop = 2,
+  puddle_bed = 3,
+  puddle_ground = 4,
+  drop_count = 5,
+  drop_arrival = 6,
+  glass_drop = 50,
+  glass_trail = 51,
+  glass_flow = 52,
+  screen_noise = 60,
+  screen_layer = 61,
+  screen_cell = 62,
+  screen_drop = 63
 };
 
 /// The block of (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.
 constexpr Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) {
-  const Block key = pcg4d({static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), static_cast<std::uint32_t>(purpose), 0});
+  const Block key =
+      pcg4d({static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), static_cast<std::uint32_t>(purpose), 0});
   return pcg4d({a ^ key[0], b ^ key[1], key[2], key[3]});
 }
 

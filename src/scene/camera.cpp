@@ -47,9 +47,8 @@ Camera::Basis Camera::basis() const {
 
 double Camera::half_height() const {
   if (!(vertical_fov_deg > 0 && vertical_fov_deg < 180)) {
-    throw Error(
-        ExitCode::usage,
-        fmt::format("camera: expected a vertical field of view between 0 and 180 [deg], found {}", vertical_fov_deg));
+    throw Error(ExitCode::usage,
+                fmt::format("camera: expected a vertical field of view between 0 and 180 [deg], found {}", vertical_fov_deg));
   }
   const double half = vertical_fov_deg / 2;
   // 90 - half is exact for half in [45, 90], so nothing is lost near the pole.

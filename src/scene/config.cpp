@@ -15,8 +15,8 @@ Config::Config(std::vector<Entry> entries, std::filesystem::path directory)
     : entries_(std::move(entries)), directory_(std::move(directory)) {
   for (const Entry& e : entries_) {
     if (accepts(e.parameter, e.value)) continue;
-    throw Error(ExitCode::internal, fmt::format("configuration: '{}' expects {}, found {}", e.parameter.key,
-                                                expectation(e.parameter), value_text(e.value)));
+    throw Error(ExitCode::internal,
+                fmt::format("configuration: '{}' expects {}, found {}", e.parameter.key, expectation(e.parameter), value_text(e.value)));
   }
   text("effect");
   text("variant");
@@ -34,8 +34,7 @@ const T& Config::get(std::string_view key, const char* asked) const {
   const Entry& e = entry(key);
   const T* value = std::get_if<T>(&e.value);
   if (value) return *value;
-  throw Error(ExitCode::internal,
-              fmt::format("configuration: '{}' is {}, asked for as {}", key, name(e.parameter.type), asked));
+  throw Error(ExitCode::internal, fmt::format("configuration: '{}' is {}, asked for as {}", key, name(e.parameter.type), asked));
 }
 
 bool Config::boolean(std::string_view key) const { return get<bool>(key, "boolean"); }

@@ -21,9 +21,7 @@ std::size_t width(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-std::string padded(const std::string& text, std::size_t to) {
-  return text + std::string(to - std::min(to, width(text)), ' ');
-}
+std::string padded(const std::string& text, std::size_t to) { return text + std::string(to - std::min(to, width(text)), ' '); }
 
 // Indented lines of whole words; a word longer than a line stays whole.
 std::string wrapped(std::string_view text) {
@@ -72,8 +70,8 @@ std::string describe_text(std::span<const Parameter> parameters) {
   }
   std::string out;
   for (const Parameter& p : parameters) {
-    std::string line = fmt::format("{}  {}  {}  {}", padded(p.key, keys), padded(name(p.type), types),
-                                   padded(default_text(p), defaults), range_and_unit(p));
+    std::string line = fmt::format("{}  {}  {}  {}", padded(p.key, keys), padded(name(p.type), types), padded(default_text(p), defaults),
+                                   range_and_unit(p));
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n" + wrapped(notes(p));
   }

@@ -16,8 +16,8 @@ const Effect& EffectTable::find(std::string_view name) const {
   for (const Effect& effect : effects) {
     if (effect.name == name) return effect;
   }
-  throw Error(ExitCode::usage, fmt::format("effect: expected {}, found '{}'{}", expectation(effect_parameter(*this)),
-                                           name, did_you_mean(name, names())));
+  throw Error(ExitCode::usage,
+              fmt::format("effect: expected {}, found '{}'{}", expectation(effect_parameter(*this)), name, did_you_mean(name, names())));
 }
 
 Parameter effect_parameter(const EffectTable& table) {

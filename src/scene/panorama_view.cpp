@@ -40,8 +40,10 @@ Image panorama_view(const Image& panorama, const Camera& camera, int width, int 
     for (int y = tile.y0; y < tile.y1; ++y) {
       float* to = out.row<float>(y);
       for (int x = tile.x0; x < tile.x1; ++x, to += 4) {
-        const Vector3 way = basis.forward + ((2 * x + 1.0) / width - 1) * half_width * basis.right + ((2 * y + 1.0) / height - 1) * half_height * basis.up;
-        const plain::Vec3<N> seen = scalar::sample_latlong(texture, plain::Vec3<N>(N(static_cast<float>(way.x)), N(static_cast<float>(way.y)), N(static_cast<float>(way.z))), level);
+        const Vector3 way =
+            basis.forward + ((2 * x + 1.0) / width - 1) * half_width * basis.right + ((2 * y + 1.0) / height - 1) * half_height * basis.up;
+        const plain::Vec3<N> seen = scalar::sample_latlong(
+            texture, plain::Vec3<N>(N(static_cast<float>(way.x)), N(static_cast<float>(way.y)), N(static_cast<float>(way.z))), level);
         to[0] = seen.x.v;
         to[1] = seen.y.v;
         to[2] = seen.z.v;

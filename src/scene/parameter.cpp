@@ -16,17 +16,14 @@ namespace {
 constexpr double none = std::numeric_limits<double>::infinity();
 constexpr double two_to_63 = 9223372036854775808.0;
 
-Parameter make(std::string key, Type type, std::string unit, double minimum, double maximum, Value value,
-               std::string sentence) {
+Parameter make(std::string key, Type type, std::string unit, double minimum, double maximum, Value value, std::string sentence) {
   return {std::move(key), type, std::move(unit), minimum, maximum, std::move(value), std::move(sentence), {}, {}, {}};
 }
 
 // Compared as integers: a double cannot hold every 64-bit integer, so converting the value would round it into range.
 bool in_range(const Parameter& p, std::int64_t v) {
-  const bool low =
-      p.minimum < -two_to_63 || (p.minimum < two_to_63 && v >= static_cast<std::int64_t>(std::ceil(p.minimum)));
-  const bool high =
-      p.maximum >= two_to_63 || (p.maximum >= -two_to_63 && v <= static_cast<std::int64_t>(std::floor(p.maximum)));
+  const bool low = p.minimum < -two_to_63 || (p.minimum < two_to_63 && v >= static_cast<std::int64_t>(std::ceil(p.minimum)));
+  const bool high = p.maximum >= two_to_63 || (p.maximum >= -two_to_63 && v <= static_cast<std::int64_t>(std::floor(p.maximum)));
   return low && high;
 }
 
@@ -141,12 +138,10 @@ const Value& Parameter::default_in(std::string_view variant) const {
 Parameter boolean(std::string key, bool value, std::string sentence) {
   return make(std::move(key), Type::boolean, "", -none, none, value, std::move(sentence));
 }
-Parameter integer(std::string key, std::string unit, double minimum, double maximum, std::int64_t value,
-                  std::string sentence) {
+Parameter integer(std::string key, std::string unit, double minimum, double maximum, std::int64_t value, std::string sentence) {
   return make(std::move(key), Type::integer, std::move(unit), minimum, maximum, value, std::move(sentence));
 }
-Parameter integer2(std::string key, std::string unit, double minimum, double maximum, Integer2 value,
-                   std::string sentence) {
+Parameter integer2(std::string key, std::string unit, double minimum, double maximum, Integer2 value, std::string sentence) {
   return make(std::move(key), Type::integer2, std::move(unit), minimum, maximum, value, std::move(sentence));
 }
 Parameter real(std::string key, std::string unit, double minimum, double maximum, double value, std::string sentence) {
@@ -233,8 +228,8 @@ std::string expectation(const Parameter& p) {
   if (p.type == Type::choice) return fmt::format("one of '{}'", fmt::join(p.choices, "', '"));
   if (p.type == Type::text) return "text";
   const bool is_integer = p.type == Type::integer || p.type == Type::integer2;
-  std::string words = count > 1 ? fmt::format("{} {}s", count, is_integer ? "integer" : "number")
-                                : std::string(is_integer ? "an integer" : "a number");
+  std::string words =
+      count > 1 ? fmt::format("{} {}s", count, is_integer ? "integer" : "number") : std::string(is_integer ? "an integer" : "a number");
   const std::string range = range_text(p);
   if (!range.empty()) words += (range.starts_with("at ") ? " of " : " from ") + range;
   if (!p.unit.empty()) words += fmt::format(" [{}]", p.unit);

@@ -47,16 +47,11 @@ struct Parameter {
 };
 
 Parameter boolean(std::string key, bool default_value, std::string sentence);
-Parameter integer(std::string key, std::string unit, double minimum, double maximum, std::int64_t default_value,
-                  std::string sentence);
-Parameter integer2(std::string key, std::string unit, double minimum, double maximum, Integer2 default_value,
-                   std::string sentence);
-Parameter real(std::string key, std::string unit, double minimum, double maximum, double default_value,
-               std::string sentence);
-Parameter real2(std::string key, std::string unit, double minimum, double maximum, Real2 default_value,
-                std::string sentence);
-Parameter real3(std::string key, std::string unit, double minimum, double maximum, Real3 default_value,
-                std::string sentence);
+Parameter integer(std::string key, std::string unit, double minimum, double maximum, std::int64_t default_value, std::string sentence);
+Parameter integer2(std::string key, std::string unit, double minimum, double maximum, Integer2 default_value, std::string sentence);
+Parameter real(std::string key, std::string unit, double minimum, double maximum, double default_value, std::string sentence);
+Parameter real2(std::string key, std::string unit, double minimum, double maximum, Real2 default_value, std::string sentence);
+Parameter real3(std::string key, std::string unit, double minimum, double maximum, Real3 default_value, std::string sentence);
 Parameter choice(std::string key, std::vector<std::string> choices, std::string default_value, std::string sentence);
 Parameter text(std::string key, std::string default_value, std::string sentence);
 

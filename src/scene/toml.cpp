@@ -40,9 +40,7 @@ std::string read_file(const std::filesystem::path& file) {
   return text;
 }
 
-std::string shortened(const std::string& key) {
-  return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…";
-}
+std::string shortened(const std::string& key) { return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…"; }
 
 struct Override {
   std::string key;
@@ -92,7 +90,8 @@ std::string guess(const std::string& wrong, const std::vector<std::string>& vali
 
 class Assembly {
  public:
-  Assembly(const Effect& effect, const EffectTable& effects, std::string variant) : effect_(effect), effects_(effects), variant_(std::move(variant)) {
+  Assembly(const Effect& effect, const EffectTable& effects, std::string variant)
+      : effect_(effect), effects_(effects), variant_(std::move(variant)) {
     for (Parameter& p : scene_parameters(effect, effects)) {
       const Value value = p.default_in(variant_);
       if (p.used_by(variant_)) valid_.push_back(p.key);
@@ -138,8 +137,7 @@ class Assembly {
     for (Config::Entry& e : entries_) {
       if (e.parameter.key != key) continue;
       if (e.parameter.used_by(variant_)) return e;
-      refuse(origin, key,
-             fmt::format("not used by variant '{}', only by '{}'", variant_, fmt::join(e.parameter.variants, "', '")));
+      refuse(origin, key, fmt::format("not used by variant '{}', only by '{}'", variant_, fmt::join(e.parameter.variants, "', '")));
     }
     refuse(origin, shortened(key), "unknown key" + foreign(key, valid_));
   }
@@ -150,15 +148,15 @@ class Assembly {
     std::vector<std::string> owners;
     for (const Effect& other : effects_.effects) {
       const auto is_it = [&](const Parameter& p) { return is_table ? p.key.starts_with(key) : p.key == key; };
-      if (&other != &effect_ && std::any_of(other.parameters.begin(), other.parameters.end(), is_it)) owners.push_back("'" + other.name + "'");
+      if (&other != &effect_ && std::any_of(other.parameters.begin(), other.parameters.end(), is_it))
+        owners.push_back("'" + other.name + "'");
     }
     if (owners.empty()) return guess(is_table ? key.substr(0, key.size() - 1) : key, valid);
     return fmt::format(" of '{}'; it is one of {}", effect_.name, fmt::join(owners, " and "));
   }
 
   bool declared(const std::string& key) const {
-    return std::any_of(entries_.begin(), entries_.end(),
-                       [&](const Config::Entry& e) { return e.parameter.key == key; });
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Config::Entry& e) { return e.parameter.key == key; });
   }
 
   // "run", "puddle", …
@@ -222,8 +220,11 @@ Config parse(const SceneText& scene, const Effect& effect, std::span<const char*
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
   const Config config = parse(scene.toml, scene.file, overrides, {{effect}});
   for (const char* key : pictures) {
-    const bool is_used = std::any_of(config.entries().begin(), config.entries().end(), [&](const Config::Entry& e) { return e.parameter.key == key; });
-    if (is_used && !config.text(key).empty()) refuse(config.entry(key).origin, key, fmt::format("expected none, for the caller hands in the picture itself, found '{}'", config.text(key)));
+    const bool is_used =
+        std::any_of(config.entries().begin(), config.entries().end(), [&](const Config::Entry& e) { return e.parameter.key == key; });
+    if (is_used && !config.text(key).empty())
+      refuse(config.entry(key).origin, key,
+             fmt::format("expected none, for the caller hands in the picture itself, found '{}'", config.text(key)));
   }
   return config;
 }

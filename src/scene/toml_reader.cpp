@@ -65,8 +65,7 @@ RawValue raw(const toml::node& node, const std::string& file) {
   return out;
 }
 
-void flatten(const toml::table& table, const std::string& prefix, int depth, const std::string& file,
-             std::vector<RawEntry>& out) {
+void flatten(const toml::table& table, const std::string& prefix, int depth, const std::string& file, std::vector<RawEntry>& out) {
   for (const auto& [key, node] : table) {
     const std::string full = prefix + key_part(key.str());
     const toml::table* inner = node.as_table();
@@ -116,8 +115,7 @@ std::string RawValue::text() const {
 
 std::vector<RawEntry> read_toml(std::string_view text, const std::string& file) {
   if (text.size() > largest_file) {
-    throw Error(ExitCode::usage, SourceLocation{file},
-                fmt::format("larger than {} bytes, so not a scene", largest_file));
+    throw Error(ExitCode::usage, SourceLocation{file}, fmt::format("larger than {} bytes, so not a scene", largest_file));
   }
   if (const int line = too_deep_line(text)) {
     throw Error(ExitCode::usage, SourceLocation{file, line, 0},

@@ -66,8 +66,7 @@ T loaded(const std::byte* at) {
 std::size_t validate_offsets(const UniformBlock& block) {
   std::size_t end = 0, largest = 4;
   for (const Member& m : block.members) {
-    if (m.components < 1 || m.components > 4)
-      broken(block, fmt::format("'{}' has {} components", m.name, m.components));
+    if (m.components < 1 || m.components > 4) broken(block, fmt::format("'{}' has {} components", m.name, m.components));
     if (m.offset < end) {
       broken(block, fmt::format("'{}' at {} begins before the member before it ends, at {}", m.name, m.offset, end));
     }
@@ -114,7 +113,8 @@ void validate_record(const UniformBlock& record) {
 }
 
 bool same_layout(const UniformBlock& a, const UniformBlock& b) {
-  return a.size == b.size && std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), [](const Member& m, const Member& n) {
+  return a.size == b.size &&
+         std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), [](const Member& m, const Member& n) {
            return m.name == n.name && m.scalar == n.scalar && m.components == n.components && m.offset == n.offset;
          });
 }
@@ -136,7 +136,8 @@ std::string value_fault(const UniformBlock& block, const std::byte* bytes) {
       if (is_fit) continue;
       const std::string name = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
       if (!m.range) return fmt::format("{} is {}, expected a finite number", name, value);
-      return fmt::format("{} is {}, expected {}{:g} to {:g}", name, value, range.is_whole ? "a whole number from " : "", range.low, range.high);
+      return fmt::format("{} is {}, expected {}{:g} to {:g}", name, value, range.is_whole ? "a whole number from " : "", range.low,
+                         range.high);
     }
   }
   return "";

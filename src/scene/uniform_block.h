@@ -107,9 +107,13 @@ std::size_t offset_of(M S::*pointer) {
 template <class S, class M>
 Member member(M S::*pointer, std::string name, std::string unit, std::optional<Range> range, std::string sentence) {
   static_assert(Shape<M>::components >= 1 && Shape<M>::components <= 4, "vectors have 2 to 4 components; no arrays");
-  return {std::move(name),      scalar_of<typename Shape<M>::Component>(),
-          Shape<M>::components, offset_of(pointer),
-          std::move(unit),      std::move(sentence), range};
+  return {std::move(name),
+          scalar_of<typename Shape<M>::Component>(),
+          Shape<M>::components,
+          offset_of(pointer),
+          std::move(unit),
+          std::move(sentence),
+          range};
 }
 
 std::vector<Member> moved(std::vector<Member> members, std::size_t by, const std::string& prefix);

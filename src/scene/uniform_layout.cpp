@@ -21,8 +21,7 @@ std::string type_name(const Member& m, Language language) {
   const std::string count = is_vector ? std::to_string(m.components) : "";
   switch (language) {
     case Language::c:
-      return is_vector ? pick("rainref_float", "rainref_int", "rainref_uint") + count
-                       : pick("float", "int32_t", "uint32_t");
+      return is_vector ? pick("rainref_float", "rainref_int", "rainref_uint") + count : pick("float", "int32_t", "uint32_t");
     case Language::cuda:
       return is_vector ? pick("float", "int", "uint") + count : pick("float", "int", "unsigned int");
     case Language::glsl:
@@ -72,9 +71,7 @@ std::string member_lines(const UniformBlock& block, Language language) {
   std::size_t width = 0;
   for (const Member& m : members) {
     const std::string type = type_name(m, language);
-    lines.emplace_back(
-        language == Language::wgsl ? fmt::format("  {} : {},", m.name, type) : fmt::format("  {} {};", type, m.name),
-        &m);
+    lines.emplace_back(language == Language::wgsl ? fmt::format("  {} : {},", m.name, type) : fmt::format("  {} {};", type, m.name), &m);
     width = std::max(width, lines.back().first.size());
   }
   std::string out;
@@ -95,8 +92,7 @@ std::string struct_text(const UniformBlock& block, Language language) {
           "typedef char {2}_has_{3}_bytes[sizeof({2}) == {3} ? 1 : -1];\n",
           c_vector_types(block), lines, block.name, block.size);
     case Language::cuda:
-      return fmt::format("struct {0} {{\n{1}}};\nstatic_assert(sizeof({0}) == {2}, \"layout of {0}\");\n", block.name,
-                         lines, block.size);
+      return fmt::format("struct {0} {{\n{1}}};\nstatic_assert(sizeof({0}) == {2}, \"layout of {0}\");\n", block.name, lines, block.size);
     case Language::wgsl:
       return fmt::format("struct {} {{\n{}}}\n", block.name, lines);
     case Language::glsl:
@@ -107,8 +103,7 @@ std::string struct_text(const UniformBlock& block, Language language) {
 }
 
 std::string head(const UniformBlock& block) {
-  return fmt::format("// {}: {} bytes, little endian. Comments: offset in bytes, [unit], meaning.\n", block.name,
-                     block.size);
+  return fmt::format("// {}: {} bytes, little endian. Comments: offset in bytes, [unit], meaning.\n", block.name, block.size);
 }
 
 }  // namespace
@@ -118,8 +113,8 @@ Language language_from_name(std::string_view wanted) {
     if (language_names[i] == wanted) return static_cast<Language>(i);
   }
   const std::vector<std::string> names(language_names.begin(), language_names.end());
-  throw Error(ExitCode::usage, fmt::format("layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found '{}'{}",
-                                           wanted, did_you_mean(wanted, names)));
+  throw Error(ExitCode::usage, fmt::format("layout: expected one of 'c', 'glsl', 'hlsl', 'wgsl', 'cuda', found '{}'{}", wanted,
+                                           did_you_mean(wanted, names)));
 }
 
 const char* name(Language language) { return language_names[static_cast<std::size_t>(language)]; }
@@ -132,8 +127,8 @@ std::string layout(const UniformBlock& block, Language language) {
     case Language::cuda:
       return out + struct_text(block, language);
     case Language::glsl:
-      return out + fmt::format("layout(std140, binding = 0) uniform {} {{\n{}}} {};\n", block.name,
-                               member_lines(block, language), snake_case(block.name));
+      return out + fmt::format("layout(std140, binding = 0) uniform {} {{\n{}}} {};\n", block.name, member_lines(block, language),
+                               snake_case(block.name));
     case Language::hlsl:
       return out + fmt::format("cbuffer {} : register(b0) {{\n{}}};\n", block.name, member_lines(block, language));
     case Language::wgsl:
@@ -152,8 +147,7 @@ std::string record_layout(const UniformBlock& record, Language language) {
     case Language::cuda:
       return out;
     case Language::glsl:
-      return out + fmt::format("layout(std430, binding = 1) readonly buffer {0}Buffer {{ {0} {1}[]; }};\n", record.name,
-                               array);
+      return out + fmt::format("layout(std430, binding = 1) readonly buffer {0}Buffer {{ {0} {1}[]; }};\n", record.name, array);
     case Language::hlsl:
       return out + fmt::format("StructuredBuffer<{}> {} : register(t0);\n", record.name, array);
     case Language::wgsl:

@@ -14,20 +14,23 @@ struct BackgroundPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("BackgroundUniforms",
-                                   {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "as-published: columns and rows of the picture."),
-                                   member<&U::level>("level", "1", {0, 16}, "Mip level of the lookups."),
-                                   member<&U::weight>("weight", "1", scene::share, "corrected: of a tap."),
-                                   member<&U::scale>("scale", "1", scene::share, "corrected: texture coordinates of the scene in a pixel."),
-                                   member<&U::offset>("offset", "1", scene::share, "corrected: those of the picture's corner."),
-                                   member<&U::tap_count>("tap_count", "1", {0, 4096}, "corrected: taps in the list.")});
+    return scene::uniform_block<U>(
+        "BackgroundUniforms",
+        {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "as-published: columns and rows of the picture."),
+         member<&U::level>("level", "1", {0, 16}, "Mip level of the lookups."),
+         member<&U::weight>("weight", "1", scene::share, "corrected: of a tap."),
+         member<&U::scale>("scale", "1", scene::share, "corrected: texture coordinates of the scene in a pixel."),
+         member<&U::offset>("offset", "1", scene::share, "corrected: those of the picture's corner."),
+         member<&U::tap_count>("tap_count", "1", {0, 4096}, "corrected: taps in the list.")});
   }
   template <class B>
   struct Io {
     typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear, .mip_filter = Filter::linear};
     typename B::template Records<Tap> taps = pass::In{.name = "taps", .variant = "corrected", .count = "tap_count"};
-    typename B::template Result<Format::rgba16f> background =
-        pass::Out{.name = "background", .sentence = "The scene out of focus: linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+    typename B::template Result<Format::rgba16f> background = pass::Out{.name = "background",
+                                                                        .sentence = "The scene out of focus: linear radiance, alpha 1.",
+                                                                        .colour_space = "linear Rec. 709",
+                                                                        .alpha = "1"};
   };
 };
 
@@ -44,13 +47,15 @@ RAINREF_FN Vec3<N> scene_at(const T& scene, N u, N v, N level) {
 /// textureLod(scene, pixel / resolution, level)
 template <class N, class T>
 RAINREF_FN Vec3<N> background_as_published(const BackgroundUniforms& b, const T& scene, int column, int row) {
-  return scene_at<N>(scene, (N::index(column) + N(0.5f)) / N(b.resolution[0]), N(static_cast<float>(row) + 0.5f) / N(b.resolution[1]), N(b.level));
+  return scene_at<N>(scene, (N::index(column) + N(0.5f)) / N(b.resolution[0]), N(static_cast<float>(row) + 0.5f) / N(b.resolution[1]),
+                     N(b.level));
 }
 
 /// The mean over a disc: what a camera that focuses on the glass sees of a far point, spread evenly.
 template <class N, class T>
 RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& scene, const Tap* taps, int column, int row) {
-  const N u = (N::index(column) + N(0.5f)) * N(b.scale[0]) + N(b.offset[0]), v = N(static_cast<float>(row) + 0.5f) * N(b.scale[1]) + N(b.offset[1]), zero(0.0f);
+  const N u = (N::index(column) + N(0.5f)) * N(b.scale[0]) + N(b.offset[0]),
+          v = N(static_cast<float>(row) + 0.5f) * N(b.scale[1]) + N(b.offset[1]), zero(0.0f);
   Vec3<N> sum(zero, zero, zero);
   for (int k = 0; k < b.tap_count; ++k) sum = sum + scene_at<N>(scene, u + N(taps[k].x), v + N(taps[k].y), N(b.level));
   return N(b.weight) * sum;
@@ -58,11 +63,15 @@ RAINREF_FN Vec3<N> background_corrected(const BackgroundUniforms& b, const T& sc
 
 struct BackgroundPassText {
   template <class Io>
-  static RAINREF_FN auto views(const Io& io) { return io.scene.template fixed<Address::clamp, Address::clamp, 4>(); }
+  static RAINREF_FN auto views(const Io& io) {
+    return io.scene.template fixed<Address::clamp, Address::clamp, 4>();
+  }
   template <class N, bool corrected, class Io, class Scene>
   static RAINREF_FN void run(const BackgroundUniforms& u, const Io& io, const Scene& scene, int column, int row) {
-    if constexpr (corrected) io.background(background_corrected<N>(u, scene, io.taps.data(), column, row), N(1.0f));
-    else io.background(background_as_published<N>(u, scene, column, row), N(1.0f));
+    if constexpr (corrected)
+      io.background(background_corrected<N>(u, scene, io.taps.data(), column, row), N(1.0f));
+    else
+      io.background(background_as_published<N>(u, scene, column, row), N(1.0f));
   }
 };
 #endif

@@ -23,7 +23,8 @@ void CellLine::draw_clock(int column, DrawnCell& drawn) const {
 void CellLine::draw_cycle(int column, std::uint32_t time, DrawnCell& drawn) const {
   const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
   const std::uint32_t cycle = time / drawn.length;
-  const random::Block drop = random::block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
+  const random::Block drop =
+      random::block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
   drawn.begin = cycle * drawn.length;
   drawn.cycle = {(drop[0] >> 16) < u_.keep, cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
 }

@@ -9,7 +9,8 @@
 namespace rainref::screen_drops {
 
 inline constexpr std::string_view drops_sentence = "The scene through the drops on the window: linear radiance, and where water is.";
-inline constexpr pass::Out drops_colour{.name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
+inline constexpr pass::Out drops_colour{
+    .name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
 
 struct PublishedDropsPass {
   static constexpr pass::About about{"drops", drops_sentence, {1}, {}, {"dot", "length", "normalize"}};
@@ -17,20 +18,22 @@ struct PublishedDropsPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("PublishedDropsUniforms",
-                                   {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
-                                   member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
-                                   member<&U::grid>("grid", "cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
-                                   member<&U::keep>("keep", "1", scene::share, "Times 5 - layer: the noise below which a cell holds a drop."),
-                                   member<&U::refraction>("refraction", "1", scene::component, "Pictures per unit of the normal."),
-                                   member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it.")});
+    return scene::uniform_block<U>(
+        "PublishedDropsUniforms",
+        {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
+         member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
+         member<&U::grid>("grid", "cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
+         member<&U::keep>("keep", "1", scene::share, "Times 5 - layer: the noise below which a cell holds a drop."),
+         member<&U::refraction>("refraction", "1", scene::component, "Pictures per unit of the normal."),
+         member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it.")});
   }
   template <class B>
   struct Io {
     typename B::template Texels<Format::rgba16f> background = pass::In{.name = "background", .from = "background"};
     typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear};
     typename B::Sampled noise = pass::In{.name = "noise", .filter = Filter::linear};
-    typename B::template Result<Format::r8> water = pass::Out{.name = "water", .sentence = "A quarter of the layer whose drop shows; 0: none."};
+    typename B::template Result<Format::r8> water =
+        pass::Out{.name = "water", .sentence = "A quarter of the layer whose drop shows; 0: none."};
     typename B::template Result<Format::rgba16f> colour = drops_colour;
   };
 };
@@ -41,26 +44,27 @@ struct DropsPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("DropsUniforms",
-                                   {member<&U::cells_per_pixel>("cells_per_pixel", "cell/pixel", {0, 1e6}, "Of each layer."),
-                                   member<&U::offset_x>("offset_x", "cell", scene::share, "Place of the picture's corner in each layer."),
-                                   member<&U::offset_y>("offset_y", "cell", scene::share, "Place of the picture's corner in each layer."),
-                                   member<&U::pixels_per_cell>("pixels_per_cell", "pixel/cell", {0, 1e9}, "Of each layer."),
-                                   member<&U::level>("level", "1", {0, 32}, "Mip level at which each layer's drops see the scene."),
-                                   member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins."),
-                                   member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-                                   member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-                                   member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-                                   member<&U::sine>("sine", "1", scene::share, "Of the contact angle."),
-                                   member<&U::water_ior>("water_ior", "1", {1, 2}, "Refractive index of water."),
-                                   member<&U::inner>("inner", "1", scene::share, "Share of the background that the water's surface mirrors."),
-                                   member<&U::has_flow>("has_flow", "1", scene::flag, "1: height counts."),
-                                   member<&U::flow_slope>("flow_slope", "1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
-                                   member<&U::flow_pixel>("flow_pixel", "1", scene::share, "1 over the picture's columns and rows."),
-                                   member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which flowing water begins to show."),
-                                   member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
-                                   member<&U::flow_level>("flow_level", "1", {0, 32}, "Mip level at which flowing water sees the scene."),
-                                   member<&U::flow_texel>("flow_texel", "1", scene::share, "1 over the columns and rows of height.")});
+    return scene::uniform_block<U>(
+        "DropsUniforms",
+        {member<&U::cells_per_pixel>("cells_per_pixel", "cell/pixel", {0, 1e6}, "Of each layer."),
+         member<&U::offset_x>("offset_x", "cell", scene::share, "Place of the picture's corner in each layer."),
+         member<&U::offset_y>("offset_y", "cell", scene::share, "Place of the picture's corner in each layer."),
+         member<&U::pixels_per_cell>("pixels_per_cell", "pixel/cell", {0, 1e9}, "Of each layer."),
+         member<&U::level>("level", "1", {0, 32}, "Mip level at which each layer's drops see the scene."),
+         member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of cells where each layer begins."),
+         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+         member<&U::sine>("sine", "1", scene::share, "Of the contact angle."),
+         member<&U::water_ior>("water_ior", "1", {1, 2}, "Refractive index of water."),
+         member<&U::inner>("inner", "1", scene::share, "Share of the background that the water's surface mirrors."),
+         member<&U::has_flow>("has_flow", "1", scene::flag, "1: height counts."),
+         member<&U::flow_slope>("flow_slope", "1/mm", {0, 1e9}, "Slope per difference of heights two texels apart."),
+         member<&U::flow_pixel>("flow_pixel", "1", scene::share, "1 over the picture's columns and rows."),
+         member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which flowing water begins to show."),
+         member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
+         member<&U::flow_level>("flow_level", "1", {0, 32}, "Mip level at which flowing water sees the scene."),
+         member<&U::flow_texel>("flow_texel", "1", scene::share, "1 over the columns and rows of height.")});
   }
   template <class B>
   struct Io {
@@ -124,7 +128,8 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
   return out;
 }
 template <class N, class S, class T>
-RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S& scene, const T& noise, const Vec3<N>& background, int column, int row) {
+RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S& scene, const T& noise, const Vec3<N>& background,
+                                        int column, int row) {
   const PublishedDrop<N> drop = published_drop<N>(d, noise, column, row);
   const auto is_drop = drop.layer > N(0.0f);
   if (!any(is_drop)) return {background, drop.layer};
@@ -144,9 +149,11 @@ RAINREF_FN Two<N> cell_place(const DropsUniforms& u, int layer, N px, N py) {
   return Two<N>(px * N(u.cells_per_pixel[layer]) + N(u.offset_x[layer]), py * N(u.cells_per_pixel[layer]) + N(u.offset_y[layer]));
 }
 template <class N>
-RAINREF_FN Two<N> flow_place(const DropsUniforms& u, N px, N py) { return Two<N>(px * N(u.flow_pixel[0]), py * N(u.flow_pixel[1])); }
-/// The drops of the cells, finer layers below coarser ones, without those that a Wanted knows to show nothing here. A cap of base radius R and contact angle a is part of a sphere of
-/// radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
+RAINREF_FN Two<N> flow_place(const DropsUniforms& u, N px, N py) {
+  return Two<N>(px * N(u.flow_pixel[0]), py * N(u.flow_pixel[1]));
+}
+/// The drops of the cells, finer layers below coarser ones, without those that a Wanted knows to show nothing here. A cap of base radius R
+/// and contact angle a is part of a sphere of radius R / sin a, so its normal at distance d from the axis leans by d sin a / R.
 template <class N, class C>
 RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int column, int row, Wanted wanted) {
   const N half(0.5f), one(1.0f), zero(0.0f);
@@ -158,7 +165,8 @@ RAINREF_FN Surface<N> still_drops(const DropsUniforms& u, const C& cells, int co
     const Two<N> place = cell_place(u, l, px, py);
     const N qx = place.a, qy = place.b;
     const N cx = floor(qx), cy = floor(qy), pixels(u.pixels_per_cell[l]);
-    const auto drop = load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
+    const auto drop =
+        load_texel<0, 4, N>(cells, texel_column<N>(cells, whole, to_int(cx)), texel_row<N>(cells, whole, to_int(cy) + u.first_row[l]));
     const N dx = (qx - cx) - drop[0], dy = (qy - cy) - drop[1], radius = drop[2];
     // The share of the pixel that the base covers; less for a base smaller than a pixel.
     const N cover = saturate((radius - length(dx, dy)) * pixels + half) * min(N(2.0f) * radius * pixels, one);
@@ -218,18 +226,21 @@ RAINREF_FN Vec3<N> behind_water(const DropsUniforms& u, const S& scene, const Su
   const Vec3<N> water = in_parts(s.x, s.y, [&](N x, N y) RAINREF_LAMBDA {
     const BentRay<N> bent = bent_ray(u, ray, x, y);
     const N ahead = one / max(bent.direction.z, N(0.05f));
-    const Vec3<N> seen = scene_at<N>(scene, half + bent.direction.x * ahead * N(u.scene_scale[0]), half + bent.direction.y * ahead * N(u.scene_scale[1]), s.level);
+    const Vec3<N> seen = scene_at<N>(scene, half + bent.direction.x * ahead * N(u.scene_scale[0]),
+                                     half + bent.direction.y * ahead * N(u.scene_scale[1]), s.level);
     return mix(seen, N(u.inner) * background, bent.reflected);
   });
   return mix(background, water, s.cover);
 }
 template <class N, class S, class C, class H>
-RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background, int column, int row) {
+RAINREF_FN Window<N> drops_corrected(const DropsUniforms& u, const S& scene, const C& cells, const H& height, const Vec3<N>& background,
+                                     int column, int row) {
   const N half(0.5f), zero(0.0f);
   const Surface<N> s = water_at<N>(u, cells, height, column, row);
   const auto wet = s.cover > zero;
   if (!any(wet)) return {background, zero};
-  return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background), s.cover};
+  return {select(wet, behind_water(u, scene, s, background, N::index(column) + half, N(static_cast<float>(row) + 0.5f)), background),
+          s.cover};
 }
 
 template <class Scene, class Noise>
@@ -240,7 +251,8 @@ struct PublishedDropsTextures {
 struct PublishedDropsPassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {
-    return PublishedDropsTextures{io.scene.template fixed<Address::clamp, Address::clamp, 4>(), io.noise.template fixed<Address::repeat, Address::repeat, 4>()};
+    return PublishedDropsTextures{io.scene.template fixed<Address::clamp, Address::clamp, 4>(),
+                                  io.noise.template fixed<Address::repeat, Address::repeat, 4>()};
   }
   template <class N, bool, class Io, class Textures>
   static RAINREF_FN void run(const PublishedDropsUniforms& u, const Io& io, const Textures& t, int column, int row) {
@@ -253,7 +265,8 @@ struct DropsPassText {
   template <class N, bool, class Io>
   static RAINREF_FN void run(const DropsUniforms& u, const Io& io, int column, int row) {
     constexpr Address edge = Address::clamp;
-    const Window<N> w = drops_corrected<N>(u, io.scene.template fixed<edge, edge, 4>(), io.cells.template fixed<edge, edge, 4>(), io.height.template fixed<edge, edge, 1>(), io.background.rgb(), column, row);
+    const Window<N> w = drops_corrected<N>(u, io.scene.template fixed<edge, edge, 4>(), io.cells.template fixed<edge, edge, 4>(),
+                                           io.height.template fixed<edge, edge, 1>(), io.background.rgb(), column, row);
     io.water(w.water);
     io.colour(w.colour, N(1.0f));
   }

@@ -4,7 +4,8 @@ namespace rainref::screen_drops {
 namespace {
 
 drops::SplatSettings splat_of(const FlowSettings& s) {
-  drops::SplatSettings splat{true, s.splat, {s.pane[0], 0, s.pane[1]}, 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * (0x1.921fb54442d18p+1 / 180)};
+  drops::SplatSettings splat{
+      true, s.splat, {s.pane[0], 0, s.pane[1]}, 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * (0x1.921fb54442d18p+1 / 180)};
   splat.keys.half_accumulation = false;
   return splat;
 }
@@ -23,15 +24,20 @@ struct Flow::State {
   std::int64_t steps = 0;
 
   State(const FlowSettings& s, const parallel::Executor& e)
-      : settings(s), splat(splat_of(s)), executor(e),
+      : settings(s),
+        splat(splat_of(s)),
+        executor(e),
         water(s.drops, {s.pane[0], 0, s.pane[1]}, s.pane[0] * s.pane[1], s.fps * s.substeps, s.splat.width, s.splat.height, e),
-        exposure{s.pane[0] * s.pane[1], 0, -s.wind}, height(Format::r16f, s.splat.width, s.splat.height) {
+        exposure{s.pane[0] * s.pane[1], 0, -s.wind},
+        height(Format::r16f, s.splat.width, s.splat.height) {
     // Where the wind meets the pane it stands still: nothing blows along it.
     forces.gravity[1] = static_cast<float>(-s.gravity / s.pane[1]);
     const auto warm_up = static_cast<std::int64_t>(s.warm_up * s.fps * s.substeps + 0.5);
     while (steps < warm_up) step(moment(nullptr, 0, 0));
   }
-  pass::Moment moment(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding}; }
+  pass::Moment moment(Recorder* recorder, int step, double dt) const {
+    return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding};
+  }
   void step(const pass::Moment& now) {
     water.spawn(now, exposure, steps);
     water.integrate(now, forces);

@@ -54,7 +54,8 @@ class Flow {
   /// Of the ledger against drops and film: exactly 0.
   std::int64_t balance() const;
 
-  /// Makes these the only drops, of whole quanta; the ledger counts them as arrived and the ones before as removed. Throws Error(port_files) as drops::DropArrays::assign does.
+  /// Makes these the only drops, of whole quanta; the ledger counts them as arrived and the ones before as removed. Throws
+  /// Error(port_files) as drops::DropArrays::assign does.
   void set_drops(std::span<const drops::Drop> records);
 
  private:

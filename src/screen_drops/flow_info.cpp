@@ -28,10 +28,13 @@ std::vector<Parameter> flow_parameters(const std::string& prefix) {
   append(all, drops::corrected_only(drops::splat_parameters(prefix)));
   std::erase_if(all, [&](const Parameter& p) { return p.key == key("rounding"); });
   // As wide to high as most screens.
-  std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == key("height_size"); })->default_value = Integer2{1024, 576};
+  std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.key == key("height_size"); })->default_value =
+      Integer2{1024, 576};
   append(all, {integer(key("substeps"), "1", 1, 64, 1, "Steps of the drops in a frame.").only(correct),
                real(key("warm_up"), "s", 0, 3600, 0, "Time that it has rained onto the pane before frame 0.").only(correct),
-               real("rain.wind", "m/s", 0, 100, 2, "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.").only(correct),
+               real("rain.wind", "m/s", 0, 100, 2,
+                    "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.")
+                   .only(correct),
                real("world.gravity", "m/s^2", 0, 100, 9.80665, "Acceleration of gravity.").only(correct)});
   return all;
 }
@@ -52,7 +55,8 @@ FlowSettings flow_settings(const Config& config, const std::string& prefix, cons
 
 std::vector<capture::PassInfo> flow_passes() {
   return {drops::corrected_only(drops::spawn_info({"merge", "merge"})), drops::corrected_only(drops::integrate_info("spawn", "")),
-          drops::corrected_only(drops::merge_info("integrate", "merge")), drops::corrected_only(drops::splat_info({"merge", "merge"}, "merge"))};
+          drops::corrected_only(drops::merge_info("integrate", "merge")),
+          drops::corrected_only(drops::splat_info({"merge", "merge"}, "merge"))};
 }
 
 std::vector<capture::BufferInfo> flow_buffers() {
@@ -64,7 +68,10 @@ std::vector<capture::BufferInfo> flow_buffers() {
 std::vector<UniformBlock> flow_records() { return drops::records(); }
 
 std::vector<capture::PassReadings> flow_readings() {
-  return {{"spawn", nullptr, drops::recompute_spawn}, {"integrate", drops::bind_integrate}, {"merge", drops::bind_merge}, {"splat", drops::bind_splat}};
+  return {{"spawn", nullptr, drops::recompute_spawn},
+          {"integrate", drops::bind_integrate},
+          {"merge", drops::bind_merge},
+          {"splat", drops::bind_splat}};
 }
 
 }  // namespace rainref::screen_drops

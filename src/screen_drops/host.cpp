@@ -20,7 +20,7 @@ using scene::Vector3;
 
 constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr int tap_count = 24;
-constexpr int most_cells = 1 << 24, most_side = 65535;  // a cell's place has 16 bits a side
+constexpr int most_cells = 1 << 24, most_side = 65535;    // a cell's place has 16 bits a side
 constexpr double visible_from = 0.02, visible_to = 0.12;  // height of flowing water [mm]
 
 bool corrected(const Settings& s) { return s.variant == Variant::corrected; }
@@ -37,7 +37,9 @@ float level_of(const Settings& s, double radius) {
 
 }  // namespace
 
-scene::Camera camera(const Settings& s) { return {vector(s.camera_position), vector(s.camera_target), vector(s.camera_up), s.vertical_fov_deg}; }
+scene::Camera camera(const Settings& s) {
+  return {vector(s.camera_position), vector(s.camera_target), vector(s.camera_up), s.vertical_fov_deg};
+}
 scene::Camera scene_camera(const Settings& s) {
   scene::Camera wide = camera(s);
   if (corrected(s)) wide.vertical_fov_deg = 2 * atan2_real(Real64(wide.half_height() * s.scene_margin), Real64(1)).v * 180 / pi;
@@ -57,14 +59,22 @@ void check(const Settings& s) {
     positive(s.scene_margin, "scene.margin");
     positive(s.shortest_cycle, "drops.shortest_cycle");
     if (!(s.shortest_cycle <= s.longest_cycle)) {
-      throw Error(ExitCode::usage, fmt::format("drops.shortest_cycle: expected at most drops.longest_cycle = {} s, found {}", s.longest_cycle, s.shortest_cycle));
+      throw Error(ExitCode::usage, fmt::format("drops.shortest_cycle: expected at most drops.longest_cycle = {} s, found {}",
+                                               s.longest_cycle, s.shortest_cycle));
     }
-    if (!(s.longest_cycle <= 65.535)) throw Error(ExitCode::usage, fmt::format("drops.longest_cycle: expected at most 65.535 s, found {}", s.longest_cycle));
-    if (!(s.impact > 0 && s.impact < 1)) throw Error(ExitCode::usage, fmt::format("drops.impact: expected a share between 0 and 1, found {}", s.impact));
-    if (!(s.contact_angle_deg > 0 && s.contact_angle_deg < 90)) throw Error(ExitCode::usage, fmt::format("drops.contact_angle: expected an angle between 0 and 90 degrees, found {}", s.contact_angle_deg));
-    const double fine = cell_over_radius * s.largest_radius / (1 << (layers - 1)), cells = 1.4 * s.height * millimetres(s) / fine * (s.width * millimetres(s) / fine);
+    if (!(s.longest_cycle <= 65.535))
+      throw Error(ExitCode::usage, fmt::format("drops.longest_cycle: expected at most 65.535 s, found {}", s.longest_cycle));
+    if (!(s.impact > 0 && s.impact < 1))
+      throw Error(ExitCode::usage, fmt::format("drops.impact: expected a share between 0 and 1, found {}", s.impact));
+    if (!(s.contact_angle_deg > 0 && s.contact_angle_deg < 90))
+      throw Error(ExitCode::usage,
+                  fmt::format("drops.contact_angle: expected an angle between 0 and 90 degrees, found {}", s.contact_angle_deg));
+    const double fine = cell_over_radius * s.largest_radius / (1 << (layers - 1)),
+                 cells = 1.4 * s.height * millimetres(s) / fine * (s.width * millimetres(s) / fine);
     if (!(cells < most_cells && std::max(s.width, s.height) * millimetres(s) / fine < most_side)) {
-      throw Error(ExitCode::usage, fmt::format("drops.largest_radius: expected drops that {} million cells hold, found {} mm for a pane {} m high", most_cells >> 20, s.largest_radius, s.pane_height));
+      throw Error(ExitCode::usage,
+                  fmt::format("drops.largest_radius: expected drops that {} million cells hold, found {} mm for a pane {} m high",
+                              most_cells >> 20, s.largest_radius, s.pane_height));
     }
   } else {
     positive(s.grid, "drops.grid");
@@ -77,9 +87,11 @@ void check(const Settings& s) {
 void check(const Settings& s, const Inputs& in) {
   if (in.colour.empty() || in.colour.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
   if (in.colour.width() != s.width || in.colour.height() != s.height) {
-    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} like the picture, found {}x{}", s.width, s.height, in.colour.width(), in.colour.height()));
+    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} like the picture, found {}x{}", s.width, s.height,
+                                             in.colour.width(), in.colour.height()));
   }
-  if (!in.noise.empty() && in.noise.channels() != 4) throw Error(ExitCode::usage, fmt::format("noise.image: expected four channels, found {}", in.noise.channels()));
+  if (!in.noise.empty() && in.noise.channels() != 4)
+    throw Error(ExitCode::usage, fmt::format("noise.image: expected four channels, found {}", in.noise.channels()));
 }
 
 std::array<Layer, layers> make_layers(const Settings& s) {
@@ -207,7 +219,8 @@ Image make_noise(std::uint64_t seed, int side) {
   Image noise(Format::rgba8, side, side);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      const random::Block word = random::block(seed, random::Purpose::screen_noise, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+      const random::Block word =
+          random::block(seed, random::Purpose::screen_noise, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
       for (std::size_t k = 0; k < 4; ++k) noise.row<Unorm8>(y)[4 * x + static_cast<int>(k)].code = static_cast<std::uint8_t>(word[k] >> 24);
     }
   }
@@ -225,7 +238,8 @@ Image stored_noise(const Image& noise) {
 
 std::vector<Image> scene_levels(const Image& colour) {
   TextureData decoded(colour, Address::clamp, Address::clamp);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(4) * colour.width() * colour.height(); ++i) decoded.texels()[i] = std::clamp(decoded.texels()[i], 0.0f, 65504.0f);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(4) * colour.width() * colour.height(); ++i)
+    decoded.texels()[i] = std::clamp(decoded.texels()[i], 0.0f, 65504.0f);
   decoded.build_mips();
   const Texture t = decoded.view();
   std::vector<Image> levels;

@@ -58,7 +58,10 @@ void DropsPassRows(const DropsUniforms& uniforms, bool, Rounding rounding, const
       wet.drain([&](const Lanes(&n)[5], const std::int32_t* columns, int count) HWY_ATTR __attribute__((always_inline)) {
         Half texels[4 * Lanes::size()] = {};
         for (int k = 0; k < count; ++k) std::memcpy(texels + 4 * k, below + 4 * columns[k], texel_bytes);
-        store_colour(texels, behind_water(uniforms, scene, Surface<Lanes>{n[0], n[1], n[2], n[3]}, load_colour(texels), n[4], Lanes(static_cast<float>(y) + 0.5f)), rounding);
+        store_colour(texels,
+                     behind_water(uniforms, scene, Surface<Lanes>{n[0], n[1], n[2], n[3]}, load_colour(texels), n[4],
+                                  Lanes(static_cast<float>(y) + 0.5f)),
+                     rounding);
         for (int k = 0; k < count; ++k) std::memcpy(out + 4 * columns[k], texels + 4 * k, texel_bytes);
       });
     };

@@ -26,7 +26,8 @@ MemoryPeak memory(const Settings& s, const FlowSettings* flow, double seconds) {
   m.hold(2 * halves);
   if (s.variant == Variant::corrected) {
     const std::array<int, 2> size = cells_size(make_layers(s));
-    m.hold(Image::memory_bytes(Format::rgba32f, size[0], size[1]) + static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * sizeof(DrawnCell));
+    m.hold(Image::memory_bytes(Format::rgba32f, size[0], size[1]) +
+           static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * sizeof(DrawnCell));
     if (flow != nullptr) {
       const double arrivals = drops::flux(flow->drops, 0, -flow->wind).drops * flow->pane[0] * flow->pane[1] * seconds;
       const auto live = static_cast<std::int64_t>(std::min(std::ceil(arrivals), static_cast<double>(flow->drops.capacity)));

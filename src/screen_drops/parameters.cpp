@@ -16,35 +16,43 @@ constexpr const char *published = "as-published", *correct = "corrected";
 std::span<const scene::Parameter> parameters() {
   static const std::vector<scene::Parameter> table = [] {
     std::vector<scene::Parameter> all{
-      // The origin's constants.
-      real("drops.grid", "cell/pixel", 1e-4, 1, 0.015, "Cells of the coarsest layer in a pixel; layer r has r times as many.").only(published),
-      real("drops.keep", "1", 0, 1, 0.08, "A cell of layer r holds a drop where its noise is below 5 - r times this.").only(published),
-      real("drops.refraction", "1", -1, 1, 0.3, "Pictures by which a unit normal across the view moves the lookup.").only(published),
-      boolean("drops.printed_misprint", false, "Displaces the grid by (1 - c2) c3, as the report prints, instead of by the noise.").only(published),
-      real("background.level", "1", 0, 16, 2.5, "Mip level of the scene behind the drops.").only(published),
-      integer("noise.size", "texel", 1, 4096, 256, "Side of the noise made here.").only(published),
-      text("noise.image", "", "Noise of your own, four channels, a tile; empty: made here.").only(published),
-      // Glass in metres.
-      real("glass.height", "m", 1e-3, 100, 0.12, "Glass in the height of the picture.").only(correct),
-      real("drops.largest_radius", "mm", 0.01, 1000, 4, "Base of the largest drop; radii go down to a 16th, with density ~ 1 / radius^3.").only(correct),
-      real("drops.share", "1", 0, 1, 0.6, "Share of the cells that hold a drop.").only(correct),
-      real("drops.contact_angle", "deg", 1, 85, 50, "Of the drops' caps.").only(correct),
-      real("drops.shortest_cycle", "s", 0.01, 65.535, 8, "Shortest time after which a cell draws another drop.").only(correct),
-      real("drops.longest_cycle", "s", 0.01, 65.535, 30, "Longest such time.").only(correct),
-      real("drops.impact", "1", 1e-3, 0.9, 0.02, "Share of its cycle in which a drop spreads; then it dries.").only(correct),
-      real("drops.water_ior", "1", 1, 2, 1.333, "Refractive index of water.").only(correct),
-      real("drops.inner", "1", 0, 1, 0.3, "Share of the background that the water's surface mirrors.").only(correct),
-      real("background.defocus", "picture height", 0, 0.2, 0.02, "Radius of a far point's disc, in a camera that focuses on the glass.").only(correct),
-      choice("drops.rounding", {"rne", "rtz"}, "rne", "Rounding of every store: to nearest even, or toward zero as many GPUs do."),
-      text("scene.image", "", "Picture behind the glass, of the run's size, EXR, HDR, PNG or NPY; empty: the street at night."),
-      text("scene.panorama", "", "Latitude/longitude panorama behind the glass instead, EXR, HDR, PNG or NPY, seen through the camera; as far as the sky."),
-      real("scene.margin", "1", 1, 10, 2.2, "Field of view of the scene's picture over that of the picture, as tangents: drops see what lies beside the view.").only(correct),
-      real("display.exposure", "EV", -20, 20, 0.5, "Exposure of the picture."),
-      real3("camera.position", "m", -1e5, 1e5, {2.2, 1.7, 12}, "Eye of the camera."),
-      real3("camera.target", "m", -1e5, 1e5, {0.6, 1.9, -20}, "Point that the camera looks at, through glass that stands across the view."),
-      real3("camera.up", "1", -1, 1, {0, 1, 0}, "Direction that is up in the picture."),
-      real("camera.vertical_fov_deg", "deg", 1, 150, 30, "Vertical field of view; of a picture from a file, too."),
-      boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
+        // The origin's constants.
+        real("drops.grid", "cell/pixel", 1e-4, 1, 0.015, "Cells of the coarsest layer in a pixel; layer r has r times as many.")
+            .only(published),
+        real("drops.keep", "1", 0, 1, 0.08, "A cell of layer r holds a drop where its noise is below 5 - r times this.").only(published),
+        real("drops.refraction", "1", -1, 1, 0.3, "Pictures by which a unit normal across the view moves the lookup.").only(published),
+        boolean("drops.printed_misprint", false, "Displaces the grid by (1 - c2) c3, as the report prints, instead of by the noise.")
+            .only(published),
+        real("background.level", "1", 0, 16, 2.5, "Mip level of the scene behind the drops.").only(published),
+        integer("noise.size", "texel", 1, 4096, 256, "Side of the noise made here.").only(published),
+        text("noise.image", "", "Noise of your own, four channels, a tile; empty: made here.").only(published),
+        // Glass in metres.
+        real("glass.height", "m", 1e-3, 100, 0.12, "Glass in the height of the picture.").only(correct),
+        real("drops.largest_radius", "mm", 0.01, 1000, 4, "Base of the largest drop; radii go down to a 16th, with density ~ 1 / radius^3.")
+            .only(correct),
+        real("drops.share", "1", 0, 1, 0.6, "Share of the cells that hold a drop.").only(correct),
+        real("drops.contact_angle", "deg", 1, 85, 50, "Of the drops' caps.").only(correct),
+        real("drops.shortest_cycle", "s", 0.01, 65.535, 8, "Shortest time after which a cell draws another drop.").only(correct),
+        real("drops.longest_cycle", "s", 0.01, 65.535, 30, "Longest such time.").only(correct),
+        real("drops.impact", "1", 1e-3, 0.9, 0.02, "Share of its cycle in which a drop spreads; then it dries.").only(correct),
+        real("drops.water_ior", "1", 1, 2, 1.333, "Refractive index of water.").only(correct),
+        real("drops.inner", "1", 0, 1, 0.3, "Share of the background that the water's surface mirrors.").only(correct),
+        real("background.defocus", "picture height", 0, 0.2, 0.02, "Radius of a far point's disc, in a camera that focuses on the glass.")
+            .only(correct),
+        choice("drops.rounding", {"rne", "rtz"}, "rne", "Rounding of every store: to nearest even, or toward zero as many GPUs do."),
+        text("scene.image", "", "Picture behind the glass, of the run's size, EXR, HDR, PNG or NPY; empty: the street at night."),
+        text("scene.panorama", "",
+             "Latitude/longitude panorama behind the glass instead, EXR, HDR, PNG or NPY, seen through the camera; as far as the sky."),
+        real("scene.margin", "1", 1, 10, 2.2,
+             "Field of view of the scene's picture over that of the picture, as tangents: drops see what lies beside the view.")
+            .only(correct),
+        real("display.exposure", "EV", -20, 20, 0.5, "Exposure of the picture."),
+        real3("camera.position", "m", -1e5, 1e5, {2.2, 1.7, 12}, "Eye of the camera."),
+        real3("camera.target", "m", -1e5, 1e5, {0.6, 1.9, -20},
+              "Point that the camera looks at, through glass that stands across the view."),
+        real3("camera.up", "1", -1, 1, {0, 1, 0}, "Direction that is up in the picture."),
+        real("camera.vertical_fov_deg", "deg", 1, 150, 30, "Vertical field of view; of a picture from a file, too."),
+        boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
     };
     for (const scene::Parameter& p : flow_parameters("flow")) all.push_back(p);
     return all;

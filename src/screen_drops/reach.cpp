@@ -53,7 +53,8 @@ void Reach::enter_height(int row) {
   std::fill(texels_.begin(), texels_.end(), std::uint16_t{0});
   for (int line = first; line <= last; ++line) {
     const Half* texel = height_.texels + static_cast<std::ptrdiff_t>(line) * height_.pitch[0];
-    for (std::size_t k = 0; k < texels_.size(); ++k) texels_[k] = static_cast<std::uint16_t>(texels_[k] | texel[k].bits);  // a height of 0 is stored as +0
+    for (std::size_t k = 0; k < texels_.size(); ++k)
+      texels_[k] = static_cast<std::uint16_t>(texels_[k] | texel[k].bits);  // a height of 0 is stored as +0
   }
   for (std::size_t k = 0; k < texels_.size(); ++k) before_texel_[k + 1] = before_texel_[k] + (texels_[k] != 0 ? 1 : 0);
 }
@@ -62,7 +63,10 @@ Reach::Span Reach::span(int first, int last) const {
   Span s{};
   // The places are the pass's own, and floor, product and sum never fall where their argument rises: no cell between is missed.
   for (int l = 0; l < layers; ++l) {
-    const auto cell = [&](int pixel) { return static_cast<std::uint32_t>(std::clamp(floor_of(scalar::cell_place(u_, l, centre(pixel), centre(0)).a), 0, cells_.width[0] - 1)); };
+    const auto cell = [&](int pixel) {
+      return static_cast<std::uint32_t>(
+          std::clamp(floor_of(scalar::cell_place(u_, l, centre(pixel), centre(0)).a), 0, cells_.width[0] - 1));
+    };
     s.cell[l] = cell(first);
     s.cell_end[l] = cell(last) + 1;
   }

@@ -21,7 +21,8 @@ class Reach {
   Wanted of(int stretch) const {
     const Span& s = spans_[static_cast<std::size_t>(stretch)];
     Wanted wanted = u_.has_flow != 0 && before_texel_[s.texel_end] != before_texel_[s.texel] ? wanted_flow : 0;
-    for (std::size_t l = 0; l < layers; ++l) wanted |= static_cast<Wanted>(before_cell_[l][s.cell_end[l]] != before_cell_[l][s.cell[l]]) << l;
+    for (std::size_t l = 0; l < layers; ++l)
+      wanted |= static_cast<Wanted>(before_cell_[l][s.cell_end[l]] != before_cell_[l][s.cell[l]]) << l;
     return wanted;
   }
 

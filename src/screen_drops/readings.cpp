@@ -31,7 +31,8 @@ struct Cells {
     const CellState s = CellLine(uniforms, y).at(x);
     const auto share = [](std::uint32_t of_65536) { return N(static_cast<float>(of_65536) * 0x1p-16f); };
     const N none(0.0f);
-    const auto d = s.holds_drop ? scalar::cell_drop<N>(uniforms, share(s.size), share(s.x), share(s.y), share(s.phase)) : scalar::CellDrop<N>{none, none, none, none};
+    const auto d = s.holds_drop ? scalar::cell_drop<N>(uniforms, share(s.size), share(s.x), share(s.y), share(s.phase))
+                                : scalar::CellDrop<N>{none, none, none, none};
     out[0] = d.x;
     out[1] = d.y;
     out[2] = d.radius;
@@ -43,12 +44,14 @@ std::unique_ptr<PassModel> bind_cells(const PassCase& c) {
   m.width = output_of(c, "cells").width;
   m.height = output_of(c, "cells").height;
   m.uniforms = capture::uniforms_of<CellsUniforms>(c);
-  if (m.uniforms.shortest == 0) throw Error(ExitCode::port_files, fmt::format("{}: shortest: expected a cycle of 1 ms or more, found 0", c.folder()));
+  if (m.uniforms.shortest == 0)
+    throw Error(ExitCode::port_files, fmt::format("{}: shortest: expected a cycle of 1 ms or more, found 0", c.folder()));
   return capture::model_of(std::move(m));
 }
 
 std::unique_ptr<PassModel> bind_drops(const PassCase& c) {
-  return c.corrected() ? pass::bind<DropsPass, scalar::DropsPassText>(c) : pass::bind<PublishedDropsPass, scalar::PublishedDropsPassText>(c);
+  return c.corrected() ? pass::bind<DropsPass, scalar::DropsPassText>(c)
+                       : pass::bind<PublishedDropsPass, scalar::PublishedDropsPassText>(c);
 }
 
 }  // namespace
@@ -56,7 +59,11 @@ std::unique_ptr<PassModel> bind_drops(const PassCase& c) {
 const std::vector<capture::PassReadings>& readings() {
   static const std::vector<capture::PassReadings> all = [] {
     std::vector<capture::PassReadings> passes = flow_readings();
-    for (const capture::PassReadings& own : {capture::PassReadings{"background", pass::bind<BackgroundPass, scalar::BackgroundPassText>}, {"cells", bind_cells}, {"drops", bind_drops}, {"display", pass::bind_display}}) passes.push_back(own);
+    for (const capture::PassReadings& own : {capture::PassReadings{"background", pass::bind<BackgroundPass, scalar::BackgroundPassText>},
+                                             {"cells", bind_cells},
+                                             {"drops", bind_drops},
+                                             {"display", pass::bind_display}})
+      passes.push_back(own);
     return passes;
   }();
   return all;

@@ -29,7 +29,8 @@ using capture::Stopwatch;
 constexpr int tile_rows = 8, cell_rows = 4;
 
 void check_memory(const Settings& s, const FlowSettings* flow) {
-  require_memory(fmt::format("run.size {}x{}{}", s.width, s.height, flow ? fmt::format(" with {} drops", flow->drops.capacity) : ""), memory(s, flow).peak());
+  require_memory(fmt::format("run.size {}x{}{}", s.width, s.height, flow ? fmt::format(" with {} drops", flow->drops.capacity) : ""),
+                 memory(s, flow).peak());
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ struct ScreenDrops::State {
   TextureData noise;
   CodeTable display;
 
-  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing) : settings(s), executor(e), corrected(s.variant == Variant::corrected), levels(scene_levels(in.colour)), scene(levels) {
+  State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing)
+      : settings(s), executor(e), corrected(s.variant == Variant::corrected), levels(scene_levels(in.colour)), scene(levels) {
     scene.refresh(executor, levels);
     if (corrected) {
       taps = make_taps(s);
@@ -110,7 +112,8 @@ ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const p
   check(settings);
   check(settings, inputs);
   check_memory(settings, flow);
-  if (flow != nullptr && settings.variant != Variant::corrected) throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
+  if (flow != nullptr && settings.variant != Variant::corrected)
+    throw Error(ExitCode::internal, "screen_drops: as published nothing flows");
   state_ = std::make_unique<State>(settings, inputs, executor, flow);
 }
 ScreenDrops::~ScreenDrops() = default;
@@ -131,7 +134,9 @@ void ScreenDrops::render(Recorder* recorder) {
     io.colour = s.colour;
     return io;
   };
-  const auto run = [&](auto drops) { pass::run_and_display(drops, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now); };
+  const auto run = [&](auto drops) {
+    pass::run_and_display(drops, s.display, s.settings.exposure, s.colour, s.picture, s.executor, tile_rows, now);
+  };
   if (s.corrected) {
     auto io = bound(pass::HostIo<DropsPass>());
     io.cells = s.cells;

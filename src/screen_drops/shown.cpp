@@ -21,7 +21,9 @@ std::vector<Cap> caps(const Settings& settings, const Image& cells) {
       const float* drop = cells.row<float>(layer.first_row + row);
       for (int column = 0; column < layer.columns; ++column, drop += 4) {
         // A millionth of a cell is less than any rounding of what the pass draws.
-        if (drop[2] > 1e-6f) all.push_back({(column + double{drop[0]} - layer.offset[0]) * cell, (row + double{drop[1]} - layer.offset[1]) * cell, drop[2] * cell});
+        if (drop[2] > 1e-6f)
+          all.push_back(
+              {(column + double{drop[0]} - layer.offset[0]) * cell, (row + double{drop[1]} - layer.offset[1]) * cell, drop[2] * cell});
       }
     }
   }
@@ -49,12 +51,14 @@ Image defocused_scene(const Settings& settings, const Image& colour, const paral
 ShownDrops::ShownDrops(const Settings& settings, const ScreenDrops& rendered)
     : cells_(rendered.cells(), Address::clamp, Address::clamp), height_(rendered.height(), Address::clamp, Address::clamp) {
   const bool has_flow = rendered.height().width() > 1;
-  uniforms_ = drops_uniforms(settings, make_layers(settings), has_flow ? std::array{rendered.height().width(), rendered.height().height()} : std::array{0, 0});
+  uniforms_ = drops_uniforms(settings, make_layers(settings),
+                             has_flow ? std::array{rendered.height().width(), rendered.height().height()} : std::array{0, 0});
 }
 
 Shown ShownDrops::at(int column, int row) const {
   const auto s = scalar::water_at<Number>(uniforms_, cells_.view(), height_.view(), column, row);
-  const auto ray = scalar::bent_ray(uniforms_, scalar::view_ray(uniforms_, Number(static_cast<float>(column) + 0.5f), Number(static_cast<float>(row) + 0.5f)), s.x, s.y);
+  const auto ray = scalar::bent_ray(
+      uniforms_, scalar::view_ray(uniforms_, Number(static_cast<float>(column) + 0.5f), Number(static_cast<float>(row) + 0.5f)), s.x, s.y);
   return {s.cover.v, {ray.direction.x.v, ray.direction.y.v, ray.direction.z.v}, ray.reflected.v};
 }
 

@@ -26,9 +26,9 @@ Image defocused_scene(const Settings& settings, const Image& colour, const paral
 
 /// What a pixel of drops shows.
 struct Shown {
-  double cover;          ///< share that is water
-  scene::Vector3 bent;   ///< unit direction along which the water shows the scene: right, up, ahead
-  double reflected;      ///< share that the water's surface mirrors; 1 beyond the critical angle
+  double cover;         ///< share that is water
+  scene::Vector3 bent;  ///< unit direction along which the water shows the scene: right, up, ahead
+  double reflected;     ///< share that the water's surface mirrors; 1 beyond the critical angle
 };
 /// The double reading of the pass's text, on the buffers of the frame that was rendered last.
 class ShownDrops {

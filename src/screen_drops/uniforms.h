@@ -26,21 +26,21 @@ struct BackgroundUniforms {
 
 /// drops, as published.
 struct PublishedDropsUniforms {
-  float resolution[2];  ///< columns and rows of the picture
-  float time;           ///< n / fps, rounded once [s]
-  float grid;           ///< cells of layer 1 in a pixel
-  float keep;           ///< times 5 - layer: the noise below which a cell holds a drop
-  float refraction;     ///< pictures per unit of the normal
+  float resolution[2];            ///< columns and rows of the picture
+  float time;                     ///< n / fps, rounded once [s]
+  float grid;                     ///< cells of layer 1 in a pixel
+  float keep;                     ///< times 5 - layer: the noise below which a cell holds a drop
+  float refraction;               ///< pictures per unit of the normal
   std::int32_t printed_misprint;  ///< 1: the displacement as the report prints it
   float padding0;
 };
 
 /// cells: whole numbers decide, floats follow.
 struct CellsUniforms {
-  std::uint32_t seed[2];      ///< low word, high word
-  std::uint32_t tick;         ///< the frame's time, modulo 2^32 [ms]
-  std::uint32_t keep;         ///< of 65536 cells hold a drop
-  std::int32_t columns[4];    ///< cells of each layer
+  std::uint32_t seed[2];    ///< low word, high word
+  std::uint32_t tick;       ///< the frame's time, modulo 2^32 [ms]
+  std::uint32_t keep;       ///< of 65536 cells hold a drop
+  std::int32_t columns[4];  ///< cells of each layer
   std::int32_t rows[4];
   std::int32_t first_row[4];  ///< of the buffer, where the layer begins
   std::uint32_t shortest;     ///< cycle [ms]
@@ -51,8 +51,8 @@ struct CellsUniforms {
 
 /// drops, corrected.
 struct DropsUniforms {
-  float cells_per_pixel[4];   ///< of each layer
-  float offset_x[4];          ///< place of the picture's corner in the layer [cell]
+  float cells_per_pixel[4];  ///< of each layer
+  float offset_x[4];         ///< place of the picture's corner in the layer [cell]
   float offset_y[4];
   float pixels_per_cell[4];
   float level[4];             ///< mip level at which the layer's drops see the scene
@@ -62,14 +62,14 @@ struct DropsUniforms {
   float scene_scale[2];       ///< texture coordinates of the scene per unit of the image plane
   float sine;                 ///< of the contact angle
   float water_ior;
-  float inner;                ///< share of the background that the water's surface mirrors
-  std::int32_t has_flow;      ///< 1: height counts
-  float flow_slope[2];        ///< slope per difference of heights two texels apart [1/mm]
-  float flow_pixel[2];        ///< 1 / columns and rows of the picture
+  float inner;                     ///< share of the background that the water's surface mirrors
+  std::int32_t has_flow;           ///< 1: height counts
+  float flow_slope[2];             ///< slope per difference of heights two texels apart [1/mm]
+  float flow_pixel[2];             ///< 1 / columns and rows of the picture
   float visible_from, visible_to;  ///< height at which flowing water begins to show, and shows fully [mm]
-  float flow_level;           ///< mip level at which flowing water sees the scene
+  float flow_level;                ///< mip level at which flowing water sees the scene
   float padding0;
-  float flow_texel[2];        ///< 1 / columns and rows of height
+  float flow_texel[2];  ///< 1 / columns and rows of height
 };
 
 /// The water that drops has to ask for: bits 0 to 3 the layers, bit 4 what flows. What is left out must show nothing.

@@ -9,7 +9,8 @@
 namespace rainref::windshield {
 
 struct CompositePass {
-  static constexpr pass::About about{"composite", "The scene through film and drops, with glints: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
+  static constexpr pass::About about{
+      "composite", "The scene through film and drops, with glints: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
   using Uniforms = CompositeUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -17,36 +18,40 @@ struct CompositePass {
     return scene::uniform_block<U>(
         "CompositeUniforms",
         {member<&U::u_row>("u_row", "1", {-1e9, 1e9}, "u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)."),
-             member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9}, "The glass lies glass_distance / w_row . (x, y, 1) along the view axis."),
-             member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
-             member<&U::blur_lod>("blur_lod", "1", scene::mip_level, "Mip level of the picture behind the film."),
-             member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
-             member<&U::wetness>("wetness", "1", scene::share, "Weight of the blurred picture where the glass was not wiped."),
-             member<&U::plane_x>("plane_x", "1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
-             member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which water begins to show as a drop."),
-             member<&U::plane_y>("plane_y", "1", scene::component, "Second axis."),
-             member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
-             member<&U::outward>("outward", "1", scene::component, "Normal of the glass, away from the car."),
-             member<&U::refraction>("refraction", "1", scene::component, "as-published: offset in pictures per unit of n.xy."),
-             member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
-             member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
-             member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
-             member<&U::shininess>("shininess", "1", {1, 4096}, "Power of a highlight."),
-             member<&U::glint_strength>("glint_strength", "1", {0, 10}, "Weight of the highlights."),
-             member<&U::cabin>("cabin", "1", scene::radiance, "Radiance beside the glass."),
-             member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list."),
-             member<&U::water_ior>("water_ior", "1", {0, 2}, "corrected: refractive index of the water."),
-             member<&U::inner>("inner", "1", scene::share, "corrected: share of the blurred scene that the water's surface mirrors.")});
+         member<&U::glass_distance>("glass_distance", "m", {-1e9, 1e9},
+                                    "The glass lies glass_distance / w_row . (x, y, 1) along the view axis."),
+         member<&U::v_row>("v_row", "1", {-1e9, 1e9}, "v likewise."),
+         member<&U::blur_lod>("blur_lod", "1", scene::mip_level, "Mip level of the picture behind the film."),
+         member<&U::w_row>("w_row", "1", {-1e9, 1e9}, "See u_row; positive where the glass lies before the eye."),
+         member<&U::wetness>("wetness", "1", scene::share, "Weight of the blurred picture where the glass was not wiped."),
+         member<&U::plane_x>("plane_x", "1", scene::component, "First axis of the glass's plane, camera axes: right, up, forward."),
+         member<&U::visible_from>("visible_from", "mm", {0, 10}, "Height at which water begins to show as a drop."),
+         member<&U::plane_y>("plane_y", "1", scene::component, "Second axis."),
+         member<&U::visible_to>("visible_to", "mm", {0, 10}, "Height from which it shows fully."),
+         member<&U::outward>("outward", "1", scene::component, "Normal of the glass, away from the car."),
+         member<&U::refraction>("refraction", "1", scene::component, "as-published: offset in pictures per unit of n.xy."),
+         member<&U::pixel>("pixel", "1", {0, 1e6}, "Extent of a pixel on the image plane at distance 1."),
+         member<&U::half_size>("half_size", "1", {0, 1e6}, "Half the extent of the image plane at distance 1."),
+         member<&U::scene_scale>("scene_scale", "1", {0, 1e6}, "Texture coordinates of the scene per unit of the image plane."),
+         member<&U::shininess>("shininess", "1", {1, 4096}, "Power of a highlight."),
+         member<&U::glint_strength>("glint_strength", "1", {0, 10}, "Weight of the highlights."),
+         member<&U::cabin>("cabin", "1", scene::radiance, "Radiance beside the glass."),
+         member<&U::glint_count>("glint_count", "1", {0, 65536}, "Lights in the list."),
+         member<&U::water_ior>("water_ior", "1", {0, 2}, "corrected: refractive index of the water."),
+         member<&U::inner>("inner", "1", scene::share, "corrected: share of the blurred scene that the water's surface mirrors.")});
   }
   template <class B>
   struct Io {
-    typename B::template Stored<Format::rgba16f> blurred = pass::In{.name = "blurred", .from = "blur_pyramid", .filter = Filter::linear, .mip_filter = Filter::linear};
-    typename B::template Stored<Format::r32f> scene_depth = pass::In{.name = "scene_depth", .variant = "corrected", .filter = Filter::linear};
+    typename B::template Stored<Format::rgba16f> blurred =
+        pass::In{.name = "blurred", .from = "blur_pyramid", .filter = Filter::linear, .mip_filter = Filter::linear};
+    typename B::template Stored<Format::r32f> scene_depth =
+        pass::In{.name = "scene_depth", .variant = "corrected", .filter = Filter::linear};
     typename B::template Stored<Format::r16f> height = pass::In{.name = "height", .from = "wipe_texture", .filter = Filter::linear};
     typename B::template Stored<Format::rgba16f> normal = pass::In{.name = "normal", .from = "normals", .filter = Filter::linear};
     typename B::template Stored<Format::r16f> mask = pass::In{.name = "mask", .from = "wipe_texture", .filter = Filter::linear};
     typename B::template Records<Glint> glints = pass::In{.name = "glints", .count = "glint_count"};
-    typename B::template Result<Format::rgba16f> colour = pass::Out{.name = "colour", .sentence = "Linear radiance; alpha 1.", .colour_space = "linear Rec. 709", .alpha = "opaque"};
+    typename B::template Result<Format::rgba16f> colour =
+        pass::Out{.name = "colour", .sentence = "Linear radiance; alpha 1.", .colour_space = "linear Rec. 709", .alpha = "opaque"};
   };
 };
 
@@ -63,7 +68,9 @@ struct GlassPoint {
   N on_glass;  ///< 1 on the glass, 0 beside it
 };
 template <class N>
-RAINREF_FN N row_times(const float* row, N px, N py) { return sum_any_order(N(row[0]) * px, N(row[1]) * py, N(row[2])); }
+RAINREF_FN N row_times(const float* row, N px, N py) {
+  return sum_any_order(N(row[0]) * px, N(row[1]) * py, N(row[2]));
+}
 template <class N>
 RAINREF_FN GlassPoint<N> glass_point(const CompositeUniforms& c, int column, int row) {
   const N px = N::index(column) + N(0.5f), py = N(static_cast<float>(row) + 0.5f), zero(0.0f), one(1.0f);
@@ -72,7 +79,11 @@ RAINREF_FN GlassPoint<N> glass_point(const CompositeUniforms& c, int column, int
   const N inverse = one / max(toward, N(1e-6f));
   const N u = row_times(c.u_row, px, py) * inverse, v = row_times(c.v_row, px, py) * inverse;
   const auto on = (toward > N(1e-6f)) & (u >= zero) & (u <= one) & (v >= zero) & (v <= one);
-  return {px * N(c.pixel[0]) - N(c.half_size[0]), py * N(c.pixel[1]) - N(c.half_size[1]), N(c.glass_distance) * inverse, clamp(u, zero, one), clamp(v, zero, one),
+  return {px * N(c.pixel[0]) - N(c.half_size[0]),
+          py * N(c.pixel[1]) - N(c.half_size[1]),
+          N(c.glass_distance) * inverse,
+          clamp(u, zero, one),
+          clamp(v, zero, one),
           select(on, one, zero)};
 }
 
@@ -100,9 +111,13 @@ struct ScenePoint {
   N u, v;
 };
 template <class N>
-RAINREF_FN N scene_u(const CompositeUniforms& c, N x) { return N(0.5f) + x * N(c.scene_scale[0]); }
+RAINREF_FN N scene_u(const CompositeUniforms& c, N x) {
+  return N(0.5f) + x * N(c.scene_scale[0]);
+}
 template <class N>
-RAINREF_FN N scene_v(const CompositeUniforms& c, N y) { return N(0.5f) + y * N(c.scene_scale[1]); }
+RAINREF_FN N scene_v(const CompositeUniforms& c, N y) {
+  return N(0.5f) + y * N(c.scene_scale[1]);
+}
 
 template <class N, class Colours>
 RAINREF_FN Vec3<N> sharp_at(const Colours& pyramid, N u, N v) {
@@ -133,8 +148,8 @@ RAINREF_FN ScenePoint<N> shown_as_published(const CompositeUniforms& c, const Gl
   return {scene_u(c, g.x) + strength * w.normal.x, scene_v(c, g.y) + strength * w.normal.y};
 }
 template <class N, class Colours, class Values>
-RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colours& pyramid, const Values& height, const Colours& normal, const Values& mask, const Glint* glints, int column,
-                                          int row) {
+RAINREF_FN Vec3<N> composite_as_published(const CompositeUniforms& c, const Colours& pyramid, const Values& height, const Colours& normal,
+                                          const Values& mask, const Glint* glints, int column, int row) {
   const GlassPoint<N> g = glass_point<N>(c, column, row);
   const Water<N> w = water_at<N>(height, normal, mask, g);
   const N wet = N(1.0f) - w.mask;
@@ -174,8 +189,8 @@ RAINREF_FN ScenePoint<N> shown_corrected(const CompositeUniforms& c, const Depth
   return {scene_u(c, x), scene_v(c, y)};
 }
 template <class N, class Colours, class Depths, class Values>
-RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Depths& depth, const Values& height, const Colours& normal, const Values& mask,
-                                       const Glint* glints, int column, int row) {
+RAINREF_FN Vec3<N> composite_corrected(const CompositeUniforms& c, const Colours& pyramid, const Depths& depth, const Values& height,
+                                       const Colours& normal, const Values& mask, const Glint* glints, int column, int row) {
   const N one(1.0f), zero(0.0f);
   const GlassPoint<N> g = glass_point<N>(c, column, row);
   const Water<N> w = water_at<N>(height, normal, mask, g);
@@ -213,13 +228,16 @@ struct CompositePassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {
     constexpr Address edge = Address::clamp;
-    return CompositeTextures{io.blurred.template fixed<edge, edge, 4>(), io.normal.template fixed<edge, edge, 4>(), io.scene_depth.template fixed<edge, edge, 1>(),
-                             io.height.template fixed<edge, edge, 1>(), io.mask.template fixed<edge, edge, 1>()};
+    return CompositeTextures{io.blurred.template fixed<edge, edge, 4>(), io.normal.template fixed<edge, edge, 4>(),
+                             io.scene_depth.template fixed<edge, edge, 1>(), io.height.template fixed<edge, edge, 1>(),
+                             io.mask.template fixed<edge, edge, 1>()};
   }
   template <class N, bool corrected, class Io, class Textures>
   static RAINREF_FN void run(const CompositeUniforms& u, const Io& io, const Textures& t, int column, int row) {
-    if constexpr (corrected) io.colour(composite_corrected<N>(u, t.blurred, t.depth, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
-    else io.colour(composite_as_published<N>(u, t.blurred, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
+    if constexpr (corrected)
+      io.colour(composite_corrected<N>(u, t.blurred, t.depth, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
+    else
+      io.colour(composite_as_published<N>(u, t.blurred, t.height, t.normal, t.mask, io.glints.data(), column, row), N(1.0f));
   }
 };
 #endif

@@ -43,15 +43,13 @@ class Rows {
     const double time = number(fields[0], 0, fail), speed = number(fields[1], 1, fail);
     if (!time_.empty() && !(time > time_.back()))
       fail(fmt::format("time_s: expected more than {:g} of the row before, found {:g}", time_.back(), time));
-    if (!(0 <= speed && speed <= largest_speed))
-      fail(fmt::format("speed_mps: expected 0 to {:g} m/s, found {:g}", largest_speed, speed));
+    if (!(0 <= speed && speed <= largest_speed)) fail(fmt::format("speed_mps: expected 0 to {:g} m/s, found {:g}", largest_speed, speed));
     time_.push_back(time);
     speed_.push_back(speed);
     if (!has_yaw_) return yaw_.push_back(0);
     yaw_.push_back(number(fields[2], 2, fail));
     if (!(std::abs(yaw_.back()) <= largest_yaw_rate)) {
-      fail(fmt::format("yaw_rad_s: expected {:g} to {:g} rad/s, found {:g}", -largest_yaw_rate, largest_yaw_rate,
-                       yaw_.back()));
+      fail(fmt::format("yaw_rad_s: expected {:g} to {:g} rad/s, found {:g}", -largest_yaw_rate, largest_yaw_rate, yaw_.back()));
     }
   }
   DriveCycle finish(const Fail& fail) const {
@@ -88,8 +86,7 @@ std::vector<int> columns_of(const std::vector<std::string_view>& header, const F
   }
   for (std::size_t k = 0; k < 2; ++k) {
     if (column[k] < 0)
-      fail(fmt::format("expected a header of time_s,speed_mps[,yaw_rad_s], found none of the column '{}'",
-                       column_names[k]));
+      fail(fmt::format("expected a header of time_s,speed_mps[,yaw_rad_s], found none of the column '{}'", column_names[k]));
   }
   return column;
 }
@@ -115,8 +112,7 @@ DriveCycle parse_drive_cycle(std::string_view csv, const std::string& file) {
     }
     if (fields.size() != width) fail(fmt::format("expected {} fields, found {}", width, fields.size()));
     std::string_view row[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      row[k] = column[k] < 0 ? std::string_view() : fields[static_cast<std::size_t>(column[k])];
+    for (std::size_t k = 0; k < 3; ++k) row[k] = column[k] < 0 ? std::string_view() : fields[static_cast<std::size_t>(column[k])];
     rows.add(row, fail);
   }
   if (column.empty()) fail("expected a header of time_s,speed_mps[,yaw_rad_s], found no line with text");
@@ -130,9 +126,7 @@ DriveCycle read_drive_cycle(const std::filesystem::path& file) {
 
 DriveCycle parse_key_frames(std::string_view text, const std::string& key) {
   int count = 0;
-  const Fail fail = [&](const std::string& what) {
-    throw Error(ExitCode::usage, fmt::format("{}, key frame {}: {}", key, count, what));
-  };
+  const Fail fail = [&](const std::string& what) { throw Error(ExitCode::usage, fmt::format("{}, key frame {}: {}", key, count, what)); };
   std::size_t width = 0;
   Rows rows(false);
   for (const std::string_view frame : split(text, ';')) {
@@ -147,8 +141,7 @@ DriveCycle parse_key_frames(std::string_view text, const std::string& key) {
       rows = Rows(width == 3);
     }
     if (fields.size() != width || width < 2 || width > 3) {
-      fail(fmt::format("expected \"time speed\" in every one or \"time speed yaw_rate\" in every one, found '{}'",
-                       frame));
+      fail(fmt::format("expected \"time speed\" in every one or \"time speed yaw_rate\" in every one, found '{}'", frame));
     }
     const std::string_view row[3] = {fields[0], fields[1], width == 3 ? fields[2] : std::string_view()};
     rows.add(row, fail);

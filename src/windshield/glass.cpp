@@ -14,9 +14,7 @@ std::string text(const Real3& a) { return fmt::format("[{:g}, {:g}, {:g}]", a[0]
 }  // namespace
 
 double dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Real3 cross(const Real3& a, const Real3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Real3 cross(const Real3& a, const Real3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
 Glass make_glass(const std::array<Real3, 3>& corners) {
   Glass g{};
@@ -27,10 +25,9 @@ Glass make_glass(const std::array<Real3, 3>& corners) {
   const double determinant = dot(across, across);  // of the metric, without its cancellation
   g.area = __builtin_sqrt(determinant);
   if (!(g.area > 1e-6 * length(g.e_u) * length(g.e_v))) {
-    throw Error(ExitCode::usage,
-                fmt::format("windshield.corner_0, windshield.corner_1, windshield.corner_2: expected three corners of "
-                            "a plane, found {}, {}, {}, which lie on one line",
-                            text(corners[0]), text(corners[1]), text(corners[2])));
+    throw Error(ExitCode::usage, fmt::format("windshield.corner_0, windshield.corner_1, windshield.corner_2: expected three corners of "
+                                             "a plane, found {}, {}, {}, which lie on one line",
+                                             text(corners[0]), text(corners[1]), text(corners[2])));
   }
   const auto is_zero = [](double x) { return -1e-9 < x && x < 1e-9; };
   Real3 n{across[0] / g.area, across[1] / g.area, across[2] / g.area};

@@ -36,8 +36,8 @@ HWY_INLINE HWY_ATTR Lanes load_some(const float* p, int count) {
   return Lanes::load(block);
 }
 
-void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops,
-                    float* wiper, float* bin, std::int64_t begin, std::int64_t end) {
+void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper,
+                    float* bin, std::int64_t begin, std::int64_t end) {
   const int n = Lanes::size();
   for (std::int64_t first = begin; first < end; first += n) {
     const int count = static_cast<int>(std::min<std::int64_t>(n, end - first));
@@ -50,8 +50,7 @@ void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wip
     drop.mass = load_some(at(drops.mass), count);
     drop.life = load_some(at(drops.life), count);
     drop.wiper = drop.bin = Lanes(0.0f);
-    drop = corrected ? wipe_drop_corrected<Lanes>(uniforms, wipers, drop)
-                     : wipe_drop_as_published<Lanes>(uniforms, wipers, drop);
+    drop = corrected ? wipe_drop_corrected<Lanes>(uniforms, wipers, drop) : wipe_drop_as_published<Lanes>(uniforms, wipers, drop);
     store(at(drops.u), drop.u, Rounding::rne, count);
     store(at(drops.v), drop.v, Rounding::rne, count);
     store(at(drops.velocity_u), drop.velocity_u, Rounding::rne, count);
@@ -64,8 +63,8 @@ void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wip
   }
 }
 
-void WipeFilmRows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film,
-                  const parallel::Tile& tile, std::uint64_t* quanta) {
+void WipeFilmRows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
+                  std::uint64_t* quanta) {
   const int n = Lanes::size();
   HWY_ALIGN float held[lane_room], swept_by[lane_room], swept_in[lane_room];
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -108,12 +107,12 @@ drops::GlassFrame windshield_frame(const WindshieldFrameUniforms& uniforms, bool
   RAINREF_DISPATCH(WindshieldFrame)(uniforms, corrected, out);
   return out;
 }
-void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops,
-                      float* wiper, float* bin, std::int64_t begin, std::int64_t end) {
+void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper,
+                      float* bin, std::int64_t begin, std::int64_t end) {
   RAINREF_DISPATCH(WipeDropsRange)(uniforms, corrected, wipers, drops, wiper, bin, begin, end);
 }
-void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film,
-                    const parallel::Tile& tile, std::uint64_t* quanta) {
+void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
+                    std::uint64_t* quanta) {
   RAINREF_DISPATCH(WipeFilmRows)(uniforms, wipers, boxes, film, tile, quanta);
 }
 

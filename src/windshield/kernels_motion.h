@@ -23,8 +23,8 @@ struct DropSpans {
 
 /// wipe_drops for the slots [begin, end). corrected: wiper and bin, as large as the spans, take what WipedDrop says;
 /// else they may be null.
-void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops,
-                      float* wiper, float* bin, std::int64_t begin, std::int64_t end);
+void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper,
+                      float* bin, std::int64_t begin, std::int64_t end);
 
 /// Texels outside of which a record sweeps none.
 struct TexelBox {
@@ -32,7 +32,7 @@ struct TexelBox {
 };
 /// corrected: sets the swept texels of the tile's rows to 0 and adds what they held to quanta[wiper * bin_count + bin].
 /// boxes: one for each record.
-void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film,
-                    const parallel::Tile& tile, std::uint64_t* quanta);
+void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
+                    std::uint64_t* quanta);
 
 }  // namespace rainref::windshield

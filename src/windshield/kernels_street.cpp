@@ -14,7 +14,8 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "image/sampling_lanes-inl.h"
 #include "windshield/reproject.pass.h"
 
-void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile) {
+void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view,
+                   const parallel::Tile& tile) {
   constexpr Address edge = Address::clamp;
   const StoredTexture<Half> colours[2] = {stored_texture<Half>(behind.colour), stored_texture<Half>(ahead.colour)};
   const StoredTexture<float> depths[2] = {stored_texture<float>(behind.depth), stored_texture<float>(ahead.depth)};
@@ -22,12 +23,13 @@ void ReprojectRows(const ReprojectUniforms& uniforms, const Keyframe& behind, co
   const auto behind_depth = fixed_texture<edge, edge, 1>(depths[0]), ahead_depth = fixed_texture<edge, edge, 1>(depths[1]);
   constexpr int size = Lanes::size();
   const auto columns = [&]<int Count>(std::integral_constant<int, Count>, int x, int y) HWY_ATTR {
-    reprojected<Lanes, Count>(uniforms, behind_colour, behind_depth, ahead_colour, ahead_depth, x, y, [&](int k, const Between<Lanes>& s) RAINREF_LAMBDA {
-      const int column = x + k * size;
-      const Lanes rgba[4] = {s.colour.x, s.colour.y, s.colour.z, Lanes(1.0f)};
-      store4(view.colour.row<Half>(y) + 4 * column, rgba, Rounding::rne);
-      store(view.depth.row<float>(y) + column, s.depth, Rounding::rne, size);
-    });
+    reprojected<Lanes, Count>(uniforms, behind_colour, behind_depth, ahead_colour, ahead_depth, x, y,
+                              [&](int k, const Between<Lanes>& s) RAINREF_LAMBDA {
+                                const int column = x + k * size;
+                                const Lanes rgba[4] = {s.colour.x, s.colour.y, s.colour.z, Lanes(1.0f)};
+                                store4(view.colour.row<Half>(y) + 4 * column, rgba, Rounding::rne);
+                                store(view.depth.row<float>(y) + column, s.depth, Rounding::rne, size);
+                              });
   };
   constexpr int many = 8;
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -45,7 +47,8 @@ namespace rainref::windshield {
 
 RAINREF_EXPORT(ReprojectRows);
 
-void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile) {
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view,
+                    const parallel::Tile& tile) {
   RAINREF_DISPATCH(ReprojectRows)(uniforms, behind, ahead, view, tile);
 }
 

@@ -40,7 +40,8 @@ Reach reach_of(const WipeTextureUniforms& u, bool corrected, const Wiper& w) {
 }
 
 template <bool corrected>
-HWY_ATTR void wiped_rows(const WipeTextureUniforms& uniforms, Rounding rounding, const pass::HostIo<WipeTexturePass>& host, const parallel::Tile& tile) {
+HWY_ATTR void wiped_rows(const WipeTextureUniforms& uniforms, Rounding rounding, const pass::HostIo<WipeTexturePass>& host,
+                         const parallel::Tile& tile) {
   WipeTextureUniforms u = uniforms;
   const int n = Lanes::size();
   const std::span<const Wiper> all = host.wipers.records;
@@ -68,7 +69,8 @@ HWY_ATTR void wiped_rows(const WipeTextureUniforms& uniforms, Rounding rounding,
     }
   }
 }
-void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<WipeTexturePass>& io, const parallel::Tile& tile) {
+void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<WipeTexturePass>& io,
+                         const parallel::Tile& tile) {
   corrected ? wiped_rows<true>(u, rounding, io, tile) : wiped_rows<false>(u, rounding, io, tile);
 }
 RAINREF_PASS_ROWS(NormalsPass)

@@ -24,7 +24,8 @@ std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, int frames) {
     for (int k = 0; k < parts; ++k) {
       const VehicleState car = vehicle.at((k + 0.5) / parts * frames / s.fps);
       const Real3 apparent{s.wind[0] - car.velocity[0], s.wind[1] - car.velocity[1], s.wind[2] - car.velocity[2]};
-      const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
+      const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1],
+                         car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
       arrivals += drops::flux(s.drops, glass.normal[2], dot(in_car, glass.normal)).drops * glass.area * frames / s.fps / parts;
     }
   }
@@ -38,9 +39,11 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const auto image = [](Format f, int width, int height) { return Image::memory_bytes(f, width, height); };
   const int columns = s.surface.width, rows = s.surface.height;
   MemoryPeak m;
-  const MemoryPeak dry = drops::memory(s.drops, columns, rows, 0), wet = drops::memory(s.drops, columns, rows, most_drops(s, vehicle, frames));
+  const MemoryPeak dry = drops::memory(s.drops, columns, rows, 0),
+                   wet = drops::memory(s.drops, columns, rows, most_drops(s, vehicle, frames));
   m.hold(dry.held());
-  m.hold(2 * image(Format::r16f, columns, rows) + image(Format::rgba16f, columns, rows) + (s.corrected ? image(Format::r32f, columns, rows) : 0));  // height, mask, normal, wiped
+  m.hold(2 * image(Format::r16f, columns, rows) + image(Format::rgba16f, columns, rows) +
+         (s.corrected ? image(Format::r32f, columns, rows) : 0));  // height, mask, normal, wiped
   m.hold(image(Format::rgba16f, s.picture.width, s.picture.height) + image(Format::rgba8, s.picture.width, s.picture.height));
   const bool own = scene[0] == 0;
   const auto [width, height] = own ? s.scene_size : scene;
@@ -50,7 +53,8 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const bool moves = own && s.scene_moves;
   if (own && !moves) m.pass(rendered.peak());
   m.hold(view);
-  // Two pictures of the street, of which the view is made: at the start one alone, for there is no way yet. A car that comes to the next one has both while that is rendered.
+  // Two pictures of the street, of which the view is made: at the start one alone, for there is no way yet. A car that comes to the next
+  // one has both while that is rendered.
   const double apart = StreetDrive::spacing / s.keyframes, way = vehicle.at((frames - 1) / s.fps).distance;
   if (moves) {
     m.pass(rendered.peak());

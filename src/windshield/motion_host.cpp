@@ -10,8 +10,8 @@ void put(const Vector& from, float (&to)[N]) {
 
 }  // namespace
 
-WindshieldFrameUniforms windshield_frame_uniforms(const Glass& glass, const VehicleState& vehicle, const Real3& wind,
-                                                  double gravity, bool corrected) {
+WindshieldFrameUniforms windshield_frame_uniforms(const Glass& glass, const VehicleState& vehicle, const Real3& wind, double gravity,
+                                                  bool corrected) {
   WindshieldFrameUniforms u{};
   put(vehicle.direction, u.heading);
   u.yaw_rate = static_cast<float>(vehicle.yaw_rate);
@@ -27,8 +27,8 @@ WindshieldFrameUniforms windshield_frame_uniforms(const Glass& glass, const Vehi
   return u;
 }
 
-WipeDropsUniforms wipe_drops_uniforms(const Glass& glass, bool corrected, int wiper_count, const Capture& capture,
-                                      double radius_scale, int columns, int rows) {
+WipeDropsUniforms wipe_drops_uniforms(const Glass& glass, bool corrected, int wiper_count, const Capture& capture, double radius_scale,
+                                      int columns, int rows) {
   WipeDropsUniforms u{};
   const PlaneFrame plane = corrected ? glass.plane() : glass.axes();
   put(plane.frame, u.frame);

@@ -28,10 +28,16 @@ PassInfo windshield_frame_info() {
        member<&U::e_u>("e_u", "m", {-1e3, 1e3}, "Edge of the glass along u, car axes."),
        member<&U::e_v>("e_v", "m", {-1e3, 1e3}, "Edge of the glass along v, car axes."),
        member<&U::origin>("origin", "m", {-100, 100}, "corrected: corner (0, 0) of the glass, car axes."),
-       member<&U::inverse_metric>("inverse_metric", "1/m^2", {-1e12, 1e12}, "as-published: 1 / |e_u|^2, 0, 1 / |e_v|^2; corrected: uu, uv and vv of the metric's inverse.")});
-  return {"windshield_frame", "Gravity, apparent wind and inertia in glass coordinates.",
+       member<&U::inverse_metric>("inverse_metric", "1/m^2", {-1e12, 1e12},
+                                  "as-published: 1 / |e_u|^2, 0, 1 / |e_v|^2; corrected: uu, uv and vv of the metric's inverse.")});
+  return {"windshield_frame",
+          "Gravity, apparent wind and inertia in glass coordinates.",
           {{published, 1, Judge::keyed, "WindshieldFrameUniforms"}, {correct, 1, Judge::keyed, "WindshieldFrameUniforms"}},
-          {}, {"glass_frame"}, {block}, "gather", {"dot"}};
+          {},
+          {"glass_frame"},
+          {block},
+          "gather",
+          {"dot"}};
 }
 
 PassInfo wipe_drops_info(const char* from) {
@@ -49,28 +55,42 @@ PassInfo wipe_drops_info(const char* from) {
        member<&U::texel>("texel", "1", share, "corrected: 1 over the film's columns and rows."),
        member<&U::columns>("columns", "texel", {0, 65536}, "corrected: columns of the film."),
        member<&U::rows>("rows", "texel", {0, 65536}, "corrected: rows of the film.")});
-  return {"wipe_drops", "Drops in the swept area ride on the blade; corrected: with the film that it sweeps.",
+  return {"wipe_drops",
+          "Drops in the swept area ride on the blade; corrected: with the film that it sweeps.",
           {{published, 1, Judge::keyed, "WipeDropsUniforms"}, {correct, 1, Judge::keyed, "WipeDropsUniforms"}},
-          {{"drops", from}, {"wipers"}, per_texel({"film", "merge", true, correct})}, {"drops", "film"}, {block}, "gather", {"length"}};
+          {{"drops", from}, {"wipers"}, per_texel({"film", "merge", true, correct})},
+          {"drops", "film"},
+          {block},
+          "gather",
+          {"length"}};
 }
 
 std::vector<BufferInfo> wiper_buffers() {
-  return {{"wipers", "records", "A record for each blade; corrected: for each of its moves in one direction.", "1", {-1, 1}, "none", "none", "none", "", "Wiper"}};
+  return {{"wipers",
+           "records",
+           "A record for each blade; corrected: for each of its moves in one direction.",
+           "1",
+           {-1, 1},
+           "none",
+           "none",
+           "none",
+           "",
+           "Wiper"}};
 }
 
 std::vector<UniformBlock> wiper_records() {
-  return {record<Wiper>("Wiper", {member<&Wiper::previous_inner>("previous_inner", "1", "Inner end before the step, glass coordinates."),
-                                  member<&Wiper::previous_outer>("previous_outer", "1", "Outer end before the step."),
-                                  member<&Wiper::inner>("inner", "1", "Inner end after it."),
-                                  member<&Wiper::outer>("outer", "1", "Outer end after it."),
-                                  member<&Wiper::pivot>("pivot", "m", "Plane coordinates."),
-                                  member<&Wiper::inner_radius>("inner_radius", "m", "Of the inner end, from the pivot."),
-                                  member<&Wiper::outer_radius>("outer_radius", "m", "Of the outer end."),
-                                  member<&Wiper::previous_axis>("previous_axis", "1", "Cosine and sine of the blade's angle before the step."),
-                                  member<&Wiper::axis>("axis", "1", "The same after it."),
-                                  member<&Wiper::half_width>("half_width", "m", "Half the width that the blade wipes."),
-                                  member<&Wiper::rate>("rate", "rad/s", "Turned angle over the time that the record stands for."),
-                                  member<&Wiper::direction>("direction", "1", "Sign of rate; 0 at rest.")})};
+  return {record<Wiper>(
+      "Wiper", {member<&Wiper::previous_inner>("previous_inner", "1", "Inner end before the step, glass coordinates."),
+                member<&Wiper::previous_outer>("previous_outer", "1", "Outer end before the step."),
+                member<&Wiper::inner>("inner", "1", "Inner end after it."), member<&Wiper::outer>("outer", "1", "Outer end after it."),
+                member<&Wiper::pivot>("pivot", "m", "Plane coordinates."),
+                member<&Wiper::inner_radius>("inner_radius", "m", "Of the inner end, from the pivot."),
+                member<&Wiper::outer_radius>("outer_radius", "m", "Of the outer end."),
+                member<&Wiper::previous_axis>("previous_axis", "1", "Cosine and sine of the blade's angle before the step."),
+                member<&Wiper::axis>("axis", "1", "The same after it."),
+                member<&Wiper::half_width>("half_width", "m", "Half the width that the blade wipes."),
+                member<&Wiper::rate>("rate", "rad/s", "Turned angle over the time that the record stands for."),
+                member<&Wiper::direction>("direction", "1", "Sign of rate; 0 at rest.")})};
 }
 
 }  // namespace rainref::windshield

@@ -21,20 +21,24 @@ struct NormalsUniforms {
 static_assert(sizeof(NormalsUniforms) == 16);
 
 struct NormalsPass {
-  static constexpr pass::About about{"normals", "The normal of the water in axes of the glass, z outward.", {1}, {1}, {"length", "normalize"}};
+  static constexpr pass::About about{
+      "normals", "The normal of the water in axes of the glass, z outward.", {1}, {1}, {"length", "normalize"}};
   using Uniforms = NormalsUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("NormalsUniforms", {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
-                                                       member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
-                                                       member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
+    return scene::uniform_block<U>(
+        "NormalsUniforms",
+        {member<&U::slope_x>("slope_x", "1/mm", {-1e9, 1e9}, "Slope along x for 1 mm across two columns."),
+         member<&U::slope_shear>("slope_shear", "1/mm", {-1e9, 1e9}, "corrected: slope along y for 1 mm across two columns."),
+         member<&U::slope_y>("slope_y", "1/mm", {-1e9, 1e9}, "Slope along y for 1 mm across two rows.")});
   }
   template <class B>
   struct Io {
     typename B::template Texels<Format::r16f, 1> height = pass::In{.name = "height", .from = "wipe_texture"};  // [mm]
     typename B::template Texels<Format::r16f, 1> mask = pass::In{.name = "mask", .from = "wipe_texture"};
-    typename B::template Result<Format::rgba16f> normal = pass::Out{.name = "normal", .sentence = "Unit normal in axes of the glass, alpha 1.", .range = {-1, 1}, .alpha = "1"};
+    typename B::template Result<Format::rgba16f> normal =
+        pass::Out{.name = "normal", .sentence = "Unit normal in axes of the glass, alpha 1.", .range = {-1, 1}, .alpha = "1"};
   };
 };
 
@@ -45,7 +49,8 @@ struct NormalsPass {
 /// io has height and mask (dx, dy) around the texel.
 template <class N, bool corrected, class Io>
 RAINREF_FN Vec3<N> normal_of(const NormalsUniforms& u, const Io& io) {
-  const auto tap = [&](int dx, int dy) RAINREF_LAMBDA { return corrected ? io.height(dx, dy) : io.height(dx, dy) * (N(1.0f) - io.mask(dx, dy)); };
+  const auto tap = [&](int dx, int dy)
+                       RAINREF_LAMBDA { return corrected ? io.height(dx, dy) : io.height(dx, dy) * (N(1.0f) - io.mask(dx, dy)); };
   const N across_columns = tap(1, 0) - tap(-1, 0), across_rows = tap(0, 1) - tap(0, -1);
   const N kept = corrected ? N(1.0f) - io.mask(0, 0) : N(1.0f);
   const N slope_x = kept * (N(u.slope_x) * across_columns);

@@ -17,8 +17,7 @@ double end_slope(double h0, double h1, double c0, double c1) {
 
 }  // namespace
 
-Pchip::Pchip(std::vector<double> x, std::vector<double> y)
-    : x_(std::move(x)), y_(std::move(y)), slope_(x_.size()), sum_(x_.size()) {
+Pchip::Pchip(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)), slope_(x_.size()), sum_(x_.size()) {
   const std::size_t last = x_.size() - 1;
   std::vector<double> step(last), chord(last);
   for (std::size_t i = 0; i < last; ++i) {
@@ -53,8 +52,8 @@ double Pchip::value(double x) const {
   const auto [i, h, s] = place(x);
   const double t = s / h, r = 1 - t;
   // Monotone in real arithmetic; the clamp keeps rounding from passing the ends, 0 above all.
-  const double hermite = y_[i] * (r * r * (1 + 2 * t)) + y_[i + 1] * (t * t * (3 - 2 * t)) +
-                         h * t * r * (slope_[i] * r - slope_[i + 1] * t);
+  const double hermite =
+      y_[i] * (r * r * (1 + 2 * t)) + y_[i + 1] * (t * t * (3 - 2 * t)) + h * t * r * (slope_[i] * r - slope_[i + 1] * t);
   return std::clamp(hermite, std::min(y_[i], y_[i + 1]), std::max(y_[i], y_[i + 1]));
 }
 

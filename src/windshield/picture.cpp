@@ -43,7 +43,8 @@ CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& co
   n = scene::normalized(n);
   const double distance = glm::dot(p0 - eye.position, n);
   if (!(std::abs(distance) > 1e-6))
-    throw Error(ExitCode::usage, fmt::format("camera.position: expected an eye behind the glass, found one in its plane ({} m from it)", distance));
+    throw Error(ExitCode::usage,
+                fmt::format("camera.position: expected an eye behind the glass, found one in its plane ({} m from it)", distance));
   const double guu = glm::dot(e_u, e_u), guv = glm::dot(e_u, e_v), gvv = glm::dot(e_v, e_v);
   const Vector3 dual_u = (gvv / area_sq) * e_u - (guv / area_sq) * e_v, dual_v = (guu / area_sq) * e_v - (guv / area_sq) * e_u;
   const Vector3 x_axis = scene::normalized(e_u), y_axis = scene::normalized(e_v - glm::dot(e_v, x_axis) * x_axis);
@@ -64,7 +65,9 @@ CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& co
   row(dual_v, u.v_row);
   put(sign * Vector3(glm::dot(dx, n), glm::dot(dy, n), glm::dot(d0, n)), u.w_row);
   u.glass_distance = static_cast<float>(sign * distance);
-  const auto in_camera = [&](const Vector3& v) { return Vector3(glm::dot(v, basis.right), glm::dot(v, basis.up), glm::dot(v, basis.forward)); };
+  const auto in_camera = [&](const Vector3& v) {
+    return Vector3(glm::dot(v, basis.right), glm::dot(v, basis.up), glm::dot(v, basis.forward));
+  };
   put(in_camera(x_axis), u.plane_x);
   put(in_camera(y_axis), u.plane_y);
   put(in_camera(n), u.outward);

@@ -14,9 +14,7 @@ constexpr const char *published = "as-published", *correct = "corrected";
 
 }  // namespace
 
-std::vector<PassInfo> picture_passes() {
-  return {pass::info_of<CompositePass>(), pass::display_info("composite")};
-}
+std::vector<PassInfo> picture_passes() { return {pass::info_of<CompositePass>(), pass::display_info("composite")}; }
 
 std::vector<BufferInfo> picture_buffers() {
   const std::array<double, 2> one{0, 1};
@@ -41,7 +39,8 @@ std::vector<Parameter> picture_parameters() {
       real("composite.wetness", "1", 0, 1, 0.6, "Weight of the blurred picture where the glass was not wiped.").default_for(correct, 0.35),
       real("composite.visible_from", "mm", 0, 10, 0.02, "Height at which water begins to show as a drop."),
       real("composite.visible_to", "mm", 1e-3, 10, 0.2, "Height from which it shows fully."),
-      real("composite.refraction", "1", -1, 1, 0.08, "Offset of the sharp picture, in pictures per unit of the normal's x and y.").only(published),
+      real("composite.refraction", "1", -1, 1, 0.08, "Offset of the sharp picture, in pictures per unit of the normal's x and y.")
+          .only(published),
       real("composite.water_ior", "1", 1, 2, 1.333, "Refractive index of water.").only(correct),
       real("composite.inner", "1", 0, 1, 0.3, "Share of the blurred scene that the water's surface mirrors.").only(correct),
       real("composite.shininess", "1", 1, 4096, 80, "Power of the highlights."),

@@ -24,7 +24,8 @@ struct FogLevel {
   void operator()(int x, int y, N* out) const {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * width + x;
     const float* texel = colour.view().texels + 4 * at;
-    const plain::Vec3<N> c = blur_pyramid::every::fogged<N>(uniforms, plain::Vec3<N>(N::load(texel), N::load(texel + 1), N::load(texel + 2)), N::load(depth.view().texels + at));
+    const plain::Vec3<N> c = blur_pyramid::every::fogged<N>(
+        uniforms, plain::Vec3<N>(N::load(texel), N::load(texel + 1), N::load(texel + 2)), N::load(depth.view().texels + at));
     out[0] = c.x;
     out[1] = c.y;
     out[2] = c.z;
@@ -43,7 +44,8 @@ struct HalvedLevel {
     const auto held = [](int i, int uniform, int size) { return std::clamp(i, 0, std::clamp(uniform, 1, size) - 1); };
     for (int k = 0; k < 4; ++k) {
       const auto tap = [&](int i, int j) {
-        const int column = held(2 * x + i, uniforms.source_size[0], t.width[0]), row = held(2 * y + j, uniforms.source_size[1], t.height[0]);
+        const int column = held(2 * x + i, uniforms.source_size[0], t.width[0]),
+                  row = held(2 * y + j, uniforms.source_size[1], t.height[0]);
         return N::load(t.texels + 4 * (static_cast<std::ptrdiff_t>(row) * t.width[0] + column) + k);
       };
       out[k] = corrected ? blur_pyramid::every::halved_corrected<N>(uniforms, tap, x, y) : blur_pyramid::every::halved_as_published<N>(tap);

@@ -124,7 +124,8 @@ struct Sweep {
       const TexelBox box = swept_texels(w, uniforms);
       for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x)
-          if (film[static_cast<std::size_t>(y) * static_cast<std::size_t>(uniforms.columns) + static_cast<std::size_t>(x)] > 0) found.insert(y * uniforms.columns + x);
+          if (film[static_cast<std::size_t>(y) * static_cast<std::size_t>(uniforms.columns) + static_cast<std::size_t>(x)] > 0)
+            found.insert(y * uniforms.columns + x);
     }
     return {found.begin(), found.end()};
   }
@@ -214,8 +215,10 @@ class SweptDrops : public capture::KeyedModel {
       }
       for (const Place place : found) {
         if (place == none) continue;
-        if (whole && found.size() == 1) shares_[place].sure += quanta_of(s_->film[static_cast<std::size_t>(texel)]);
-        else shares_[place].open.push_back(texel);
+        if (whole && found.size() == 1)
+          shares_[place].sure += quanta_of(s_->film[static_cast<std::size_t>(texel)]);
+        else
+          shares_[place].open.push_back(texel);
       }
     }
   }
@@ -326,14 +329,16 @@ class WipeCorrected : public capture::ModelOf<SweptFilm> {
 std::vector<Wiper> wipers_input(const PassCase& c, const WipeDropsUniforms& u) {
   std::vector<Wiper> wipers = capture::records_of<Wiper>(capture::record_input(c, "wipers"));
   if (u.wiper_count < 0 || static_cast<std::size_t>(u.wiper_count) > wipers.size()) {
-    throw Error(ExitCode::port_files, fmt::format("{}: uniform wiper_count: expected 0 to {}, the records of in.wipers, found {}", c.folder(), wipers.size(), u.wiper_count));
+    throw Error(ExitCode::port_files, fmt::format("{}: uniform wiper_count: expected 0 to {}, the records of in.wipers, found {}",
+                                                  c.folder(), wipers.size(), u.wiper_count));
   }
   wipers.resize(static_cast<std::size_t>(u.wiper_count));
   for (std::size_t i = 0; i < wipers.size(); ++i) {
     float numbers[sizeof(Wiper) / sizeof(float)];
     std::memcpy(numbers, &wipers[i], sizeof numbers);
     for (const float x : numbers)
-      if (!std::isfinite(x)) throw Error(ExitCode::port_files, fmt::format("{}/in.wipers: expected finite numbers, found {} in record {}", c.folder(), x, i));
+      if (!std::isfinite(x))
+        throw Error(ExitCode::port_files, fmt::format("{}/in.wipers: expected finite numbers, found {} in record {}", c.folder(), x, i));
   }
   return wipers;
 }
@@ -341,7 +346,8 @@ std::vector<Wiper> wipers_input(const PassCase& c, const WipeDropsUniforms& u) {
 }  // namespace
 
 std::unique_ptr<PassModel> bind_windshield_frame(const PassCase& c) {
-  return std::make_unique<capture::ListPass>("glass_frame", std::make_unique<Frame>(capture::uniforms_of<WindshieldFrameUniforms>(c), c.corrected()));
+  return std::make_unique<capture::ListPass>("glass_frame",
+                                             std::make_unique<Frame>(capture::uniforms_of<WindshieldFrameUniforms>(c), c.corrected()));
 }
 
 std::unique_ptr<PassModel> bind_wipe_drops(const PassCase& c) {
@@ -349,12 +355,14 @@ std::unique_ptr<PassModel> bind_wipe_drops(const PassCase& c) {
   std::vector<Wiper> wipers = wipers_input(c, u);
   if (!c.corrected()) {
     WipePublished pass{u, std::move(wipers)};
-    return std::make_unique<capture::ListPass>("drops", std::make_unique<drops::DropByDrop<WipePublished>>(std::move(pass), drops::drops_input(c), false));
+    return std::make_unique<capture::ListPass>(
+        "drops", std::make_unique<drops::DropByDrop<WipePublished>>(std::move(pass), drops::drops_input(c), false));
   }
   const capture::Array& film = capture::image_input(c, "film").array;
   if (u.columns != film.width || u.rows != film.height || u.bin_count < 1 || u.bin_count > 4096) {
-    throw Error(ExitCode::port_files, fmt::format("{}: uniforms columns, rows, bin_count: expected {}, {} and 1 to 4096, found {}, {} and {}", c.folder(), film.width, film.height,
-                                                  u.columns, u.rows, u.bin_count));
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: uniforms columns, rows, bin_count: expected {}, {} and 1 to 4096, found {}, {} and {}", c.folder(),
+                            film.width, film.height, u.columns, u.rows, u.bin_count));
   }
   auto sweep = std::make_shared<const Sweep>(Sweep{u, std::move(wipers), drops::drops_input(c), capture::decoded(film)});
   return std::make_unique<WipeCorrected>(SweptFilm{film.width, film.height, 1, std::move(sweep)});

@@ -14,7 +14,8 @@ struct Searches {
 };
 template <class N, int Count, class Depths>
 RAINREF_FN void search(const ReprojectUniforms& r, const Depths& depth, float way, int rounds, Searches<N, Count>& s) {
-  const N half(0.5f), one(1.0f), su = uniform_quotient(0.5f, r.half_size[0], N()), sv = uniform_quotient(0.5f, r.half_size[1], N()), nearest(0.5f);
+  const N half(0.5f), one(1.0f), su = uniform_quotient(0.5f, r.half_size[0], N()), sv = uniform_quotient(0.5f, r.half_size[1], N()),
+                                 nearest(0.5f);
   const N wx = N(way * r.forward[0]), wy = N(way * r.forward[1]), wz = N(way * r.forward[2]);
   for (int k = 0; k < Count; ++k) s.d[k] = max(s.d[k], nearest);
   for (int round = 0; round < rounds; ++round) {
@@ -35,7 +36,8 @@ struct SeenFrom {
 };
 template <class N, int Count, class Colours>
 RAINREF_FN SeenFrom<N> seen(const ReprojectUniforms& r, const Colours& colour, float way, const Searches<N, Count>& s, int k) {
-  const N one(1.0f), off = abs(s.there[k] - N(way * r.forward[2]) - s.d[k]) / s.d[k], border = min(min(s.u[k], one - s.u[k]), min(s.v[k], one - s.v[k]));
+  const N one(1.0f), off = abs(s.there[k] - N(way * r.forward[2]) - s.d[k]) / s.d[k],
+                     border = min(min(s.u[k], one - s.u[k]), min(s.v[k], one - s.v[k]));
   const auto c = sample_bilinear<0, 3, N>(colour, s.u[k], s.v[k]);
   return {Vec3<N>(c[0], c[1], c[2]), saturate(N(2.0f) - N(50.0f) * off) * saturate(N(50.0f) * border)};
 }
@@ -46,7 +48,8 @@ struct Between {
 };
 /// Count vectors of a row, from `column` on: use(k, Between) takes the k-th.
 template <class N, int Count, class Colours, class Depths, class Use>
-RAINREF_FN void reprojected(const ReprojectUniforms& r, const Colours& behind, const Depths& behind_depth, const Colours& ahead, const Depths& ahead_depth, int column, int row, const Use& use) {
+RAINREF_FN void reprojected(const ReprojectUniforms& r, const Colours& behind, const Depths& behind_depth, const Colours& ahead,
+                            const Depths& ahead_depth, int column, int row, const Use& use) {
   const N half(0.5f), su = uniform_quotient(0.5f, r.half_size[0], N()), sv = uniform_quotient(0.5f, r.half_size[1], N());
   Searches<N, Count> a, b;
   a.y = b.y = (N(static_cast<float>(row) + 0.5f)) * N(r.pixel[1]) - N(r.half_size[1]);

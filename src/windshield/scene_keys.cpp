@@ -21,14 +21,17 @@ std::vector<Parameter> make() {
   append(all, surface_parameters("windshield"));
   append(all, blur_pyramid::blur_parameters("blur"));
   append(all, {text("scene.image", "", "Picture of what lies before the car, EXR, HDR, PNG or NPY; empty: the street at night made here."),
-               text("scene.depth_image", "", "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
+               text("scene.depth_image", "",
+                    "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
                real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
                integer2("scene.size", "texel", 8, 8192, {1280, 720}, "Columns and rows of the street's picture."),
                real("scene.margin", "1", 1, 4, 1.15, "Width of the scene's picture over that of the view."),
                real("scene.start", "m", 0, 1e6, 0, "Place on the street at time 0."),
                boolean("scene.moves", true, "The street passes as the car drives; false: it stands still."),
                boolean("scene.clear_lane", false, "No car of the street stands in this one's lane: a drive would go through it."),
-               integer("scene.keyframes", "1", 1, 24, 1, "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by warp, and the longer it takes.")});
+               integer("scene.keyframes", "1", 1, 24, 1,
+                       "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by warp, "
+                       "and the longer it takes.")});
   append(all, picture_parameters());
   return all;
 }

@@ -30,8 +30,8 @@ inline Perpendicular perpendicular(enclosed::Enclosure fx, enclosed::Enclosure f
 
 /// segment_distance of wipe_texture.pass.h. Between the ends, for a place t off by d from the nearest one:
 ///   distance^2 = perpendicular^2 + (d length)^2.
-inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::Enclosure py, enclosed::Enclosure ax, enclosed::Enclosure ay, enclosed::Enclosure bx,
-                                            enclosed::Enclosure by) {
+inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::Enclosure py, enclosed::Enclosure ax, enclosed::Enclosure ay,
+                                            enclosed::Enclosure bx, enclosed::Enclosure by) {
   using enclosed::Enclosure;
   const Enclosure along_x = bx - ax, along_y = by - ay, from_x = px - ax, from_y = py - ay;
   const Enclosure length_sq = max(square(along_x) + square(along_y), Enclosure(1e-12f));
@@ -42,10 +42,13 @@ inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::En
 
   const Perpendicular d = perpendicular(from_x.unrounded(), from_y.unrounded(), along_x.unrounded(), along_y.unrounded());
   // Two roundings of each component, and then those of two squares and their sum.
-  const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23, flushed = p.flush == enclosed::Flush::never ? 0 : 0x1p-124;
+  const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23,
+               flushed = p.flush == enclosed::Flush::never ? 0 : 0x1p-124;
   const double x = unit * (t.hi * along_x.magnitude() + written.magnitude()), y = unit * (t.hi * along_y.magnitude() + written.magnitude());
-  const double rounded = __builtin_sqrt(x * x + y * y) * (1 + 0x1p-20) + flushed, off = (static_cast<double>(t.hi) - t.lo + 0x1p-22) * d.length;
-  const double low = std::max(d.low - rounded, 0.0) * (1 - 3 * unit), high = (__builtin_sqrt(d.high * d.high + off * off) + rounded) * (1 + 3 * unit);
+  const double rounded = __builtin_sqrt(x * x + y * y) * (1 + 0x1p-20) + flushed,
+               off = (static_cast<double>(t.hi) - t.lo + 0x1p-22) * d.length;
+  const double low = std::max(d.low - rounded, 0.0) * (1 - 3 * unit),
+               high = (__builtin_sqrt(d.high * d.high + off * off) + rounded) * (1 + 3 * unit);
   const Enclosure tight = sqrt(square(Enclosure(std::max(enclosed::float_below(low), 0.0f), enclosed::float_above(high))));
   return {std::max(written.lo, tight.lo), std::min(written.hi, tight.hi)};
 }

@@ -7,9 +7,12 @@ namespace rainref::windshield {
 using Number = plain::Plain<double>;
 
 ShownScene::ShownScene(const Settings& settings, const Windshield& rendered)
-    : uniforms_(composite_uniforms(settings.picture, settings.corners)), corrected_(settings.corrected),
-      depth_(rendered.scene_depth(), Address::clamp, Address::clamp), height_(rendered.height(), Address::clamp, Address::clamp),
-      normal_(rendered.normal(), Address::clamp, Address::clamp), mask_(rendered.mask(), Address::clamp, Address::clamp) {}
+    : uniforms_(composite_uniforms(settings.picture, settings.corners)),
+      corrected_(settings.corrected),
+      depth_(rendered.scene_depth(), Address::clamp, Address::clamp),
+      height_(rendered.height(), Address::clamp, Address::clamp),
+      normal_(rendered.normal(), Address::clamp, Address::clamp),
+      mask_(rendered.mask(), Address::clamp, Address::clamp) {}
 
 Shown ShownScene::at(int column, int row) const {
   const CompositeUniforms& c = uniforms_;

@@ -14,7 +14,8 @@ constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to
 
 Image as_half(const Image& from) {
   Image to(Format::rgba16f, from.width(), from.height());
-  for (int y = 0; y < from.height(); ++y) to_half_array(from.row<float>(y), to.row<Half>(y), 4 * static_cast<std::size_t>(from.width()), Rounding::rne);
+  for (int y = 0; y < from.height(); ++y)
+    to_half_array(from.row<float>(y), to.row<Half>(y), 4 * static_cast<std::size_t>(from.width()), Rounding::rne);
   return to;
 }
 
@@ -38,10 +39,17 @@ struct StreetDrive::State {
   night_street::Street street;
   const parallel::Executor& executor;
   std::map<int, Keyframe> keyframes;  ///< by number
-  bool stands = false;  // the view of look() is rendered and stays
+  bool stands = false;                // the view of look() is rendered and stays
 
   State(const scene::Camera& c, int w, int h, const StreetOptions& o, const parallel::Executor& e)
-      : camera(c), width(w), height(h), first(o.start), at_rest(o.at_rest), keyframes_in_spacing(o.keyframes), street({o.seed, o.clear_lane}), executor(e) {}
+      : camera(c),
+        width(w),
+        height(h),
+        first(o.start),
+        at_rest(o.at_rest),
+        keyframes_in_spacing(o.keyframes),
+        street({o.seed, o.clear_lane}),
+        executor(e) {}
 
   double apart() const { return spacing / keyframes_in_spacing; }
   /// The way to keyframe k. The street begins again at whole spacings: these are exact.
@@ -69,7 +77,8 @@ struct StreetDrive::State {
   }
 };
 
-StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, const StreetOptions& options, const parallel::Executor& executor)
+StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, const StreetOptions& options,
+                         const parallel::Executor& executor)
     : state_(std::make_unique<State>(camera, width, height, options, executor)) {}
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;

@@ -27,7 +27,7 @@ scene::Vector3 in_street(const scene::Vector3& car);
 scene::Vector3 place_in_street(double start, double distance);
 
 struct StreetOptions {
-  double start = 0;         ///< where on the street the car begins [m]
+  double start = 0;  ///< where on the street the car begins [m]
   std::uint64_t seed = 1;
   bool clear_lane = false;  ///< no car stands in its way
   int keyframes = 1;        ///< pictures in `spacing` metres of way
@@ -35,8 +35,8 @@ struct StreetOptions {
 };
 
 /// Views of the street for a car that goes along it, straight on; after street_length metres it starts again. The street is
-/// rendered `keyframes` times in `spacing` metres; between, each view is made from the one behind and the one ahead, by their depths. The same
-/// bits on every machine.
+/// rendered `keyframes` times in `spacing` metres; between, each view is made from the one behind and the one ahead, by their depths. The
+/// same bits on every machine.
 class StreetDrive {
  public:
   static constexpr double street_length = 396, spacing = 12;
@@ -57,9 +57,9 @@ class StreetDrive {
 };
 
 struct ReprojectUniforms {
-  float half_size[2];  ///< of the image plane at distance 1
-  float pixel[2];      ///< extent of a pixel there
-  float forward[3];    ///< the car's way, camera axes: right, up, forward
+  float half_size[2];         ///< of the image plane at distance 1
+  float pixel[2];             ///< extent of a pixel there
+  float forward[3];           ///< the car's way, camera axes: right, up, forward
   float behind_by, ahead_by;  ///< way gone since each picture was taken [m]; ahead: not above 0
   float share;                ///< of the way between them that is gone, [0, 1]: the weight of the one ahead
 };
@@ -68,6 +68,7 @@ struct Keyframe {
   Image depth;   ///< r32f
 };
 /// Rows of the view between two keyframes.
-void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view, const parallel::Tile& tile);
+void reproject_rows(const ReprojectUniforms& uniforms, const Keyframe& behind, const Keyframe& ahead, SceneView& view,
+                    const parallel::Tile& tile);
 
 }  // namespace rainref::windshield

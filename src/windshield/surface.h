@@ -23,9 +23,9 @@ struct SurfaceSettings {
   double fps = 60;
   /// Of the glass [m]: as-published |e_u|, 0, |e_v|; corrected the plane frame.
   std::array<double, 3> frame{1, 0, 1};
-  double half_width = 6e-3;  ///< of the narrowest blade [m]
+  double half_width = 6e-3;   ///< of the narrowest blade [m]
   double wipe_strength = 10;  ///< as-published: what full coverage takes off [mm]
-  double mask_tau = 4;       ///< time constant of the mask [s]
+  double mask_tau = 4;        ///< time constant of the mask [s]
 };
 /// The scene keys wipe_strength and mask_tau, behind "prefix."; the rest of SurfaceSettings comes from elsewhere.
 std::vector<scene::Parameter> surface_parameters(const std::string& prefix);

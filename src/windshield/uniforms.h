@@ -28,20 +28,20 @@ struct Glint {
 };
 
 struct CompositeUniforms {
-  float u_row[3];  ///< u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)
+  float u_row[3];        ///< u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)
   float glass_distance;  ///< along the view axis: glass_distance / w_row . (x, y, 1) [m]
   float v_row[3];
   float blur_lod;  ///< mip level of the picture behind the film
   float w_row[3];
-  float wetness;  ///< weight of the blurred picture where the glass was not wiped
-  float plane_x[3];  ///< axes of the glass in camera axes: right, up, forward
+  float wetness;       ///< weight of the blurred picture where the glass was not wiped
+  float plane_x[3];    ///< axes of the glass in camera axes: right, up, forward
   float visible_from;  ///< height at which water begins to show as a drop [mm]
   float plane_y[3];
   float visible_to;  ///< height from which it shows fully [mm]
   float outward[3];
-  float refraction;  ///< as-published: screen widths and heights per unit of n.xy
-  float pixel[2];      ///< extent of a pixel on the image plane at distance 1
-  float half_size[2];  ///< of the image plane at distance 1
+  float refraction;      ///< as-published: screen widths and heights per unit of n.xy
+  float pixel[2];        ///< extent of a pixel on the image plane at distance 1
+  float half_size[2];    ///< of the image plane at distance 1
   float scene_scale[2];  ///< texture coordinates of the scene per unit of the image plane
   float shininess;
   float glint_strength;

@@ -9,9 +9,8 @@ namespace rainref::windshield {
 
 Vehicle::Vehicle(const VehicleSettings& settings) : settings_(settings) {
   if (!settings.drive_cycle.empty() && !settings.key_frames.empty()) {
-    throw Error(ExitCode::usage,
-                fmt::format("vehicle.drive_cycle and vehicle.key_frames: expected one of them, found '{}' and '{}'",
-                            settings.drive_cycle.string(), settings.key_frames));
+    throw Error(ExitCode::usage, fmt::format("vehicle.drive_cycle and vehicle.key_frames: expected one of them, found '{}' and '{}'",
+                                             settings.drive_cycle.string(), settings.key_frames));
   }
   if (!settings.drive_cycle.empty()) cycle_ = read_drive_cycle(settings.drive_cycle);
   if (!settings.key_frames.empty()) cycle_ = parse_key_frames(settings.key_frames, "vehicle.key_frames");

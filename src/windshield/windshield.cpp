@@ -27,7 +27,8 @@ constexpr int tile_rows = 8;
 
 /// Refuses what does not fit before the drops, the first large thing, are made.
 Settings fitting(Settings s, const scene::Config& config, const Surroundings& around) {
-  require_memory(fmt::format("windshield.height_size {}x{} with scene.size {}x{} for {} drops", s.surface.width, s.surface.height, s.scene_size[0], s.scene_size[1], s.drops.capacity),
+  require_memory(fmt::format("windshield.height_size {}x{} with scene.size {}x{} for {} drops", s.surface.width, s.surface.height,
+                             s.scene_size[0], s.scene_size[1], s.drops.capacity),
                  memory(s, static_cast<int>(config.integer("run.frames")), {around.colour.width(), around.colour.height()}).peak());
   return s;
 }
@@ -43,7 +44,8 @@ struct Windshield::State {
   static void check_pictures(const Surroundings& s) {
     const auto expect = [&](const Image& image, Format format, const char* key) {
       if (image.format() == format && image.width() == s.colour.width() && image.height() == s.colour.height()) return;
-      throw Error(ExitCode::usage, fmt::format("{}: expected {} of {}x{}, found {} of {}x{}", key, info(format).name, s.colour.width(), s.colour.height(), info(image.format()).name, image.width(), image.height()));
+      throw Error(ExitCode::usage, fmt::format("{}: expected {} of {}x{}, found {} of {}x{}", key, info(format).name, s.colour.width(),
+                                               s.colour.height(), info(image.format()).name, image.width(), image.height()));
     };
     if (s.colour.empty()) return;
     expect(s.colour, Format::rgba16f, "scene.image");
@@ -72,9 +74,14 @@ struct Windshield::State {
   std::vector<Glint> lights;
 
   State(const scene::Config& config, Surroundings surroundings, const parallel::Executor& e)
-      : settings(fitting(settings_from(config), config, surroundings)), executor(e), corrected(settings.corrected), glass(make_glass(settings.corners)),
-        plane(corrected ? glass.plane() : glass.axes()), vehicle(settings.vehicle),
-        water(settings.drops, plane.frame, glass.area, settings.fps * settings.substeps, settings.surface.width, settings.surface.height, e) {
+      : settings(fitting(settings_from(config), config, surroundings)),
+        executor(e),
+        corrected(settings.corrected),
+        glass(make_glass(settings.corners)),
+        plane(corrected ? glass.plane() : glass.axes()),
+        vehicle(settings.vehicle),
+        water(settings.drops, plane.frame, glass.area, settings.fps * settings.substeps, settings.surface.width, settings.surface.height,
+              e) {
     check(settings.wipers, glass);
     static_cast<void>(composite_uniforms(settings.picture, settings.corners));  // refuses an eye in the glass
     const int w = settings.surface.width, h = settings.surface.height;
@@ -91,7 +98,9 @@ struct Windshield::State {
     if (own_scene) {
       scene::Camera wide = camera(settings.picture);
       wide.vertical_fov_deg = widened_fov(settings.picture);
-      street.emplace(wide, settings.scene_size[0], settings.scene_size[1], StreetOptions{settings.street_start, settings.seed, settings.clear_lane, settings.keyframes, vehicle.at(0).speed == 0}, executor);
+      street.emplace(wide, settings.scene_size[0], settings.scene_size[1],
+                     StreetOptions{settings.street_start, settings.seed, settings.clear_lane, settings.keyframes, vehicle.at(0).speed == 0},
+                     executor);
     } else {
       scene.colour = std::move(surroundings.colour);
       scene.depth = std::move(surroundings.depth);
@@ -101,7 +110,9 @@ struct Windshield::State {
   double step_time() const { return 1 / (settings.fps * settings.substeps); }
   double frame_time() const { return 1 / settings.fps; }
 
-  pass::Moment moment(Recorder* recorder, int step, double dt) const { return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding}; }
+  pass::Moment moment(Recorder* recorder, int step, double dt) const {
+    return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding};
+  }
 
   void step(Recorder* recorder, int substep);
   bool look();
@@ -120,16 +131,19 @@ void Windshield::State::step(Recorder* recorder, int substep) {
 
   // The wind of the car's axes along the glass's normal.
   const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
-  const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
+  const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1],
+                     car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
   const drops::Exposure exposure{glass.area, glass.normal[2], dot(in_car, glass.normal)};
   water.spawn(now, exposure, steps);
   water.integrate(now, moving);
 
   // As published the first frame has no frame before it: the blades stand.
-  const std::vector<Wiper> swept = steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
+  const std::vector<Wiper> swept =
+      steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
   wipers.insert(wipers.end(), swept.begin(), swept.end());
-  const WipeDropsUniforms wipe = wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_quantum(settings.drops),
-                                                     corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
+  const WipeDropsUniforms wipe =
+      wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_quantum(settings.drops),
+                          corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
   if (recorder) {
     if (corrected) {
       now.before("wipe_drops", wipe, {{"drops", water.list_for(now, "wipe_drops")}, {"wipers", records(swept)}, {"film", water.film}});
@@ -140,9 +154,9 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   Stopwatch wipe_clock;
   drops::DropArrays& drops = water.drops;
   const std::int64_t drops_before = corrected ? drops.water() : 0;
-  const std::int64_t gone =
-      static_cast<std::int64_t>(wipe_drops(wipe, corrected, swept, {drops.u(), drops.v(), drops.velocity_u(), drops.velocity_v(), drops.mass(), drops.life(), drops.id()},
-                                           corrected ? &water.film : nullptr, executor));
+  const std::int64_t gone = static_cast<std::int64_t>(wipe_drops(
+      wipe, corrected, swept, {drops.u(), drops.v(), drops.velocity_u(), drops.velocity_v(), drops.mass(), drops.life(), drops.id()},
+      corrected ? &water.film : nullptr, executor));
   // What the drops gained, or lost less than what is gone, came from the film.
   water.ledger.removed += gone;
   if (corrected) water.ledger.to_film -= drops.water() - drops_before + gone;
@@ -201,7 +215,8 @@ void Windshield::render(Recorder* recorder) {
 
   WipeTextureUniforms wipe = wipe_texture_uniforms(settings.surface, s.frame);
   wipe.wiper_count = static_cast<std::int32_t>(s.wipers.size());
-  pass::Run<WipeTexturePass> wiping(wipe, s.corrected, rounding, wipe_texture_io(s.corrected, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr}));
+  pass::Run<WipeTexturePass> wiping(wipe, s.corrected, rounding,
+                                    wipe_texture_io(s.corrected, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr}));
   wiping.start(now);
   wiping.tiles(executor, tile_rows);
   wiping.finish(now);
@@ -254,9 +269,8 @@ void Windshield::render(Recorder* recorder) {
 
   pass::Run<pass::DisplayPass> display = pass::display_run(settings.picture.exposure, rounding, s.colour, s.picture);
   display.start(now);
-  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows, [&](const parallel::Tile& tile) {
-    display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); });
-  });
+  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows,
+                     [&](const parallel::Tile& tile) { display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); }); });
   display.finish(now, executor.threads());
   s.frame = recorded_frame;
 }
@@ -274,7 +288,8 @@ WaterLedger Windshield::ledger() const {
   const FloatingPointGuard guard;
   const State& s = *state_;
   const drops::WetGlass& w = s.water;
-  return {w.ledger.spawned, w.ledger.evaporated, w.ledger.removed, s.corrected ? drops::film_water(w.film) : 0, s.corrected ? w.drops.water() : w.drops.live()};
+  return {w.ledger.spawned, w.ledger.evaporated, w.ledger.removed, s.corrected ? drops::film_water(w.film) : 0,
+          s.corrected ? w.drops.water() : w.drops.live()};
 }
 const Image& Windshield::height() const { return state_->height; }
 const Image& Windshield::mask() const { return state_->mask; }

@@ -16,12 +16,10 @@ std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<cons
   std::vector<TexelBox> boxes;
   for (const Wiper& w : wipers) boxes.push_back(swept_texels(w, u));
   const std::size_t bins = wipers.size() * static_cast<std::size_t>(u.bin_count);
-  std::vector<std::vector<std::uint64_t>> by_tile(
-      static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
-      std::vector<std::uint64_t>(bins));
+  std::vector<std::vector<std::uint64_t>> by_tile(static_cast<std::size_t>((film.height() + rows_to_a_tile - 1) / rows_to_a_tile),
+                                                  std::vector<std::uint64_t>(bins));
   executor.for_tiles(film.width(), film.height(), film.width(), rows_to_a_tile, [&](const parallel::Tile& tile) {
-    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile,
-                   by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
+    wipe_film_rows(u, wipers.data(), boxes.data(), film, tile, by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
   });
   std::vector<std::uint64_t> quanta(bins);
   for (const auto& tile : by_tile) {
@@ -36,27 +34,24 @@ std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<cons
 // more for rounding.
 TexelBox swept_texels(const Wiper& w, const WipeDropsUniforms& u) {
   if (w.direction == 0) return {0, 0, 0, 0};
-  const double cosine =
-      static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
+  const double cosine = static_cast<double>(w.previous_axis[0]) * w.axis[0] + static_cast<double>(w.previous_axis[1]) * w.axis[1];
   const double bulge = w.outer_radius * (1 - __builtin_sqrt(std::max(0.0, 0.5 * (1 + cosine))));
   const double margin = w.half_width + bulge;
   const auto magnitude = [](double x) { return x < 0 ? -x : x; };
   const auto range = [&](int axis, double reach, float texel, int size, int& from, int& to) {
-    const auto [low, high] =
-        std::minmax({w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]});
+    const auto [low, high] = std::minmax({w.previous_inner[axis], w.previous_outer[axis], w.inner[axis], w.outer[axis]});
     const auto texels = [&](double x) { return static_cast<int>(std::clamp(x / texel, -2.0, size + 2.0)); };
     from = std::clamp(texels(low - reach) - 2, 0, size);
     to = std::clamp(texels(high + reach) + 2, 0, size);
   };
   TexelBox box{};
-  range(0, margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])), u.texel[0], u.columns, box.x0,
-        box.x1);
+  range(0, margin * (magnitude(u.inverse_frame[0]) + magnitude(u.inverse_frame[1])), u.texel[0], u.columns, box.x0, box.x1);
   range(1, margin * magnitude(u.inverse_frame[2]), u.texel[1], u.rows, box.y0, box.y1);
   return box;
 }
 
-std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers,
-                         const DropSpans& drops, Image* film, const parallel::Executor& executor) {
+std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers, const DropSpans& drops, Image* film,
+                         const parallel::Executor& executor) {
   const std::size_t slots = drops.u.size();
   std::vector<float> wiper(corrected ? slots : 0), bin(wiper.size());
   executor.for_range(static_cast<std::int64_t>(slots), drops_to_a_chunk, [&](std::int64_t begin, std::int64_t end) {
@@ -71,8 +66,8 @@ std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<c
   for (std::size_t i = 0; i < slots; ++i) {
     if (wiper[i] == -2) removed += static_cast<std::uint64_t>(drops.mass[i]);
     if (wiper[i] < 0) continue;
-    std::int64_t& best = taker[static_cast<std::size_t>(wiper[i]) * static_cast<std::size_t>(u.bin_count) +
-                               static_cast<std::size_t>(bin[i])];
+    std::int64_t& best =
+        taker[static_cast<std::size_t>(wiper[i]) * static_cast<std::size_t>(u.bin_count) + static_cast<std::size_t>(bin[i])];
     if (best < 0 || drops.id[i] < drops.id[static_cast<std::size_t>(best)]) best = static_cast<std::int64_t>(i);
   }
   for (std::size_t k = 0; k < quanta.size(); ++k) {

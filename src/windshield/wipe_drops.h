@@ -18,7 +18,7 @@ TexelBox swept_texels(const Wiper& wiper, const WipeDropsUniforms& uniforms);
 /// mass; the rest, and all of a bin without a drop, is removed. So is a drop between two blades that meet. Drops + film
 /// + what is returned is the same before and after, to the quantum. as-published: film is not read and may be null;
 /// returns 0.
-std::uint64_t wipe_drops(const WipeDropsUniforms& uniforms, bool corrected, std::span<const Wiper> wipers,
-                         const DropSpans& drops, Image* film, const parallel::Executor& executor);
+std::uint64_t wipe_drops(const WipeDropsUniforms& uniforms, bool corrected, std::span<const Wiper> wipers, const DropSpans& drops,
+                         Image* film, const parallel::Executor& executor);
 
 }  // namespace rainref::windshield

@@ -44,13 +44,11 @@ template <class N>
 RAINREF_FN typename N::Mask in_quad(const WipeDropsUniforms& uniforms, const Wiper& w, N x, N y) {
   const Plane<N> a = to_plane(uniforms.frame, N(w.previous_inner[0]), N(w.previous_inner[1]));
   const Plane<N> b = to_plane(uniforms.frame, N(w.previous_outer[0]), N(w.previous_outer[1]));
-  const Plane<N> c = to_plane(uniforms.frame, N(w.outer[0]), N(w.outer[1])),
-                 d = to_plane(uniforms.frame, N(w.inner[0]), N(w.inner[1]));
+  const Plane<N> c = to_plane(uniforms.frame, N(w.outer[0]), N(w.outer[1])), d = to_plane(uniforms.frame, N(w.inner[0]), N(w.inner[1]));
   return inward(w, a, b, x, y) & inward(w, b, c, x, y) & inward(w, c, d, x, y) & inward(w, d, a, x, y);
 }
 template <class N>
-RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms, const Wiper* wipers,
-                                               const WipedDrop<N>& in) {
+RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms, const Wiper* wipers, const WipedDrop<N>& in) {
   WipedDrop<N> d = in;
   const auto live = in.life > N(0.0f);
   for (int i = 0; i < uniforms.wiper_count; ++i) {
@@ -88,8 +86,7 @@ RAINREF_FN typename N::Mask in_sweep(const Wiper& w, N x, N y) {
   const N past_last = turning * (N(w.axis[0]) * ry - N(w.axis[1]) * rx);
   const N side = (N(w.previous_axis[0]) + N(w.axis[0])) * rx + (N(w.previous_axis[1]) + N(w.axis[1])) * ry;
   const N radius_sq = square(rx) + square(ry);
-  const auto between =
-      (radius_sq >= square(N(w.inner_radius) - half_width)) & (radius_sq <= square(N(w.outer_radius) + half_width));
+  const auto between = (radius_sq >= square(N(w.inner_radius) - half_width)) & (radius_sq <= square(N(w.outer_radius) + half_width));
   const auto sector = (past_first >= zero) & (past_last <= zero) & (side > zero) & between;
   return sector | under_blade(w, w.previous_axis, rx, ry) | under_blade(w, w.axis, rx, ry);
 }
@@ -105,8 +102,7 @@ RAINREF_FN N radial_bin(const WipeDropsUniforms& uniforms, const Wiper& w, N x, 
 /// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is
 /// still in a sweep then lies between two blades that meet; it is thrown off: its life ends.
 template <class N>
-RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers,
-                                            const WipedDrop<N>& in) {
+RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers, const WipedDrop<N>& in) {
   WipedDrop<N> d = in;
   d.wiper = N(-1.0f);
   d.bin = N(-1.0f);
@@ -122,8 +118,7 @@ RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, c
     if (!any(captured)) continue;
     const N radius = length(p.x - N(w.pivot[0]), p.y - N(w.pivot[1]));
     // The sine and cosine of the angle by which it is ahead.
-    const N s = min((N(w.half_width) + base_radius) / max(radius, N(w.half_width)), one),
-            c = sqrt(max(one - square(s), zero));
+    const N s = min((N(w.half_width) + base_radius) / max(radius, N(w.half_width)), one), c = sqrt(max(one - square(s), zero));
     const N ax(w.axis[0]), ay(w.axis[1]), turned = N(w.direction) * s;
     const N rx = radius * (c * ax - turned * ay), ry = radius * (c * ay + turned * ax);
     const Plane<N> place = to_glass(uniforms.inverse_frame, N(w.pivot[0]) + rx, N(w.pivot[1]) + ry);
@@ -148,8 +143,7 @@ RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, c
 /// Of the film's texel.
 template <class N>
 RAINREF_FN Plane<N> texel_centre(const WipeDropsUniforms& uniforms, int column, int row) {
-  const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]),
-          v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
+  const N u = (N::index(column) + N(0.5f)) * N(uniforms.texel[0]), v = N(static_cast<float>(row) + 0.5f) * N(uniforms.texel[1]);
   return to_plane(uniforms.frame, u, v);
 }
 /// Which record sweeps the film's texel (column, row) first, -1: none; and its bin there.

@@ -12,8 +12,8 @@
 namespace rainref::windshield {
 
 struct WipeTextureUniforms {
-  float frame[3];    ///< plane coordinates of a step in the texture: x of a column, x and y of a row [m/texel]
-  float edge_width;  ///< over which coverage falls at a blade's edge [m]
+  float frame[3];        ///< plane coordinates of a step in the texture: x of a column, x and y of a row [m/texel]
+  float edge_width;      ///< over which coverage falls at a blade's edge [m]
   float axis_length[2];  ///< as-published: |e_u|, |e_v| [m]
   float strength;        ///< as-published: what full coverage takes off [mm]
   float keep;            ///< as-published: share of the mask that a frame leaves
@@ -26,32 +26,40 @@ static_assert(sizeof(WipeTextureUniforms) == 48);
 
 /// In place. Its lanes leave wipers out that cannot reach them: see kernels_surface.cpp.
 struct WipeTexturePass {
-  static constexpr pass::About about{"wipe_texture", "What the blades take off the height, and the mask of freshly wiped glass.", {1}, {1}, {"dot", "length"}};
+  static constexpr pass::About about{
+      "wipe_texture", "What the blades take off the height, and the mask of freshly wiped glass.", {1}, {1}, {"dot", "length"}};
   using Uniforms = WipeTextureUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("WipeTextureUniforms",
-                                   {member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-                                   member<&U::edge_width>("edge_width", "m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
-                                   member<&U::axis_length>("axis_length", "m", {0, 1e4}, "as-published: lengths of the axes u and v."),
-                                   member<&U::strength>("strength", "mm", {0, 1000}, "as-published: what full coverage takes off the height."),
-                                   member<&U::keep>("keep", "1", scene::share, "as-published: share of the mask that a frame leaves."),
-                                   member<&U::dt>("dt", "s", {0, 1}, "corrected: time since the frame before, so rounded that sums are exact."),
-                                   member<&U::inverse_tau>("inverse_tau", "1/s", {0, 100}, "corrected: 1 over the time constant of the mask."),
-                                   member<&U::wiped_limit>("wiped_limit", "s", {0, 1 << 15}, "corrected: the time since a wipe grows to this and no further."),
-                                   member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Wipers in the list.")});
+    return scene::uniform_block<U>(
+        "WipeTextureUniforms",
+        {member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+         member<&U::edge_width>("edge_width", "m", {0, 1e4}, "Width over which coverage falls at a blade's edge."),
+         member<&U::axis_length>("axis_length", "m", {0, 1e4}, "as-published: lengths of the axes u and v."),
+         member<&U::strength>("strength", "mm", {0, 1000}, "as-published: what full coverage takes off the height."),
+         member<&U::keep>("keep", "1", scene::share, "as-published: share of the mask that a frame leaves."),
+         member<&U::dt>("dt", "s", {0, 1}, "corrected: time since the frame before, so rounded that sums are exact."),
+         member<&U::inverse_tau>("inverse_tau", "1/s", {0, 100}, "corrected: 1 over the time constant of the mask."),
+         member<&U::wiped_limit>("wiped_limit", "s", {0, 1 << 15}, "corrected: the time since a wipe grows to this and no further."),
+         member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Wipers in the list.")});
   }
   template <class B>
   struct Io {
     typename B::template Texels<Format::r16f> height = pass::In{.name = "height", .from = "splat"};  // [mm]
-    typename B::template Texels<Format::r16f> mask = pass::In{.name = "mask", .from = "wipe_texture", .previous = true, .variant = "as-published"};
-    typename B::template Texels<Format::r32f> wiped = pass::In{.name = "wiped", .from = "wipe_texture", .previous = true, .variant = "corrected"};
+    typename B::template Texels<Format::r16f> mask =
+        pass::In{.name = "mask", .from = "wipe_texture", .previous = true, .variant = "as-published"};
+    typename B::template Texels<Format::r32f> wiped =
+        pass::In{.name = "wiped", .from = "wipe_texture", .previous = true, .variant = "corrected"};
     typename B::template Records<Wiper> wipers = pass::In{.name = "wipers", .count = "wiper_count"};
     typename B::template Result<Format::r16f> new_height = pass::Out{.name = "height"};
     typename B::template Result<Format::r16f> new_mask = pass::Out{.name = "mask", .sentence = "Freshly wiped glass: 1, and falling."};
     typename B::template Result<Format::r32f> new_wiped =
-        pass::Out{.name = "wiped", .sentence = "Time since the last wipe, to about 32 time constants of the mask.", .unit = "s", .range = {0, 16384}, .variant = "corrected"};
+        pass::Out{.name = "wiped",
+                  .sentence = "Time since the last wipe, to about 32 time constants of the mask.",
+                  .unit = "s",
+                  .range = {0, 16384},
+                  .variant = "corrected"};
   };
 };
 
@@ -59,9 +67,10 @@ struct WipeTexturePass {
 #endif
 #else
 
-
 template <class N>
-RAINREF_FN N coverage_at(N distance, N half_width, N edge_width) { return saturate(N(0.5f) + (half_width - distance) / edge_width); }
+RAINREF_FN N coverage_at(N distance, N half_width, N edge_width) {
+  return saturate(N(0.5f) + (half_width - distance) / edge_width);
+}
 
 /// Distance from p to the segment from a to b, all in metres.
 template <class N>
@@ -104,7 +113,9 @@ RAINREF_FN N wiped_height_as_published(const WipeTextureUniforms& u, N height, N
   return max(height - N(u.strength) * coverage, N(0.0f));
 }
 template <class N>
-RAINREF_FN N wiped_mask_as_published(const WipeTextureUniforms& u, N mask, N coverage) { return max(mask * N(u.keep), coverage); }
+RAINREF_FN N wiped_mask_as_published(const WipeTextureUniforms& u, N mask, N coverage) {
+  return max(mask * N(u.keep), coverage);
+}
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
 //   coverage: annular sector from the blade's previous place to the present one, half_width wider all around
@@ -138,13 +149,17 @@ RAINREF_FN N wipe_coverage_corrected(const WipeTextureUniforms& u, const Wiper* 
   return coverage;
 }
 template <class N>
-RAINREF_FN N wiped_height_corrected(N height, N coverage) { return height * (N(1.0f) - coverage); }
+RAINREF_FN N wiped_height_corrected(N height, N coverage) {
+  return height * (N(1.0f) - coverage);
+}
 template <class N>
 RAINREF_FN N time_since_wipe(const WipeTextureUniforms& u, N wiped, N coverage) {
   return min(wiped + N(u.dt), N(u.wiped_limit)) * (N(1.0f) - coverage);
 }
 template <class N>
-RAINREF_FN N wiped_mask_corrected(const WipeTextureUniforms& u, N wiped) { return exp(-(wiped * N(u.inverse_tau))); }
+RAINREF_FN N wiped_mask_corrected(const WipeTextureUniforms& u, N wiped) {
+  return exp(-(wiped * N(u.inverse_tau)));
+}
 
 struct WipeTexturePassText {
   template <class N, bool corrected, class Io>

@@ -26,11 +26,9 @@ void put(const Real2& from, float (&to)[2]) {
   to[1] = static_cast<float>(from[1]);
 }
 
-Wiper record(const Blade& b, double half_width, const PlaneFrame& plane, double angle0, double angle1,
-             double duration) {
+Wiper record(const Blade& b, double half_width, const PlaneFrame& plane, double angle0, double angle1, double duration) {
   Wiper w{};
-  const Real2 axis0{cos_real(Real64(angle0)).v, sin_real(Real64(angle0)).v},
-      axis1{cos_real(Real64(angle1)).v, sin_real(Real64(angle1)).v};
+  const Real2 axis0{cos_real(Real64(angle0)).v, sin_real(Real64(angle0)).v}, axis1{cos_real(Real64(angle1)).v, sin_real(Real64(angle1)).v};
   const auto end = [&](const Real2& axis, double radius) {
     return plane.to_glass({b.pivot[0] + radius * axis[0], b.pivot[1] + radius * axis[1]});
   };
@@ -54,11 +52,10 @@ Wiper record(const Blade& b, double half_width, const PlaneFrame& plane, double 
 }  // namespace
 
 std::vector<Blade> arranged_blades(std::string_view arrangement, int count, const Glass& glass) {
-  const std::vector<Blade> blades = arrangement == "opposed"
-                                        ? std::vector<Blade>{{{0.06, -0.05}, 0.15, 0.8, 5 * degree, 88 * degree, 0},
-                                                             {{1.34, -0.05}, 0.15, 0.8, 175 * degree, -88 * degree, 0}}
-                                        : std::vector<Blade>{{{0.12, -0.06}, 0.18, 0.8, 4 * degree, 91 * degree, 0},
-                                                             {{0.71, -0.06}, 0.14, 0.68, 4 * degree, 104 * degree, 0}};
+  const std::vector<Blade> blades = arrangement == "opposed" ? std::vector<Blade>{{{0.06, -0.05}, 0.15, 0.8, 5 * degree, 88 * degree, 0},
+                                                                                  {{1.34, -0.05}, 0.15, 0.8, 175 * degree, -88 * degree, 0}}
+                                                             : std::vector<Blade>{{{0.12, -0.06}, 0.18, 0.8, 4 * degree, 91 * degree, 0},
+                                                                                  {{0.71, -0.06}, 0.14, 0.68, 4 * degree, 104 * degree, 0}};
   const PlaneFrame plane = glass.plane();
   const double across = plane.frame[0] / 1.4, up = plane.frame[2] / 0.8, size = std::min(across, up);
   std::vector<Blade> out(blades.begin(), blades.begin() + count);
@@ -71,38 +68,29 @@ std::vector<Blade> arranged_blades(std::string_view arrangement, int count, cons
 }
 
 void check(const WiperSettings& s, const Glass& glass) {
-  const double diagonal_sq = glass.metric[0] + glass.metric[2] + 2 * std::abs(glass.metric[1]),
-               diagonal = __builtin_sqrt(diagonal_sq);
+  const double diagonal_sq = glass.metric[0] + glass.metric[2] + 2 * std::abs(glass.metric[1]), diagonal = __builtin_sqrt(diagonal_sq);
   for (std::size_t i = 0; i < s.blades.size(); ++i) {
     const Blade& b = s.blades[i];
     const auto refuse = [&](const char* key, const std::string& expected, double found, const char* unit) {
-      throw Error(ExitCode::usage,
-                  fmt::format("wipers.{}_{}: expected {}, found {:g}{}", key, i, expected, found, unit));
+      throw Error(ExitCode::usage, fmt::format("wipers.{}_{}: expected {}, found {:g}{}", key, i, expected, found, unit));
     };
-    const double sweep = b.sweep / degree, length = b.outer_radius - b.inner_radius,
-                 innermost = 2 * s.half_width + largest_drop;
+    const double sweep = b.sweep / degree, length = b.outer_radius - b.inner_radius, innermost = 2 * s.half_width + largest_drop;
     if (!(sweep != 0 && std::abs(sweep) <= largest_sweep * (1 + 1e-9))) {
       refuse("sweep", fmt::format("a turn of at most {:g} deg to either side, not 0", largest_sweep), sweep, " deg");
     }
     if (!(length > 0))
-      refuse("outer_radius", fmt::format("more than wipers.inner_radius_{} = {:g} m", i, b.inner_radius),
-             b.outer_radius, " m");
+      refuse("outer_radius", fmt::format("more than wipers.inner_radius_{} = {:g} m", i, b.inner_radius), b.outer_radius, " m");
     if (!(length <= diagonal))
-      refuse("outer_radius", fmt::format("a blade of at most {:.4g} m, the diagonal of the glass", diagonal), length,
-             " m");
+      refuse("outer_radius", fmt::format("a blade of at most {:.4g} m, the diagonal of the glass", diagonal), length, " m");
     if (!(b.inner_radius >= innermost)) {
-      refuse("inner_radius", fmt::format("at least {:g} m, two half widths and the largest drop", innermost),
-             b.inner_radius, " m");
+      refuse("inner_radius", fmt::format("at least {:g} m, two half widths and the largest drop", innermost), b.inner_radius, " m");
     }
   }
 }
 
-double wiper_angle(const Blade& b, double cycles_per_minute, double t) {
-  return angle_at(b, cycles_per_minute / 60 * t + b.phase);
-}
+double wiper_angle(const Blade& b, double cycles_per_minute, double t) { return angle_at(b, cycles_per_minute / 60 * t + b.phase); }
 
-std::vector<Wiper> wipers_between(const WiperSettings& s, const PlaneFrame& plane, double from, double to,
-                                  bool corrected) {
+std::vector<Wiper> wipers_between(const WiperSettings& s, const PlaneFrame& plane, double from, double to, bool corrected) {
   std::vector<Wiper> records;
   const double rate = s.cycles_per_minute / 60;
   for (const Blade& b : s.blades) {

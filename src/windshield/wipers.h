@@ -41,8 +41,7 @@ double wiper_angle(const Blade& blade, double cycles_per_minute, double t);
 /// each part between reversals, so that together they hold every angle that was passed; as published: one record from
 /// the first angle to the last, whatever lies between. The axes of a record begin with the bits in which those of the
 /// record before ended. A blade at rest has direction 0.
-std::vector<Wiper> wipers_between(const WiperSettings& settings, const PlaneFrame& plane, double from, double to,
-                                  bool corrected);
+std::vector<Wiper> wipers_between(const WiperSettings& settings, const PlaneFrame& plane, double from, double to, bool corrected);
 
 /// The blades at time t at rest, previous = current: the step before the first frame.
 std::vector<Wiper> wipers_at(const WiperSettings& settings, const PlaneFrame& plane, double t);

@@ -11,8 +11,8 @@
 namespace rainref {
 namespace {
 
-using test::HostileState;
 using test::hostile_states;
+using test::HostileState;
 using test::KeepFloatingPoint;
 
 TEST(FloatingPoint, ThePinnedBitsAreTheDefaultOfTheProcessor) {

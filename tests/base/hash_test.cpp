@@ -40,15 +40,12 @@ TEST(Hasher, GivesKnownAnswersAtEveryLengthClass) {
     std::size_t length;
     const char* hash;
   } known[] = {
-      {0, "d9265cc53bb2b9ae6131b78f753823cd"},    {1, "3b3052d680068ad35eaac1f7b17ef730"},
-      {3, "c229d2de33d88a4603d22a2bee351f17"},    {4, "9f0235220981d3127cecdc5cd84b33dc"},
-      {8, "e4566094ccca079bd8bf36d559e572ce"},    {9, "eb2c67c987c5d884303a85544955bbe3"},
-      {16, "b4e176ec29c584252a3fdcd4138a4c69"},   {17, "492730932835b5678686703392d1f060"},
-      {128, "be10a748cdbd8839902105ca7d7efadb"},  {129, "87a4980452f1ebc46896d68aa5a9928b"},
-      {240, "fa9c16e05100a7c7fc675ebca29e8174"},  {241, "9b9afcab447f5cd510da3ddd7528e20f"},
-      {255, "6a9893135d51a0e36b451b060f4f9ce1"},  {256, "9ff54662e868e9f7bcdb0df12577aec0"},
-      {512, "2cfb2823dccde320098248a96c7cac74"},  {1024, "d887245e9172abaa60f78b42af240c05"},
-      {1025, "62a4067eaef3be68fe1cdb27ea8c2e20"}, {2048, "ac8df09e42f94ee0a135d432877a465f"},
+      {0, "d9265cc53bb2b9ae6131b78f753823cd"},    {1, "3b3052d680068ad35eaac1f7b17ef730"},    {3, "c229d2de33d88a4603d22a2bee351f17"},
+      {4, "9f0235220981d3127cecdc5cd84b33dc"},    {8, "e4566094ccca079bd8bf36d559e572ce"},    {9, "eb2c67c987c5d884303a85544955bbe3"},
+      {16, "b4e176ec29c584252a3fdcd4138a4c69"},   {17, "492730932835b5678686703392d1f060"},   {128, "be10a748cdbd8839902105ca7d7efadb"},
+      {129, "87a4980452f1ebc46896d68aa5a9928b"},  {240, "fa9c16e05100a7c7fc675ebca29e8174"},  {241, "9b9afcab447f5cd510da3ddd7528e20f"},
+      {255, "6a9893135d51a0e36b451b060f4f9ce1"},  {256, "9ff54662e868e9f7bcdb0df12577aec0"},  {512, "2cfb2823dccde320098248a96c7cac74"},
+      {1024, "d887245e9172abaa60f78b42af240c05"}, {1025, "62a4067eaef3be68fe1cdb27ea8c2e20"}, {2048, "ac8df09e42f94ee0a135d432877a465f"},
       {4096, "10ec5d309a2292ee129310a83b67a346"}, {4161, "98af19afea09d0400377fdf07091d527"},
   };
   for (const auto& k : known) EXPECT_EQ(hash(published_bytes(k.length)), k.hash) << k.length;

@@ -109,7 +109,12 @@ TEST(Leftovers, NothingElseIsRemoved) {
   const std::string hidden = ".rainref-0123456789abcdef.tmp";
   fs::create_directory(at / "elsewhere");
   put(at / "elsewhere/mine", "mine");
-  const std::vector<std::string> names{".rainref-0123456789abcdef.tmp2", ".rainref-0123456789abcde.tmp", ".rainref-0123456789abcdeg.tmp", ".rainref-1-0.tmp", ".rainref-run.lock", "rainref-0123456789abcdef.tmp"};
+  const std::vector<std::string> names{".rainref-0123456789abcdef.tmp2",
+                                       ".rainref-0123456789abcde.tmp",
+                                       ".rainref-0123456789abcdeg.tmp",
+                                       ".rainref-1-0.tmp",
+                                       ".rainref-run.lock",
+                                       "rainref-0123456789abcdef.tmp"};
   for (const std::string& name : names) put(at / name, "mine");
   fs::create_symlink("elsewhere", at / hidden);
   const auto before = at.names();
@@ -122,7 +127,8 @@ TEST(Leftovers, NothingElseIsRemoved) {
 // Where no file system step exchanges two names, a killed process may have left the old folder under neither.
 TEST(Leftovers, AFolderThatWasBeingReplacedIsPutBack) {
   const TemporaryFolder at;
-  for (const std::string name : {"lost", "replaced"}) fs::create_directories(at / (".rainref-0123456789abcde" + std::string(name == "lost" ? "0" : "1") + ".old") / name);
+  for (const std::string name : {"lost", "replaced"})
+    fs::create_directories(at / (".rainref-0123456789abcde" + std::string(name == "lost" ? "0" : "1") + ".old") / name);
   put(at / ".rainref-0123456789abcde0.old/lost/file", "old");
   put(at / ".rainref-0123456789abcde1.old/replaced/file", "old");
   fs::create_directory(at / "replaced");

@@ -22,9 +22,11 @@ TEST(Printable, NoControlCharacterIsLeft) {
 
 // A terminal that is not set to UTF-8 takes a lone 0x9b for CSI.
 TEST(Printable, BytesThatAreNoUtf8AreReplacedOneByOne) {
-  EXPECT_EQ(printable("\x9b" "31m\xff\xc2"), "\uFFFD31m\uFFFD\uFFFD");
-  EXPECT_EQ(printable("\xc0\x9b"), "\uFFFD\uFFFD");          // overlong ESC
-  EXPECT_EQ(printable("\xe2\x86"), "\uFFFD\uFFFD");          // cut short
+  EXPECT_EQ(printable("\x9b"
+                      "31m\xff\xc2"),
+            "\uFFFD31m\uFFFD\uFFFD");
+  EXPECT_EQ(printable("\xc0\x9b"), "\uFFFD\uFFFD");            // overlong ESC
+  EXPECT_EQ(printable("\xe2\x86"), "\uFFFD\uFFFD");            // cut short
   EXPECT_EQ(printable("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // a surrogate
 }
 

@@ -50,8 +50,6 @@ inline std::string contents(const std::filesystem::path& path) {
 }
 
 /// Writes a file without help from the code under test.
-inline void put(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
+inline void put(const std::filesystem::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 }  // namespace rainref

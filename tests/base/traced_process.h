@@ -54,7 +54,8 @@ inline int traced(const std::function<void(const std::function<void()>& begin)>&
     if (lives && info.op == PTRACE_SYSCALL_INFO_ENTRY) {
       SystemCall call{info.entry.nr, {}};
       std::error_code error;
-      call.file = std::filesystem::read_symlink("/proc/" + std::to_string(child) + "/fd/" + std::to_string(static_cast<int>(info.entry.args[0])), error);
+      call.file = std::filesystem::read_symlink(
+          "/proc/" + std::to_string(child) + "/fd/" + std::to_string(static_cast<int>(info.entry.args[0])), error);
       lives = allows(call);
     }
     if (!lives) ::kill(child, SIGKILL);

@@ -85,7 +85,8 @@ TEST(BlurPyramid, MeanOfPowersOfTwoIsExact) {
   const Image base = image_of(64, 32, [&](int, int) { return words() % 2; });
   const double expected = mean(base);
   for (const bool corrected : {false, true}) {
-    const std::vector<Image> levels = pyramid(settings(corrected), image_of(64, 32, [&, generator = std::mt19937(1)](int, int) mutable { return generator() % 2; }));
+    const std::vector<Image> levels =
+        pyramid(settings(corrected), image_of(64, 32, [&, generator = std::mt19937(1)](int, int) mutable { return generator() % 2; }));
     for (std::size_t l = 1; l < levels.size(); ++l) {
       // Level 5 has 10 bits after the point and level 6 the sum of two of those: 11 bits of mantissa.
       EXPECT_NEAR(mean(levels[l]), expected, l < 6 ? 0 : 0x1p-12) << l;
@@ -103,7 +104,13 @@ TEST(BlurPyramid, OddSizesKeepTheMeanWhenCorrected) {
     double sum = 0;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        sum += scalar::halved_corrected<D>(u, [&](int i, int j) { return D(static_cast<double>(value(std::min(2 * x + i, size[0] - 1), std::min(2 * y + j, size[1] - 1)))); }, x, y).v;
+        sum += scalar::halved_corrected<D>(
+                   u,
+                   [&](int i, int j) {
+                     return D(static_cast<double>(value(std::min(2 * x + i, size[0] - 1), std::min(2 * y + j, size[1] - 1))));
+                   },
+                   x, y)
+                   .v;
       }
     }
     EXPECT_NEAR(sum / width / height, expected, 1e-6) << size[0] << "x" << size[1] << ": the weights are floats";
@@ -163,7 +170,8 @@ TEST(BlurPyramid, NoiseAndSpread) {
     // Variance of the point spread: (4^L - 1) / 12 square texels. Mean of x^2 less square of the mean of x, exact in halves.
     for (int l = 1; l <= 3; ++l) {
       const double x = at(pyramid(settings(corrected), image_of(8, 8, [](int i, int) { return i; }))[static_cast<std::size_t>(l)], 0, 0);
-      const double xx = at(pyramid(settings(corrected), image_of(8, 8, [](int i, int) { return i * i; }))[static_cast<std::size_t>(l)], 0, 0);
+      const double xx =
+          at(pyramid(settings(corrected), image_of(8, 8, [](int i, int) { return i * i; }))[static_cast<std::size_t>(l)], 0, 0);
       EXPECT_EQ(xx - x * x, (std::pow(4, l) - 1) / 12);
     }
   }
@@ -179,7 +187,8 @@ TEST(BlurPyramid, NoiseBetweenTwoLevels) {
   const auto variance = [](double u, double v, double lod) {
     double sum = 0;
     for (int i = 0; i < side * side; ++i) {
-      const std::vector<Image> levels = pyramid(settings(true), image_of(side, side, [&](int x, int y) { return y * side + x == i ? 1 : 0; }));
+      const std::vector<Image> levels =
+          pyramid(settings(true), image_of(side, side, [&](int x, int y) { return y * side + x == i ? 1 : 0; }));
       LevelTexture texture(levels);
       texture.refresh(two_threads(), levels);
       StoredTexture<float> t{nullptr, 4, texture.view().levels};
@@ -282,12 +291,14 @@ TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBit
           for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
               const Half* c = colour.row<Half>(y) + 4 * x;
-              const scalar::Vec3<F> f = scalar::fogged(fog, scalar::Vec3<F>(F::load(c), F::load(c + 1), F::load(c + 2)), F::load(depth.row<float>(y) + x));
+              const scalar::Vec3<F> f =
+                  scalar::fogged(fog, scalar::Vec3<F>(F::load(c), F::load(c + 1), F::load(c + 2)), F::load(depth.row<float>(y) + x));
               Half expected[3];
               store(&expected[0], f.x, s.rounding);
               store(&expected[1], f.y, s.rounding);
               store(&expected[2], f.z, s.rounding);
-              for (int k = 0; k < 3; ++k) ASSERT_EQ(fogged.row<Half>(y)[4 * x + k].bits, expected[k].bits) << target << " " << x << " " << y;
+              for (int k = 0; k < 3; ++k)
+                ASSERT_EQ(fogged.row<Half>(y)[4 * x + k].bits, expected[k].bits) << target << " " << x << " " << y;
             }
           }
           const std::vector<Image> levels = pyramid(s, std::move(fogged), executor);
@@ -298,7 +309,8 @@ TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBit
               for (int x = 0; x < here.width(); ++x) {
                 for (int k = 0; k < 4; ++k) {
                   const auto tap = [&](int i, int j) {
-                    return F::load(above.row<Half>(std::min(2 * y + j, above.height() - 1)) + 4 * std::min(2 * x + i, above.width() - 1) + k);
+                    return F::load(above.row<Half>(std::min(2 * y + j, above.height() - 1)) + 4 * std::min(2 * x + i, above.width() - 1) +
+                                   k);
                   };
                   Half expected;
                   store(&expected, corrected ? scalar::halved_corrected<F>(u, tap, x, y) : scalar::halved_as_published<F>(tap), s.rounding);
@@ -321,7 +333,9 @@ TEST(BlurPyramidDeterminism, FloatsAreWithinRoundingOfDoubles) {
     const BlurUniforms u = blur_uniforms(settings(corrected), width, height, 1);
     for (int y = 0; y < height / 2; ++y) {
       for (int x = 0; x < width / 2; ++x) {
-        const auto tap = [&](auto one, int i, int j) { return decltype(one)::load(above.row<Half>(std::min(2 * y + j, height - 1)) + 4 * std::min(2 * x + i, width - 1)); };
+        const auto tap = [&](auto one, int i, int j) {
+          return decltype(one)::load(above.row<Half>(std::min(2 * y + j, height - 1)) + 4 * std::min(2 * x + i, width - 1));
+        };
         const auto value = [&](auto one) {
           using N = decltype(one);
           const auto of = [&](int i, int j) { return tap(N(0.0f), i, j); };

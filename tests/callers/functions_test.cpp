@@ -15,8 +15,8 @@ namespace rainref {
 namespace {
 
 using test::CalledIn;
-using test::CallerState;
 using test::caller_states;
+using test::CallerState;
 
 /// What `call` gives in every state is what it gives in the pinned one, and the state is kept.
 template <class Call>
@@ -91,7 +91,8 @@ TEST(AnyCaller, AnExecutor) {
   expect_the_same([] {
     const parallel::Executor executor(3);
     std::vector<std::uint64_t> control(5);
-    executor.for_range(5, 1, [&](std::int64_t begin, std::int64_t) { control[static_cast<std::size_t>(begin)] = floating_point_control(); });
+    executor.for_range(5, 1,
+                       [&](std::int64_t begin, std::int64_t) { control[static_cast<std::size_t>(begin)] = floating_point_control(); });
     return control;
   });
 }
@@ -99,7 +100,9 @@ TEST(AnyCaller, AnExecutor) {
 // Decimal fractions that no float has: reading them rounds.
 TEST(AnyCaller, AScene) {
   const scene::EffectTable table{{{"puddle", {"as-published", "corrected"}, puddle::parameters()}}};
-  const std::string toml = "effect = 'puddle'\nvariant = 'corrected'\n[puddle]\ndamping = 0.9000000000000000355\ntint = [0.1, 0.30000000000000000000000001, 7e-1]\n[camera]\nposition = [1e-5, 12345.678901234567, 3]\n";
+  const std::string toml =
+      "effect = 'puddle'\nvariant = 'corrected'\n[puddle]\ndamping = 0.9000000000000000355\ntint = [0.1, 0.30000000000000000000000001, "
+      "7e-1]\n[camera]\nposition = [1e-5, 12345.678901234567, 3]\n";
   const std::vector<std::string> overrides{"rain.rate=12.3456789012345678", "puddle.cell_size=4.1e-3"};
   expect_the_same([&] {
     const scene::Config config = scene::parse(toml, "x.toml", overrides, table);

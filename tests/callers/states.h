@@ -43,7 +43,8 @@ inline CallerState toward_zero() {
 
 /// The three rounding modes, FTZ and DAZ, and exceptions that end the process, where a processor has these. One by one.
 inline std::vector<CallerState> decisive_states() {
-  std::vector<CallerState> all{toward_zero(), {"fesetround up", [] { std::fesetround(FE_UPWARD); }}, {"fesetround down", [] { std::fesetround(FE_DOWNWARD); }}};
+  std::vector<CallerState> all{
+      toward_zero(), {"fesetround up", [] { std::fesetround(FE_UPWARD); }}, {"fesetround down", [] { std::fesetround(FE_DOWNWARD); }}};
   for (const HostileState& h : hostile_states()) {
     // Aarch64 has one bit for both; on x86 the two stand for the state with both.
     const bool is_alone = h.flushes_results != h.flushes_operands || hostile_states().front().flushes_operands;
@@ -62,7 +63,8 @@ inline std::vector<CallerState> decisive_states() {
 /// Those and more, for calls that take no time.
 inline std::vector<CallerState> caller_states() {
   std::vector<CallerState> all = decisive_states();
-  for (const HostileState& h : hostile_states()) all.push_back({std::string("control ") + h.name, [control = h.control] { set_floating_point_control(control); }});
+  for (const HostileState& h : hostile_states())
+    all.push_back({std::string("control ") + h.name, [control = h.control] { set_floating_point_control(control); }});
   all.push_back({"flags that are raised", [] { std::feraiseexcept(FE_OVERFLOW | FE_DIVBYZERO); }});
   return all;
 }

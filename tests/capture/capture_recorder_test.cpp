@@ -20,15 +20,16 @@ std::uint16_t half_at(const Array& a, std::size_t i) {
 TEST(CaptureRecorder, MakesACaseOfEveryRunInOrder) {
   std::vector<std::string> folders;
   for (const PassCase& c : example_cases()) folders.push_back(c.folder());
-  EXPECT_THAT(folders, ElementsAre("puddle.drip/0000.0", "puddle.blur/0000.0", "puddle.drip/0000.1", "puddle.blur/0000.1", "puddle.drip/0001.0",
-                                   "puddle.blur/0001.0", "puddle.drip/0001.1", "puddle.blur/0001.1"));
+  EXPECT_THAT(folders, ElementsAre("puddle.drip/0000.0", "puddle.blur/0000.0", "puddle.drip/0000.1", "puddle.blur/0000.1",
+                                   "puddle.drip/0001.0", "puddle.blur/0001.0", "puddle.drip/0001.1", "puddle.blur/0001.1"));
 }
 
 TEST(CaptureRecorder, InputsAreThoseBeforeThePassOverwroteThem) {
   const std::vector<PassCase> cases = example_cases();
   EXPECT_EQ(half_at(cases[1].input("picture")->array, 0), 0);
   EXPECT_EQ(half_at(cases[1].output("picture")->array, 0), 110);
-  for (std::size_t i = 3; i < cases.size(); i += 2) EXPECT_EQ(cases[i].input("picture")->array.levels, cases[i - 2].output("picture")->array.levels);
+  for (std::size_t i = 3; i < cases.size(); i += 2)
+    EXPECT_EQ(cases[i].input("picture")->array.levels, cases[i - 2].output("picture")->array.levels);
 }
 
 TEST(CaptureRecorder, KeepsWhatWasAnnounced) {
@@ -102,19 +103,21 @@ TEST(CaptureRecorder, OutputsHashAsTheHashRecorderDoes) {
 
 TEST(CaptureRecorder, TakesOnlyWhatIsWanted) {
   std::vector<std::string> folders;
-  CaptureRecorder recorder(example_info(), "corrected", false, [](int frame, std::string_view pass) { return frame == 1 && pass == "blur"; },
-                           [&](const PassCase& c) {
-                             folders.push_back(c.folder());
-                             EXPECT_TRUE(c.inputs.empty());
-                             EXPECT_EQ(c.uniforms.size(), sizeof(BlurUniforms));
-                           });
+  CaptureRecorder recorder(
+      example_info(), "corrected", false, [](int frame, std::string_view pass) { return frame == 1 && pass == "blur"; },
+      [&](const PassCase& c) {
+        folders.push_back(c.folder());
+        EXPECT_TRUE(c.inputs.empty());
+        EXPECT_EQ(c.uniforms.size(), sizeof(BlurUniforms));
+      });
   ExampleRun().run(recorder);
   EXPECT_THAT(folders, ElementsAre("puddle.blur/0001.0", "puddle.blur/0001.1"));
 }
 
 TEST(CaptureRecorder, RefusesWhatTheEffectDoesNotDeclare) {
   const auto capture = [](const char* variant, auto&& tell) {
-    CaptureRecorder recorder(example_info(), variant, true, [](int, std::string_view) { return true; }, [](const PassCase&) {});
+    CaptureRecorder recorder(
+        example_info(), variant, true, [](int, std::string_view) { return true; }, [](const PassCase&) {});
     return error_of([&] { tell(recorder); });
   };
   const Image image(Format::r8, 2, 2);
@@ -150,7 +153,8 @@ TEST(CaptureRecorder, RefusesWhatTheEffectDoesNotDeclare) {
 
 TEST(RecorderList, TellsAll) {
   int cases = 0;
-  CaptureRecorder a(example_info(), "corrected", true, [](int, std::string_view) { return true; }, [&](const PassCase&) { ++cases; });
+  CaptureRecorder a(
+      example_info(), "corrected", true, [](int, std::string_view) { return true; }, [&](const PassCase&) { ++cases; });
   HashRecorder b;
   RecorderList both({&a, &b});
   ExampleRun().run(both);

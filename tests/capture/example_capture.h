@@ -33,16 +33,24 @@ inline const EffectInfo& example_info() {
   static const EffectInfo info = [] {
     EffectInfo i;
     i.name = "puddle";  // a name that scenes may have
-    const UniformBlock block = uniform_block<BlurUniforms>("BlurUniforms", {member<&BlurUniforms::weight>("weight", "1", {-1e6, 1e6}, "A weight."),
-                                                                            member<&BlurUniforms::reach>("reach", "texel", {-1e6, 1e6}, "A reach."),
-                                                                            member<&BlurUniforms::mask>("mask", "1", {-1e6, 1e6}, "A mask.")});
+    const UniformBlock block =
+        uniform_block<BlurUniforms>("BlurUniforms", {member<&BlurUniforms::weight>("weight", "1", {-1e6, 1e6}, "A weight."),
+                                                     member<&BlurUniforms::reach>("reach", "texel", {-1e6, 1e6}, "A reach."),
+                                                     member<&BlurUniforms::mask>("mask", "1", {-1e6, 1e6}, "A mask.")});
     i.passes = {{"drip", "Drops fall.", {{"corrected", 3, Judge::bits, "BlurUniforms"}}, {}, {"drips"}, {block}},
-                {"blur", "The picture spreads.", {{"as-published", 1, Judge::input_only, "BlurUniforms"}, {"corrected", 2, Judge::envelope, "BlurUniforms"}},
-                 {{"picture", "blur", true}, {"drips", "drip", false, "corrected"}, {"sky"}}, {"picture"}, {block}, "gather", {"taps"}}};
+                {"blur",
+                 "The picture spreads.",
+                 {{"as-published", 1, Judge::input_only, "BlurUniforms"}, {"corrected", 2, Judge::envelope, "BlurUniforms"}},
+                 {{"picture", "blur", true}, {"drips", "drip", false, "corrected"}, {"sky"}},
+                 {"picture"},
+                 {block},
+                 "gather",
+                 {"taps"}}};
     i.buffers = {{"drips", "records", "Drops.", "1", {0, 1}, "none", "none", "none", "", "DripRecord"},
                  {"picture", "rg16f", "Two channels.", "m", {-2, 2}},
                  {"sky", "rgba32f", "Radiance.", "1", {0, 1}, "none", "linear Rec. 709", "unused", "row 0 looks down"}};
-    i.records = {record<DripRecord>("DripRecord", {member<&DripRecord::x>("x", "texel", "Place."), member<&DripRecord::id>("id", "1", "Number.")})};
+    i.records = {
+        record<DripRecord>("DripRecord", {member<&DripRecord::x>("x", "texel", "Place."), member<&DripRecord::id>("id", "1", "Number.")})};
     return i;
   }();
   return info;
@@ -87,7 +95,8 @@ class ExampleRun {
 
   static void fill(Image& image, int first) {
     for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < image.width() * image.channels(); ++x) image.row<Half>(y)[x].bits = static_cast<std::uint16_t>(first + 10 * y + x);
+      for (int x = 0; x < image.width() * image.channels(); ++x)
+        image.row<Half>(y)[x].bits = static_cast<std::uint16_t>(first + 10 * y + x);
     }
   }
   const Texture& sky() const { return sky_.view(); }
@@ -104,7 +113,9 @@ class ExampleRun {
 
 inline std::vector<PassCase> example_cases(bool with_inputs = true) {
   std::vector<PassCase> cases;
-  CaptureRecorder recorder(example_info(), "corrected", with_inputs, [](int, std::string_view) { return true; }, [&](PassCase c) { cases.push_back(std::move(c)); });
+  CaptureRecorder recorder(
+      example_info(), "corrected", with_inputs, [](int, std::string_view) { return true; },
+      [&](PassCase c) { cases.push_back(std::move(c)); });
   ExampleRun().run(recorder);
   return cases;
 }

@@ -109,7 +109,8 @@ TEST(TileHashes, FindAPlantedDifference) {
   }
 }
 
-void record(HashRecorder& recorder, int frame, int step, std::string_view pass, const std::vector<PassOutput>& outputs, double seconds = 0.5) {
+void record(HashRecorder& recorder, int frame, int step, std::string_view pass, const std::vector<PassOutput>& outputs,
+            double seconds = 0.5) {
   recorder.pass({frame, step, pass, outputs, seconds});
 }
 

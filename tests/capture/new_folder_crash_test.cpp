@@ -21,7 +21,8 @@ std::span<const std::byte> bytes(const std::string& text) { return std::as_bytes
 const NewFolder::MayReplace always = [](const std::filesystem::path&) { return ""; };
 const std::string all_names[] = {"a", "b/c"};
 
-void make_pack(const std::filesystem::path& at, const std::string& text, const std::function<void()>& before_commit = [] {}) {
+void make_pack(
+    const std::filesystem::path& at, const std::string& text, const std::function<void()>& before_commit = [] {}) {
   NewFolder folder(at, always);
   for (const std::string& name : all_names) folder.write(name, bytes(text));
   before_commit();
@@ -72,13 +73,15 @@ TEST(NewFolderCrash, ThePackIsThereAtEveryMoment) {
   const Memory memory;
   const TemporaryFolder& at = memory.folder();
   std::map<std::string, int> seen;
-  const int calls = kill_everywhere(at, [] { return true; }, [&] {
-    const std::string text = text_of(at / "pack");
-    EXPECT_TRUE(text == "old" || text == "new") << text;
-    ++seen[text];
-    make_pack(at / "pack", "newer");  // and the next one cleans up
-    EXPECT_THAT(at.names(), ElementsAre("pack"));
-  });
+  const int calls = kill_everywhere(
+      at, [] { return true; },
+      [&] {
+        const std::string text = text_of(at / "pack");
+        EXPECT_TRUE(text == "old" || text == "new") << text;
+        ++seen[text];
+        make_pack(at / "pack", "newer");  // and the next one cleans up
+        EXPECT_THAT(at.names(), ElementsAre("pack"));
+      });
   if (calls == -1) GTEST_SKIP() << "processes cannot be traced here";
   EXPECT_GT(calls, 10);
   EXPECT_GT(seen["old"], 0);
@@ -122,7 +125,8 @@ TEST(NewFolderCrash, AllIsOnTheDiskBeforeItHasItsName) {
       });
   if (end == -1) GTEST_SKIP() << "processes cannot be traced here";
   ASSERT_EQ(end, 1);
-  EXPECT_THAT(synced, UnorderedElementsAre("before: hidden/a", "before: hidden/b/c", "before: hidden", "before: hidden/b", "after: deep", "after: ."));
+  EXPECT_THAT(synced, UnorderedElementsAre("before: hidden/a", "before: hidden/b/c", "before: hidden", "before: hidden/b", "after: deep",
+                                           "after: ."));
 }
 
 }  // namespace

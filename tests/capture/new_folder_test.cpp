@@ -94,8 +94,10 @@ TEST(NewFolder, WhatCameToLieThereMeanwhileIsNotReplaced) {
 TEST(NewFolder, RefusesAFile) {
   TemporaryFolder at;
   put(at / "file", "text");
-  EXPECT_EQ(error_of([&] { NewFolder(at / "file", always); }), "4 cannot write '" + (at / "file").string() + "': a file of that name exists");
-  EXPECT_THAT(error_of([&] { NewFolder(at / "file/pack", always); }), testing::StartsWith("4 cannot write '" + (at / "file/pack").string()));
+  EXPECT_EQ(error_of([&] { NewFolder(at / "file", always); }),
+            "4 cannot write '" + (at / "file").string() + "': a file of that name exists");
+  EXPECT_THAT(error_of([&] { NewFolder(at / "file/pack", always); }),
+              testing::StartsWith("4 cannot write '" + (at / "file/pack").string()));
   EXPECT_THAT(at.names(), ElementsAre("file"));
 }
 

@@ -69,8 +69,7 @@ TEST(NpyRead, AFileOfNumpys) {
 }
 
 TEST(NpyRead, PackedFields) {
-  const NpyHeader h =
-      parse(npy(of("[('x', '<f4'), ('id', '<u4'), ('normal', '<f4', (3,))]", "(2,)"), std::string(40, 'x')));
+  const NpyHeader h = parse(npy(of("[('x', '<f4'), ('id', '<u4'), ('normal', '<f4', (3,))]", "(2,)"), std::string(40, 'x')));
   EXPECT_EQ(h.type, "");
   EXPECT_EQ(h.record_bytes, 20u);
   ASSERT_EQ(h.fields.size(), 3u);
@@ -83,27 +82,22 @@ TEST(NpyRead, PackedFields) {
 }
 
 TEST(NpyRead, PaddedFields) {
-  const NpyHeader list =
-      parse(npy(of("[('x', '<f4'), ('', '|V4'), ('y', '<f4'), ('', '|V20')]", "(1,)"), std::string(32, 'x')));
+  const NpyHeader list = parse(npy(of("[('x', '<f4'), ('', '|V4'), ('y', '<f4'), ('', '|V20')]", "(1,)"), std::string(32, 'x')));
   ASSERT_EQ(list.fields.size(), 2u);
   EXPECT_EQ(list.fields[1].offset, 8u);
   EXPECT_EQ(list.record_bytes, 32u);
   const NpyHeader table = parse(
-      npy(of("{'names': ['y', 'x'], 'formats': ['<f4', ('<f4', (2,))], 'offsets': [8, 0], 'itemsize': 16}", "(2,)"),
-          std::string(32, 'x')));
+      npy(of("{'names': ['y', 'x'], 'formats': ['<f4', ('<f4', (2,))], 'offsets': [8, 0], 'itemsize': 16}", "(2,)"), std::string(32, 'x')));
   ASSERT_EQ(table.fields.size(), 2u);
   EXPECT_EQ(table.fields[0].name, "x");
   EXPECT_EQ(table.fields[0].components, 2u);
   EXPECT_EQ(table.fields[1].offset, 8u);
   EXPECT_EQ(table.record_bytes, 16u);
-  EXPECT_EQ(
-      parse(npy(of("{'names': ('a', 'b'), 'formats': ('<f4', '<u4')}", "(1,)"), std::string(8, 'x'))).fields[1].offset,
-      4u);
+  EXPECT_EQ(parse(npy(of("{'names': ('a', 'b'), 'formats': ('<f4', '<u4')}", "(1,)"), std::string(8, 'x'))).fields[1].offset, 4u);
 }
 
 TEST(NpyRead, OtherTypesAreRefused) {
-  EXPECT_THAT(refusal(npy(of("'<f8'", "(1,)"), std::string(8, 'x'))),
-              HasSubstr("expected '|u1', '<f2', '<f4' or '<u4', found '<f8'"));
+  EXPECT_THAT(refusal(npy(of("'<f8'", "(1,)"), std::string(8, 'x'))), HasSubstr("expected '|u1', '<f2', '<f4' or '<u4', found '<f8'"));
   EXPECT_THAT(refusal(npy(of("'<i4'", "(1,)"), "four")), HasSubstr("found '<i4'"));
   EXPECT_THAT(refusal(npy(of("'|b1'", "(1,)"), "f")), HasSubstr("found '|b1'"));
   EXPECT_THAT(refusal(npy(of("'|O'", "(1,)"), "four")), HasSubstr("found '|O'"));
@@ -112,9 +106,7 @@ TEST(NpyRead, OtherTypesAreRefused) {
   EXPECT_THAT(refusal(npy(of("[('x', '>f4')]", "(1,)"), "four")), HasSubstr("field 'x': '>f4' is big endian"));
 }
 
-TEST(NpyRead, FortranOrderIsRefused) {
-  EXPECT_THAT(refusal(npy(of("'<f4'", "(1, 1)", true), "four")), HasSubstr("Fortran order"));
-}
+TEST(NpyRead, FortranOrderIsRefused) { EXPECT_THAT(refusal(npy(of("'<f4'", "(1, 1)", true), "four")), HasSubstr("Fortran order")); }
 
 TEST(NpyRead, SizesMustBeExact) {
   EXPECT_THAT(refusal(npy(of("'<f4'", "(2, 3)"), std::string(23, 'x'))),
@@ -142,13 +134,10 @@ TEST(NpyRead, DamagedHeadersAreRefused) {
   EXPECT_THAT(refusal(npy(of("'<f4'", "(1.5,)"), "")), HasSubstr("no dictionary"));
   EXPECT_THAT(refusal(npy(of("'<f4'", "[1]"), "four")), HasSubstr("shape: expected a tuple"));
   EXPECT_THAT(refusal(npy(of("[]", "(1,)"), "")), HasSubstr("no fields"));
-  EXPECT_THAT(refusal(npy(of("[('x', '<f4'), ('x', '<f4')]", "(1,)"), std::string(8, 'x'))),
-              HasSubstr("two fields named 'x'"));
-  EXPECT_THAT(refusal(npy(of("{'names': ['a', 'b'], 'formats': ['<f4', '<f4'], 'offsets': [0, 2]}", "(1,)"),
-                          std::string(6, 'x'))),
+  EXPECT_THAT(refusal(npy(of("[('x', '<f4'), ('x', '<f4')]", "(1,)"), std::string(8, 'x'))), HasSubstr("two fields named 'x'"));
+  EXPECT_THAT(refusal(npy(of("{'names': ['a', 'b'], 'formats': ['<f4', '<f4'], 'offsets': [0, 2]}", "(1,)"), std::string(6, 'x'))),
               HasSubstr("'a' and 'b' overlap"));
-  EXPECT_THAT(refusal(npy(of("{'names': ['a'], 'formats': ['<f4'], 'offsets': [8], 'itemsize': 8}", "(1,)"),
-                          std::string(8, 'x'))),
+  EXPECT_THAT(refusal(npy(of("{'names': ['a'], 'formats': ['<f4'], 'offsets': [8], 'itemsize': 8}", "(1,)"), std::string(8, 'x'))),
               HasSubstr("at least 12"));
   EXPECT_THAT(refusal(npy(of("{'names': ['a'], 'formats': ['<f4'], 'offsets': [18446744073709551615]}", "(1,)"), "")),
               HasSubstr("overflows"));
@@ -160,8 +149,7 @@ TEST(NpyRead, EveryTruncationIsRefused) {
   for (const std::string descr : {"'<f4'", "[('x', '<f4'), ('', '|V4'), ('y', '<f4', (2,))]"}) {
     const std::string whole = npy(of(descr, "(3,)"), std::string(descr.front() == '[' ? 48 : 12, 'x'));
     ASSERT_NO_THROW(parse(whole));
-    for (std::size_t size = 0; size < whole.size(); ++size)
-      EXPECT_NE(refusal(whole.substr(0, size)), "accepted") << size;
+    for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(refusal(whole.substr(0, size)), "accepted") << size;
   }
 }
 
@@ -171,8 +159,7 @@ TEST(PythonLiteral, BracketsAndTuples) {
   EXPECT_EQ(parse_python_literal("()")->items.size(), 0u);
   EXPECT_EQ(parse_python_literal("18446744073709551615")->number, ~std::size_t{0});
   EXPECT_EQ(parse_python_literal("{'a': [1, 2], \"b\": True,}")->find("a")->items.size(), 2u);
-  for (const char* bad :
-       {"", "(,)", "(1 2)", "[1", "{'a' 1}", "{1: 1}", "'a\\'", "'a", "1 1", "Tru", "18446744073709551616", "None"}) {
+  for (const char* bad : {"", "(,)", "(1 2)", "[1", "{'a' 1}", "{1: 1}", "'a\\'", "'a", "1 1", "Tru", "18446744073709551616", "None"}) {
     EXPECT_FALSE(parse_python_literal(bad)) << bad;
   }
 }

@@ -55,12 +55,17 @@ TEST(NpyWrite, LevelsHaveTheirOwnSize) {
 TEST(NpyWrite, RecordsHaveNamedFieldsAndNamelessGaps) {
   Array a;
   a.is_records = true;
-  a.record = {"Drop", 32, {{"x", scene::Scalar::float32, 1, 0, "m", "X."}, {"v", scene::Scalar::float32, 2, 8, "m", "V."}, {"id", scene::Scalar::uint32, 1, 20, "1", "Id."}}};
+  a.record = {"Drop",
+              32,
+              {{"x", scene::Scalar::float32, 1, 0, "m", "X."},
+               {"v", scene::Scalar::float32, 2, 8, "m", "V."},
+               {"id", scene::Scalar::uint32, 1, 20, "1", "Id."}}};
   a.width = 2;
   a.height = 1;
   a.levels.emplace_back(64);
   const std::vector<std::byte> file = npy_bytes(a, 0);
-  EXPECT_THAT(text(file), testing::HasSubstr("'descr': [('x', '<f4'), ('', '|V4'), ('v', '<f4', (2,)), ('', '|V4'), ('id', '<u4'), ('', '|V8')], "));
+  EXPECT_THAT(text(file),
+              testing::HasSubstr("'descr': [('x', '<f4'), ('', '|V4'), ('v', '<f4', (2,)), ('', '|V4'), ('id', '<u4'), ('', '|V8')], "));
   const NpyHeader h = parse_npy_header(file, "x");
   ASSERT_EQ(h.fields.size(), 3u);
   EXPECT_EQ(h.fields[1].name, "v");

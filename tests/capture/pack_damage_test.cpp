@@ -49,7 +49,9 @@ class DamagedPack : public testing::Test {
     return e;
   }
   std::string in_manifest(const std::string& what) const { return fmt::format("3 {}: {}", (pack() / "manifest.json").string(), what); }
-  std::string in_file(const std::string& file, const std::string& what) const { return fmt::format("3 {}: {}", (pack() / file).string(), what); }
+  std::string in_file(const std::string& file, const std::string& what) const {
+    return fmt::format("3 {}: {}", (pack() / file).string(), what);
+  }
 
   void write_again() const {
     std::filesystem::remove_all(pack());
@@ -63,13 +65,15 @@ TEST_F(DamagedPack, TheExampleIsWhole) { EXPECT_EQ(error(), "none"); }
 
 TEST_F(DamagedPack, NoFolderOrNoManifest) {
   EXPECT_EQ(error_of([&] { Pack(folder / "none"); }), "4 " + (folder / "none").string() + ": there is no such folder");
-  EXPECT_EQ(error_of([&] { Pack(pack() / "manifest.json"); }), "4 " + (pack() / "manifest.json").string() + ": expected a pack's folder, found a file");
+  EXPECT_EQ(error_of([&] { Pack(pack() / "manifest.json"); }),
+            "4 " + (pack() / "manifest.json").string() + ": expected a pack's folder, found a file");
   std::filesystem::remove(pack() / "manifest.json");
   EXPECT_EQ(error(), "3 " + pack().string() + ": no pack: there is no manifest.json");
   std::filesystem::create_directory(folder / "run");
   std::filesystem::create_directory(folder / "run/capture");
   put(folder / "run/capture/manifest.json", "{}");
-  EXPECT_EQ(error_of([&] { Pack(folder / "run"); }), fmt::format("3 {0}: no pack: there is no manifest.json (there is one in '{0}/capture')", (folder / "run").string()));
+  EXPECT_EQ(error_of([&] { Pack(folder / "run"); }),
+            fmt::format("3 {0}: no pack: there is no manifest.json (there is one in '{0}/capture')", (folder / "run").string()));
 }
 
 TEST_F(DamagedPack, NoJson) {
@@ -97,29 +101,42 @@ TEST_F(DamagedPack, MissingAndMistypedKeys) {
   EXPECT_EQ(error_without("/cases/1/inputs/0", "file"), in_manifest("cases[1].inputs[0]: 'file' is missing"));
   EXPECT_EQ(error_with("/cases", 3), in_manifest("cases: expected an array, found 3"));
   EXPECT_EQ(error_with("/cases/1/frame", 1.5), in_manifest("cases[1].frame: expected a whole number from 0 to 2147483647, found 1.5"));
-  EXPECT_EQ(error_with("/cases/1/pass", "blurr"), in_manifest("cases[1].pass: expected one of drip, blur, found 'blurr'; did you mean 'blur'?"));
-  EXPECT_EQ(error_with("/cases/1/outputs/0/judge", "bit"), in_manifest("cases[1].outputs[0].judge: expected one of envelope, bits, keyed, input_only, found 'bit'; did you mean 'bits'?"));
-  EXPECT_EQ(error_with("/cases/1/inputs/0/address_u", "wrap"), in_manifest("cases[1].inputs[0].address_u: expected one of clamp, repeat, mirror, border, found 'wrap'"));
-  EXPECT_EQ(error_with("/cases/1/inputs/0/format", "rg16"), in_manifest("cases[1].inputs[0].format: unknown format 'rg16'; did you mean 'rg16f'?"));
-  EXPECT_EQ(error_with("/cases/1/time/bits", "0x12"), in_manifest("cases[1].time.bits: expected eight hexadecimal digits behind 0x, found \"0x12\""));
-  EXPECT_EQ(error_with("/cases/1/uniform_block/bytes", 20), in_manifest("cases[1].uniform_block.bytes: expected the 16 bytes of BlurUniforms, found 20"));
-  EXPECT_EQ(error_with("/records/0/members/1/offset", 8), in_manifest("records[0].members[1].offset: the member ends beyond the 8 bytes of DripRecord"));
+  EXPECT_EQ(error_with("/cases/1/pass", "blurr"),
+            in_manifest("cases[1].pass: expected one of drip, blur, found 'blurr'; did you mean 'blur'?"));
+  EXPECT_EQ(error_with("/cases/1/outputs/0/judge", "bit"),
+            in_manifest("cases[1].outputs[0].judge: expected one of envelope, bits, keyed, input_only, found 'bit'; did you mean 'bits'?"));
+  EXPECT_EQ(error_with("/cases/1/inputs/0/address_u", "wrap"),
+            in_manifest("cases[1].inputs[0].address_u: expected one of clamp, repeat, mirror, border, found 'wrap'"));
+  EXPECT_EQ(error_with("/cases/1/inputs/0/format", "rg16"),
+            in_manifest("cases[1].inputs[0].format: unknown format 'rg16'; did you mean 'rg16f'?"));
+  EXPECT_EQ(error_with("/cases/1/time/bits", "0x12"),
+            in_manifest("cases[1].time.bits: expected eight hexadecimal digits behind 0x, found \"0x12\""));
+  EXPECT_EQ(error_with("/cases/1/uniform_block/bytes", 20),
+            in_manifest("cases[1].uniform_block.bytes: expected the 16 bytes of BlurUniforms, found 20"));
+  EXPECT_EQ(error_with("/records/0/members/1/offset", 8),
+            in_manifest("records[0].members[1].offset: the member ends beyond the 8 bytes of DripRecord"));
 }
 
 TEST_F(DamagedPack, GiganticSizes) {
-  EXPECT_EQ(error_with("/cases/1/inputs/0/width", 1000000000), in_manifest("cases[1].inputs[0].width: expected a whole number from 1 to 65536, found 1000000000"));
-  EXPECT_EQ(error_with("/cases/1/inputs/0/width", 18446744073709551615u), in_manifest("cases[1].inputs[0].width: expected a whole number from 1 to 65536, found 18446744073709551615"));
+  EXPECT_EQ(error_with("/cases/1/inputs/0/width", 1000000000),
+            in_manifest("cases[1].inputs[0].width: expected a whole number from 1 to 65536, found 1000000000"));
+  EXPECT_EQ(error_with("/cases/1/inputs/0/width", 18446744073709551615u),
+            in_manifest("cases[1].inputs[0].width: expected a whole number from 1 to 65536, found 18446744073709551615"));
   // Within the range, but the file is not so long: nothing of that size is asked for.
-  EXPECT_THAT(error_with("/cases/1/inputs/0/width", 65536), HasSubstr("in.picture.npy: expected type <f2 and shape (3, 65536, 2), found '<f2' and (3, 5, 2)"));
-  EXPECT_THAT(error_with("/cases/1/inputs/0/bytes", 1099511627776), HasSubstr("in.picture.npy: damaged: expected 1099511627776 bytes, found 188"));
+  EXPECT_THAT(error_with("/cases/1/inputs/0/width", 65536),
+              HasSubstr("in.picture.npy: expected type <f2 and shape (3, 65536, 2), found '<f2' and (3, 5, 2)"));
+  EXPECT_THAT(error_with("/cases/1/inputs/0/bytes", 1099511627776),
+              HasSubstr("in.picture.npy: damaged: expected 1099511627776 bytes, found 188"));
   EXPECT_THAT(error_with("/cases/2/outputs/0/count", 2147483647), HasSubstr("out.drips.npy: expected 2147483647 records"));
-  EXPECT_EQ(error_with("/cases/1/inputs/2/levels", 18), in_manifest("cases[1].inputs[2].levels: expected a whole number from 1 to 17, found 18"));
+  EXPECT_EQ(error_with("/cases/1/inputs/2/levels", 18),
+            in_manifest("cases[1].inputs[2].levels: expected a whole number from 1 to 17, found 18"));
 }
 
 TEST_F(DamagedPack, PathsThatLeaveTheFolder) {
   for (const std::string path : {"../x.npy", "/etc/passwd", "a/../../x", "./a", "", "a\\b"}) {
     EXPECT_EQ(error_with("/cases/1/inputs/0/file", path),
-              in_manifest(fmt::format("cases[1].inputs[0].file: expected the path of a file below the pack's folder, found {}", ordered_json(path).dump())));
+              in_manifest(fmt::format("cases[1].inputs[0].file: expected the path of a file below the pack's folder, found {}",
+                                      ordered_json(path).dump())));
   }
   put(folder / "outside.npy", contents(pack() / "puddle.blur/0000.0/out.picture.npy"));
   std::filesystem::remove(pack() / "puddle.blur/0000.0/out.picture.npy");
@@ -155,7 +172,8 @@ TEST_F(DamagedPack, ArraysThatAreSomethingElse) {
 }
 
 TEST_F(DamagedPack, CasesUnderAnotherName) {
-  EXPECT_EQ(error_with("/cases/1/id", "puddle.blur/0009.0"), in_manifest("cases[1].id: expected 'puddle.blur/0000.0', found 'puddle.blur/0009.0'"));
+  EXPECT_EQ(error_with("/cases/1/id", "puddle.blur/0009.0"),
+            in_manifest("cases[1].id: expected 'puddle.blur/0000.0', found 'puddle.blur/0009.0'"));
   ordered_json m = manifest();
   m["cases"].push_back(m["cases"][0]);
   put_manifest(m);
@@ -165,14 +183,17 @@ TEST_F(DamagedPack, CasesUnderAnotherName) {
 // Judged against nothing, a port would pass or fail by nothing.
 TEST_F(DamagedPack, NoCasesAndCasesWithoutOutputs) {
   EXPECT_EQ(error_with("/cases", ordered_json::array()), in_manifest("cases: expected one run of a pass or more, found none"));
-  EXPECT_EQ(error_with("/cases/1/outputs", ordered_json::array()), in_manifest("cases[1].outputs: expected one output or more, found none"));
+  EXPECT_EQ(error_with("/cases/1/outputs", ordered_json::array()),
+            in_manifest("cases[1].outputs: expected one output or more, found none"));
 }
 
 // An output that its rule cannot judge would pass unseen, or break the judge.
 TEST_F(DamagedPack, RulesThatDoNotFitTheirOutput) {
-  EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "envelope"), in_manifest("cases[0].outputs[0].judge: expected bits, keyed or input_only for records, found \"envelope\""));
+  EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "envelope"),
+            in_manifest("cases[0].outputs[0].judge: expected bits, keyed or input_only for records, found \"envelope\""));
   EXPECT_EQ(error_with("/cases/1/outputs/0/judge", "keyed"),
-            in_manifest("cases[1].outputs[0].judge: expected bits, envelope or input_only for what is no list of records with a uint 'id', found \"keyed\""));
+            in_manifest("cases[1].outputs[0].judge: expected bits, envelope or input_only for what is no list of records with a uint 'id', "
+                        "found \"keyed\""));
   EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "keyed"), "none");
 }
 
@@ -185,10 +206,14 @@ TEST_F(DamagedPack, UniformsUnlikeTheirFileOrTheirBits) {
   const std::string file = m["cases"][1]["uniform_block"]["file"];
   EXPECT_EQ(error(), in_file(file, "puddle.blur/0000.0: uniform reach: expected 7 0x00000007 as the manifest says, found -3 0xfffffffd"));
   write_again();
-  EXPECT_EQ(error_with("/cases/1/uniforms/0/value", 0.75), in_manifest("cases[1].uniforms[0].value: expected 0.5 0x3f000000, as its bits say, found 0.75"));
-  EXPECT_EQ(error_with("/cases/1/uniforms/0/value", nullptr), in_manifest("cases[1].uniforms[0].value: expected 0.5 0x3f000000, as its bits say, found null"));
-  EXPECT_EQ(error_with("/cases/1/uniforms/1/value", 3), in_manifest("cases[1].uniforms[1].value: expected -3 0xfffffffd, as its bits say, found 3"));
-  EXPECT_EQ(error_with("/cases/1/uniforms/2/value", -2147483648), in_manifest("cases[1].uniforms[2].value: expected 2147483648 0x80000000, as its bits say, found -2147483648"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/0/value", 0.75),
+            in_manifest("cases[1].uniforms[0].value: expected 0.5 0x3f000000, as its bits say, found 0.75"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/0/value", nullptr),
+            in_manifest("cases[1].uniforms[0].value: expected 0.5 0x3f000000, as its bits say, found null"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/1/value", 3),
+            in_manifest("cases[1].uniforms[1].value: expected -3 0xfffffffd, as its bits say, found 3"));
+  EXPECT_EQ(error_with("/cases/1/uniforms/2/value", -2147483648),
+            in_manifest("cases[1].uniforms[2].value: expected 2147483648 0x80000000, as its bits say, found -2147483648"));
   EXPECT_EQ(error_with("/cases/1/dt/value", 0.5), in_manifest("cases[1].dt.value: expected 0.25 0x3e800000, as its bits say, found 0.5"));
 }
 

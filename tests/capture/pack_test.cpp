@@ -10,8 +10,8 @@
 namespace rainref::capture {
 namespace {
 
-using testing::ElementsAre;
 using nlohmann::json;
+using testing::ElementsAre;
 
 class PackFolder : public testing::Test {
  protected:
@@ -25,8 +25,10 @@ void expect_same(const Array& a, const Array& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
   EXPECT_EQ(a.levels, b.levels);
-  if (a.is_records) EXPECT_EQ(a.record.name, b.record.name);
-  else EXPECT_EQ(a.format, b.format);
+  if (a.is_records)
+    EXPECT_EQ(a.record.name, b.record.name);
+  else
+    EXPECT_EQ(a.format, b.format);
 }
 
 TEST_F(PackFolder, ReadsBackAsItWasWritten) {
@@ -110,7 +112,8 @@ TEST_F(PackFolder, TheManifestHasEveryKey) {
   EXPECT_EQ(m["version"], 1);
   EXPECT_EQ(m["seed"], 5);
   EXPECT_EQ(m["config"]["effect"], "puddle");
-  for (const char* key : {"row0", "texel_centre", "endian", "y_up", "handedness", "matrix", "depth", "time"}) EXPECT_TRUE(m["conventions"].contains(key)) << key;
+  for (const char* key : {"row0", "texel_centre", "endian", "y_up", "handedness", "matrix", "depth", "time"})
+    EXPECT_TRUE(m["conventions"].contains(key)) << key;
   EXPECT_EQ(m["graph"]["passes"], (std::vector<std::string>{"drip", "blur"}));
   EXPECT_EQ(m["graph"]["edges"][0], (json{{"pass", "blur"}, {"input", "picture"}, {"from", "blur"}, {"run", "previous"}}));
   EXPECT_EQ(m["graph"]["edges"][1], (json{{"pass", "blur"}, {"input", "drips"}, {"from", "drip"}, {"run", "this"}}));
@@ -118,14 +121,17 @@ TEST_F(PackFolder, TheManifestHasEveryKey) {
   EXPECT_EQ(m["graph"]["ping_pong"], json::array({{{"pass", "blur"}, {"buffer", "picture"}}}));
   for (const char* key : {"formula", "reads", "writes", "uniform_block", "independence"}) EXPECT_TRUE(m["passes"][1].contains(key)) << key;
   const json& c = m["cases"][1];
-  for (const char* key : {"id", "pass", "frame", "step", "level", "dt", "time", "uniforms", "uniform_block", "inputs", "outputs"}) EXPECT_TRUE(c.contains(key)) << key;
+  for (const char* key : {"id", "pass", "frame", "step", "level", "dt", "time", "uniforms", "uniform_block", "inputs", "outputs"})
+    EXPECT_TRUE(c.contains(key)) << key;
   EXPECT_EQ(c["dt"], (json{{"value", 0.25}, {"bits", "0x3e800000"}}));
   EXPECT_EQ(c["uniforms"][0], (json{{"name", "weight"}, {"type", "float"}, {"value", 0.5}, {"bits", "0x3f000000"}}));
   EXPECT_EQ(c["uniforms"][1], (json{{"name", "reach"}, {"type", "int"}, {"value", -3}, {"bits", "0xfffffffd"}}));
   EXPECT_EQ(c["uniforms"][2], (json{{"name", "mask"}, {"type", "uint"}, {"value", 0x80000000u}, {"bits", "0x80000000"}}));
   for (const json& input : {c["inputs"][0], c["inputs"][2]}) {
-    for (const char* key : {"name", "file", "format", "width", "height", "channels", "levels", "channel_meaning", "unit", "range", "encoding", "color_space", "alpha",
-                            "address_u", "address_v", "address_w", "border", "min_filter", "mag_filter", "mip_filter", "coordinates", "lod", "out_of_bounds", "bytes", "xxh3"}) {
+    for (const char* key :
+         {"name",       "file",       "format",      "width", "height",        "channels",  "levels",    "channel_meaning", "unit",
+          "range",      "encoding",   "color_space", "alpha", "address_u",     "address_v", "address_w", "border",          "min_filter",
+          "mag_filter", "mip_filter", "coordinates", "lod",   "out_of_bounds", "bytes",     "xxh3"}) {
       EXPECT_TRUE(input.contains(key)) << key;
     }
   }
@@ -134,7 +140,8 @@ TEST_F(PackFolder, TheManifestHasEveryKey) {
   EXPECT_EQ(c["inputs"][2]["coordinates"], "normalized");
   EXPECT_EQ(c["inputs"][2]["lod"], "explicit");
   EXPECT_EQ(c["inputs"][2]["orientation"], "row 0 looks down");
-  for (const char* key : {"name", "file", "format", "store_rounding", "overflow", "written", "prior", "blend", "order_free_sums", "nan", "judge", "bytes", "xxh3"}) {
+  for (const char* key : {"name", "file", "format", "store_rounding", "overflow", "written", "prior", "blend", "order_free_sums", "nan",
+                          "judge", "bytes", "xxh3"}) {
     EXPECT_TRUE(c["outputs"][0].contains(key)) << key;
   }
   EXPECT_EQ(c["outputs"][0]["store_rounding"], "rtz");
@@ -170,11 +177,13 @@ TEST_F(PackFolder, TwiceGivesTheSameBytes) {
 TEST_F(PackFolder, NothingButAPackIsReplaced) {
   write_example(pack());
   put(pack() / "puddle.blur/0000.0/mine.txt", "mine");
-  EXPECT_EQ(error_of([&] { write_example(pack()); }),
-            "4 cannot write '" + pack().string() + "': the pack there would be replaced, but 'puddle.blur/0000.0/mine.txt' is no part of it");
+  EXPECT_EQ(
+      error_of([&] { write_example(pack()); }),
+      "4 cannot write '" + pack().string() + "': the pack there would be replaced, but 'puddle.blur/0000.0/mine.txt' is no part of it");
   std::filesystem::create_directory(folder / "other");
   put(folder / "other/manifest.json", "{}");
-  EXPECT_EQ(error_of([&] { write_example(folder / "other"); }), "4 cannot write '" + (folder / "other").string() + "': the folder is not empty and no pack of rainref");
+  EXPECT_EQ(error_of([&] { write_example(folder / "other"); }),
+            "4 cannot write '" + (folder / "other").string() + "': the folder is not empty and no pack of rainref");
   EXPECT_EQ(contents(folder / "other/manifest.json"), "{}");
 }
 
@@ -189,7 +198,8 @@ TEST_F(PackFolder, AWriterThatDoesNotFinishLeavesNothing) {
 TEST_F(PackFolder, AnUnknownPassNamesTheNearest) {
   write_example(pack());
   const Pack read(pack());
-  EXPECT_EQ(error_of([&] { read.pass("blurr"); }), "2 " + pack().string() + ": expected one of the passes drip, blur, found 'blurr'; did you mean 'blur'?");
+  EXPECT_EQ(error_of([&] { read.pass("blurr"); }),
+            "2 " + pack().string() + ": expected one of the passes drip, blur, found 'blurr'; did you mean 'blur'?");
 }
 
 }  // namespace

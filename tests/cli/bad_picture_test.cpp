@@ -18,8 +18,9 @@ class BadPicture : public CommandLine {
     const auto matcher = [&](const std::string& place) { return AllOf(StartsWith(place + "environment.image: "), HasSubstr(message)); };
     expect_refusal({"hash", "corrected.toml", "--set", "environment.layout=" + layout, "--set", "environment.image=" + file}, code,
                    layout == "cube" ? matcher("") : matcher("--set "));
-    expect_refusal({"run", "published.toml", "-o", "new/deep", "--set", "environment.layout=" + layout, "--set", "environment.image=" + file}, code,
-                   layout == "cube" ? matcher("") : matcher("--set "));
+    expect_refusal(
+        {"run", "published.toml", "-o", "new/deep", "--set", "environment.layout=" + layout, "--set", "environment.image=" + file}, code,
+        layout == "cube" ? matcher("") : matcher("--set "));
   }
 };
 
@@ -32,7 +33,8 @@ TEST_F(BadPicture, Missing) {
 TEST_F(BadPicture, OfASceneFileNamesItsPlace) {
   std::filesystem::remove(folder / "sky.png");
   before = folder.names();
-  expect_refusal({"hash", "corrected.toml"}, 4, AllOf(StartsWith("corrected.toml:7:1: environment.image: "), HasSubstr("No such file or directory")));
+  expect_refusal({"hash", "corrected.toml"}, 4,
+                 AllOf(StartsWith("corrected.toml:7:1: environment.image: "), HasSubstr("No such file or directory")));
 }
 
 TEST_F(BadPicture, EmptyTruncatedOrNone) {
@@ -66,7 +68,8 @@ TEST_F(BadPicture, NotFinite) {
     Image image(Format::rgba32f, 8, 4);
     image.row<float>(2)[4 * 5 + 1] = bad;
     image_io::write_exr(folder / "bad.exr", {{"", {"R", "G", "B"}, &image}});
-    expect_picture_refused("bad.exr", 2, bad != bad ? "NaN at x 5, y 2 (from the top), channel 'G'" : "infinity at x 5, y 2 (from the top), channel 'G'");
+    expect_picture_refused("bad.exr", 2,
+                           bad != bad ? "NaN at x 5, y 2 (from the top), channel 'G'" : "infinity at x 5, y 2 (from the top), channel 'G'");
     std::filesystem::remove(folder / "bad.exr");
   }
 }
@@ -91,7 +94,8 @@ TEST_F(BadPicture, ACubeInARowEqualsOneInAColumn) {
 }
 
 TEST_F(BadPicture, AGroundImageIsReadAlike) {
-  expect_refusal({"hash", "corrected.toml", "--set", "puddle.ground_image=none.png"}, 4, StartsWith("--set puddle.ground_image: cannot read 'none.png'"));
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.ground_image=none.png"}, 4,
+                 StartsWith("--set puddle.ground_image: cannot read 'none.png'"));
   EXPECT_NE(hash({"corrected.toml", "--set", "puddle.ground_image="}), hash({"corrected.toml"}));
 }
 

@@ -26,11 +26,14 @@ TEST_F(BadScene, MissingOrNoFile) {
 
 TEST_F(BadScene, AWrongPathNamesTheNearestScene) {
   const auto missing = [](const std::string& file) { return file + ": cannot be read: No such file or directory"; };
-  for (const std::string verb : {"hash", "run"}) expect_refusal({verb, "corected.toml"}, 4, missing("corected.toml") + "; did you mean 'corrected.toml'?");
+  for (const std::string verb : {"hash", "run"})
+    expect_refusal({verb, "corected.toml"}, 4, missing("corected.toml") + "; did you mean 'corrected.toml'?");
   expect_refusal({"pack", "corected.toml", "-o", "new"}, 4, missing("corected.toml") + "; did you mean 'corrected.toml'?");
   // Those that come with the program, by their last folder.
-  expect_refusal({"hash", "pudle/default.toml"}, 4, missing("pudle/default.toml") + "; did you mean '" RAINREF_SOURCE_DIR "/scenes/puddle/default.toml'?");
-  expect_refusal({"hash", "scenes/puddle/defualt.toml"}, 4, missing("scenes/puddle/defualt.toml") + "; did you mean '" RAINREF_SOURCE_DIR "/scenes/puddle/default.toml'?");
+  expect_refusal({"hash", "pudle/default.toml"}, 4,
+                 missing("pudle/default.toml") + "; did you mean '" RAINREF_SOURCE_DIR "/scenes/puddle/default.toml'?");
+  expect_refusal({"hash", "scenes/puddle/defualt.toml"}, 4,
+                 missing("scenes/puddle/defualt.toml") + "; did you mean '" RAINREF_SOURCE_DIR "/scenes/puddle/default.toml'?");
   std::filesystem::create_directories(folder / "scenes/deep");
   put(folder / "scenes/deep/mine.toml", "");
   before = folder.names();
@@ -39,10 +42,13 @@ TEST_F(BadScene, AWrongPathNamesTheNearestScene) {
 }
 
 TEST_F(BadScene, AKeyOfAnotherEffectNamesIt) {
-  expect_scene_refused(scene("corrected", "[wipers]\ncount = 1\n"), "x.toml:9:1: wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
+  expect_scene_refused(scene("corrected", "[wipers]\ncount = 1\n"),
+                       "x.toml:9:1: wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
   expect_scene_refused(scene("corrected", "[vehicle]\n"), "x.toml:8:2: vehicle: unknown table of 'puddle'; it is one of 'windshield'");
-  expect_refusal({"hash", "corrected.toml", "--set", "wipers.count=1"}, 2, "--set wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
-  expect_refusal({"hash", "corrected.toml", "--set", "scene.margin=2"}, 2, "--set scene.margin: unknown key of 'puddle'; it is one of 'windshield' and 'screen_drops'");
+  expect_refusal({"hash", "corrected.toml", "--set", "wipers.count=1"}, 2,
+                 "--set wipers.count: unknown key of 'puddle'; it is one of 'windshield'");
+  expect_refusal({"hash", "corrected.toml", "--set", "scene.margin=2"}, 2,
+                 "--set scene.margin: unknown key of 'puddle'; it is one of 'windshield' and 'screen_drops'");
 }
 
 TEST_F(BadScene, NoToml) {
@@ -52,16 +58,22 @@ TEST_F(BadScene, NoToml) {
 }
 
 TEST_F(BadScene, UnknownAndUnusedKeys) {
-  expect_scene_refused(scene("corrected", "[puddle]\ndampng = 0.9\n"), "x.toml:9:1: puddle.dampng: unknown key; did you mean 'puddle.damping'?");
-  expect_scene_refused(scene("corrected", "[puddle]\nstep = 2\n"), "x.toml:9:1: puddle.step: not used by variant 'corrected', only by 'as-published'");
-  expect_scene_refused(scene("as-published", "[rain]\nrate = 2\n"), "x.toml:9:1: rain.rate: not used by variant 'as-published', only by 'corrected'");
-  expect_refusal({"hash", "corrected.toml", "--set", "puddle.dampng=1"}, 2, "--set puddle.dampng: unknown key; did you mean 'puddle.damping'?");
-  expect_refusal({"hash", "corrected.toml", "--set", "puddle.step=1"}, 2, "--set puddle.step: not used by variant 'corrected', only by 'as-published'");
+  expect_scene_refused(scene("corrected", "[puddle]\ndampng = 0.9\n"),
+                       "x.toml:9:1: puddle.dampng: unknown key; did you mean 'puddle.damping'?");
+  expect_scene_refused(scene("corrected", "[puddle]\nstep = 2\n"),
+                       "x.toml:9:1: puddle.step: not used by variant 'corrected', only by 'as-published'");
+  expect_scene_refused(scene("as-published", "[rain]\nrate = 2\n"),
+                       "x.toml:9:1: rain.rate: not used by variant 'as-published', only by 'corrected'");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.dampng=1"}, 2,
+                 "--set puddle.dampng: unknown key; did you mean 'puddle.damping'?");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.step=1"}, 2,
+                 "--set puddle.step: not used by variant 'corrected', only by 'as-published'");
   expect_refusal({"hash", "corrected.toml", "--set", "puddle.damping"}, 2, "--set puddle.damping: expected key=value");
 }
 
 TEST_F(BadScene, UnknownEffectOrVariant) {
-  expect_refusal({"hash", "corrected.toml", "--set", "effect=pudle"}, 2, AllOf(StartsWith("--set effect: expected "), EndsWith("did you mean 'puddle'?")));
+  expect_refusal({"hash", "corrected.toml", "--set", "effect=pudle"}, 2,
+                 AllOf(StartsWith("--set effect: expected "), EndsWith("did you mean 'puddle'?")));
   expect_refusal({"hash", "corrected.toml", "--set", "variant=corected"}, 2,
                  "--set variant: expected one of 'as-published', 'corrected', found \"corected\"; did you mean 'corrected'?");
 }
@@ -73,13 +85,17 @@ TEST_F(BadScene, WrongTypeRangeOrNoNumber) {
     expect_scene_refused(scene("as-published", "[puddle]\ndamping = " + given + "\n"), "x.toml:9:11: puddle.damping: " + range + found);
     expect_refusal({"hash", "published.toml", "--set", "puddle.damping=" + given}, 2, "--set puddle.damping: " + range + found);
   }
-  expect_scene_refused(scene("as-published", "[camera]\nposition = [0, nan, 0]\n"), StartsWith("x.toml:9:16: camera.position: expected 3 numbers"));
-  expect_scene_refused(scene("as-published", "[puddle]\ndrop_count = 2.5\n"), StartsWith("x.toml:9:14: puddle.drop_count: expected an integer from 1 to 10"));
+  expect_scene_refused(scene("as-published", "[camera]\nposition = [0, nan, 0]\n"),
+                       StartsWith("x.toml:9:16: camera.position: expected 3 numbers"));
+  expect_scene_refused(scene("as-published", "[puddle]\ndrop_count = 2.5\n"),
+                       StartsWith("x.toml:9:14: puddle.drop_count: expected an integer from 1 to 10"));
 }
 
 TEST_F(BadScene, ZeroSize) {
-  expect_refusal({"hash", "corrected.toml", "--set", "run.size=[0, 5]"}, 2, "--set run.size: expected 2 integers from 1 to 65536 [texel], found [0, 5]");
-  expect_refusal({"hash", "corrected.toml", "--set", "puddle.grid=[1, 5]"}, 2, StartsWith("--set puddle.grid: expected 2 integers from 2 to 8192"));
+  expect_refusal({"hash", "corrected.toml", "--set", "run.size=[0, 5]"}, 2,
+                 "--set run.size: expected 2 integers from 1 to 65536 [texel], found [0, 5]");
+  expect_refusal({"hash", "corrected.toml", "--set", "puddle.grid=[1, 5]"}, 2,
+                 StartsWith("--set puddle.grid: expected 2 integers from 2 to 8192"));
 }
 
 TEST_F(BadScene, AHugeSizeNamesTheMemoryItNeedsAndTakesNone) {
@@ -91,7 +107,8 @@ TEST_F(BadScene, AHugeSizeNamesTheMemoryItNeedsAndTakesNone) {
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.out, "");
   EXPECT_LT(o.peak_kib, 512 * 1024);
-  EXPECT_THAT(o.err, MatchesRegex("rainref: run\\.size 65536x65536 with a wave of 65536x65536 needs [0-9.]+ GiB of memory; .* [0-9.]+ [GM]iB\n"));
+  EXPECT_THAT(o.err,
+              MatchesRegex("rainref: run\\.size 65536x65536 with a wave of 65536x65536 needs [0-9.]+ GiB of memory; .* [0-9.]+ [GM]iB\n"));
 }
 
 TEST_F(BadScene, TheProcesssOwnLimitIsNamed) {
@@ -104,11 +121,13 @@ TEST_F(BadScene, TheProcesssOwnLimitIsNamed) {
   EXPECT_EQ(o.code, 2);
   EXPECT_EQ(o.out, "");
   EXPECT_LT(o.peak_kib, 256 * 1024);
-  EXPECT_THAT(o.err, MatchesRegex("rainref: run\\.size 24x16 with a wave of 8192x8192 needs [78][0-9]+\\.[0-9] MiB of memory; the limit RLIMIT_AS \\(ulimit -v\\) allows [0-9.]+ MiB\n"));
+  EXPECT_THAT(o.err, MatchesRegex("rainref: run\\.size 24x16 with a wave of 8192x8192 needs [78][0-9]+\\.[0-9] MiB of memory; the limit "
+                                  "RLIMIT_AS \\(ulimit -v\\) allows [0-9.]+ MiB\n"));
 }
 
 TEST_F(BadScene, AnUnstableWaveNamesTheLimit) {
-  const auto message = AllOf(HasSubstr("puddle.wave_speed"), HasSubstr("puddle.step_rate"), HasSubstr("puddle.cell_size"), HasSubstr("sqrt(1/2) = 0.707107"));
+  const auto message = AllOf(HasSubstr("puddle.wave_speed"), HasSubstr("puddle.step_rate"), HasSubstr("puddle.cell_size"),
+                             HasSubstr("sqrt(1/2) = 0.707107"));
   expect_refusal({"hash", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
   expect_refusal({"run", "corrected.toml", "--set", "puddle.wave_speed=50"}, 2, message);
   // The step rate that the message names is enough.

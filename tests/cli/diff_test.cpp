@@ -40,7 +40,8 @@ class DiffVerb : public CommandLine {
     put(folder / pack_name / file, bytes);
     std::string manifest = contents(folder / pack_name / "manifest.json");
     const std::string entry = fmt::format("\"file\":\"{}\"", file);
-    for (std::size_t at = 0; (at = manifest.find(entry, at)) != std::string::npos; ++at) manifest.replace(manifest.find(old, at), old.size(), hash());
+    for (std::size_t at = 0; (at = manifest.find(entry, at)) != std::string::npos; ++at)
+      manifest.replace(manifest.find(old, at), old.size(), hash());
     put(folder / pack_name / "manifest.json", manifest);
   }
 };
@@ -52,39 +53,49 @@ TEST_F(DiffVerb, EqualPacks) {
 }
 
 TEST_F(DiffVerb, NamesTheFirstElementInTheOrderOfExecution) {
-  for (const std::string name : {"a", "b"}) pack({"corrected.toml", "-o", name, "--at", "0,1", "--set", "rain.rate=200", "--set", "puddle.drop_intensity=4"});
+  for (const std::string name : {"a", "b"})
+    pack({"corrected.toml", "-o", name, "--at", "0,1", "--set", "rain.rate=200", "--set", "puddle.drop_intensity=4"});
   // Later in the run first, so that finding the last change does not pass. colour is 24 x 16 of four halves.
   change("b", "puddle.shade/0001.0/out.colour.npy", 2);
-  EXPECT_THAT(diff("a", "b", 1), MatchesRegex("first difference: frame 1, pass shade, step 0, output colour \\(rgba16f 24x16\\), x 23, y 15, channel 3\n"
-                                              "  A  1 0x3c00\n  B  1.0009766 0x3c01\n  1 of 1536 elements of this buffer differ\n"));
+  EXPECT_THAT(diff("a", "b", 1),
+              MatchesRegex("first difference: frame 1, pass shade, step 0, output colour \\(rgba16f 24x16\\), x 23, y 15, channel 3\n"
+                           "  A  1 0x3c00\n  B  1.0009766 0x3c01\n  1 of 1536 elements of this buffer differ\n"));
   change("b", "puddle.surface_hit/0000.0/out.hit.npy", 4 + 16);
-  EXPECT_THAT(diff("a", "b", 1), StartsWith("first difference: frame 0, pass surface_hit, step 0, output hit (rgba32f 24x16), x 22, y 15, channel 3\n"));
+  EXPECT_THAT(diff("a", "b", 1),
+              StartsWith("first difference: frame 0, pass surface_hit, step 0, output hit (rgba32f 24x16), x 22, y 15, channel 3\n"));
   change("b", "puddle.wave_step/0000.0/out.wave.npy", 3);
   // The wave is also the next step's input, but it was written first.
-  EXPECT_THAT(diff("a", "b", 1), StartsWith("first difference: frame 0, pass wave_step, step 0, output wave (rg16f 40x30), x 39, y 29, channel 0\n"));
+  EXPECT_THAT(diff("a", "b", 1),
+              StartsWith("first difference: frame 0, pass wave_step, step 0, output wave (rg16f 40x30), x 39, y 29, channel 0\n"));
 }
 
 TEST_F(DiffVerb, AParameterShowsInTheConfigurationAndInTheUniforms) {
   pack({"corrected.toml", "-o", "a", "--at", "0"});
   pack({"corrected.toml", "-o", "b", "--at", "0", "--set", "puddle.reflectivity=0.5"});
-  EXPECT_EQ(diff("a", "b", 1), "configuration: puddle.reflectivity is 1.0 in A, 0.5 in B\n"
-                               "first difference: frame 0, pass shade, step 0, uniform reflectivity of ShadeUniforms\n  A  1 0x3f800000\n  B  0.5 0x3f000000\n");
+  EXPECT_EQ(
+      diff("a", "b", 1),
+      "configuration: puddle.reflectivity is 1.0 in A, 0.5 in B\n"
+      "first difference: frame 0, pass shade, step 0, uniform reflectivity of ShadeUniforms\n  A  1 0x3f800000\n  B  0.5 0x3f000000\n");
   pack({"corrected.toml", "-o", "c", "--at", "0", "--size", "25x16", "--passes", "display"});
   pack({"corrected.toml", "-o", "d", "--at", "0", "--passes", "display"});
-  EXPECT_THAT(diff("c", "d", 1), AllOf(HasSubstr("configuration: run.size is [25,16] in A, [24,16] in B\n"), HasSubstr("input colour\n  A  rgba16f 25x16\n  B  rgba16f 24x16\n")));
+  EXPECT_THAT(diff("c", "d", 1), AllOf(HasSubstr("configuration: run.size is [25,16] in A, [24,16] in B\n"),
+                                       HasSubstr("input colour\n  A  rgba16f 25x16\n  B  rgba16f 24x16\n")));
 }
 
 TEST_F(DiffVerb, RunsThatOneSideLacks) {
   pack({"corrected.toml", "-o", "a", "--at", "0,1", "--passes", "shade,display"});
   pack({"corrected.toml", "-o", "b", "--at", "0", "--passes", "shade"});
-  EXPECT_EQ(diff("a", "b", 1), "only in A: frame 0, pass display, step 0\nonly in A: frame 1, pass shade, step 0\nonly in A: frame 1, pass display, step 0\n");
-  EXPECT_EQ(diff("b", "a", 1), "only in B: frame 0, pass display, step 0\nonly in B: frame 1, pass shade, step 0\nonly in B: frame 1, pass display, step 0\n");
+  EXPECT_EQ(diff("a", "b", 1),
+            "only in A: frame 0, pass display, step 0\nonly in A: frame 1, pass shade, step 0\nonly in A: frame 1, pass display, step 0\n");
+  EXPECT_EQ(diff("b", "a", 1),
+            "only in B: frame 0, pass display, step 0\nonly in B: frame 1, pass shade, step 0\nonly in B: frame 1, pass display, step 0\n");
 }
 
 TEST_F(DiffVerb, ACaptureOfOutputsComparesWithAPack) {
   Circumstances c;
   c.is_copy = true;
-  ASSERT_EQ(rainref({"run", "corrected.toml", "-o", "r", "--capture", "passes", "--image", "none", "--set", "puddle.shape=basin"}, c).code, 0);
+  ASSERT_EQ(rainref({"run", "corrected.toml", "-o", "r", "--capture", "passes", "--image", "none", "--set", "puddle.shape=basin"}, c).code,
+            0);
   pack({"corrected.toml", "-o", "p", "--at", "1"});
   EXPECT_THAT(diff("r/capture", "p", 0), StartsWith("equal: 11 runs of passes, 12 buffers\n"));
 }

@@ -16,7 +16,9 @@ class EdgeSplashFiles : public SceneFiles {
     before = folder.names();
   }
   static std::string text(const std::string& line) {
-    return "effect = 'edge_splash'\nvariant = 'corrected'\nrun.frames = 2\nscene.source = 'files'\nscene.image = 'colour.png'\nscene.depth_encoding = 'metres'\n" + line + "\n";
+    return "effect = 'edge_splash'\nvariant = 'corrected'\nrun.frames = 2\nscene.source = 'files'\nscene.image = "
+           "'colour.png'\nscene.depth_encoding = 'metres'\n" +
+           line + "\n";
   }
 };
 
@@ -37,7 +39,8 @@ TEST_F(EdgeSplashFiles, DeviceDepthsHaveNoScale) {
 }
 
 TEST_F(EdgeSplashFiles, ASplashIsSeenOnTheEdge) {
-  const Outcome o = rainref({"run", "files.toml", "-o", "out", "--set", "edge_splash.rain_drop_scale=0", "--set", "edge_splash.drop_color=[1,0,0]", "--image", "none", "--capture", "all"});
+  const Outcome o = rainref({"run", "files.toml", "-o", "out", "--set", "edge_splash.rain_drop_scale=0", "--set",
+                             "edge_splash.drop_color=[1,0,0]", "--image", "none", "--capture", "all"});
   ASSERT_EQ(o.code, 0) << o.err;
   std::string edge;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "out")) {
@@ -68,9 +71,11 @@ TEST_F(EdgeSplashFiles, WhatIsMissingOrDoesNotFitIsNamed) {
   };
   expect_refusal(with({"scene.depth_image="}), 2, HasSubstr("scene.depth_image: expected a file, because scene.source is \"files\""));
   expect_refusal(with({"scene.source=shapes"}), 2, HasSubstr("scene.image: needs scene.source = \"files\", found \"shapes\""));
-  expect_refusal(with({"scene.depth_image=noise.png"}), 2, HasSubstr("scene.depth_image: expected 24x16 texels as scene.image has, found 8x8"));
+  expect_refusal(with({"scene.depth_image=noise.png"}), 2,
+                 HasSubstr("scene.depth_image: expected 24x16 texels as scene.image has, found 8x8"));
   expect_refusal(with({"scene.layer_image=noise.png"}), 2, HasSubstr("scene.layer_image: expected 24x16"));
-  expect_refusal(with({"scene.depth_encoding=device"}), 2, AllOf(HasSubstr("scene.depth_image: expected device depths from 0 to 1, found 2 at column 0, row 0")));
+  expect_refusal(with({"scene.depth_encoding=device"}), 2,
+                 AllOf(HasSubstr("scene.depth_image: expected device depths from 0 to 1, found 2 at column 0, row 0")));
   expect_refusal(with({"scene.far=30"}), 2, HasSubstr("found 40 at column 0, row 8 from the bottom"));
   expect_refusal(with({"scene.near=9", "scene.far=3"}), 2, HasSubstr("scene.near, scene.far: expected 0 < near < far, found 9 and 3"));
   expect_refusal(with({"scene.depth_image=nowhere.npy"}), 4, HasSubstr("nowhere.npy"));
@@ -80,8 +85,10 @@ TEST_F(EdgeSplashFiles, WhatIsMissingOrDoesNotFitIsNamed) {
 TEST_F(EdgeSplashFiles, DamagedNpyIsNamed) {
   put(folder / "text.npy", "not an array");
   for (const char* key : {"scene.depth_image", "scene.noise_image", "scene.layer_image"}) {
-    expect_refused("files.toml", {fmt::format("{}=cut.npy", key)}, AllOf(HasSubstr(fmt::format("{}: 'cut.npy'", key)), HasSubstr("cut.npy")));
-    expect_refused("files.toml", {fmt::format("{}=text.npy", key)}, HasSubstr(fmt::format("{}: 'text.npy': not an EXR, PNG, Radiance HDR or JPEG file", key)));
+    expect_refused("files.toml", {fmt::format("{}=cut.npy", key)},
+                   AllOf(HasSubstr(fmt::format("{}: 'cut.npy'", key)), HasSubstr("cut.npy")));
+    expect_refused("files.toml", {fmt::format("{}=text.npy", key)},
+                   HasSubstr(fmt::format("{}: 'text.npy': not an EXR, PNG, Radiance HDR or JPEG file", key)));
     expect_refused("files.toml", {fmt::format("{}=holed.npy", key)}, HasSubstr("'holed.npy': NaN at x 3, y 2 (from the top), channel 0"));
   }
 }

@@ -21,18 +21,20 @@ TEST_F(HashVerb, OneLineForEachFramePassAndBuffer) {
   const std::vector<std::string> lines = hash({"corrected.toml"});
   EXPECT_THAT(lines, Each(MatchesRegex(".* [0-9a-f]{32}")));
   EXPECT_THAT(without_hashes(lines),
-              ElementsAre("0 raindrops drops", "0 wave_step wave", "0 surface_hit hit", "0 surface_hit normal", "0 shade colour", "0 display picture",
-                          "1 raindrops drops", "1 wave_step wave", "1 surface_hit hit", "1 surface_hit normal", "1 shade colour", "1 display picture", "scene"));
+              ElementsAre("0 raindrops drops", "0 wave_step wave", "0 surface_hit hit", "0 surface_hit normal", "0 shade colour",
+                          "0 display picture", "1 raindrops drops", "1 wave_step wave", "1 surface_hit hit", "1 surface_hit normal",
+                          "1 shade colour", "1 display picture", "scene"));
   EXPECT_THAT(without_hashes(hash({"published.toml", "--frames", "1"})),
-              ElementsAre("0 raindrops drops", "0 wave_step wave", "0 surface_hit hit", "0 surface_hit normal", "0 ground_noise noise", "0 shade colour",
-                          "0 display picture", "scene"));
+              ElementsAre("0 raindrops drops", "0 wave_step wave", "0 surface_hit hit", "0 surface_hit normal", "0 ground_noise noise",
+                          "0 shade colour", "0 display picture", "scene"));
 }
 
 class HashVerbOn : public CommandLine, public testing::WithParamInterface<std::string> {};
 
 // In heavy rain, where drops fall beside cells at rest.
 TEST_P(HashVerbOn, ThreadsAndSimdTargetsDoNotMatter) {
-  const std::vector<std::vector<std::string>> scenes{{"published.toml", "--set", "puddle.rain_speed=20"}, {"corrected.toml", "--set", "rain.rate=40"}};
+  const std::vector<std::vector<std::string>> scenes{{"published.toml", "--set", "puddle.rain_speed=20"},
+                                                     {"corrected.toml", "--set", "rain.rate=40"}};
   for (const std::vector<std::string>& scene : scenes) {
     std::vector<std::string> arguments = scene;
     const std::vector<std::string> expected = hash(arguments);
@@ -68,7 +70,8 @@ TEST_F(HashVerb, SetTakesEffectAndTheLastOneWins) {
   EXPECT_EQ(hash({"corrected.toml", "--set", "display.exposure=2"})[4], plain[4]);
   EXPECT_EQ(hash({"corrected.toml", "--set", "seed=5", "--set", "seed=0"}), plain);
   EXPECT_EQ(hash({"corrected.toml", "--set", "run.frames=9", "--frames", "2"}), plain);
-  EXPECT_EQ(hash({"published.toml", "--set", "variant=corrected", "--set", "puddle.grid=[40,30]", "--set", "puddle.cell_size=0.02"}), plain);
+  EXPECT_EQ(hash({"published.toml", "--set", "variant=corrected", "--set", "puddle.grid=[40,30]", "--set", "puddle.cell_size=0.02"}),
+            plain);
 }
 
 TEST_F(HashVerb, WritesNoFile) {

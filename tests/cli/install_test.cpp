@@ -18,7 +18,8 @@ using testing::Not;
 class Installation : public CommandLine {
  protected:
   Installation() {
-    put_npy(folder / "sky.npy", 8, 4, 3, [](int x, int y, int c) { return static_cast<float>(20 * x + 9 * y + c); }, true);
+    put_npy(
+        folder / "sky.npy", 8, 4, 3, [](int x, int y, int c) { return static_cast<float>(20 * x + 9 * y + c); }, true);
   }
 
   /// Runs with no picture to read, and says what the loader opened.
@@ -37,7 +38,11 @@ class Installation : public CommandLine {
     return log;
   }
   static std::vector<std::string> run_of_arrays(const std::string& image) {
-    return {"run", "corrected.toml", "-o", "out", "--image", image, "--set", "environment.image=sky.npy", "--set", "puddle.ground_image=sky.npy"};
+    return {"run",     "corrected.toml",
+            "-o",      "out",
+            "--image", image,
+            "--set",   "environment.image=sky.npy",
+            "--set",   "puddle.ground_image=sky.npy"};
   }
   std::string output(const std::string& command) const {
     std::string out;
@@ -88,7 +93,8 @@ int main() try {
 )");
     put(folder / "broken.exr", std::string("\x76\x2f\x31\x01\2\0\0\0channels", 16));
     output(fmt::format(RAINREF_CMAKE " -S consumer -B built -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                       " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR, where));
+                                     " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
+                       where));
     output(RAINREF_CMAKE " --build built");
     EXPECT_THAT(output("built/consumer"), AllOf(HasSubstr("3 x 2\n2 'broken.exr': "), Not(HasSubstr("cannot load"))));
   }
@@ -132,12 +138,15 @@ TEST_F(Installation, AMissingOrForeignLibraryIsOneClearError) {
 // The installed headers are all that a program has; pkg-config finds them where the installation lies now, not where it was made.
 TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   installed();
-  const std::string by_cmake = fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/tests/outside -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                                           " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' '-DCMAKE_PREFIX_PATH={}'", (folder / "moved").string());
+  const std::string by_cmake =
+      fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/tests/outside -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+                                " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' '-DCMAKE_PREFIX_PATH={}'",
+                  (folder / "moved").string());
   output(by_cmake);
   output(RAINREF_CMAKE " --build outside");
   const std::string said = output("outside/every_effect");
-  EXPECT_THAT(lines_of(said), testing::ElementsAre(MatchesRegex("puddle 32x18 .{8}"), MatchesRegex("windshield 32x18 .{8}"), MatchesRegex("edge_splash 32x18 .{8}"), MatchesRegex("screen_drops 32x18 .{8}"),
+  EXPECT_THAT(lines_of(said), testing::ElementsAre(MatchesRegex("puddle 32x18 .{8}"), MatchesRegex("windshield 32x18 .{8}"),
+                                                   MatchesRegex("edge_splash 32x18 .{8}"), MatchesRegex("screen_drops 32x18 .{8}"),
                                                    MatchesRegex("screen_drops.flow 32x18 .{8}"), MatchesRegex("rainy_glass 32x18 .{8}"),
                                                    "2 mine.toml:2:1: wipers.cuont: unknown key; did you mean 'wipers.count'?"));
 
@@ -153,13 +162,16 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   };
   EXPECT_EQ(path_of("prefix"), folder / "moved");
   EXPECT_EQ(path_of("includedir"), folder / "moved/include");
-  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR "/tests/outside/every_effect.cpp -o by_pkg_config $({} --cflags --libs rainref)", RAINREF_CXX_COMPILER, config));
+  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
+                     "/tests/outside/every_effect.cpp -o by_pkg_config $({} --cflags --libs rainref)",
+                     RAINREF_CXX_COMPILER, config));
   EXPECT_EQ(output("./by_pkg_config"), said);
 }
 
 // Where a package is put together it is installed below another root than the one where it will lie.
 TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
-  output(fmt::format("DESTDIR='{}/stage' " RAINREF_CMAKE " --install '" RAINREF_BUILD "' --config " RAINREF_CONFIG " --prefix /opt/rain", folder.path().string()));
+  output(fmt::format("DESTDIR='{}/stage' " RAINREF_CMAKE " --install '" RAINREF_BUILD "' --config " RAINREF_CONFIG " --prefix /opt/rain",
+                     folder.path().string()));
   std::filesystem::rename(folder / "stage/opt/rain", folder / "moved");
   Circumstances c;
   c.program = folder / "moved/bin/rainref";

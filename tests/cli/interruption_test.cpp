@@ -9,7 +9,8 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::vector<std::string> endless{"run", "published.toml", "-o", "new/o", "--frames", "1000000", "--image", "none", "--capture", "passes", "--every", "1"};
+const std::vector<std::string> endless{"run",     "published.toml", "-o",        "new/o",  "--frames", "1000000",
+                                       "--image", "none",           "--capture", "passes", "--every",  "1"};
 
 class Interrupted : public CommandLine {
  protected:
@@ -89,7 +90,9 @@ TEST_F(Interrupted, ARefusedRunKeepsTheOlderSummary) {
 
 TEST_F(Interrupted, APortsCommandEndsWithAllItStarted) {
   const std::string pack = RAINREF_SOURCE_DIR "/tests/packs/puddle-corrected";
-  const auto running = start_rainref(folder.path(), {"validate", pack, "--exec", "echo {out} > where; setsid sh -c 'echo $$ > daemon; sleep 600' & echo $$ > shell; sleep 600", "--html", "r.html"});
+  const auto running = start_rainref(
+      folder.path(), {"validate", pack, "--exec",
+                      "echo {out} > where; setsid sh -c 'echo $$ > daemon; sleep 600' & echo $$ > shell; sleep 600", "--html", "r.html"});
   const auto number = [&](const std::string& file) { return std::atoi(contents(folder / file).c_str()); };
   await([&] { return number("daemon") > 0 && number("shell") > 0; });
   EXPECT_TRUE(is_running(number("daemon")) && is_running(number("shell")));

@@ -78,16 +78,18 @@ TEST_F(Describe, NamesEveryParameterPassAndBuffer) {
 }
 
 TEST_F(Describe, EveryLayoutIsPrinted) {
-  for (const auto& [language, word] : std::vector<std::pair<std::string, std::string>>{{"c", "typedef struct {"},
-                                                                                       {"glsl", "layout(std140, binding = 0) uniform ShadeUniforms {"},
-                                                                                       {"hlsl", "cbuffer ShadeUniforms : register(b0) {"},
-                                                                                       {"wgsl", "struct ShadeUniforms {"},
-                                                                                       {"cuda", "struct ShadeUniforms {"}}) {
+  for (const auto& [language, word] :
+       std::vector<std::pair<std::string, std::string>>{{"c", "typedef struct {"},
+                                                        {"glsl", "layout(std140, binding = 0) uniform ShadeUniforms {"},
+                                                        {"hlsl", "cbuffer ShadeUniforms : register(b0) {"},
+                                                        {"wgsl", "struct ShadeUniforms {"},
+                                                        {"cuda", "struct ShadeUniforms {"}}) {
     const Outcome o = rainref({"describe", "puddle", "--layout", language});
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.err, "");
     EXPECT_THAT(o.out, HasSubstr(word)) << language;
-    for (const char* name : {"Drop", "CountThreshold", "RaindropsUniforms", "RainfallUniforms", "WaveStepUniforms", "SurfaceHitUniforms", "GroundNoiseUniforms", "ShadeUniforms", "DisplayUniforms"}) {
+    for (const char* name : {"Drop", "CountThreshold", "RaindropsUniforms", "RainfallUniforms", "WaveStepUniforms", "SurfaceHitUniforms",
+                             "GroundNoiseUniforms", "ShadeUniforms", "DisplayUniforms"}) {
       EXPECT_THAT(o.out, HasSubstr(name)) << language;
     }
   }

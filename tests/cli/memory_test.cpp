@@ -32,7 +32,9 @@ TEST_P(StatedMemory, IsWithinATenthOfThePeak) {
   const Case& c = GetParam();
   const TemporaryFolder folder;
   put_sky(folder / "sky.npy");
-  std::vector<std::string> command{"run", fmt::format("{}/scenes/{}", RAINREF_SOURCE_DIR, c.scene), "--threads", "2", "--frames", "2", "--image", c.pictures, "-o", "out"};
+  std::vector<std::string> command{
+      "run", fmt::format("{}/scenes/{}", RAINREF_SOURCE_DIR, c.scene), "--threads", "2", "--frames", "2", "--image", c.pictures, "-o",
+      "out"};
   for (const std::string& s : c.set) command.insert(command.end(), {"--set", s});
   const Outcome o = run_rainref(folder.path(), command);
   ASSERT_EQ(o.code, 0) << o.err;
@@ -45,27 +47,32 @@ TEST_P(StatedMemory, IsWithinATenthOfThePeak) {
 const std::string sky = "environment.image=sky.npy", ground = "puddle.ground_image=sky.npy";
 INSTANTIATE_TEST_SUITE_P(
     Scenes, StatedMemory,
-    testing::Values(Case{"puddle_water", "puddle/default.toml", {sky, ground, "puddle.grid=[2048, 2048]", "run.size=[64, 64]"}},
-                    Case{"puddle_picture", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[1280, 1280]"}},
-                    Case{"puddle_exr", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[640, 640]"}, "exr"},
-                    Case{"puddle_street", "puddle/default.toml", {}},
-                    Case{"puddle_as_published", "puddle/as_published.toml", {sky, ground, "run.size=[1280, 1280]"}},
-                    Case{"edge_splash", "edge_splash/default.toml", {"run.size=[704, 704]"}},
-                    Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[512, 512]"}, "png"},
-                    Case{"edge_splash_as_published", "edge_splash/as_published.toml", {"run.size=[640, 640]"}},
-                    Case{"edge_splash_street", "edge_splash/street.toml", {"run.size=[512, 512]"}},
-                    Case{"screen_drops", "screen_drops/default.toml", {"run.size=[512, 512]"}},
-                    Case{"screen_drops_cells", "screen_drops/default.toml", {"run.size=[256, 256]", "drops.largest_radius=0.2"}},
-                    Case{"screen_drops_as_published", "screen_drops/as_published.toml", {"run.size=[448, 448]"}},
-                    Case{"rainy_glass", "rainy_glass/default.toml", {"run.size=[448, 448]"}},
-                    Case{"rainy_glass_as_published", "rainy_glass/as_published.toml", {"run.size=[448, 448]"}},
-                    Case{"rainy_glass_maps", "rainy_glass/as_published.toml", {"run.size=[64, 64]", "maps.size=1024"}},
-                    Case{"windshield_drops", "windshield/stress.toml", {"run.size=[64, 64]", "scene.size=[64, 64]", "windshield.capacity=4000000"}},
-                    Case{"windshield_drops_as_published", "windshield/as_published.toml",
-                         {"run.size=[64, 64]", "scene.size=[64, 64]", "windshield.capacity=1000000", "windshield.spawn_rate=1000000", "windshield.drag=1", "run.fps=2"}},
-                    Case{"windshield_textures", "windshield/default.toml", {"run.size=[64, 64]", "scene.size=[64, 64]", "windshield.height_size=[2048, 2048]"}},
-                    Case{"windshield_street", "windshield/default.toml", {"run.size=[640, 360]", "scene.size=[640, 480]"}},
-                    Case{"windshield_drive", "windshield/drive.toml", {"run.size=[640, 360]", "scene.size=[640, 360]", "run.fps=1"}}),
+    testing::Values(
+        Case{"puddle_water", "puddle/default.toml", {sky, ground, "puddle.grid=[2048, 2048]", "run.size=[64, 64]"}},
+        Case{"puddle_picture", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[1280, 1280]"}},
+        Case{"puddle_exr", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[640, 640]"}, "exr"},
+        Case{"puddle_street", "puddle/default.toml", {}},
+        Case{"puddle_as_published", "puddle/as_published.toml", {sky, ground, "run.size=[1280, 1280]"}},
+        Case{"edge_splash", "edge_splash/default.toml", {"run.size=[704, 704]"}},
+        Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[512, 512]"}, "png"},
+        Case{"edge_splash_as_published", "edge_splash/as_published.toml", {"run.size=[640, 640]"}},
+        Case{"edge_splash_street", "edge_splash/street.toml", {"run.size=[512, 512]"}},
+        Case{"screen_drops", "screen_drops/default.toml", {"run.size=[512, 512]"}},
+        Case{"screen_drops_cells", "screen_drops/default.toml", {"run.size=[256, 256]", "drops.largest_radius=0.2"}},
+        Case{"screen_drops_as_published", "screen_drops/as_published.toml", {"run.size=[448, 448]"}},
+        Case{"rainy_glass", "rainy_glass/default.toml", {"run.size=[448, 448]"}},
+        Case{"rainy_glass_as_published", "rainy_glass/as_published.toml", {"run.size=[448, 448]"}},
+        Case{"rainy_glass_maps", "rainy_glass/as_published.toml", {"run.size=[64, 64]", "maps.size=1024"}},
+        Case{"windshield_drops", "windshield/stress.toml", {"run.size=[64, 64]", "scene.size=[64, 64]", "windshield.capacity=4000000"}},
+        Case{"windshield_drops_as_published",
+             "windshield/as_published.toml",
+             {"run.size=[64, 64]", "scene.size=[64, 64]", "windshield.capacity=1000000", "windshield.spawn_rate=1000000",
+              "windshield.drag=1", "run.fps=2"}},
+        Case{"windshield_textures",
+             "windshield/default.toml",
+             {"run.size=[64, 64]", "scene.size=[64, 64]", "windshield.height_size=[2048, 2048]"}},
+        Case{"windshield_street", "windshield/default.toml", {"run.size=[640, 360]", "scene.size=[640, 480]"}},
+        Case{"windshield_drive", "windshield/drive.toml", {"run.size=[640, 360]", "scene.size=[640, 360]", "run.fps=1"}}),
     [](const auto& c) { return c.param.name; });
 
 }  // namespace

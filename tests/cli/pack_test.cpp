@@ -69,7 +69,8 @@ TEST_F(PackVerb, OutputsAreWhatHashHashes) {
 
 TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
   const Outcome o = pack({"published.toml", "-o", "p"});
-  EXPECT_THAT(o.out, MatchesRegex("18 cases of raindrops wave_step surface_hit ground_noise shade display in [0-9]+ files, [0-9.]+ MiB, in p\n"));
+  EXPECT_THAT(o.out,
+              MatchesRegex("18 cases of raindrops wave_step surface_hit ground_noise shade display in [0-9]+ files, [0-9.]+ MiB, in p\n"));
   std::vector<std::string> expected = hash({"published.toml", "--frames", "13"}), found = hash_lines(read("p"));
   EXPECT_THAT(found, testing::IsSubsetOf(expected));
   EXPECT_EQ(found.size(), 3u * 7);
@@ -77,14 +78,16 @@ TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
 }
 
 TEST_F(PackVerb, OneCaseIsOne) {
-  EXPECT_THAT(pack({"corrected.toml", "-o", "p", "--at", "0", "--passes", "display"}).out, MatchesRegex("1 case of display in [0-9]+ files, .*"));
+  EXPECT_THAT(pack({"corrected.toml", "-o", "p", "--at", "0", "--passes", "display"}).out,
+              MatchesRegex("1 case of display in [0-9]+ files, .*"));
   EXPECT_THAT(rainref({"diff", "p", "p"}).out, testing::StartsWith("equal: 1 run of a pass, 2 buffers\n"));
 }
 
 TEST_F(PackVerb, FramesAndPassesAreChosen) {
   pack({"corrected.toml", "-o", "p", "--at", "3,1,3", "--passes", "shade,wave_step"});
-  EXPECT_THAT(ids("p"), ElementsAre("puddle.wave_step/0001.0", "puddle.wave_step/0001.1", "puddle.wave_step/0001.2", "puddle.wave_step/0001.3", "puddle.shade/0001.0",
-                                    "puddle.wave_step/0003.0", "puddle.wave_step/0003.1", "puddle.wave_step/0003.2", "puddle.wave_step/0003.3", "puddle.shade/0003.0"));
+  EXPECT_THAT(ids("p"), ElementsAre("puddle.wave_step/0001.0", "puddle.wave_step/0001.1", "puddle.wave_step/0001.2",
+                                    "puddle.wave_step/0001.3", "puddle.shade/0001.0", "puddle.wave_step/0003.0", "puddle.wave_step/0003.1",
+                                    "puddle.wave_step/0003.2", "puddle.wave_step/0003.3", "puddle.shade/0003.0"));
 }
 
 TEST_F(PackVerb, ThreadsAndSimdTargetsDoNotMatter) {
@@ -103,7 +106,8 @@ TEST_F(PackVerb, AnOlderPackIsReplacedAndNothingElse) {
   EXPECT_THAT(ids("p"), ElementsAre("puddle.display/0001.0"));
   put(folder / "p/mine.txt", "mine");
   before = folder.names();
-  expect_refusal({"pack", "corrected.toml", "-o", "p"}, 4, "cannot write 'p': the pack there would be replaced, but 'mine.txt' is no part of it");
+  expect_refusal({"pack", "corrected.toml", "-o", "p"}, 4,
+                 "cannot write 'p': the pack there would be replaced, but 'mine.txt' is no part of it");
   EXPECT_THAT(ids("p"), ElementsAre("puddle.display/0001.0"));
   std::filesystem::create_directory(folder / "d");
   put(folder / "d/mine.txt", "mine");
@@ -117,12 +121,16 @@ TEST_F(PackVerb, BadArguments) {
   expect_refusal({"pack", "-o", "p"}, 2, HasSubstr("SCENE is required"));
   expect_refusal({"pack", "corrected.toml", "-o", ""}, 2, "--output: expected a folder, found ''");
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--frames", "3"}, 2, StartsWith("--frames: unknown option of 'pack'"));
-  for (const auto& [at, found] : std::vector<std::pair<std::string, std::string>>{{"", ""}, {"1,", ""}, {"-1", "-1"}, {"1;2", "1;2"}, {"0,x", "x"}, {"1000001", "1000001"}}) {
-    expect_refusal({"pack", "corrected.toml", "-o", "p", "--at", at}, 2, fmt::format("--at: expected a whole number from 0 to 1000000, found '{}'", found));
+  for (const auto& [at, found] : std::vector<std::pair<std::string, std::string>>{
+           {"", ""}, {"1,", ""}, {"-1", "-1"}, {"1;2", "1;2"}, {"0,x", "x"}, {"1000001", "1000001"}}) {
+    expect_refusal({"pack", "corrected.toml", "-o", "p", "--at", at}, 2,
+                   fmt::format("--at: expected a whole number from 0 to 1000000, found '{}'", found));
   }
-  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "wave_stp"}, 2,
-                 "--passes: expected some of raindrops, wave_step, surface_hit, shade, display, found 'wave_stp'; did you mean 'wave_step'?");
-  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "ground_noise"}, 2, HasSubstr("found 'ground_noise'"));  // as-published only
+  expect_refusal(
+      {"pack", "corrected.toml", "-o", "p", "--passes", "wave_stp"}, 2,
+      "--passes: expected some of raindrops, wave_step, surface_hit, shade, display, found 'wave_stp'; did you mean 'wave_step'?");
+  expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", "ground_noise"}, 2,
+                 HasSubstr("found 'ground_noise'"));  // as-published only
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--passes", ""}, 2, EndsWith("found ''"));
   expect_refusal({"pack", "none.toml", "-o", "p"}, 4, HasSubstr("none.toml"));
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "puddle.zebra=1"}, 2, HasSubstr("puddle.zebra"));
@@ -132,14 +140,16 @@ TEST_F(PackVerb, BadArguments) {
 TEST_F(PackVerb, ALossyInputIsRefused) {
   put(folder / "sky.jpg", image_io::jpeg(3));
   before = folder.names();
-  expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "environment.image=sky.jpg"}, 2,
-                 "environment.image: 'sky.jpg' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR");
+  expect_refusal(
+      {"pack", "corrected.toml", "-o", "p", "--set", "environment.image=sky.jpg"}, 2,
+      "environment.image: 'sky.jpg' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR");
 }
 
 TEST_F(PackVerb, AFullDiskLeavesNothing) {
   Circumstances c;
   c.file_bytes = 2000;
-  expect_refusal({"pack", "corrected.toml", "-o", "new/deep", "--at", "0"}, 4, AllOf(StartsWith("cannot write 'new/deep/"), EndsWith("File too large")), c);
+  expect_refusal({"pack", "corrected.toml", "-o", "new/deep", "--at", "0"}, 4,
+                 AllOf(StartsWith("cannot write 'new/deep/"), EndsWith("File too large")), c);
 }
 
 using RunCapture = PackVerb;
@@ -162,12 +172,14 @@ TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
 }
 
 TEST_F(RunCapture, BadArguments) {
-  expect_refusal({"run", "corrected.toml", "--capture", "pases"}, 2, "--capture: expected passes or all, found 'pases'; did you mean 'passes'?");
+  expect_refusal({"run", "corrected.toml", "--capture", "pases"}, 2,
+                 "--capture: expected passes or all, found 'pases'; did you mean 'passes'?");
   expect_refusal({"run", "corrected.toml", "--capture", ""}, 2, "--capture: expected passes or all, found ''");
   std::filesystem::create_directories(folder / "o/capture");
   put(folder / "o/capture/mine.txt", "mine");
   before = folder.names();
-  expect_refusal({"run", "corrected.toml", "-o", "o", "--capture", "all"}, 4, "cannot write 'o/capture': the folder is not empty and no pack of rainref");
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--capture", "all"}, 4,
+                 "cannot write 'o/capture': the folder is not empty and no pack of rainref");
 }
 
 }  // namespace

@@ -11,8 +11,11 @@ using testing::IsSupersetOf;
 class PaneTruth : public TracedPictures {
  protected:
   PaneTruth() {
-    put(folder / "screen_drops.toml", "effect = 'screen_drops'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [96, 54]\n[glass]\nheight = 0.04\n[rain]\nrate = 100\n[flow]\nwarm_up = 10\nheight_size = [160, 90]\n");
-    put(folder / "rainy_glass.toml", "effect = 'rainy_glass'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [96, 54]\n[maps]\nsize = 128\n");
+    put(folder / "screen_drops.toml",
+        "effect = 'screen_drops'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [96, 54]\n[glass]\nheight = 0.04\n[rain]\nrate = "
+        "100\n[flow]\nwarm_up = 10\nheight_size = [160, 90]\n");
+    put(folder / "rainy_glass.toml",
+        "effect = 'rainy_glass'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [96, 54]\n[maps]\nsize = 128\n");
     before = folder.names();
   }
 };
@@ -27,9 +30,11 @@ TEST_F(PaneTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
 }
 
 TEST_F(PaneTruth, PassesAreComparedWithIt) {
-  const std::map<std::string, std::vector<const char*>> names{{"screen_drops", {"refraction", "colour", "colour_dry", "display"}}, {"rainy_glass", {"refraction", "bend", "colour", "colour_dry", "display"}}};
+  const std::map<std::string, std::vector<const char*>> names{{"screen_drops", {"refraction", "colour", "colour_dry", "display"}},
+                                                              {"rainy_glass", {"refraction", "bend", "colour", "colour_dry", "display"}}};
   for (const auto& [effect, differences] : names) {
-    const Outcome o = rainref({"run", effect + ".toml", "-o", effect, "--compare-truth", "--image", "both", "--set", "compositor.picture=traced"});
+    const Outcome o =
+        rainref({"run", effect + ".toml", "-o", effect, "--compare-truth", "--image", "both", "--set", "compositor.picture=traced"});
     ASSERT_EQ(o.code, 0) << o.err;
     const nlohmann::json truth = summary(effect)["truth"].at(0);
     EXPECT_EQ(truth["pixels"], 96 * 54);
@@ -47,11 +52,17 @@ TEST_F(PaneTruth, PassesAreComparedWithIt) {
 }
 
 TEST_F(PaneTruth, WhatCannotBeTracedIsRefused) {
-  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--compare-truth"}, 2, HasSubstr("has no traced truth"));
-  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.picture: expected \"passes\""));
-  expect_refusal({"run", "screen_drops.toml", "-o", "o", "--set", "compositor.glass_thickness=0.09", "--compare-truth"}, 2, HasSubstr("compositor.glass_thickness: expected less than"));
-  expect_refusal({"run", "screen_drops.toml", "-o", "o", "--set", "compositor.glass_thickness=0.09", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.glass_thickness: expected less than"));
-  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.distance=0.02", "--set", "compositor.glass_thickness=0.02", "--compare-truth"}, 2, HasSubstr("compositor.glass_thickness: expected less than"));
+  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--compare-truth"}, 2,
+                 HasSubstr("has no traced truth"));
+  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--set", "compositor.picture=traced"}, 2,
+                 HasSubstr("compositor.picture: expected \"passes\""));
+  expect_refusal({"run", "screen_drops.toml", "-o", "o", "--set", "compositor.glass_thickness=0.09", "--compare-truth"}, 2,
+                 HasSubstr("compositor.glass_thickness: expected less than"));
+  expect_refusal({"run", "screen_drops.toml", "-o", "o", "--set", "compositor.glass_thickness=0.09", "--set", "compositor.picture=traced"},
+                 2, HasSubstr("compositor.glass_thickness: expected less than"));
+  expect_refusal(
+      {"run", "rainy_glass.toml", "-o", "o", "--set", "glass.distance=0.02", "--set", "compositor.glass_thickness=0.02", "--compare-truth"},
+      2, HasSubstr("compositor.glass_thickness: expected less than"));
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 namespace rainref::cli {
 
 /// value(column, row from the top, channel) as an NPY file: '<f4', or '|u1' of codes. One channel: (height, width).
-inline void put_npy(const std::filesystem::path& path, int width, int height, int channels, const std::function<float(int, int, int)>& value, bool is_codes = false) {
+inline void put_npy(const std::filesystem::path& path, int width, int height, int channels,
+                    const std::function<float(int, int, int)>& value, bool is_codes = false) {
   const std::string shape = channels == 1 ? fmt::format("({}, {})", height, width) : fmt::format("({}, {}, {})", height, width, channels);
   std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", is_codes ? "|u1" : "<f4", shape);
   header.resize(118 - 1, ' ');
@@ -20,8 +21,10 @@ inline void put_npy(const std::filesystem::path& path, int width, int height, in
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < channels; ++c) {
         const float v = value(x, y, c);
-        if (is_codes) bytes += static_cast<char>(static_cast<unsigned char>(v));
-        else bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+        if (is_codes)
+          bytes += static_cast<char>(static_cast<unsigned char>(v));
+        else
+          bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
       }
     }
   }
@@ -32,8 +35,10 @@ inline Image image_of(Format format, int width, int height, const std::function<
   Image image(format, width, height);
   for (int y = 0; y < height; ++y) {
     for (int i = 0; i < 4 * width; ++i) {
-      if (format == Format::rgba8) image.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(value(i / 4, y, i % 4));
-      else image.row<float>(y)[i] = value(i / 4, y, i % 4);
+      if (format == Format::rgba8)
+        image.row<std::uint8_t>(y)[i] = static_cast<std::uint8_t>(value(i / 4, y, i % 4));
+      else
+        image.row<float>(y)[i] = value(i / 4, y, i % 4);
     }
   }
   return image;
@@ -56,7 +61,8 @@ class SceneFiles : public CommandLine {
     image_io::write_exr(folder / "depth.exr", {{"", {"R", "G", "B"}, &depth}});
     put_npy(folder / "depth.npy", width, height, 1, metres);
     put_npy(folder / "small.npy", 8, 8, 1, metres);
-    put_npy(folder / "below.npy", width, height, 1, [](int x, int y, int c) { return x == 7 && y == height - 1 - 4 ? -2.0f : metres(x, y, c); });
+    put_npy(folder / "below.npy", width, height, 1,
+            [](int x, int y, int c) { return x == 7 && y == height - 1 - 4 ? -2.0f : metres(x, y, c); });
     put_npy(folder / "holed.npy", width, height, 1, [](int x, int y, int c) { return x == 3 && y == 2 ? std::nanf("") : metres(x, y, c); });
     put_npy(folder / "two.npy", width, height, 2, metres);
     put(folder / "cut.npy", contents(folder / "depth.npy").substr(0, 200));
@@ -68,7 +74,8 @@ class SceneFiles : public CommandLine {
     put(folder / "depth16.png", image_io::png(width, height, 16, 0, rows));
   }
   /// Run with these settings, refused with this message.
-  void expect_refused(const std::string& scene, const std::vector<std::string>& sets, const testing::Matcher<const std::string&>& message, int exit_code = 2) {
+  void expect_refused(const std::string& scene, const std::vector<std::string>& sets, const testing::Matcher<const std::string&>& message,
+                      int exit_code = 2) {
     std::vector<std::string> all{"run", scene, "-o", "new/deep"};
     for (const std::string& s : sets) {
       all.push_back("--set");
@@ -82,7 +89,9 @@ class SceneFiles : public CommandLine {
     EXPECT_EQ(hash({scene, "--set", "scene.image=colour.npy"}), lines);
     EXPECT_EQ(hash({scene, "--set", "scene.image=colour3.npy"}), lines);
     EXPECT_NE(hash({scene, "--set", "display.exposure=3"}), lines);
-    expect_refused(scene, {"scene.image=two.npy"}, testing::AllOf(testing::HasSubstr("--set scene.image: 'two.npy': expected numbers"), testing::HasSubstr("(height, width, 1, 3 or 4)")));
+    expect_refused(scene, {"scene.image=two.npy"},
+                   testing::AllOf(testing::HasSubstr("--set scene.image: 'two.npy': expected numbers"),
+                                  testing::HasSubstr("(height, width, 1, 3 or 4)")));
     expect_refused(scene, {"scene.image=nowhere.npy"}, testing::HasSubstr("--set scene.image: cannot read 'nowhere.npy'"), 4);
   }
   /// `other`: a setting under which it shows whether something lies at its depth or at less than half of it.
@@ -92,8 +101,10 @@ class SceneFiles : public CommandLine {
     EXPECT_EQ(hash({scene, "--set", "scene.depth_image=depth.npy"}), lines);
     EXPECT_EQ(hash({scene, "--set", "scene.depth_image=depth16.png", "--set", "scene.depth_scale=65535"}), lines);
     EXPECT_NE(hash({scene, "--set", other, "--set", "scene.depth_scale=0.45"}), hash({scene, "--set", other}));
-    expect_refused(scene, {"scene.depth_image=small.npy"}, HasSubstr("scene.depth_image: expected 24x16 texels as scene.image has, found 8x8"));
-    expect_refused(scene, {"scene.depth_image=below.npy"}, HasSubstr("scene.depth_image: expected depths of 0 m or more, found -2 at column 7, row 4 from the bottom"));
+    expect_refused(scene, {"scene.depth_image=small.npy"},
+                   HasSubstr("scene.depth_image: expected 24x16 texels as scene.image has, found 8x8"));
+    expect_refused(scene, {"scene.depth_image=below.npy"},
+                   HasSubstr("scene.depth_image: expected depths of 0 m or more, found -2 at column 7, row 4 from the bottom"));
     expect_refused(scene, {"scene.depth_image=holed.npy"}, HasSubstr("scene.depth_image: 'holed.npy': NaN at x 3, y 2 (from the top)"));
     expect_refused(scene, {"scene.depth_image=cut.npy"}, HasSubstr("scene.depth_image: 'cut.npy'"));
     expect_refused(scene, {"scene.depth_scale=0"}, HasSubstr("scene.depth_scale"));

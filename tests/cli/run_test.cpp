@@ -40,7 +40,8 @@ TEST_F(RunVerb, WritesTheLastFrameAndASummary) {
 }
 
 TEST_F(RunVerb, OneFrameIsOne) {
-  EXPECT_THAT(run({"corrected.toml", "-o", "o", "--frames", "1"}).out, MatchesRegex("1 frame in [^\n]*, 1 picture and summary\\.json in o\n"));
+  EXPECT_THAT(run({"corrected.toml", "-o", "o", "--frames", "1"}).out,
+              MatchesRegex("1 frame in [^\n]*, 1 picture and summary\\.json in o\n"));
 }
 
 TEST_F(RunVerb, KindsOfPictures) {
@@ -52,7 +53,8 @@ TEST_F(RunVerb, KindsOfPictures) {
   EXPECT_THAT(names("none"), ElementsAre("summary.json"));
   const image_io::Picture exr = image_io::read(folder / "exr/puddle.0001.exr");
   EXPECT_EQ(exr.image.format(), Format::rgba16f);
-  EXPECT_THAT(exr.channel_names, IsSupersetOf({"R", "G", "B", "normal.X", "normal.Y", "normal.Z", "position.X", "position.Y", "position.Z"}));
+  EXPECT_THAT(exr.channel_names,
+              IsSupersetOf({"R", "G", "B", "normal.X", "normal.Y", "normal.Z", "position.X", "position.Y", "position.Z"}));
   EXPECT_FALSE(exr.lossy);
 }
 
@@ -89,7 +91,8 @@ TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
   ASSERT_EQ(s["last_frame"].size(), 6u);
   for (int i = 0; i < 6; ++i) {
     const auto& line = s["last_frame"][i];
-    EXPECT_EQ(fmt::format("{} {} {} {}", line["frame"].get<int>(), line["pass"].get<std::string>(), line["buffer"].get<std::string>(), line["xxh3"].get<std::string>()),
+    EXPECT_EQ(fmt::format("{} {} {} {}", line["frame"].get<int>(), line["pass"].get<std::string>(), line["buffer"].get<std::string>(),
+                          line["xxh3"].get<std::string>()),
               lines[static_cast<std::size_t>(6 + i)]);
   }
 }

@@ -10,7 +10,8 @@
 namespace rainref::cli {
 
 /// Starts the program in a folder. Its standard output goes to `output`, a descriptor; by default nowhere.
-inline std::unique_ptr<ChildProcess> start_rainref(const std::filesystem::path& folder, std::vector<std::string> arguments, int output = -1) {
+inline std::unique_ptr<ChildProcess> start_rainref(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                                                   int output = -1) {
   arguments.insert(arguments.begin(), RAINREF_PROGRAM);
   return std::make_unique<ChildProcess>([&] {
     std::vector<char*> argv;

@@ -23,7 +23,8 @@ class ScreenDropsFiles : public SceneFiles {
     before = folder.names();
   }
   static std::string text(const std::string& variant, const std::string& rest) {
-    return fmt::format("effect = 'screen_drops'\nvariant = '{}'\n[run]\nframes = 2\nsize = [{}, {}]\n[scene]\nimage = 'colour.png'\n{}", variant, width, height, rest);
+    return fmt::format("effect = 'screen_drops'\nvariant = '{}'\n[run]\nframes = 2\nsize = [{}, {}]\n[scene]\nimage = 'colour.png'\n{}",
+                       variant, width, height, rest);
   }
   Outcome good(const std::vector<std::string>& arguments) const {
     Circumstances c;
@@ -62,7 +63,8 @@ TEST_F(ScreenDropsFiles, BothVariantsRunWithTheirPasses) {
 
 TEST_F(ScreenDropsFiles, RunWritesPicturesAndTheEffectiveConfiguration) {
   good({"run", "drops.toml", "-o", "out", "--image", "both", "--set", "drops.share=0.25"});
-  const image_io::Picture png = image_io::read(folder / "out/screen_drops.0001.png"), exr = image_io::read(folder / "out/screen_drops.0001.exr");
+  const image_io::Picture png = image_io::read(folder / "out/screen_drops.0001.png"),
+                          exr = image_io::read(folder / "out/screen_drops.0001.exr");
   EXPECT_EQ(png.image.width(), width);
   EXPECT_EQ(exr.image.height(), height);
   EXPECT_THAT(exr.channel_names, testing::IsSupersetOf({"R", "G", "B", "background.R"}));
@@ -102,7 +104,8 @@ TEST_F(ScreenDropsFiles, EveryKindOfFileIsTheSameScene) {
 TEST_F(ScreenDropsFiles, APanoramaIsSeenThroughTheCamera) {
   // Brighter toward +x (u = 1/2) than toward -x.
   put_npy(folder / "round.npy", 32, 16, 3, [](int x, int, int) { return x >= 8 && x < 24 ? 4.0f : 0.25f; });
-  const std::vector<std::string> look{"drops.toml", "--set", "scene.image=", "--set", "scene.panorama=round.npy", "--set", "camera.position=[0,0,0]"};
+  const std::vector<std::string> look{
+      "drops.toml", "--set", "scene.image=", "--set", "scene.panorama=round.npy", "--set", "camera.position=[0,0,0]"};
   const auto toward = [&](const char* target) {
     std::vector<std::string> all = look;
     all.insert(all.end(), {"--set", target});
@@ -113,12 +116,16 @@ TEST_F(ScreenDropsFiles, APanoramaIsSeenThroughTheCamera) {
 }
 
 TEST_F(ScreenDropsFiles, NoiseThatDoesNotTileIsAWarning) {
-  put_npy(folder / "ramp.npy", 32, 32, 4, [](int x, int, int) { return static_cast<float>(8 * x); }, true);
-  put_npy(folder / "white.npy", 16, 16, 4, [](int x, int y, int c) { return static_cast<float>((x * 97 + y * 57 + c * 131) * 167 % 251); }, true);
+  put_npy(
+      folder / "ramp.npy", 32, 32, 4, [](int x, int, int) { return static_cast<float>(8 * x); }, true);
+  put_npy(
+      folder / "white.npy", 16, 16, 4, [](int x, int y, int c) { return static_cast<float>((x * 97 + y * 57 + c * 131) * 167 % 251); },
+      true);
   const auto with = [&](const char* noise) { return rainref({"hash", "printed.toml", "--set", fmt::format("noise.image={}", noise)}); };
   const Outcome ramp = with("ramp.npy"), white = with("white.npy");
   EXPECT_EQ(ramp.code, 0);
-  EXPECT_THAT(ramp.err, AllOf(HasSubstr("rainref: warning: noise.image: ramp.npy does not tile"), HasSubstr("times the one between its texels")));
+  EXPECT_THAT(ramp.err,
+              AllOf(HasSubstr("rainref: warning: noise.image: ramp.npy does not tile"), HasSubstr("times the one between its texels")));
   EXPECT_EQ(white.err, "");
   EXPECT_NE(white.out, ramp.out);
 }
@@ -130,10 +137,11 @@ TEST_F(ScreenDropsFiles, WhatIsWrongIsNamed) {
   expect_refused("drops.toml", {"scene.image=pipe"}, HasSubstr("--set scene.image: cannot read 'pipe'"), 4);  // and does not wait
   expect_refused("drops.toml", {"glass.height=0"}, HasSubstr("glass.height"));
   expect_refused("drops.toml", {"drops.largest_radius=0"}, HasSubstr("drops.largest_radius"));
-  expect_refused("drops.toml", {"drops.shortest_cycle=40"}, HasSubstr("drops.shortest_cycle: expected at most drops.longest_cycle = 30 s, found 40"));
+  expect_refused("drops.toml", {"drops.shortest_cycle=40"},
+                 HasSubstr("drops.shortest_cycle: expected at most drops.longest_cycle = 30 s, found 40"));
   expect_refused("drops.toml", {"camera.target=[0,0,0]", "camera.position=[0,0,0]"}, HasSubstr("camera"));
   expect_refused("drops.toml", {"drops.shre=1"}, HasSubstr("drops.share"));
-  expect_refused("drops.toml", {"drops.grid=0.1"}, HasSubstr("drops.grid"));     // as-published has it
+  expect_refused("drops.toml", {"drops.grid=0.1"}, HasSubstr("drops.grid"));      // as-published has it
   expect_refused("printed.toml", {"glass.height=1"}, HasSubstr("glass.height"));  // corrected has it
   expect_refused("printed.toml", {"drops.grid=0"}, HasSubstr("drops.grid"));
 }

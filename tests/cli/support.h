@@ -135,10 +135,13 @@ class CommandLine : public testing::Test {
 
   /// The sky's line is 7; `rest` starts at line 8. The sky is the ground too: asphalt takes longer than the rest.
   static std::string scene(const std::string& variant, const std::string& rest = "") {
-    return fmt::format("effect = 'puddle'\nvariant = '{}'\n[run]\nframes = 2\nsize = [24, 16]\n[environment]\nimage = 'sky.png'\n{}", variant, rest.empty() ? "[puddle]\nground_image = 'sky.png'\n" : rest);
+    return fmt::format("effect = 'puddle'\nvariant = '{}'\n[run]\nframes = 2\nsize = [24, 16]\n[environment]\nimage = 'sky.png'\n{}",
+                       variant, rest.empty() ? "[puddle]\nground_image = 'sky.png'\n" : rest);
   }
 
-  Outcome rainref(const std::vector<std::string>& arguments, const Circumstances& c = {}) const { return run_rainref(folder.path(), arguments, c); }
+  Outcome rainref(const std::vector<std::string>& arguments, const Circumstances& c = {}) const {
+    return run_rainref(folder.path(), arguments, c);
+  }
 
   /// Refused: this exit code, nothing on standard output, one line on standard error, and no new file.
   void expect_refusal(const std::vector<std::string>& arguments, int code, const testing::Matcher<const std::string&>& message,

@@ -22,7 +22,8 @@ class TracedPictures : public CommandLine {
     return out;
   }
   /// The same after running scene.toml with these arguments more.
-  std::map<std::string, std::string> trace(const std::string& scene, const std::string& to, const std::vector<std::string>& more = {}) const {
+  std::map<std::string, std::string> trace(const std::string& scene, const std::string& to,
+                                           const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments{"run", scene + ".toml", "-o", to, "--image", "none", "--set", "compositor.picture=traced"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome o = rainref(arguments);

@@ -12,7 +12,8 @@ using testing::Not;
 class Truth : public TracedPictures {};
 
 TEST_F(Truth, TracedPicturesComeWithNamedChannels) {
-  const Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--image", "both", "--set", "compositor.picture=traced", "--set", "compositor.samples=4"});
+  const Outcome o = rainref(
+      {"run", "corrected.toml", "-o", "o", "--image", "both", "--set", "compositor.picture=traced", "--set", "compositor.samples=4"});
   ASSERT_EQ(o.code, 0) << o.err;
   const image_io::Picture exr = image_io::read(folder / "o/puddle.0001.exr");
   EXPECT_THAT(exr.channel_names, IsSupersetOf({"R", "G", "B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "film", "mask"}));
@@ -46,7 +47,8 @@ TEST_F(Truth, ComparisonWritesPicturesAndPercentiles) {
 }
 
 TEST_F(Truth, WhatCannotBeComparedIsRefused) {
-  expect_refusal({"run", "published.toml", "-o", "o", "--compare-truth"}, 2, HasSubstr("--compare-truth: puddle as-published has no traced truth"));
+  expect_refusal({"run", "published.toml", "-o", "o", "--compare-truth"}, 2,
+                 HasSubstr("--compare-truth: puddle as-published has no traced truth"));
   expect_refusal({"run", "published.toml", "-o", "o", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.picture"));
   expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=traced", "--set", "compositor.samples=3"}, 2,
                  HasSubstr("--set compositor.samples: expected 1, 4, 8 or 16, found 3"));
@@ -57,7 +59,8 @@ TEST_F(Truth, WhatCannotBeComparedIsRefused) {
 
 // Packs and captures are of passes: nothing of the compositor is in them.
 TEST_F(Truth, PacksKnowNothingOfIt) {
-  const Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--capture", "all", "--image", "none", "--set", "compositor.picture=traced"});
+  const Outcome o =
+      rainref({"run", "corrected.toml", "-o", "o", "--capture", "all", "--image", "none", "--set", "compositor.picture=traced"});
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(contents(folder / "o/capture/manifest.json"), Not(HasSubstr("compositor")));
   EXPECT_THAT(rainref({"describe", "puddle"}).out, HasSubstr("compositor.embree_config"));

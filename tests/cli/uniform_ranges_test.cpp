@@ -26,11 +26,16 @@ double share(Words& words) { return static_cast<double>(words() >> 11) * 0x1p-53
 double drawn(double low, double high, Words& words) {
   const double t = share(words);
   switch (words() % 5) {
-    case 0: return low;
-    case 1: return high;
-    case 2: return low + (high - low) * t * t * t * t * t;
-    case 3: return high - (high - low) * t * t * t * t * t;
-    default: return low + (high - low) * t;
+    case 0:
+      return low;
+    case 1:
+      return high;
+    case 2:
+      return low + (high - low) * t * t * t * t * t;
+    case 3:
+      return high - (high - low) * t * t * t * t * t;
+    default:
+      return low + (high - low) * t;
   }
 }
 
@@ -57,7 +62,8 @@ class Ranges : public Recorder {
 
 class UniformRanges : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 INSTANTIATE_TEST_SUITE_P(Effects, UniformRanges,
-                         testing::Combine(testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"), testing::Values("as-published", "corrected")),
+                         testing::Combine(testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"),
+                                          testing::Values("as-published", "corrected")),
                          [](const auto& i) {
                            std::string name = std::get<0>(i.param) + "_" + std::get<1>(i.param);
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -69,10 +75,24 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
   const EffectEntry& entry = effect(name);
   const parallel::Executor executor(2);
   // What makes a run large or long, and what has nothing to do with uniforms, stays small.
-  const std::map<std::string, std::string> fixed{{"maps.size", "8"},          {"maps.droplets", "20"},   {"maps.trails", "4"}, {"noise.size", "8"},
-                                                 {"scene.size", "[16, 12]"}, {"scene.keyframes", "1"},    {"wipers.count", "2"},     {"puddle.grid", "[9, 7]"},
-                                                 {"windshield.capacity", "500"}, {"flow.capacity", "500"}, {"windshield.height_size", "[12, 9]"}, {"flow.height_size", "[12, 9]"},
-                                                 {"glass.shape", "'pane'"},  {"scene.source", "'shapes'"}, {"puddle.max_steps", "4"}, {"windshield.substeps", "2"}, {"flow.substeps", "2"}, {"flow.warm_up", "0.1"}};
+  const std::map<std::string, std::string> fixed{{"maps.size", "8"},
+                                                 {"maps.droplets", "20"},
+                                                 {"maps.trails", "4"},
+                                                 {"noise.size", "8"},
+                                                 {"scene.size", "[16, 12]"},
+                                                 {"scene.keyframes", "1"},
+                                                 {"wipers.count", "2"},
+                                                 {"puddle.grid", "[9, 7]"},
+                                                 {"windshield.capacity", "500"},
+                                                 {"flow.capacity", "500"},
+                                                 {"windshield.height_size", "[12, 9]"},
+                                                 {"flow.height_size", "[12, 9]"},
+                                                 {"glass.shape", "'pane'"},
+                                                 {"scene.source", "'shapes'"},
+                                                 {"puddle.max_steps", "4"},
+                                                 {"windshield.substeps", "2"},
+                                                 {"flow.substeps", "2"},
+                                                 {"flow.warm_up", "0.1"}};
   const std::string packs = RAINREF_SOURCE_DIR "/tests/packs/", scene = packs + name + "-" + variant + ".toml";
   // The street would take seconds to make.
   std::vector<std::string> always{"run.frames=2"};
@@ -98,15 +118,29 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
       const auto real = [&] { return fmt::format("{:e}", std::clamp(drawn(low, high, words), low, high)); };
       const auto whole = [&] { return fmt::format("{}", static_cast<std::int64_t>(drawn(low, std::min(high, 5000.0), words))); };
       switch (p.type) {
-        case scene::Type::boolean: overrides.push_back(p.key + (words() % 2 ? "=true" : "=false")); break;
-        case scene::Type::integer: overrides.push_back(p.key + "=" + whole()); break;
-        case scene::Type::integer2: break;
-        case scene::Type::real: overrides.push_back(p.key + "=" + real()); break;
-        case scene::Type::real2: overrides.push_back(fmt::format("{}=[{}, {}]", p.key, real(), real())); break;
+        case scene::Type::boolean:
+          overrides.push_back(p.key + (words() % 2 ? "=true" : "=false"));
+          break;
+        case scene::Type::integer:
+          overrides.push_back(p.key + "=" + whole());
+          break;
+        case scene::Type::integer2:
+          break;
+        case scene::Type::real:
+          overrides.push_back(p.key + "=" + real());
+          break;
+        case scene::Type::real2:
+          overrides.push_back(fmt::format("{}=[{}, {}]", p.key, real(), real()));
+          break;
         // A direction or a corner: all three components anywhere.
-        case scene::Type::real3: overrides.push_back(fmt::format("{}=[{}, {}, {}]", p.key, real(), real(), real())); break;
-        case scene::Type::choice: overrides.push_back(fmt::format("{}='{}'", p.key, p.choices[words() % p.choices.size()])); break;
-        case scene::Type::text: break;
+        case scene::Type::real3:
+          overrides.push_back(fmt::format("{}=[{}, {}, {}]", p.key, real(), real(), real()));
+          break;
+        case scene::Type::choice:
+          overrides.push_back(fmt::format("{}='{}'", p.key, p.choices[words() % p.choices.size()]));
+          break;
+        case scene::Type::text:
+          break;
       }
     }
     try {

@@ -24,7 +24,8 @@ class Unwritable : public CommandLine {
 };
 
 TEST_F(Unwritable, AFolderBelowAFile) {
-  expect_refusal({"run", "corrected.toml", "-o", "sky.png/sub"}, 4, AllOf(StartsWith("sky.png/sub: "), HasSubstr("cannot make this folder")));
+  expect_refusal({"run", "corrected.toml", "-o", "sky.png/sub"}, 4,
+                 AllOf(StartsWith("sky.png/sub: "), HasSubstr("cannot make this folder")));
   expect_refusal({"run", "corrected.toml", "-o", "sky.png"}, 4, AllOf(StartsWith("sky.png: "), HasSubstr("cannot make this folder")));
 }
 

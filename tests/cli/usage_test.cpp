@@ -24,7 +24,8 @@ TEST_F(Usage, HelpShowsAnExample) {
   const Outcome all = rainref({"--help"});
   EXPECT_EQ(all.code, 0);
   EXPECT_THAT(all.out, HasSubstr("\nExample: rainref run "));
-  for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"}) EXPECT_THAT(all.out, HasSubstr("\n  " + verb + " "));
+  for (const std::string verb : {"list", "describe", "run", "hash", "pack", "diff", "selftest"})
+    EXPECT_THAT(all.out, HasSubstr("\n  " + verb + " "));
   EXPECT_EQ(rainref({"-h"}).out, all.out);
 }
 
@@ -42,13 +43,17 @@ TEST_F(Usage, HelpIsAVerbToo) {
 
 TEST_F(Usage, HelpSaysWhatAValueIs) {
   const auto help = [&](const char* verb) { return rainref({verb, "--help"}).out; };
-  for (const char* verb : {"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "selftest"}) EXPECT_THAT(help(verb), Not(HasSubstr("TEXT"))) << verb;
-  EXPECT_THAT(help("run"), AllOf(HasSubstr("SCENE FILE"), HasSubstr("--frames N"), HasSubstr("--size WxH"), HasSubstr("--threads N"), HasSubstr("--set KEY=VALUE"), HasSubstr("--output DIR")));
-  EXPECT_THAT(help("validate"), AllOf(HasSubstr("--port DIR"), HasSubstr("--timeout SECONDS"), HasSubstr("--repeat N"), HasSubstr("--junit FILE"), HasSubstr("--exec COMMAND")));
+  for (const char* verb : {"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "selftest"})
+    EXPECT_THAT(help(verb), Not(HasSubstr("TEXT"))) << verb;
+  EXPECT_THAT(help("run"), AllOf(HasSubstr("SCENE FILE"), HasSubstr("--frames N"), HasSubstr("--size WxH"), HasSubstr("--threads N"),
+                                 HasSubstr("--set KEY=VALUE"), HasSubstr("--output DIR")));
+  EXPECT_THAT(help("validate"), AllOf(HasSubstr("--port DIR"), HasSubstr("--timeout SECONDS"), HasSubstr("--repeat N"),
+                                      HasSubstr("--junit FILE"), HasSubstr("--exec COMMAND")));
 }
 
 TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
-  for (const char* verb : {"validate", "mutate"}) EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda, d3d, ieee, metal, vulkan, webgpu (default: vulkan)"));
+  for (const char* verb : {"validate", "mutate"})
+    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda, d3d, ieee, metal, vulkan, webgpu (default: vulkan)"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {
@@ -59,7 +64,8 @@ TEST_F(Usage, VersionIsOneLine) {
 
 TEST_F(Usage, AVerbIsNeeded) {
   expect_refusal({}, 2, HasSubstr("required"));
-  expect_refusal({"lst"}, 2, "expected one of list, describe, run, hash, pack, diff, validate, mutate, selftest, found 'lst'; did you mean 'list'?");
+  expect_refusal({"lst"}, 2,
+                 "expected one of list, describe, run, hash, pack, diff, validate, mutate, selftest, found 'lst'; did you mean 'list'?");
   expect_refusal({"Run", "corrected.toml"}, 2, EndsWith("found 'Run'; did you mean 'run'?"));
   expect_refusal({"zebra"}, 2, EndsWith("found 'zebra'"));
 }
@@ -67,7 +73,8 @@ TEST_F(Usage, AVerbIsNeeded) {
 TEST_F(Usage, AnUnknownOptionNamesTheNearest) {
   expect_refusal({"list", "--jsn"}, 2, "--jsn: unknown option of 'list'; did you mean '--json'?");
   expect_refusal({"hash", "--frmes", "3", "corrected.toml"}, 2, "--frmes: unknown option of 'hash'; did you mean '--frames'?");
-  expect_refusal({"hash", "corrected.toml", "--simd=avx2", "--thread=2"}, 2, "--thread: unknown option of 'hash'; did you mean '--threads'?");
+  expect_refusal({"hash", "corrected.toml", "--simd=avx2", "--thread=2"}, 2,
+                 "--thread: unknown option of 'hash'; did you mean '--threads'?");
   expect_refusal({"run", "--outptu", "x"}, 2, "--outptu: unknown option of 'run'; did you mean '--output'?");
   expect_refusal({"run", "-x"}, 2, "-x: unknown option of 'run'");
   expect_refusal({"--vresion"}, 2, "--vresion: unknown option; did you mean '--version'?");
@@ -99,8 +106,14 @@ TEST_F(Usage, Size) {
   const std::string range = "--size: expected a whole number from 1 to 65536, found ";
   expect_refusal({"hash", "corrected.toml", "--size", "12"}, 2, "--size: expected WxH such as 1280x720, found '12'");
   expect_refusal({"hash", "corrected.toml", "--size", ""}, 2, "--size: expected WxH such as 1280x720, found ''");
-  for (const auto& [size, found] : std::vector<std::pair<std::string, std::string>>{
-           {"0x5", "'0'"}, {"5x", "''"}, {"x5", "''"}, {"5x5x5", "'5x5'"}, {"-3x5", "'-3'"}, {"70000x3", "'70000'"}, {"1.5x2", "'1.5'"}, {"ax5", "'a'"}}) {
+  for (const auto& [size, found] : std::vector<std::pair<std::string, std::string>>{{"0x5", "'0'"},
+                                                                                    {"5x", "''"},
+                                                                                    {"x5", "''"},
+                                                                                    {"5x5x5", "'5x5'"},
+                                                                                    {"-3x5", "'-3'"},
+                                                                                    {"70000x3", "'70000'"},
+                                                                                    {"1.5x2", "'1.5'"},
+                                                                                    {"ax5", "'a'"}}) {
     expect_refusal({"hash", "corrected.toml", "--size", size}, 2, range + found);
   }
 }
@@ -111,26 +124,32 @@ TEST_F(Usage, ASizeMayHaveACapitalX) {
 
 TEST_F(Usage, NumbersOfFramesThreadsAndPictures) {
   for (const std::string threads : {"0", "-1", "x", "", "1025", "2.0", "99999999999999999999"}) {
-    expect_refusal({"hash", "corrected.toml", "--threads", threads}, 2, "--threads: expected a whole number from 1 to 1024, found '" + threads + "'");
+    expect_refusal({"hash", "corrected.toml", "--threads", threads}, 2,
+                   "--threads: expected a whole number from 1 to 1024, found '" + threads + "'");
   }
   for (const std::string frames : {"0", "-5", "1.5", "", "1000001"}) {
-    expect_refusal({"run", "corrected.toml", "--frames", frames}, 2, "--frames: expected a whole number from 1 to 1000000, found '" + frames + "'");
-    expect_refusal({"run", "corrected.toml", "--every", frames}, 2, "--every: expected a whole number from 1 to 1000000, found '" + frames + "'");
+    expect_refusal({"run", "corrected.toml", "--frames", frames}, 2,
+                   "--frames: expected a whole number from 1 to 1000000, found '" + frames + "'");
+    expect_refusal({"run", "corrected.toml", "--every", frames}, 2,
+                   "--every: expected a whole number from 1 to 1000000, found '" + frames + "'");
   }
 }
 
 TEST_F(Usage, AnUnknownSimdTargetNamesThoseOfThisMachine) {
-  expect_refusal({"hash", "corrected.toml", "--simd", "zebra"}, 2, fmt::format("SIMD target 'zebra': this machine has {}", fmt::join(simd_targets(), ", ")));
+  expect_refusal({"hash", "corrected.toml", "--simd", "zebra"}, 2,
+                 fmt::format("SIMD target 'zebra': this machine has {}", fmt::join(simd_targets(), ", ")));
   expect_refusal({"hash", "corrected.toml", "--simd", "scaler"}, 2, EndsWith("did you mean 'scalar'?"));
   const bool has_it = simd_targets().front() == "avx3";
   for (const char* name : {"avx512", "AVX512", "avx-512", "avx512f"}) {
-    expect_refusal({"hash", "corrected.toml", "--simd", name}, 2, EndsWith(has_it ? "; did you mean 'avx3'?" : "; AVX-512 is called avx3, which is not among them"));
+    expect_refusal({"hash", "corrected.toml", "--simd", name}, 2,
+                   EndsWith(has_it ? "; did you mean 'avx3'?" : "; AVX-512 is called avx3, which is not among them"));
   }
   expect_refusal({"hash", "corrected.toml", "--simd", ""}, 2, HasSubstr(fmt::format("{}", fmt::join(simd_targets(), ", "))));
 }
 
 TEST_F(Usage, AnUnknownKindOfPicture) {
-  expect_refusal({"run", "corrected.toml", "--image", "pgn"}, 2, "--image: expected exr, png, both or none, found 'pgn'; did you mean 'png'?");
+  expect_refusal({"run", "corrected.toml", "--image", "pgn"}, 2,
+                 "--image: expected exr, png, both or none, found 'pgn'; did you mean 'png'?");
   expect_refusal({"run", "corrected.toml", "-o", ""}, 2, "--output: expected a folder, found ''");
 }
 

@@ -38,7 +38,8 @@ class ValidateReports : public CommandLine {
 TEST_F(ValidateReports, AllReportsOfAFailingPort) {
   const Outcome o = validate("bad", {"--json", "r.json", "--junit", "r.xml", "--html", "r.html"});
   EXPECT_EQ(o.code, 1) << o.err;
-  EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL  shade"), HasSubstr("likely cause: upside down"), HasSubstr("FAIL: bad against pack, profile vulkan")));
+  EXPECT_THAT(o.out,
+              AllOf(HasSubstr("FAIL  shade"), HasSubstr("likely cause: upside down"), HasSubstr("FAIL: bad against pack, profile vulkan")));
   const auto json = nlohmann::json::parse(contents(folder / "r.json"));
   EXPECT_EQ(json["status"], "FAIL");
   EXPECT_EQ(json["first_bad_pass"], "shade");
@@ -70,8 +71,10 @@ TEST_F(ValidateReports, ABaselineForgivesWhatItLists) {
   put(folder / "known.toml", "[shade.colour]\nreason = 'the exporter flips; ticket 7'\n");
   const Outcome o = validate("bad", {"--baseline", "known.toml", "--junit", "r.xml", "--json", "r.json"});
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, AllOf(HasSubstr("KNOWN  shade"), HasSubstr("known: the exporter flips; ticket 7"), HasSubstr("KNOWN: bad against pack")));
-  EXPECT_THAT(contents(folder / "r.xml"), AllOf(HasSubstr("<skipped message=\"known: the exporter flips; ticket 7"), Not(HasSubstr("<failure"))));
+  EXPECT_THAT(o.out,
+              AllOf(HasSubstr("KNOWN  shade"), HasSubstr("known: the exporter flips; ticket 7"), HasSubstr("KNOWN: bad against pack")));
+  EXPECT_THAT(contents(folder / "r.xml"),
+              AllOf(HasSubstr("<skipped message=\"known: the exporter flips; ticket 7"), Not(HasSubstr("<failure"))));
   EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["status"], "KNOWN");
 }
 
@@ -95,7 +98,9 @@ TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
     options.insert(options.begin(), {"validate", "pack", "--port", "bad"});
     expect_refusal(options, code, message);
   };
-  refused({"--baseline", "typo.toml"}, 2, HasSubstr("typo.toml:2:1: expected a pass (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?"));
+  refused(
+      {"--baseline", "typo.toml"}, 2,
+      HasSubstr("typo.toml:2:1: expected a pass (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?"));
   refused({"--baseline", "silent.toml"}, 2, HasSubstr("expected a reason, found none"));
   refused({"--baseline", "none.toml"}, 4, HasSubstr("none.toml"));
   refused({"--baseline", ""}, 2, HasSubstr("--baseline: expected a file, found ''"));
@@ -135,12 +140,15 @@ TEST_F(ValidateReports, AFullDiskLeavesNothing) {
 
 /// C0 and DEL: what a terminal could take as commands, and XML cannot hold.
 bool has_control(const std::string& text) {
-  return std::any_of(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == '\x7f'; });
+  return std::any_of(text.begin(), text.end(),
+                     [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == '\x7f'; });
 }
 
 // What a port says, and what files are called, reaches no terminal as a command.
 TEST_F(ValidateReports, EscapeSequencesAreShownAndNotSent) {
-  const std::string evil = "\x1b]0;title\x07\x1b[31m\xc2\x9b" "31m";
+  const std::string evil =
+      "\x1b]0;title\x07\x1b[31m\xc2\x9b"
+      "31m";
   put(folder / "good/port.json", "{\"api\": \"Vulkan\", \"device\": \"\\u001b[2Jgpu\\u009b\", \"driver\": \"\\u001b[2J\"}");
   Outcome o = validate("good", {"--html", "r.html", "--junit", "r.xml"});
   EXPECT_EQ(o.code, 0) << o.err;

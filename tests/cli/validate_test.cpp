@@ -16,7 +16,9 @@ const std::string published = RAINREF_SOURCE_DIR "/tests/packs/puddle-as-publish
 class Validate : public CommandLine {
  protected:
   /// A copy of the pack as a port's folder.
-  void copy_to(const std::string& name, const std::string& from = pack) const { std::filesystem::copy(from, folder / name, std::filesystem::copy_options::recursive); }
+  void copy_to(const std::string& name, const std::string& from = pack) const {
+    std::filesystem::copy(from, folder / name, std::filesystem::copy_options::recursive);
+  }
   Outcome validate(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "validate");
     return rainref(arguments);
@@ -42,7 +44,8 @@ TEST_F(Validate, ExitCodes) {
   expect_refusal({"validate", "--port", "port"}, 2, HasSubstr("expected the folder of a PACK, or --shadow DIR"));
   expect_refusal({"validate", pack, "--port", pack}, 2, HasSubstr("judged by themselves"));
   expect_refusal({"validate", pack, "--port", "port", "--profile", "vulcan"}, 2, HasSubstr("did you mean 'vulkan'?"));
-  expect_refusal({"validate", pack, "--port", "port", "--profile", "typical"}, 2, AllOf(HasSubstr("expected one of cuda, d3d, ieee, metal, vulkan, webgpu, found 'typical'"), HasSubstr("no rule")));
+  expect_refusal({"validate", pack, "--port", "port", "--profile", "typical"}, 2,
+                 AllOf(HasSubstr("expected one of cuda, d3d, ieee, metal, vulkan, webgpu, found 'typical'"), HasSubstr("no rule")));
   expect_refusal({"mutate", pack, "--profile", "typical"}, 2, HasSubstr("found 'typical'"));
   expect_refusal({"validate", pack, "--port", "port", "--only", "shad"}, 2, HasSubstr("did you mean 'shade'?"));
   expect_refusal({"validate", pack, "--port", "port", "--repeat", "2"}, 2, "--repeat: goes with --exec only");
@@ -115,15 +118,20 @@ TEST(PortCommand, PathsAreOneWordEverywhere) {
     const std::string real = std::filesystem::canonical(odd).string();
     const PortFolders folders(folder / "pack", odd);
     for (const std::string to : {"{out}/f", "\"{out}/f\"", "'{out}'/f", "\"$RAINREF_OUT\"/f"}) {
-      for (const std::string& command : {"cat > " + to, "sh -c 'cat > \"$0\"' " + to, "eval 'cat > " + (to[0] == '\'' ? "{out}/f" : to) + "'", "cat << E > /dev/null; cat > " + to + "\n{out}\nE\n"}) {
-        const CommandEnd told = run_command(folders.filled_in("printf text | { " + command + "\n}"), std::chrono::seconds(20), folders.environment());
+      for (const std::string& command :
+           {"cat > " + to, "sh -c 'cat > \"$0\"' " + to, "eval 'cat > " + (to[0] == '\'' ? "{out}/f" : to) + "'",
+            "cat << E > /dev/null; cat > " + to + "\n{out}\nE\n"}) {
+        const CommandEnd told =
+            run_command(folders.filled_in("printf text | { " + command + "\n}"), std::chrono::seconds(20), folders.environment());
         EXPECT_EQ(told.failure, "") << command;
         EXPECT_EQ(contents(odd / "f"), "text") << command;
         std::filesystem::remove(odd / "f");
       }
     }
-    for (const std::string command : {"sh -c 'sh -c \"cd {out} && pwd -P\"'", "bash -c 'cd {out}; eval \"cd '{out}' && pwd -P\"'", "sh << 'E'\ncd \"{out}\" && pwd -P\nE", "cd \"$RAINREF_OUT\" && pwd -P"}) {
-      const CommandEnd end = run_command(folders.filled_in("cd / && { " + command + "\n} > " + (folder / "said").string()), std::chrono::seconds(20), folders.environment());
+    for (const std::string command : {"sh -c 'sh -c \"cd {out} && pwd -P\"'", "bash -c 'cd {out}; eval \"cd '{out}' && pwd -P\"'",
+                                      "sh << 'E'\ncd \"{out}\" && pwd -P\nE", "cd \"$RAINREF_OUT\" && pwd -P"}) {
+      const CommandEnd end = run_command(folders.filled_in("cd / && { " + command + "\n} > " + (folder / "said").string()),
+                                         std::chrono::seconds(20), folders.environment());
       EXPECT_EQ(end.failure, "") << command;
       EXPECT_EQ(contents(folder / "said"), real + "\n") << command;
     }
@@ -134,7 +142,8 @@ TEST(PortCommand, PathsAreOneWordEverywhere) {
 TEST(PortCommand, WhoeverItStartsEndsWithIt) {
   TemporaryFolder folder;
   const auto daemon = [&] { return std::atoi(contents(folder / "daemon").c_str()); };
-  const std::string start = "cd " + folder.path().string() + "; setsid sh -c 'echo $$ > daemon; (sleep 600 &) ; sleep 600' & while [ ! -s daemon ]; do :; done; ";
+  const std::string start =
+      "cd " + folder.path().string() + "; setsid sh -c 'echo $$ > daemon; (sleep 600 &) ; sleep 600' & while [ ! -s daemon ]; do :; done; ";
   EXPECT_EQ(run_command(start, std::chrono::seconds(20)).failure, "");
   EXPECT_GT(daemon(), 0);
   EXPECT_FALSE(is_running(daemon()));
@@ -153,7 +162,8 @@ TEST(PortCommand, NobodyElseIsEnded) {
 }
 
 TEST(PortCommand, TheLastLinesAreKept) {
-  const CommandEnd end = run_command("i=0; while [ $i -lt 5000 ]; do i=$((i+1)); echo line $i; done; echo end >&2; exit 3", std::chrono::seconds(60));
+  const CommandEnd end =
+      run_command("i=0; while [ $i -lt 5000 ]; do i=$((i+1)); echo line $i; done; echo end >&2; exit 3", std::chrono::seconds(60));
   EXPECT_EQ(end.failure, "the port's command ended with exit code 3");
   ASSERT_EQ(end.last_lines.size(), 20u);
   EXPECT_EQ(end.last_lines.back(), "end");
@@ -175,7 +185,8 @@ TEST_F(Validate, ACommandThatFailsIsReported) {
   // It succeeds and writes nothing.
   o = exec("true {out}");
   EXPECT_EQ(o.code, 3);
-  EXPECT_THAT(o.err, AllOf(HasSubstr(": expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none\n"), Not(HasSubstr("printed"))));
+  EXPECT_THAT(o.err, AllOf(HasSubstr(": expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none\n"),
+                           Not(HasSubstr("printed"))));
   o = exec("echo no device; : {out}");
   EXPECT_EQ(o.code, 3);
   EXPECT_THAT(o.err, HasSubstr("found none; the port's command ended with exit code 0 and printed last: no device\n"));
@@ -210,12 +221,14 @@ TEST_F(Validate, APortWhoseFolderWasReplacedIsRefused) {
 
 TEST_F(Validate, ARaceIsFoundAndNamed) {
   // The second run differs in the last byte of a file, an alpha of a picture.
-  const std::string command = "cp -r {pack}/. {out}; case {out} in *run.2) cd {out}/puddle.display/0012.0; n=$(($(wc -c < out.picture.npy) - 2)); "
-                              "printf '\\001' | dd of=out.picture.npy bs=1 seek=$n conv=notrunc status=none;; esac";
+  const std::string command =
+      "cp -r {pack}/. {out}; case {out} in *run.2) cd {out}/puddle.display/0012.0; n=$(($(wc -c < out.picture.npy) - 2)); "
+      "printf '\\001' | dd of=out.picture.npy bs=1 seek=$n conv=notrunc status=none;; esac";
   EXPECT_EQ(exec(command).code, 0);
   Outcome o = exec(command, {"--repeat", "3"});
   EXPECT_EQ(o.code, 1);
-  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first\n    at (34, 20).z, 1 of 2940 elements\n"),
+  EXPECT_THAT(o.out, AllOf(HasSubstr("race: puddle.display/0012.0/out.picture differs between runs 1 and 2 on the same inputs, first\n    "
+                                     "at (34, 20).z, 1 of 2940 elements\n"),
                            HasSubstr("the port ran 3 times"), Not(HasSubstr("outside the as-written envelope"))));
   o = exec(command, {"--repeat", "2", "--port", "kept"});
   EXPECT_EQ(o.code, 1);
@@ -225,9 +238,13 @@ TEST_F(Validate, ARaceIsFoundAndNamed) {
 
 TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
   for (const std::string scene : {"corrected", "published"}) {
-    ASSERT_EQ(rainref({"run", scene + ".toml", "--frames", "3", "--every", "1", "--capture", "all", "--set", "puddle.drop_intensity=3", "-o", scene}).code, 0);
+    ASSERT_EQ(rainref({"run", scene + ".toml", "--frames", "3", "--every", "1", "--capture", "all", "--set", "puddle.drop_intensity=3",
+                       "-o", scene})
+                  .code,
+              0);
     const std::string dump = scene + "/capture";
-    const std::vector<std::string> forgiving = scene == "published" ? std::vector<std::string>{"--allow-untested"} : std::vector<std::string>{};
+    const std::vector<std::string> forgiving =
+        scene == "published" ? std::vector<std::string>{"--allow-untested"} : std::vector<std::string>{};
     for (const bool with_scene : {false, true}) {
       std::vector<std::string> arguments{"--shadow", dump};
       if (with_scene) arguments.insert(arguments.end(), {scene + ".toml", "--set", "puddle.drop_intensity=3"});
@@ -239,7 +256,8 @@ TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
     }
   }
   // Another scene's uniforms are noted.
-  const Outcome o = validate({"--shadow", "corrected/capture", "corrected.toml", "--set", "puddle.drop_intensity=3", "--set", "display.exposure=1"});
+  const Outcome o =
+      validate({"--shadow", "corrected/capture", "corrected.toml", "--set", "puddle.drop_intensity=3", "--set", "display.exposure=1"});
   EXPECT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_THAT(o.out, HasSubstr("uniform exposure of display is not the scene's in 3 runs"));
 }
@@ -275,7 +293,8 @@ TEST_F(Validate, ALostDropIsNamed) {
   put(folder / "port" / list, bytes.substr(0, bytes.size() - 32));
   const Outcome o = validate({windshield, "--port", "port", "--only", "merge"});
   EXPECT_EQ(o.code, 1) << o.out;
-  EXPECT_THAT(o.out, AllOf(HasSubstr("drops, missing: "), HasSubstr("likely cause: drops without"), HasSubstr("(gives 1 of 1 failing records bit for bit")));
+  EXPECT_THAT(o.out, AllOf(HasSubstr("drops, missing: "), HasSubstr("likely cause: drops without"),
+                           HasSubstr("(gives 1 of 1 failing records bit for bit")));
 }
 
 TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
@@ -284,10 +303,13 @@ TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   before = folder.names();
   expect_refusal({"validate", "--shadow", "dump"}, 2, HasSubstr("expected a manifest.json there, or the scene that the port ran"));
   expect_refusal({"validate", "--shadow", "none"}, 3, HasSubstr("found none"));
-  expect_refusal({"validate", "--shadow", "empty", "corrected.toml"}, 3, HasSubstr("expected folders such as puddle.raindrops/0000.0, found none"));
-  expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3, AllOf(HasSubstr("uniforms.bin' is missing"), HasSubstr("in.hit"), HasSubstr("out.colour")));
+  expect_refusal({"validate", "--shadow", "empty", "corrected.toml"}, 3,
+                 HasSubstr("expected folders such as puddle.raindrops/0000.0, found none"));
+  expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3,
+                 AllOf(HasSubstr("uniforms.bin' is missing"), HasSubstr("in.hit"), HasSubstr("out.colour")));
   expect_refusal({"validate", "--shadow", "dump", "corrected.toml", "--only", "shde"}, 2, HasSubstr("did you mean 'shade'?"));
-  expect_refusal({"validate", pack, "--shadow", "dump"}, 2, HasSubstr("--shadow: expected the scene that the port ran, found the folder '" + pack));
+  expect_refusal({"validate", pack, "--shadow", "dump"}, 2,
+                 HasSubstr("--shadow: expected the scene that the port ran, found the folder '" + pack));
   expect_refusal({"validate", "--shadow", "dump", "none.toml"}, 4, HasSubstr("none.toml"));
   expect_refusal({"validate", "--shadow", "dump", "--port", "x"}, 2, "--port: does not go with --shadow");
   std::filesystem::create_directories(folder / "dump/puddle.shade/0000.7");
@@ -295,7 +317,8 @@ TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   // A folder's name had 10^8 frames simulated.
   std::filesystem::create_directories(folder / "late/puddle.shade/99999999.0");
   before = folder.names();
-  expect_refusal({"validate", "--shadow", "late", "corrected.toml"}, 3, HasSubstr("late: expected frames below 3600, found 99999999; where the port ran longer, --set run.frames says so"));
+  expect_refusal({"validate", "--shadow", "late", "corrected.toml"}, 3,
+                 HasSubstr("late: expected frames below 3600, found 99999999; where the port ran longer, --set run.frames says so"));
 }
 
 }  // namespace

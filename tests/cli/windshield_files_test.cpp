@@ -9,7 +9,10 @@ using testing::HasSubstr;
 class WindshieldFiles : public SceneFiles {
  protected:
   WindshieldFiles() {
-    put(folder / "drive.toml", fmt::format("effect = 'windshield'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [{}, {}]\n[windshield]\nheight_size = [24, 16]\n[scene]\nimage = 'colour.png'\ndepth_image = 'depth.exr'\n", width, height));
+    put(folder / "drive.toml",
+        fmt::format("effect = 'windshield'\nvariant = 'corrected'\n[run]\nframes = 2\nsize = [{}, {}]\n[windshield]\nheight_size = [24, "
+                    "16]\n[scene]\nimage = 'colour.png'\ndepth_image = 'depth.exr'\n",
+                    width, height));
     before = folder.names();
   }
 };

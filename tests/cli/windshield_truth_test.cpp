@@ -65,7 +65,8 @@ TEST_F(WindshieldTruth, CompositeIsComparedInBothVariants) {
 
 // Without water and with hardly any glass there is nothing to refract: both see the street where it is.
 TEST_F(WindshieldTruth, AgreeWhereThereIsNothingToRefract) {
-  const Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--frames", "1", "--set", "rain.rate=0", "--set", "compositor.glass_thickness=1e-5", "--compare-truth"});
+  const Outcome o = rainref({"run", "corrected.toml", "-o", "o", "--frames", "1", "--set", "rain.rate=0", "--set",
+                             "compositor.glass_thickness=1e-5", "--compare-truth"});
   ASSERT_EQ(o.code, 0) << o.err;
   const nlohmann::json truth = summary("o")["truth"].at(0);
   EXPECT_EQ(truth["drop_pixels"], 0);
@@ -75,9 +76,12 @@ TEST_F(WindshieldTruth, AgreeWhereThereIsNothingToRefract) {
 }
 
 TEST_F(WindshieldTruth, WhatCannotBeTracedIsRefused) {
-  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "scene.image=sky.png", "--set", "compositor.picture=traced"}, 2, HasSubstr("compositor.picture: expected \"passes\""));
-  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "scene.image=sky.png", "--compare-truth"}, 2, HasSubstr("has no traced truth"));
-  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=traced", "--set", "compositor.glass_radius=0.1"}, 2, HasSubstr("pane: expected a radius"));
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "scene.image=sky.png", "--set", "compositor.picture=traced"}, 2,
+                 HasSubstr("compositor.picture: expected \"passes\""));
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "scene.image=sky.png", "--compare-truth"}, 2,
+                 HasSubstr("has no traced truth"));
+  expect_refusal({"run", "corrected.toml", "-o", "o", "--set", "compositor.picture=traced", "--set", "compositor.glass_radius=0.1"}, 2,
+                 HasSubstr("pane: expected a radius"));
 }
 
 }  // namespace

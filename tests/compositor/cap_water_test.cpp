@@ -22,7 +22,8 @@ const parallel::Executor& executor() {
 /// 40 mm x 30 mm in the plane z = 0, outward +z.
 Pane pane(double thickness = 5e-3) { return Pane({{0, 0, 0}, {0.04, 0, 0}, {0, 0.03, 0}, {0, 0, 1}, thickness, 0}); }
 
-std::unique_ptr<Scene> scene_of(std::shared_ptr<const CapWater> water, const Vec& rim = {0, 0, 0}, const Vec& around = {0, 0, 0}, const std::string& config = "") {
+std::unique_ptr<Scene> scene_of(std::shared_ptr<const CapWater> water, const Vec& rim = {0, 0, 0}, const Vec& around = {0, 0, 0},
+                                const std::string& config = "") {
   auto scene = std::make_unique<Scene>(TracerOptions{config});
   add_cap_pane(*scene, std::move(water), emitter(rim), executor(), {});
   scene->set_environment(testing::constant(around));
@@ -39,7 +40,8 @@ std::shared_ptr<const CapWater> crowd(bool with_layer) {
   if (with_layer) {
     Image height(Format::r32f, 60, 40);
     for (int j = 0; j < 40; ++j) {
-      for (int i = 0; i < 60; ++i) height.row<float>(j)[i] = static_cast<float>(std::max(0.0, 0.6 * std::sin(0.4 * i + 0.1 * j) * std::sin(0.5 * j)));
+      for (int i = 0; i < 60; ++i)
+        height.row<float>(j)[i] = static_cast<float>(std::max(0.0, 0.6 * std::sin(0.4 * i + 0.1 * j) * std::sin(0.5 * j)));
     }
     layer = {std::make_shared<const WaterLayer>(height), {0.01, 0.005}, {0.024, 0.02}};
   }
@@ -107,7 +109,7 @@ TEST(CapWater, IsClosed) {
       scene->tracer().first_hits({&ray, 1}, {&hit, 1});
       ASSERT_TRUE(hit.is_surface()) << tried;
       if (hit.surface == 2 || hit.surface == (with_layer ? 5u : 4u)) continue;  // the wet face, the rim
-      ASSERT_NE(hit.surface, 1u) << tried;  // the dry face
+      ASSERT_NE(hit.surface, 1u) << tried;                                      // the dry face
       EXPECT_GT(dot(ray.direction, scene->tracer().surface(hit.surface).normal(ray, hit)), 0) << tried;
       onto_caps += hit.surface == 3;
       onto_layer += hit.surface == 4;

@@ -76,7 +76,8 @@ inline GoldenScene golden_window() {
             for (const screen_drops::GoldenScene& scene : screen_drops::golden_scenes()) {
               if (!scene.flow) continue;
               const screen_drops::Settings& s = scene.settings;
-              const screen_drops::Inputs in{night_street::Street({s.seed}).view(screen_drops::scene_camera(s), s.width, s.height, 1000, executor).colour, {}};
+              const screen_drops::Inputs in{
+                  night_street::Street({s.seed}).view(screen_drops::scene_camera(s), s.width, s.height, 1000, executor).colour, {}};
               screen_drops::ScreenDrops drops(s, in, executor, &*scene.flow);
               for (int frame = 0; frame < 3; ++frame) drops.render();
               const ScreenDropsView view(s, in.colour, 4e-3, tracer, executor);
@@ -93,7 +94,8 @@ inline GoldenScene golden_glass() {
               if (scene.name != "rainy_glass/corrected/rgba16f") continue;
               rainy_glass::Settings s = scene.settings;
               s.yaw_deg = 20;
-              const rainy_glass::Surroundings around = rainy_glass::make_backdrop(s, {0.02, 0.3, 0.03}, executor), unbarred = rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, executor);
+              const rainy_glass::Surroundings around = rainy_glass::make_backdrop(s, {0.02, 0.3, 0.03}, executor),
+                                              unbarred = rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, executor);
               rainy_glass::RainyGlass glass(s, around, executor);
               for (int frame = 0; frame < 3; ++frame) glass.frame();
               const RainyGlassView view(s, around, unbarred, 4e-3, tracer);
@@ -122,11 +124,17 @@ inline std::vector<GoldenScene> golden_scenes() {
   basin.use_checkerboard = true;
   basin.ground_scale = 7;
   basin.env_rotation = 0.5;
-  return {golden_puddle("street", s, true, 1), golden_puddle("panorama", basin, false, 4), golden_windshield("flat", 0, 4), golden_windshield("bent", 3, 1), golden_window(), golden_glass()};
+  return {golden_puddle("street", s, true, 1),
+          golden_puddle("panorama", basin, false, 4),
+          golden_windshield("flat", 0, 4),
+          golden_windshield("bent", 3, 1),
+          golden_window(),
+          golden_glass()};
 }
 
 /// "scene frame pass buffer hash" of the picture.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, const TracerOptions& tracer = {}) {
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor,
+                                             const TracerOptions& tracer = {}) {
   const Picture p = scene.trace(executor, tracer);
   std::vector<std::string> lines;
   const auto line = [&](const char* buffer, const Image& image) {

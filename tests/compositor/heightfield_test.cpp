@@ -34,11 +34,15 @@ TEST(Heightfield, APlaneIsMetWhereThePlaneIs) {
   // A plane through a sheared frame, tilted: h = 0.25 + x / 8 - y / 16, exact in floats.
   const HeightfieldFrame frame{{1, 2, 3}, {4, 0, 1}, {-1, 3, 0.5}, {0.25, -0.5, 2}};
   const auto field = sheet(frame, 16, 8, 5, [](int x, int y) { return 0.25 + x / 8.0 - y / 16.0; });
-  const auto on_plane = [&](double x, double y) { return frame.origin + x / 16 * frame.edge_u + y / 8 * frame.edge_v + (0.25 + x / 8 - y / 16) * frame.axis; };
+  const auto on_plane = [&](double x, double y) {
+    return frame.origin + x / 16 * frame.edge_u + y / 8 * frame.edge_v + (0.25 + x / 8 - y / 16) * frame.axis;
+  };
   const Vec a = on_plane(0, 0), n = glm::normalize(cross(on_plane(16, 0) - a, on_plane(0, 8) - a));
   for (std::uint32_t k = 0; k < 2000; ++k) {
     const double x = 16 * test::random_number(k, 0), y = 8 * test::random_number(k, 1);
-    const Vec target = on_plane(x, y), from = target + 10.0 * glm::normalize(Vec(test::random_number(k, 2) - 0.5, test::random_number(k, 3) - 0.5, test::random_number(k, 4) - 0.5));
+    const Vec target = on_plane(x, y),
+              from = target + 10.0 * glm::normalize(Vec(test::random_number(k, 2) - 0.5, test::random_number(k, 3) - 0.5,
+                                                        test::random_number(k, 4) - 0.5));
     if (std::abs(dot(glm::normalize(target - from), n)) < 1e-3) continue;
     const Ray ray{from, (target - from) / 10.0};
     const Hit hit = first_of(*field, ray);
@@ -146,11 +150,13 @@ TEST(Heightfield, LanesGiveThePlainReadingsBits) {
 
 TEST(Heightfield, NormalsOfSeveralHitsAreThoseOfEach) {
   const HeightfieldFrame sheared{{1, 2, 3}, {4, 0, 1}, {-1, 3, 0.5}, {0.25, -0.5, 2}};
-  const auto field = sheet(sheared, 9, 7, 4, [](int x, int y) { return test::random_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)); });
+  const auto field = sheet(sheared, 9, 7, 4,
+                           [](int x, int y) { return test::random_number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)); });
   // Every cell, those at the border too, at its corners and within.
   std::vector<Hit> all;
   for (std::uint32_t part = 0; part < 2 * 9 * 7; ++part) {
-    for (std::uint32_t k = 0; k < 5; ++k) all.push_back({1, 0, part, k < 4 ? k % 2 : test::random_number(part, 1), k < 4 ? k / 2 : test::random_number(part, 2)});
+    for (std::uint32_t k = 0; k < 5; ++k)
+      all.push_back({1, 0, part, k < 4 ? k % 2 : test::random_number(part, 1), k < 4 ? k / 2 : test::random_number(part, 2)});
   }
   test::for_every_target([&] {
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, all.size()}) {

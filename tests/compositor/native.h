@@ -43,7 +43,8 @@ class NativeWorld {
     constexpr unsigned across = water_cells + 1;
     water_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     positions_ = static_cast<float*>(rtcSetNewGeometryBuffer(water_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, across * across));
-    auto* triangles = static_cast<unsigned*>(rtcSetNewGeometryBuffer(water_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, 2 * water_cells * water_cells));
+    auto* triangles = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(water_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, 2 * water_cells * water_cells));
     for (unsigned j = 0; j < water_cells; ++j) {
       for (unsigned i = 0; i < water_cells; ++i) {
         const unsigned a = j * across + i;
@@ -126,10 +127,12 @@ class NativeWorld {
       for (unsigned corner = 0; corner < 8; ++corner) {
         for (int k = 0; k < 3; ++k) *v++ = static_cast<float>((corner >> k & 1 ? world.boxes[b].b : world.boxes[b].a)[k]);
       }
-      for (const unsigned corner : {0, 1, 3, 2, 4, 5, 7, 6, 0, 1, 5, 4, 2, 3, 7, 6, 0, 2, 6, 4, 1, 3, 7, 5}) *index++ = static_cast<unsigned>(b) * 8 + corner;
+      for (const unsigned corner : {0, 1, 3, 2, 4, 5, 7, 6, 0, 1, 5, 4, 2, 3, 7, 6, 0, 2, 6, 4, 1, 3, 7, 5})
+        *index++ = static_cast<unsigned>(b) * 8 + corner;
     }
     for (unsigned corner = 0; corner < 4; ++corner) {
-      const Vec p = world.pane.origin + (corner == 1 || corner == 2 ? 1.0 : 0.0) * world.pane.edge_u + (corner >= 2 ? 1.0 : 0.0) * world.pane.edge_v;
+      const Vec p =
+          world.pane.origin + (corner == 1 || corner == 2 ? 1.0 : 0.0) * world.pane.edge_u + (corner >= 2 ? 1.0 : 0.0) * world.pane.edge_v;
       for (int k = 0; k < 3; ++k) *v++ = static_cast<float>(p[k]);
       *index++ = static_cast<unsigned>(boxes) * 8 + corner;
     }

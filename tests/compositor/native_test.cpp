@@ -53,7 +53,9 @@ bool slipped_through(const test::NativeWorld& native, const Ray& ray, const Hit&
   }
   test::NativeHit hits[16];
   native.trace(test::native_packets(moved), false, hits);
-  return std::any_of(hits, hits + 16, [&](const test::NativeHit& hit) { return hit.is_surface() && std::abs(ours.t - static_cast<double>(hit.t)) < 1e-3 * ours.t; });
+  return std::any_of(hits, hits + 16, [&](const test::NativeHit& hit) {
+    return hit.is_surface() && std::abs(ours.t - static_cast<double>(hit.t)) < 1e-3 * ours.t;
+  });
 }
 
 Differences compare(const test::World& world, const std::vector<Ray>& rays, bool coherent) {
@@ -72,7 +74,8 @@ Differences compare(const test::World& world, const std::vector<Ray>& rays, bool
     const bool same_thing = ours[i].is_surface() && theirs[i].is_surface() && (ours[i].surface == 0) == (theirs[i].geometry == 0);
     const double dt = same_thing ? std::abs(ours[i].t - static_cast<double>(theirs[i].t)) : 1e9;
     // A hit of a float triangle is off by some ulp of the coordinates, over the sine of the angle that the ray makes with it.
-    const double slant = same_thing ? std::abs(dot(glm::normalize(rays[i].direction), tracer.surface(ours[i].surface).normal(rays[i], ours[i]))) : 0;
+    const double slant =
+        same_thing ? std::abs(dot(glm::normalize(rays[i].direction), tracer.surface(ours[i].surface).normal(rays[i], ours[i]))) : 0;
     if (same_thing && dt * glm::length(rays[i].direction) * slant < 1e-4) {
       d.largest_dt = std::max(d.largest_dt, dt);
       if (ours[i].surface != 0 || ours[i].part == theirs[i].primitive) continue;
@@ -83,14 +86,17 @@ Differences compare(const test::World& world, const std::vector<Ray>& rays, bool
       if (!on_border(ours[i], 1e-4 + (dt * length + blurred) / test::water_cell)) ++d.unexplained;
     } else if (starts_inside(world, rays[i])) {
       ++d.from_inside;
-    } else if (ours[i].is_surface() && ours[i].surface == 0 && on_border(ours[i], 1e-3) && !(static_cast<double>(theirs[i].t) < ours[i].t) && slipped_through(native, rays[i], ours[i])) {
+    } else if (ours[i].is_surface() && ours[i].surface == 0 && on_border(ours[i], 1e-3) &&
+               !(static_cast<double>(theirs[i].t) < ours[i].t) && slipped_through(native, rays[i], ours[i])) {
       ++d.their_cracks;
     } else if (within_a_shift(tracer, rays[i], theirs[i])) {
       ++d.silhouettes;
     } else {
       ++d.unexplained;
       if (d.unexplained < 5) {
-        ADD_FAILURE() << fmt::format("ray {}: ours {} on {}/{}, theirs {} on {}/{}", i, ours[i].t, static_cast<int>(ours[i].surface), static_cast<int>(ours[i].part), theirs[i].t, static_cast<int>(theirs[i].geometry), static_cast<int>(theirs[i].primitive));
+        ADD_FAILURE() << fmt::format("ray {}: ours {} on {}/{}, theirs {} on {}/{}", i, ours[i].t, static_cast<int>(ours[i].surface),
+                                     static_cast<int>(ours[i].part), theirs[i].t, static_cast<int>(theirs[i].geometry),
+                                     static_cast<int>(theirs[i].primitive));
       }
     }
   }
@@ -98,7 +104,10 @@ Differences compare(const test::World& world, const std::vector<Ray>& rays, bool
 }
 
 void report(const char* name, const Differences& d) {
-  fmt::print("{}: {} rays, {} from inside a box, {} on another triangle of the same edge, {} through their cracks, {} silhouettes, {} unexplained, |dt| <= {:.2g}\n", name, d.rays, d.from_inside, d.other_part, d.their_cracks, d.silhouettes, d.unexplained, d.largest_dt);
+  fmt::print(
+      "{}: {} rays, {} from inside a box, {} on another triangle of the same edge, {} through their cracks, {} silhouettes, {} "
+      "unexplained, |dt| <= {:.2g}\n",
+      name, d.rays, d.from_inside, d.other_part, d.their_cracks, d.silhouettes, d.unexplained, d.largest_dt);
 }
 
 TEST(Native, EveryDifferenceFromEmbreesTrianglesHasAReason) {

@@ -28,14 +28,17 @@ PaneShape flat(double thickness = 5e-3) { return {{-0.2, -0.15, 0}, {0.4, 0, 0},
 PaneShape sheared() { return {{-0.3, -0.15, 0.1}, {0.4, 0.05, 0.1}, {0.1, 0.3, -0.05}, {0, 0, 1}, 4e-3, 0}; }
 PaneShape bent() { return {{-0.6, -0.4, 0}, {1.2, 0, 0}, {0, 0.8, 0}, {0, 0, 1}, 5e-3, 1.8}; }
 
-std::unique_ptr<Scene> scene_of(const Pane& pane, std::shared_ptr<const WaterLayer> water, WaterShape shape, const std::string& config = "", const PaneMedia& media = {}) {
+std::unique_ptr<Scene> scene_of(const Pane& pane, std::shared_ptr<const WaterLayer> water, WaterShape shape, const std::string& config = "",
+                                const PaneMedia& media = {}) {
   auto scene = std::make_unique<Scene>(TracerOptions{config});
   add_pane(*scene, pane, std::move(water), shape, emitter({0, 0, 0}), executor(), media);
   scene->set_environment(testing::constant({0, 0, 0}));
   scene->commit();
   return scene;
 }
-std::unique_ptr<Scene> dry(const Pane& pane, const PaneMedia& media = {}) { return scene_of(pane, nullptr, WaterShape::displaced, "", media); }
+std::unique_ptr<Scene> dry(const Pane& pane, const PaneMedia& media = {}) {
+  return scene_of(pane, nullptr, WaterShape::displaced, "", media);
+}
 PaneMedia of_index(double n) {
   PaneMedia media;
   media.pane = glass(n);
@@ -65,7 +68,8 @@ TEST(Pane, ShiftsARayAsAPlateDoes) {
     const StraightPath path = straight_path(*scene, ray);
     ASSERT_EQ(path.end, StraightPath::End::out);
     ASSERT_EQ(path.interfaces, 2);
-    const double shift = distance_to_line(path.origin, ray.origin, ray.direction), expected = 0.02 * s * (1 - std::cos(a) / std::sqrt(1.5 * 1.5 - s * s));
+    const double shift = distance_to_line(path.origin, ray.origin, ray.direction),
+                 expected = 0.02 * s * (1 - std::cos(a) / std::sqrt(1.5 * 1.5 - s * s));
     EXPECT_NEAR(shift, expected, 32 * epsilon) << degrees;  // coordinates are below 0.3
     if (degrees == 60) {
       EXPECT_NEAR(shift / 0.02, 0.5125, 5e-5);
@@ -154,7 +158,8 @@ TEST(Pane, IsClosed) {
   std::uniform_real_distribution<double> in(0.001, 0.999), way(-1, 1);
   for (const PaneShape& shape : {flat(), sheared(), bent()}) {
     const Pane pane(shape);
-    const auto water = std::make_shared<const WaterLayer>(heights(64, 48, [](double u, double v) { return std::max(0.0, std::sin(20 * u) * std::sin(17 * v)); }));
+    const auto water = std::make_shared<const WaterLayer>(
+        heights(64, 48, [](double u, double v) { return std::max(0.0, std::sin(20 * u) * std::sin(17 * v)); }));
     for (const WaterShape kind : {WaterShape::displaced, WaterShape::sloped}) {
       if (kind == WaterShape::displaced && !pane.is_flat()) continue;
       const auto scene = scene_of(pane, water, kind);
@@ -277,8 +282,11 @@ TEST(Pane, LetsThroughWhatItsMediaSay) {
 // A checkerboard 0.7 m behind a slanted pane: every image that the faces make of it, from the geometry of a plate.
 TEST(Pane, ShowsACheckerboardWhereThePlateShiftsIt) {
   const double thickness = 0.03, n = 1.5, board = 0.7, tilt = radians(35);
-  const Pane pane({{-1, -1 * std::cos(tilt), -1 * std::sin(tilt)}, {2, 0, 0}, {0, 2 * std::cos(tilt), 2 * std::sin(tilt)}, {0, 0, 1}, thickness, 0});
-  const auto checker = [](double x, double y) { return (static_cast<int>(std::floor(x / 0.02)) + static_cast<int>(std::floor(y / 0.02))) % 2 == 0 ? 1.0 : 0.1; };
+  const Pane pane(
+      {{-1, -1 * std::cos(tilt), -1 * std::sin(tilt)}, {2, 0, 0}, {0, 2 * std::cos(tilt), 2 * std::sin(tilt)}, {0, 0, 1}, thickness, 0});
+  const auto checker = [](double x, double y) {
+    return (static_cast<int>(std::floor(x / 0.02)) + static_cast<int>(std::floor(y / 0.02))) % 2 == 0 ? 1.0 : 0.1;
+  };
   const auto on_board = [&](const Vec& from, const Vec& d) {
     const Vec p = from + ((board - from.z) / d.z) * d;
     return p;
@@ -323,7 +331,8 @@ TEST(Pane, ShowsACheckerboardWhereThePlateShiftsIt) {
 }
 
 TEST(Pane, HitsHaveTheSameBitsForEveryEmbree) {
-  const auto water = std::make_shared<const WaterLayer>(heights(300, 200, [](double u, double v) { return std::max(0.0, std::sin(40 * u + 3 * v) * std::sin(37 * v)); }));
+  const auto water = std::make_shared<const WaterLayer>(
+      heights(300, 200, [](double u, double v) { return std::max(0.0, std::sin(40 * u + 3 * v) * std::sin(37 * v)); }));
   std::mt19937 random(3);
   std::uniform_real_distribution<double> in(-0.1, 1.1), lift(-0.05, 0.05);
   for (const PaneShape& shape : {flat(), sheared(), bent()}) {
@@ -362,7 +371,8 @@ TEST(Pane, HitsHaveTheSameBitsForEveryEmbree) {
 // Where the texture says there is none, there is no water's surface; where it does, the face under it borders on water.
 TEST(Pane, WaterIsWhereTheTextureHasIt) {
   const Pane pane(sheared());
-  const auto water = std::make_shared<const WaterLayer>(heights(50, 40, [](double u, double v) { return u > 0.3 && u < 0.5 && v > 0.4 && v < 0.8 ? 0.7 : 0.0; }));
+  const auto water = std::make_shared<const WaterLayer>(
+      heights(50, 40, [](double u, double v) { return u > 0.3 && u < 0.5 && v > 0.4 && v < 0.8 ? 0.7 : 0.0; }));
   const auto scene = scene_of(pane, water, WaterShape::displaced);
   const Vec n = pane.normal(0);
   for (int j = 0; j < 199; ++j) {
@@ -374,7 +384,8 @@ TEST(Pane, WaterIsWhereTheTextureHasIt) {
       ASSERT_EQ(hit.surface, water->is_wet(u, v) ? 2u : 1u);
       const Ray above{pane.point(u, v, 0.01), -n};
       scene->tracer().first_hits({&above, 1}, {&hit, 1});
-      const bool at_edge = water->is_wet(u - 1e-9, v) != water->is_wet(u + 1e-9, v) || water->is_wet(u, v - 1e-9) != water->is_wet(u, v + 1e-9);
+      const bool at_edge =
+          water->is_wet(u - 1e-9, v) != water->is_wet(u + 1e-9, v) || water->is_wet(u, v - 1e-9) != water->is_wet(u, v + 1e-9);
       if (!at_edge) {
         ASSERT_EQ(hit.surface, water->is_wet(u, v) ? 3u : 1u) << u << " " << v;
       }

@@ -31,12 +31,14 @@ TEST_P(Golden, TheSameBitsForEveryIsaTargetAndThread) {
     TracerOptions tracer{"isa=" + isa};
     if (k % 2 == 0) tracer = {"isa=" + isa, 4, false};
     select_simd_target(target);
-    EXPECT_EQ(golden_lines(GetParam(), executor, tracer), expected) << "Embree " << isa << ", " << target << ", " << executor.threads() << " threads";
+    EXPECT_EQ(golden_lines(GetParam(), executor, tracer), expected)
+        << "Embree " << isa << ", " << target << ", " << executor.threads() << " threads";
   }
   select_simd_target(before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Compositor, Golden, ::testing::ValuesIn(golden_scenes()), [](const auto& param) { return golden::test_name(param); });
+INSTANTIATE_TEST_SUITE_P(Compositor, Golden, ::testing::ValuesIn(golden_scenes()),
+                         [](const auto& param) { return golden::test_name(param); });
 
 TEST(Golden, EveryRecordedLineBelongsToAScene) { golden::expect_every_line_has_a_scene("compositor", golden_scenes()); }
 
@@ -150,10 +152,10 @@ TEST(Difference, PercentilesAndScale) {
   EXPECT_EQ(d.file_name(), "x-1m");
   const Image picture = d.picture();
   const auto texel = [&](int x, int y) { return picture.row<Unorm8>(y) + 4 * x; };
-  EXPECT_EQ(texel(9, 9)[0].code, 0);                               // undefined
-  EXPECT_GT(texel(7, 9)[0].code, texel(7, 9)[2].code);             // 0.98: red
-  EXPECT_LT(texel(8, 9)[0].code, texel(8, 9)[2].code);             // -0.99: blue
-  EXPECT_LT(texel(0, 0)[0].code, texel(0, 0)[2].code);             // the bar's left end
+  EXPECT_EQ(texel(9, 9)[0].code, 0);                    // undefined
+  EXPECT_GT(texel(7, 9)[0].code, texel(7, 9)[2].code);  // 0.98: red
+  EXPECT_LT(texel(8, 9)[0].code, texel(8, 9)[2].code);  // -0.99: blue
+  EXPECT_LT(texel(0, 0)[0].code, texel(0, 0)[2].code);  // the bar's left end
 }
 
 }  // namespace

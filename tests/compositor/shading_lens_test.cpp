@@ -62,7 +62,9 @@ TEST(Plate, CheckerboardThroughAPane) {
   Scene scene;
   scene.add(std::make_shared<Level>(0), Material::interface_of(air(), {ior}));
   scene.add(std::make_shared<Level>(-thickness), Material::interface_of({ior}, air()));
-  const auto dark = [side](double x, double z) { return (static_cast<long>(std::floor(x / side)) + static_cast<long>(std::floor(z / side))) % 2 != 0; };
+  const auto dark = [side](double x, double z) {
+    return (static_cast<long>(std::floor(x / side)) + static_cast<long>(std::floor(z / side))) % 2 != 0;
+  };
   scene.add(std::make_shared<Level>(board), Material::of(opaque_of([dark](const Place& p) {
               Finish f;
               f.radiance = Vec(1, 1, 1) * (dark(p.point.x, p.point.z) ? 0.0 : 1.0);

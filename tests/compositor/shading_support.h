@@ -86,7 +86,8 @@ struct Reflectances {
   double parallel, perpendicular;
 };
 inline Reflectances fresnel_laws(double incidence, double ratio) {
-  if (incidence == 0) return {(1 - ratio) * (1 - ratio) / ((1 + ratio) * (1 + ratio)), (1 - ratio) * (1 - ratio) / ((1 + ratio) * (1 + ratio))};
+  if (incidence == 0)
+    return {(1 - ratio) * (1 - ratio) / ((1 + ratio) * (1 + ratio)), (1 - ratio) * (1 - ratio) / ((1 + ratio) * (1 + ratio))};
   const double bent = std::asin(std::sin(incidence) / ratio);
   const double s = std::sin(incidence - bent) / std::sin(incidence + bent), t = std::tan(incidence - bent) / std::tan(incidence + bent);
   return {t * t, s * s};

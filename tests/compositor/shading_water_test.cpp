@@ -34,7 +34,8 @@ TEST(FlatWater, FresnelSharesAtEveryAngle) {
 }
 TEST(FlatWater, FresnelAsTabulated) {
   // physics P9: exact reflectances of n = 1.333, five digits.
-  const double table[][2] = {{0, .0203732}, {30, .021436}, {45, .027898}, {60, .059691}, {70, .133475}, {75, .212378}, {80, .347917}, {85, .583523}};
+  const double table[][2] = {{0, .0203732}, {30, .021436}, {45, .027898}, {60, .059691},
+                             {70, .133475}, {75, .212378}, {80, .347917}, {85, .583523}};
   for (const auto& [degrees, exact] : table) {
     const double reflected = see(sheet(water(water_ior), emitter({0, 0, 0}), constant({1, 1, 1})), slanting(degrees)).radiance.x;
     EXPECT_NEAR(reflected, exact, 6e-7) << degrees;  // the table's rounding

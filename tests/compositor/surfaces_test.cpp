@@ -145,11 +145,14 @@ TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainReadingsBits) {
   box.a = {-1, -0.5, 0};
   box.b = {2, 1.5, 0.75};
   const Solids boxes({box}, {});
-  const Plates plates({{Plate::parallelogram, {-1, 0.25, -1}, {2, 0, 0.5}, {0.25, 0.5, 2}}, {Plate::ellipse, {0, 0.5, 0}, {1, 0, 0}, {0, 0, 2}}});
+  const Plates plates(
+      {{Plate::parallelogram, {-1, 0.25, -1}, {2, 0, 0.5}, {0.25, 0.5, 2}}, {Plate::ellipse, {0, 0.5, 0}, {1, 0, 0}, {0, 0, 2}}});
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<Ray> rays;
   for (std::uint32_t k = 0; k < 16 * 1200; ++k) {
-    const auto coordinate = [&](std::uint32_t c) { return k % 3 == 0 ? std::floor(17 * test::random_number(k, c) - 8) / 4 : 5 * test::random_number(k, c) - 2.5; };
+    const auto coordinate = [&](std::uint32_t c) {
+      return k % 3 == 0 ? std::floor(17 * test::random_number(k, c) - 8) / 4 : 5 * test::random_number(k, c) - 2.5;
+    };
     Ray ray{{coordinate(0), coordinate(1), coordinate(2)}, {coordinate(3), coordinate(4), coordinate(5)}};
     if (ray.direction == Vec(0, 0, 0) || k % 11 == 0) ray.direction = {k % 2 ? 1.0 : 1e-310, k % 5 ? 0.0 : -0.0, k % 2 ? 0.0 : -1.0};
     if (k % 7 == 0) ray.nearest = test::random_number(k, 6);

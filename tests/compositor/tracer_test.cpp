@@ -33,10 +33,17 @@ const std::vector<Ray>& every_kind_of_ray() {
     for (std::size_t i = 0; i < 4000; ++i) {
       Ray ray = rays[i * 7];
       switch (i % 4) {
-        case 0: ray.nearest = 20; break;
-        case 1: ray.farthest = 25; break;
-        case 2: ray.direction *= i % 8 < 4 ? 1e-6 : 1e6; break;
-        default: ray.origin -= 1e5 * ray.direction;
+        case 0:
+          ray.nearest = 20;
+          break;
+        case 1:
+          ray.farthest = 25;
+          break;
+        case 2:
+          ray.direction *= i % 8 < 4 ? 1e-6 : 1e6;
+          break;
+        default:
+          ray.origin -= 1e5 * ray.direction;
       }
       rays.push_back(ray);
     }
@@ -76,7 +83,8 @@ std::vector<std::string> embree_isas() {
   std::vector<std::string> isas{"sse2", "sse4.2"};
   if (__builtin_cpu_supports("avx")) isas.push_back("avx");
   if (__builtin_cpu_supports("avx2")) isas.push_back("avx2");
-  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw")) isas.push_back("avx512");
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+    isas.push_back("avx512");
   return isas;
 #else
   return {""};
@@ -144,7 +152,8 @@ TEST(Tracer, BoxesCoverWhatFloatRaysStray) {
       int met = 0;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit expected = first_hit_of_all(surfaces, rays[i]);
-        ASSERT_TRUE(same(hits[i], expected)) << "ray " << i << ": " << text(hits[i]) << ", oracle " << text(expected) << isa << (robust ? ", robust" : "");
+        ASSERT_TRUE(same(hits[i], expected)) << "ray " << i << ": " << text(hits[i]) << ", oracle " << text(expected) << isa
+                                             << (robust ? ", robust" : "");
         met += expected.is_surface();
       }
       EXPECT_GT(met, 55'000);
@@ -258,7 +267,11 @@ TEST(Tracer, RaysInArraysMeetWhatRaysInARowMeet) {
     }
     const std::vector<Hit> expected = test::first_hits(tracer, rays);
     std::vector<Hit> hits(count);
-    tracer.first_hits({{component[0].data(), component[1].data(), component[2].data()}, {component[3].data(), component[4].data(), component[5].data()}, component[6].data(), component[7].data()}, hits);
+    tracer.first_hits({{component[0].data(), component[1].data(), component[2].data()},
+                       {component[3].data(), component[4].data(), component[5].data()},
+                       component[6].data(),
+                       component[7].data()},
+                      hits);
     for (std::size_t i = 0; i < count; ++i) ASSERT_TRUE(same(hits[i], expected[i])) << i << " of " << count;
   }
 }
@@ -271,7 +284,8 @@ TEST(Tracer, EqualDistancesGoToTheLowerNumber) {
   Tracer tracer;
   for (const auto& surface : surfaces) tracer.add(surface);
   tracer.commit();
-  const std::vector<Hit> hits = test::first_hits(tracer, {{{0.25, 1, 0.5}, {0, -1, 0}}, {{-0.25, 1, 0.5}, {0, -1, 0}}, {{2, 1, 0.5}, {0, -1, 0}}});
+  const std::vector<Hit> hits =
+      test::first_hits(tracer, {{{0.25, 1, 0.5}, {0, -1, 0}}, {{-0.25, 1, 0.5}, {0, -1, 0}}, {{2, 1, 0.5}, {0, -1, 0}}});
   EXPECT_EQ(hits[0].surface, 0u);
   EXPECT_EQ(hits[0].part, 0u);
   EXPECT_EQ(hits[0].t, 1);
@@ -286,7 +300,8 @@ TEST(Tracer, LimitsBelongToTheRay) {
   tracer.commit();
   const Vec from{0, 1, 0}, down{0, -1, 0};
   const double above = std::nextafter(1.0, 2.0), below = std::nextafter(1.0, 0.0);
-  const std::vector<Hit> hits = test::first_hits(tracer, {{from, down, 1, inf}, {from, down, above, inf}, {from, down, 0, 1}, {from, down, 0, below}});
+  const std::vector<Hit> hits =
+      test::first_hits(tracer, {{from, down, 1, inf}, {from, down, above, inf}, {from, down, 0, 1}, {from, down, 0, below}});
   EXPECT_TRUE(hits[0].is_surface());
   EXPECT_FALSE(hits[1].is_surface());
   EXPECT_TRUE(hits[2].is_surface());
@@ -296,7 +311,8 @@ TEST(Tracer, LimitsBelongToTheRay) {
 TEST(Tracer, RaysOfAnyLengthFromAnywhereFindASmallThing) {
   // A plate of a millimetre, a kilometre from the origin of the axes.
   const Vec centre{1000, -300, 200};
-  std::vector<std::shared_ptr<const Surface>> surfaces{std::make_shared<Plates>(std::vector<Plate>{{Plate::ellipse, centre, {5e-4, 0, 0}, {0, 0, 5e-4}}})};
+  std::vector<std::shared_ptr<const Surface>> surfaces{
+      std::make_shared<Plates>(std::vector<Plate>{{Plate::ellipse, centre, {5e-4, 0, 0}, {0, 0, 5e-4}}})};
   Tracer tracer;
   tracer.add(surfaces[0]);
   tracer.commit();
@@ -320,7 +336,9 @@ TEST(Tracer, ANothingAndRaysThatGoNowhere) {
   Tracer tracer;
   world.add_to(tracer);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Hit& hit : test::first_hits(tracer, {{{0, 1, 0}, {0, 0, 0}}, {{0, nan, 0}, {0, -1, 0}}, {{0, 1, 0}, {nan, -1, 0}}, {{0, 1, 0}, {0, inf, 0}}})) EXPECT_FALSE(hit.is_surface());
+  for (const Hit& hit :
+       test::first_hits(tracer, {{{0, 1, 0}, {0, 0, 0}}, {{0, nan, 0}, {0, -1, 0}}, {{0, 1, 0}, {nan, -1, 0}}, {{0, 1, 0}, {0, inf, 0}}}))
+    EXPECT_FALSE(hit.is_surface());
 }
 
 TEST(Tracer, RefusesWhatEmbreeOrItselfDoesNotTake) {
@@ -333,7 +351,8 @@ TEST(Tracer, RefusesWhatEmbreeOrItselfDoesNotTake) {
     }
     return std::string();
   };
-  EXPECT_EQ(message({"threads=1,isa=avx22"}), "compositor.embree_config = \"threads=1,isa=avx22\": no instruction set is called \"avx22\"; did you mean 'avx2'?");
+  EXPECT_EQ(message({"threads=1,isa=avx22"}),
+            "compositor.embree_config = \"threads=1,isa=avx22\": no instruction set is called \"avx22\"; did you mean 'avx2'?");
   EXPECT_NE(message({"threads=many"}).find("does not take it"), std::string::npos);
   EXPECT_NE(message({"", 5}).find("width 5"), std::string::npos);
   EXPECT_EQ(message({"threads=1"}), "");

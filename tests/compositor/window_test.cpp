@@ -94,12 +94,13 @@ TEST(TracedWindow, ShallowDropsAreAsThePassHasThem) {
   w.s.largest_radius = 20;  // 64 pixels; the smallest drops 4
   const PaneTruth truth = w.truth(1e-5);
   EXPECT_GT(pixels(truth, "drop_pixels"), 1000u);
-  EXPECT_LT(100 * (pixels(truth, "drop_not_wet") + pixels(truth, "wet_not_drop")), pixels(truth, "drop_pixels"));  // centres that the rim meets
+  EXPECT_LT(100 * (pixels(truth, "drop_not_wet") + pixels(truth, "wet_not_drop")),
+            pixels(truth, "drop_pixels"));  // centres that the rim meets
   EXPECT_EQ(pixels(truth, "mirrored_pixels"), 0u);
   const Percentiles p = truth.differences[0].percentiles();
   // A lens of 2 degrees turns rays by up to (n - 1) 2 = 0.67. Where they run on in it for its height, at 20 degrees, they miss
-  // (n - 1) a^2 / 2 tan 20 / n = 0.003 degrees. Where two drops overlap the pass shows the coarser one and the rays the higher: twice 0.67, and
-  // up to a tenth more at a slant.
+  // (n - 1) a^2 / 2 tan 20 / n = 0.003 degrees. Where two drops overlap the pass shows the coarser one and the rays the higher: twice 0.67,
+  // and up to a tenth more at a slant.
   EXPECT_LT(p.p50, 0.003);
   EXPECT_LT(p.max, 1.48);
 }
@@ -235,7 +236,8 @@ TEST(TracedGlass, WhatStandsBeforeTheGlassIsSeenAsItIs) {
     for (int x = 0; x < c.s.width; ++x) {
       if (c.around.depth.row<float>(y)[x] > c.glass->surface().row<float>(y)[4 * x + 2]) continue;
       ++bars;
-      for (int k = 0; k < 3; ++k) ASSERT_EQ(to_float(traced.beauty.row<Half>(y)[4 * x + k]), to_float(c.glass->colour().row<Half>(y)[4 * x + k]));
+      for (int k = 0; k < 3; ++k)
+        ASSERT_EQ(to_float(traced.beauty.row<Half>(y)[4 * x + k]), to_float(c.glass->colour().row<Half>(y)[4 * x + k]));
     }
   }
   EXPECT_GT(bars, 200);

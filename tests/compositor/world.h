@@ -32,7 +32,8 @@ inline std::vector<float> water_heights(double phase) {
     for (int i = 0; i <= water_cells; ++i) {
       const double x = i * water_cell - water_half_side, z = j * water_cell - water_half_side;
       const double near = std::hypot(x - 5, z - 8), far = std::hypot(x + 12, z);
-      out.push_back(static_cast<float>(0.35 * std::sin(1.9 * near - phase) / (1 + 0.08 * near) + 0.25 * std::sin(2.7 * far - 1.3 * phase) / (1 + 0.1 * far) +
+      out.push_back(static_cast<float>(0.35 * std::sin(1.9 * near - phase) / (1 + 0.08 * near) +
+                                       0.25 * std::sin(2.7 * far - 1.3 * phase) / (1 + 0.1 * far) +
                                        0.04 * std::sin(3.1 * x + 2.3 * z + phase)));
     }
   }
@@ -40,7 +41,9 @@ inline std::vector<float> water_heights(double phase) {
 }
 
 /// A number in [0, 1) from a number.
-inline double random_number(std::uint32_t a, std::uint32_t b) { return static_cast<double>(random::uniform(random::pcg4d({a, b, 77, 5})[0])); }
+inline double random_number(std::uint32_t a, std::uint32_t b) {
+  return static_cast<double>(random::uniform(random::pcg4d({a, b, 77, 5})[0]));
+}
 
 struct World {
   std::shared_ptr<Heightfield> water;
@@ -51,7 +54,8 @@ struct World {
   explicit World(int tile_cells = 128, double phase = 1) {
     const parallel::Executor executor(1);
     const double s = water_half_side;
-    water = std::make_shared<Heightfield>(HeightfieldFrame{{-s, 0, -s}, {2 * s, 0, 0}, {0, 0, 2 * s}, {0, 1, 0}}, water_cells, water_cells, tile_cells);
+    water = std::make_shared<Heightfield>(HeightfieldFrame{{-s, 0, -s}, {2 * s, 0, 0}, {0, 0, 2 * s}, {0, 1, 0}}, water_cells, water_cells,
+                                          tile_cells);
     water->assign(water_heights(phase), executor);
     const auto box = [&](const Vec& low, const Vec& high) {
       night_street::Solid solid;
@@ -65,7 +69,8 @@ struct World {
       box({x - w, -2, z - w}, {x + w, 0.5 + 3 * random_number(k, 3), z + w});
     }
     pane = {Plate::parallelogram, {14, 14, 16}, {3, 0, -3}, {-0.5, 2.5, -0.5}};
-    surfaces = {water, std::make_shared<Solids>(boxes, std::vector<night_street::Plane>{}), std::make_shared<Plates>(std::vector<Plate>{pane})};
+    surfaces = {water, std::make_shared<Solids>(boxes, std::vector<night_street::Plane>{}),
+                std::make_shared<Plates>(std::vector<Plate>{pane})};
   }
   void add_to(Tracer& tracer) const {
     for (const auto& surface : surfaces) tracer.add(surface);
@@ -84,7 +89,8 @@ inline std::vector<Ray> pinhole(const Vec& eye, const Vec& target, int width, in
   for (int by = 0; by < height; by += 4) {
     for (int bx = 0; bx < width; bx += 4) {
       for (int k = 0; k < 16; ++k) {
-        const double u = ((bx + k % 4 + 0.5) / width * 2 - 1) * tangent * width / height, v = (1 - (by + k / 4 + 0.5) / height * 2) * tangent;
+        const double u = ((bx + k % 4 + 0.5) / width * 2 - 1) * tangent * width / height,
+                     v = (1 - (by + k / 4 + 0.5) / height * 2) * tangent;
         rays.push_back(float_exact(eye, glm::normalize(forward + u * right + v * up)));
       }
     }
@@ -108,7 +114,9 @@ inline std::vector<Ray> reflection_rays(const World& world, const std::vector<Ra
 
 /// Vertex (i, j) of the water.
 inline Vec vertex(const World& world, int i, int j) {
-  return {i * water_cell - water_half_side, static_cast<double>(world.water->heights()[static_cast<std::size_t>(j) * (water_cells + 1) + i]), j * water_cell - water_half_side};
+  return {i * water_cell - water_half_side,
+          static_cast<double>(world.water->heights()[static_cast<std::size_t>(j) * (water_cells + 1) + i]),
+          j * water_cell - water_half_side};
 }
 
 /// Rays meant for vertices, edges and diagonals: straight down, from the camera's eye, along lines and diagonals.
@@ -118,12 +126,24 @@ inline std::vector<Ray> aimed_rays(const World& world, std::uint32_t count) {
     const int i = static_cast<int>(random_number(k, 1) * water_cells), j = static_cast<int>(random_number(k, 2) * water_cells);
     const Vec a = vertex(world, i, j), x = vertex(world, i + 1, j), z = vertex(world, i, j + 1);
     switch (k % 6) {
-      case 0: rays.push_back(float_exact({a.x, 10, a.z}, {0, -1, 0})); break;
-      case 1: rays.push_back(float_exact({a.x, 10, (a.z + z.z) / 2}, {0, -1, 0})); break;
-      case 2: rays.push_back(float_exact({20, 18, 14}, a - Vec(20, 18, 14))); break;
-      case 3: rays.push_back(float_exact({20, 18, 14}, (x + z) / 2.0 - Vec(20, 18, 14))); break;
-      case 4: rays.push_back(float_exact({a.x, a.y + 2, a.z - 5}, {0, -2, 5})); break;
-      default: rays.push_back(float_exact({a.x - 5, a.y + 1, a.z - 5}, {5, -1, 5})); break;
+      case 0:
+        rays.push_back(float_exact({a.x, 10, a.z}, {0, -1, 0}));
+        break;
+      case 1:
+        rays.push_back(float_exact({a.x, 10, (a.z + z.z) / 2}, {0, -1, 0}));
+        break;
+      case 2:
+        rays.push_back(float_exact({20, 18, 14}, a - Vec(20, 18, 14)));
+        break;
+      case 3:
+        rays.push_back(float_exact({20, 18, 14}, (x + z) / 2.0 - Vec(20, 18, 14)));
+        break;
+      case 4:
+        rays.push_back(float_exact({a.x, a.y + 2, a.z - 5}, {0, -2, 5}));
+        break;
+      default:
+        rays.push_back(float_exact({a.x - 5, a.y + 1, a.z - 5}, {5, -1, 5}));
+        break;
     }
   }
   return rays;

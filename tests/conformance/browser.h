@@ -44,7 +44,12 @@ class Browser {
       ::dup2(nothing, 2);
       for (int d = 5; d < 64; ++d) ::close(d);
       // A sandbox needs rights that root in a container has not.
-      std::vector<std::string> options{"chromium", "--headless", "--no-first-run", "--remote-debugging-pipe", profile, "--window-size=1400,1000",
+      std::vector<std::string> options{"chromium",
+                                       "--headless",
+                                       "--no-first-run",
+                                       "--remote-debugging-pipe",
+                                       profile,
+                                       "--window-size=1400,1000",
                                        ::geteuid() == 0 ? "--no-sandbox" : "--disable-extensions"};
       if (more.empty()) options.push_back("--disable-gpu");
       options.insert(options.end(), more.begin(), more.end());

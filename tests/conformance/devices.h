@@ -23,8 +23,8 @@ struct Tally {
   std::string first;  // of what lay outside
 };
 
-inline std::string described(const BoundCase& b, int x, int y, const std::vector<Array>& stored,
-                      const std::vector<float>& values, const enclosed::Profile& p) {
+inline std::string described(const BoundCase& b, int x, int y, const std::vector<Array>& stored, const std::vector<float>& values,
+                             const enclosed::Profile& p) {
   std::string text = fmt::format("{} ({}, {}) under {}:", b.c->folder(), x, y, p.name);
   std::vector<float> port;
   for (const Slot& s : b.slots) port.push_back(stored_value(s, s.at(stored[static_cast<std::size_t>(s.output)], x, y)));
@@ -50,7 +50,7 @@ inline bool is_reference(const BoundCase& b, int x, int y, const std::vector<flo
 }
 /// Whether one alternative holds every value before it is stored, or there are too many.
 inline bool holds_values(const BoundCase& b, int x, int y, const std::vector<Array>& stored, const std::vector<float>& values,
-                  const enclosed::Profile& p, Tally& tally) {
+                         const enclosed::Profile& p, Tally& tally) {
   std::vector<float> port;
   for (const Slot& s : b.slots) port.push_back(stored_value(s, s.at(stored[static_cast<std::size_t>(s.output)], x, y)));
   const enclosed::ProfileScope scope(p);
@@ -68,8 +68,8 @@ inline bool holds_values(const BoundCase& b, int x, int y, const std::vector<Arr
 }
 
 /// Devices begin ... end - 1 on one case: what `of` allows, judged by `p`.
-inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const enclosed::Profile& p, std::int64_t begin,
-                   std::int64_t end, Tally& tally) {
+inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const enclosed::Profile& p, std::int64_t begin, std::int64_t end,
+                          Tally& tally) {
   deviant::Liberties liberties = deviant::liberties_of(of);
   std::vector<Array> stored = b.expected();
   const std::int64_t texels = static_cast<std::int64_t>(b.model->width()) * b.model->height();
@@ -92,9 +92,7 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
     }
     ++tally.judged;
     tally.differing += !is_reference(b, x, y, values);
-    if (holds_values(b, x, y, stored, values, p, tally) &&
-        InvocationJudge(*b.c, *b.model, p, mode).accepts(x, y, stored))
-      continue;
+    if (holds_values(b, x, y, stored, values, p, tally) && InvocationJudge(*b.c, *b.model, p, mode).accepts(x, y, stored)) continue;
     if (tally.outside++ == 0) {
       const std::lock_guard lock(tally.mutex);
       tally.first = described(b, x, y, stored, values, p);
@@ -114,8 +112,7 @@ inline void expect_reference(const std::vector<BoundPass>& passes) {
           b.model->evaluate(x, y, reference.data());
           b.model->evaluate(x, y, deviant.data());
           for (std::size_t v = 0; v < reference.size(); ++v)
-            differing += std::bit_cast<std::uint32_t>(reference[v].v + 0.0f) !=
-                         std::bit_cast<std::uint32_t>(deviant[v].v + 0.0f);
+            differing += std::bit_cast<std::uint32_t>(reference[v].v + 0.0f) != std::bit_cast<std::uint32_t>(deviant[v].v + 0.0f);
         }
       }
       EXPECT_EQ(differing, 0) << b.c->folder();
@@ -133,20 +130,15 @@ inline void expect_honest(const std::vector<BoundPass>& passes) {
     if (only && pass.name() != only) continue;
     for (const std::string& name : profiles) {
       Tally tally;
-      const std::int64_t parts = static_cast<std::int64_t>(profiles.size() * pass.cases.size()),
-                         share = (each + parts - 1) / parts;
+      const std::int64_t parts = static_cast<std::int64_t>(profiles.size() * pass.cases.size()), share = (each + parts - 1) / parts;
       for (const BoundCase& b : pass.cases)
-        executor.for_range(share, 256, [&](std::int64_t begin, std::int64_t end) {
-          judge_devices(b, profile(name), profile(name), begin, end, tally);
-        });
-      const auto percent = [&](std::int64_t part) {
-        return 100.0 * static_cast<double>(part) / static_cast<double>(tally.judged);
-      };
+        executor.for_range(
+            share, 256, [&](std::int64_t begin, std::int64_t end) { judge_devices(b, profile(name), profile(name), begin, end, tally); });
+      const auto percent = [&](std::int64_t part) { return 100.0 * static_cast<double>(part) / static_cast<double>(tally.judged); };
       fmt::print(
           "{:<26} {:<8} {:8} devices, {:5.1f} % differ from the reference, {:.3f} % have too many alternatives, {} "
           "outside\n",
-          pass.name(), name, tally.judged.load(), percent(tally.differing), percent(tally.gave_up),
-          tally.outside.load());
+          pass.name(), name, tally.judged.load(), percent(tally.differing), percent(tally.gave_up), tally.outside.load());
       EXPECT_EQ(tally.outside, 0) << pass.name() << ' ' << name << '\n' << tally.first;
       // Devices that differ nowhere prove nothing. Rounding on the way hides most of what floats differ by, masks even more.
       const bool hides = pass.cases.front().model->rounds_inside();

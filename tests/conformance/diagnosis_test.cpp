@@ -17,7 +17,7 @@ using deviant::Slip;
 using testing::HasSubstr;
 
 struct Mistake {
-  const char* name;   ///< of the test
+  const char* name;  ///< of the test
   const char* pack;
   const char* pass;
   const char* cause;  ///< the likely cause begins like this
@@ -69,9 +69,13 @@ const char *const corrected = "puddle-corrected", *const published = "puddle-as-
 std::vector<Mistake> mistakes() {
   return {
       {"UpsideDown", corrected, "shade", "upside down",
-       [](MiniPort& p) { each_output(p, "shade", [](Array& a) { move_texels(a, [&](int x, int y) { return std::pair(x, a.height - 1 - y); }); }); }},
+       [](MiniPort& p) {
+         each_output(p, "shade", [](Array& a) { move_texels(a, [&](int x, int y) { return std::pair(x, a.height - 1 - y); }); });
+       }},
       {"Mirrored", corrected, "wave_step", "mirrored",
-       [](MiniPort& p) { each_output(p, "wave_step", [](Array& a) { move_texels(a, [&](int x, int y) { return std::pair(a.width - 1 - x, y); }); }); }},
+       [](MiniPort& p) {
+         each_output(p, "wave_step", [](Array& a) { move_texels(a, [&](int x, int y) { return std::pair(a.width - 1 - x, y); }); });
+       }},
       {"Transposed", corrected, "wave_step", "transposed",
        [](MiniPort& p) {
          each_output(p, "wave_step", [](Array& a) {
@@ -87,14 +91,16 @@ std::vector<Mistake> mistakes() {
       {"SwappedPingPong", corrected, "wave_step", "wave with its first two channels swapped",
        [](MiniPort& p) {
          each_output(p, "wave_step", [](Array& a) {
-           for (std::size_t i = 0; i < a.levels[0].size(); i += 4) std::swap_ranges(&a.levels[0][i], &a.levels[0][i] + 2, &a.levels[0][i] + 2);
+           for (std::size_t i = 0; i < a.levels[0].size(); i += 4)
+             std::swap_ranges(&a.levels[0][i], &a.levels[0][i] + 2, &a.levels[0][i] + 2);
          });
        }},
       {"SwappedPingPongInput", corrected, "wave_step", "input wave with its first two channels swapped",
        [](MiniPort& p) {
          each_case(p, "wave_step", [](PassCase& c) {
            Array& a = input_of(c, "wave").array;
-           for (std::size_t i = 0; i < a.levels[0].size(); i += 4) std::swap_ranges(&a.levels[0][i], &a.levels[0][i] + 2, &a.levels[0][i] + 2);
+           for (std::size_t i = 0; i < a.levels[0].size(); i += 4)
+             std::swap_ranges(&a.levels[0][i], &a.levels[0][i] + 2, &a.levels[0][i] + 2);
          });
        }},
       {"MissingSwap", corrected, "wave_step", "wave is its own input",
@@ -108,8 +114,10 @@ std::vector<Mistake> mistakes() {
          const auto old = std::make_shared<Array>();
          each_case(p, "shade", [old](PassCase& c) {
            Array& now = input_of(c, "normal").array;
-           if (c.frame == 11) *old = now;
-           else now = *old;
+           if (c.frame == 11)
+             *old = now;
+           else
+             now = *old;
          });
        }},
       {"HalfTexelMissing", corrected, "surface_hit", "half texel missing", slip(Slip::half_texel_missing, "surface_hit")},
@@ -117,7 +125,8 @@ std::vector<Mistake> mistakes() {
       {"NearestFilter", published, "shade", "nearest for linear", slip(Slip::nearest_filter, "shade")},
       {"HalfIntermediates", published, "shade", "half intermediates", slip(Slip::half_intermediates, "shade")},
       {"ClampForRepeat", published, "shade", "clamp address mode", slip(Slip::address_clamped, "shade")},
-      {"FirstDropMissing", corrected, "wave_step", "input drops without its first record", [](MiniPort& p) {
+      {"FirstDropMissing", corrected, "wave_step", "input drops without its first record",
+       [](MiniPort& p) {
          each_case(p, "wave_step", [](PassCase& c) {
            Array& drops = input_of(c, "drops").array;
            drops.levels[0].erase(drops.levels[0].begin(), drops.levels[0].begin() + 16);
@@ -129,7 +138,8 @@ std::vector<Mistake> mistakes() {
          each_output(p, "display", [](Array& a) {
            for (std::size_t i = 0; i < a.levels[0].size(); ++i) {
              if (i % 4 == 3) continue;
-             const double v = std::to_integer<int>(a.levels[0][i]) / 255.0, e = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+             const double v = std::to_integer<int>(a.levels[0][i]) / 255.0,
+                          e = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
              a.levels[0][i] = static_cast<std::byte>(e * 255 + 0.5);
            }
          });
@@ -138,14 +148,16 @@ std::vector<Mistake> mistakes() {
        [](MiniPort& p) { each_case(p, "surface_hit", [](PassCase& c) { put_uniform(c, 28, uniform(c, 44)); }); }},
       {"WidthForHeight", corrected, "display", "uniform width is height",
        [](MiniPort& p) { each_case(p, "display", [](PassCase& c) { put_uniform(c, 8, uniform(c, 12)); }); }},
-      {"DampingTooLarge", corrected, "wave_step", "constant", [](MiniPort& p) { each_case(p, "wave_step", [](PassCase& c) { put_uniform(c, 0, 1.01f * uniform(c, 0)); }); }},
+      {"DampingTooLarge", corrected, "wave_step", "constant",
+       [](MiniPort& p) { each_case(p, "wave_step", [](PassCase& c) { put_uniform(c, 0, 1.01f * uniform(c, 0)); }); }},
       {"UniformNotSet", corrected, "shade", "uniform water_turbidity is zero",
        [](MiniPort& p) { each_case(p, "shade", [](PassCase& c) { put_uniform(c, 92, 0); }); }},
       {"LastColumnNotWritten", corrected, "wave_step", "last column not written",
        [](MiniPort& p) {
          each_output(p, "wave_step", [](Array& a) {
            for (int y = 0; y < a.height; ++y)
-             std::memset(a.levels[0].data() + static_cast<std::size_t>(y * a.width + a.width - 1) * a.element_bytes(), 0, a.element_bytes());
+             std::memset(a.levels[0].data() + static_cast<std::size_t>(y * a.width + a.width - 1) * a.element_bytes(), 0,
+                         a.element_bytes());
          });
        }},
       {"PartialWorkgroups", published, "shade", "partial workgroups not written",
@@ -153,7 +165,8 @@ std::vector<Mistake> mistakes() {
          each_output(p, "shade", [](Array& a) {
            for (int y = 0; y < a.height; ++y)
              for (int x = 0; x < a.width; ++x)
-               if (x >= 32 || y >= 16) std::memset(a.levels[0].data() + static_cast<std::size_t>(y * a.width + x) * a.element_bytes(), 0, a.element_bytes());
+               if (x >= 32 || y >= 16)
+                 std::memset(a.levels[0].data() + static_cast<std::size_t>(y * a.width + x) * a.element_bytes(), 0, a.element_bytes());
          });
        }},
       {"InputUpsideDown", corrected, "shade", "input hit upside down",
@@ -163,7 +176,8 @@ std::vector<Mistake> mistakes() {
            move_texels(a, [&](int x, int y) { return std::pair(x, a.height - 1 - y); });
          });
        }},
-      {"EightBitWave", published, "wave_step", "wave through 8 bits", [](MiniPort& p) {
+      {"EightBitWave", published, "wave_step", "wave through 8 bits",
+       [](MiniPort& p) {
          each_output(p, "wave_step", [](Array& a) {
            for (std::size_t i = 0; i < a.levels[0].size(); i += 2) {
              Half h;
@@ -191,12 +205,14 @@ TEST_P(Diagnosis, NamesTheMistake) {
   ASSERT_EQ(pass.status, Status::fail) << why(j);
   ASSERT_FALSE(pass.causes.empty());
   std::string found;
-  for (const Cause& c : pass.causes) found += c.name + ": " + std::to_string(c.explained) + ", " + std::to_string(c.inside) + " of " + std::to_string(c.of) + "\n";
+  for (const Cause& c : pass.causes)
+    found += c.name + ": " + std::to_string(c.explained) + ", " + std::to_string(c.inside) + " of " + std::to_string(c.of) + "\n";
   EXPECT_THAT(pass.causes[0].name, testing::StartsWith(m.cause)) << found;
   for (const PassJudgement& other : j.passes) EXPECT_EQ(other.status == Status::fail, other.pass == m.pass) << other.pass << '\n' << why(j);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ports, Diagnosis, testing::ValuesIn(mistakes()), [](const auto& tested) { return std::string(tested.param.name); });
+INSTANTIATE_TEST_SUITE_P(Ports, Diagnosis, testing::ValuesIn(mistakes()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
 
 // A port says that it rounds to nearest, and truncates.
 TEST(HalfStores, OtherThanDeclaredFailsAndIsNamed) {
@@ -238,13 +254,15 @@ TEST(Diagnosis, ABufferThatLostALittleIsNotCalledMirrored) {
     if (c.pass != "splat") return;
     Array& height = out[0];
     for (int y = 0; y < height.height; y += 3)
-      std::memset(height.levels[0].data() + static_cast<std::size_t>(y * height.width) * height.element_bytes(), 0, height.element_bytes() * static_cast<std::size_t>(height.width));
+      std::memset(height.levels[0].data() + static_cast<std::size_t>(y * height.width) * height.element_bytes(), 0,
+                  height.element_bytes() * static_cast<std::size_t>(height.width));
   };
   TemporaryFolder folder;
   port.run(folder.path());
   const PortJudgement j = judge(port.pack, folder.path(), "vulkan", true);
   ASSERT_EQ(pass_of(j, "splat").status, Status::fail);
-  for (const Cause& cause : pass_of(j, "splat").causes) ADD_FAILURE() << cause.name << ": " << cause.explained << ", " << cause.inside << " of " << cause.of;
+  for (const Cause& cause : pass_of(j, "splat").causes)
+    ADD_FAILURE() << cause.name << ": " << cause.explained << ", " << cause.inside << " of " << cause.of;
 }
 
 // What no single mistake explains has no cause.

@@ -55,7 +55,8 @@ inline PortJudgement example_judgement() {
   j.command = "rainref validate pack --port port";
   j.status = Status::fail;
   j.first_bad_pass = "shade";
-  j.passes.push_back(example_pass("wave", Status::pass, {example_case("rain.wave/0000.0", Status::pass, example_output("height", Format::r16f, 4, 2))}));
+  j.passes.push_back(
+      example_pass("wave", Status::pass, {example_case("rain.wave/0000.0", Status::pass, example_output("height", Format::r16f, 4, 2))}));
 
   OutputJudgement hit = example_output("hit", Format::r32f, 4, 2);
   hit.atypical = 2;
@@ -85,7 +86,9 @@ inline PortJudgement example_judgement() {
   colour.map = {0, 0, 3, 0, 3, 0, 0, 0};
   Failure nan{2, 0, 1, 0x7e01, 0x3000, 0x3001, 0x3000, ~std::uint64_t{0}, true}, far{0, 1, 3, 0x3c04, 0x3c00, 0x3c01, 0x3c00, 3, false};
   colour.worst = {nan, far};
-  j.passes.push_back(example_pass("shade", Status::fail, {example_case("rain.shade/0000.0", Status::fail, colour), example_case("rain.shade/0001.0", Status::pass, example_output("colour", Format::rgba16f, 4, 2))}));
+  j.passes.push_back(example_pass("shade", Status::fail,
+                                  {example_case("rain.shade/0000.0", Status::fail, colour),
+                                   example_case("rain.shade/0001.0", Status::pass, example_output("colour", Format::rgba16f, 4, 2))}));
   PassJudgement& shade = j.passes.back();
   shade.cases[0].failing = 2;
   shade.half_mode_voted = true;
@@ -96,7 +99,9 @@ inline PortJudgement example_judgement() {
   return j;
 }
 
-inline std::filesystem::path small_pack(const std::string& name) { return std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/packs" / name; }
+inline std::filesystem::path small_pack(const std::string& name) {
+  return std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/packs" / name;
+}
 
 /// Writes a port's outputs: the pack's own, after `alter` (case, output, array) had its way with each.
 inline void write_port(const capture::Pack& pack, const std::filesystem::path& folder,

@@ -12,8 +12,12 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 const std::vector<HalfMode> open{HalfMode::rne, HalfMode::rtz, HalfMode::either}, asked_rtz{HalfMode::rtz, HalfMode::rne};
-HalfVotes votes(const char* pass, std::vector<std::int64_t> failing, const std::vector<HalfMode>& modes = open) { return {pass, modes, std::move(failing)}; }
-FoundRounding found(const std::vector<HalfVotes>& all, std::size_t k, HalfMode asked = HalfMode::either) { return pass_rounding(all[k], all, asked, "some"); }
+HalfVotes votes(const char* pass, std::vector<std::int64_t> failing, const std::vector<HalfMode>& modes = open) {
+  return {pass, modes, std::move(failing)};
+}
+FoundRounding found(const std::vector<HalfVotes>& all, std::size_t k, HalfMode asked = HalfMode::either) {
+  return pass_rounding(all[k], all, asked, "some");
+}
 
 TEST(HalfVotes, FewestFailingPassesDecide) {
   EXPECT_EQ(port_rounding({votes("a", {0, 9, 0}), votes("b", {0, 0, 0})}), HalfMode::rne);
@@ -54,10 +58,12 @@ TEST(HalfVotes, AMixtureIsOneOnlyWhereBothFail) {
 }
 
 TEST(HalfVotes, WhatTheProfileAsksForIsSaid) {
-  const std::vector<HalfVotes> all{votes("a", {8, 0}, asked_rtz), votes("both", {0, 0}, asked_rtz), votes("obeys", {0, 3}, asked_rtz), votes("b", {2, 0}, asked_rtz)};
+  const std::vector<HalfVotes> all{votes("a", {8, 0}, asked_rtz), votes("both", {0, 0}, asked_rtz), votes("obeys", {0, 3}, asked_rtz),
+                                   votes("b", {2, 0}, asked_rtz)};
   EXPECT_EQ(found(all, 0, HalfMode::rtz).doubt, "stores to binary16 round to nearest, where the profile some asks for toward zero");
   EXPECT_EQ(found(all, 1, HalfMode::rtz).doubt, "");
-  EXPECT_EQ(found(all, 2, HalfMode::rtz).doubt, "stores to binary16 round toward zero in this pass and to nearest in a, b: a port has one rounding");
+  EXPECT_EQ(found(all, 2, HalfMode::rtz).doubt,
+            "stores to binary16 round toward zero in this pass and to nearest in a, b: a port has one rounding");
 }
 
 // ---- whole ports ---------------------------------------------------------------------------------------------------

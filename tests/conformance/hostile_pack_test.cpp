@@ -26,7 +26,9 @@ const PassCase& case_of(const Base& base, const std::string& pass) {
     if (c.pass == pass) return c;
   throw std::runtime_error("no pass " + pass);
 }
-const scene::UniformBlock& block_of(const Base& base, const PassCase& c) { return known_effect(base.effect).info->pass(c.pass).block(c.variant); }
+const scene::UniformBlock& block_of(const Base& base, const PassCase& c) {
+  return known_effect(base.effect).info->pass(c.pass).block(c.variant);
+}
 
 /// A pack of one case, its files and manifest in agreement, and a port that stores what is expected.
 class Hostile {
@@ -44,7 +46,8 @@ class Hostile {
       port.put(id + "in." + i.name, i.array);
     }
     for (const capture::CaseOutput& o : c.outputs) {
-      entry["outputs"].push_back(capture::output_json(o, effect.buffer(o.name, c.variant), effect.pass(c.pass), pack.put(id + "out." + o.name, o.array)));
+      entry["outputs"].push_back(
+          capture::output_json(o, effect.buffer(o.name, c.variant), effect.pass(c.pass), pack.put(id + "out." + o.name, o.array)));
       port.put(id + "out." + o.name, o.array);
     }
     port.put(id + "uniforms.bin", c.uniforms);
@@ -107,7 +110,8 @@ TEST(HostilePack, AnInputOfAnotherSizeThanTheOutputsIsRefused) {
     for (const PassCase& good : base.cases) {
       const capture::PassInfo& pass = known_effect(base.effect).info->pass(good.pass);
       for (std::size_t i = 0; i < good.inputs.size(); ++i) {
-        const auto read = std::find_if(pass.reads.begin(), pass.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == good.inputs[i].name; });
+        const auto read =
+            std::find_if(pass.reads.begin(), pass.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == good.inputs[i].name; });
         if (!read->per_texel) continue;
         for (const int more : {-1, 1, 40}) {
           PassCase c = good;
@@ -135,7 +139,8 @@ TEST(HostilePack, AnotherFormatIsRefused) {
         if (a.is_records) continue;
         a.format = info(a.format).channels == 1 ? Format::rg8 : Format::r8;
         fuzz::resize(a, a.width, a.height);
-        for (std::vector<std::byte>& level : a.levels) level.resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * a.element_bytes());
+        for (std::vector<std::byte>& level : a.levels)
+          level.resize(static_cast<std::size_t>(a.width) * static_cast<std::size_t>(a.height) * a.element_bytes());
         a.levels.resize(1);
         const auto [code, what] = Hostile(base, c).refusal();
         EXPECT_EQ(code, ExitCode::port_files) << what;
@@ -171,14 +176,16 @@ TEST(HostilePack, AUniformThatWouldBeAnAddressIsRefusedByPackAndShadow) {
     const char* says;
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const Step& step : {Step{"puddle-as-published", "wave_step", "step", 1e5f, "uniform step is 100000, expected 1 to 8"},
-                           Step{"puddle-as-published", "wave_step", "step", 200, "uniform step is 200, expected 1 to 8"},
-                           Step{"edge_splash-corrected", "splash", "noise_scale", 3.4e38f, "uniform noise_scale.x is 3.3999999521443642e+38, expected 0 to 1e+07"},
-                           Step{"edge_splash-corrected", "splash", "noise_offset", nan, "uniform noise_offset.x is nan, expected 0 to 1"},
-                           Step{"puddle-corrected", "surface_hit", "inverse_size", INFINITY, "uniform inverse_size.x is inf, expected 0 to 100000"},
-                           Step{"puddle-corrected", "surface_hit", "camera_position", nan, "uniform camera_position.x is nan, expected -100000 to 100000"},
-                           // Steps of nothing: the march took minutes.
-                           Step{"puddle-as-published", "surface_hit", "epsilon", 0, "uniform epsilon is 0, expected 1e-05 to 1"}}) {
+  for (const Step& step :
+       {Step{"puddle-as-published", "wave_step", "step", 1e5f, "uniform step is 100000, expected 1 to 8"},
+        Step{"puddle-as-published", "wave_step", "step", 200, "uniform step is 200, expected 1 to 8"},
+        Step{"edge_splash-corrected", "splash", "noise_scale", 3.4e38f,
+             "uniform noise_scale.x is 3.3999999521443642e+38, expected 0 to 1e+07"},
+        Step{"edge_splash-corrected", "splash", "noise_offset", nan, "uniform noise_offset.x is nan, expected 0 to 1"},
+        Step{"puddle-corrected", "surface_hit", "inverse_size", INFINITY, "uniform inverse_size.x is inf, expected 0 to 100000"},
+        Step{"puddle-corrected", "surface_hit", "camera_position", nan, "uniform camera_position.x is nan, expected -100000 to 100000"},
+        // Steps of nothing: the march took minutes.
+        Step{"puddle-as-published", "surface_hit", "epsilon", 0, "uniform epsilon is 0, expected 1e-05 to 1"}}) {
     const Base& base = base_of(step.pack);
     PassCase c = case_of(base, step.pass);
     for (const scene::Member& m : block_of(base, c).members)
@@ -199,7 +206,8 @@ TEST(HostilePack, AUniformThatWouldBeAnAddressIsRefusedByPackAndShadow) {
 }
 
 TEST(HostilePack, RecordsThatAreNoNumbersAreRefused) {
-  for (const auto& [pack, pass] : {std::pair{"windshield-corrected", "merge"}, {"puddle-corrected", "wave_step"}, {"windshield-as-published", "splat"}}) {
+  for (const auto& [pack, pass] :
+       {std::pair{"windshield-corrected", "merge"}, {"puddle-corrected", "wave_step"}, {"windshield-as-published", "splat"}}) {
     const Base& base = base_of(pack);
     PassCase c = case_of(base, pass);
     for (capture::CaseInput& input : c.inputs) {
@@ -223,11 +231,16 @@ TEST(HostilePack, WhatThePassDoesNotHaveIsRefused) {
     pack.write();
     return pack.refusal().second;
   };
-  EXPECT_THAT(refusal([](fuzz::Json& c) { c["inputs"][0]["name"] = "color"; }), HasSubstr("in.color: expected one of the inputs colour, found 'color'; did you mean 'colour'?"));
-  EXPECT_THAT(refusal([](fuzz::Json& c) { c["outputs"][0]["name"] = "film"; }), HasSubstr("out.film: expected one of the outputs picture, found 'film'"));
-  EXPECT_THAT(refusal([](fuzz::Json& c) { c["outputs"][0]["judge"] = "input_only"; }), HasSubstr("out.picture: expected judge \"envelope\", found \"input_only\""));
-  EXPECT_THAT(refusal([](fuzz::Json& c) { c["outputs"].push_back(c["outputs"][0]); }), HasSubstr("out.picture: expected one output of this name, found two"));
-  EXPECT_THAT(refusal([](fuzz::Json& c) { c["inputs"].push_back(c["inputs"][0]); }), HasSubstr("in.colour: expected one input of this name, found two"));
+  EXPECT_THAT(refusal([](fuzz::Json& c) { c["inputs"][0]["name"] = "color"; }),
+              HasSubstr("in.color: expected one of the inputs colour, found 'color'; did you mean 'colour'?"));
+  EXPECT_THAT(refusal([](fuzz::Json& c) { c["outputs"][0]["name"] = "film"; }),
+              HasSubstr("out.film: expected one of the outputs picture, found 'film'"));
+  EXPECT_THAT(refusal([](fuzz::Json& c) { c["outputs"][0]["judge"] = "input_only"; }),
+              HasSubstr("out.picture: expected judge \"envelope\", found \"input_only\""));
+  EXPECT_THAT(refusal([](fuzz::Json& c) { c["outputs"].push_back(c["outputs"][0]); }),
+              HasSubstr("out.picture: expected one output of this name, found two"));
+  EXPECT_THAT(refusal([](fuzz::Json& c) { c["inputs"].push_back(c["inputs"][0]); }),
+              HasSubstr("in.colour: expected one input of this name, found two"));
 }
 
 TEST(HostilePack, ADeepManifestIsRefused) {

@@ -65,12 +65,9 @@ struct Made {
     store_value(s, value, Rounding::rne, port[0].levels[0].data() + s.offset(x, y));
   }
   ModeJudgements all(const char* name, const char* typical = nullptr) const {
-    return judge_case(c, model.get(), port,
-                      {&profile(name), typical ? &profile(typical) : nullptr, &executor, std::nullopt});
+    return judge_case(c, model.get(), port, {&profile(name), typical ? &profile(typical) : nullptr, &executor, std::nullopt});
   }
-  CaseJudgement judged(const char* name, const char* typical = nullptr) const {
-    return all(name, typical).judgements[0];
-  }
+  CaseJudgement judged(const char* name, const char* typical = nullptr) const { return all(name, typical).judgements[0]; }
 };
 
 TEST(Judge, TheReferencePassesAndIsCounted) {
@@ -266,8 +263,7 @@ TEST(Judge, HalfStoresAreJudgedByEachRounding) {
   EXPECT_EQ(failing(), std::tuple(false, true, false));
   const auto cut = [&](int from, int to) {
     for (int y = from; y < to; ++y)
-      for (int x = 0; x < columns; ++x)
-        m.put(x, y, 0, to_float(to_half(static_cast<float>(x + 1) / 3.0f, Rounding::rtz)));
+      for (int x = 0; x < columns; ++x) m.put(x, y, 0, to_float(to_half(static_cast<float>(x + 1) / 3.0f, Rounding::rtz)));
   };
   cut(0, rows / 2);
   EXPECT_EQ(failing(), std::tuple(true, true, false));
@@ -307,8 +303,7 @@ TEST(Judge, TheReferenceOfTheSmallPacksPasses) {
               for (std::size_t v = 0; v < values.size(); ++v) {
                 const Slot& s = b.slots[v];
                 if (s.kind == FormatInfo::float16)
-                  store_value(s, values[v].v, Rounding::rtz,
-                              port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+                  store_value(s, values[v].v, Rounding::rtz, port[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
               }
             }
         }

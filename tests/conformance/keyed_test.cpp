@@ -64,8 +64,7 @@ class Beads : public capture::KeyedModel {
     const auto pair = moved_pair<Enclosure>(first(group), second(group));
     for (int k = 0; k < 2; ++k) {
       const Moved<Enclosure>& m = pair[static_cast<std::size_t>(k)];
-      out.push_back(
-          {k == 0 ? first(group).id : second(group).id, m.lives, {m.x, m.speed, m.mass}, {m.is_large ? 1u : 0u}});
+      out.push_back({k == 0 ? first(group).id : second(group).id, m.lives, {m.x, m.speed, m.mass}, {m.is_large ? 1u : 0u}});
     }
   }
   /// The list that a number gives; under a profile's liberties for a Deviant.
@@ -76,9 +75,7 @@ class Beads : public capture::KeyedModel {
       const auto pair = moved_pair<N>(first(group), second(group));
       for (int k = 0; k < 2; ++k) {
         const Moved<N>& m = pair[static_cast<std::size_t>(k)];
-        if (m.lives)
-          out.push_back(
-              {k == 0 ? first(group).id : second(group).id, m.x.v, m.speed.v, m.mass.v, m.is_large ? 1u : 0u});
+        if (m.lives) out.push_back({k == 0 ? first(group).id : second(group).id, m.x.v, m.speed.v, m.mass.v, m.is_large ? 1u : 0u});
       }
     }
     return out;
@@ -94,10 +91,9 @@ Array array_of(const std::vector<Bead>& beads) {
   using namespace scene;
   Array a;
   a.is_records = true;
-  a.record = record<Bead>(
-      "Bead", {member<&Bead::id>("id", "1", "Key."), member<&Bead::x>("x", "texel", "Place."),
-               member<&Bead::speed>("speed", "texel/s", "Speed."), member<&Bead::mass>("mass", "1", "Mass."),
-               member<&Bead::is_large>("is_large", "1", "Event.")});
+  a.record = record<Bead>("Bead", {member<&Bead::id>("id", "1", "Key."), member<&Bead::x>("x", "texel", "Place."),
+                                   member<&Bead::speed>("speed", "texel/s", "Speed."), member<&Bead::mass>("mass", "1", "Mass."),
+                                   member<&Bead::is_large>("is_large", "1", "Event.")});
   a.width = static_cast<int>(beads.size());
   a.height = 1;
   a.levels.emplace_back(beads.size() * sizeof(Bead));
@@ -108,9 +104,7 @@ Array array_of(const std::vector<Bead>& beads) {
 std::vector<Bead> some_beads(std::uint32_t pairs) {
   Words words(9);
   std::vector<Bead> beads;
-  const auto uniform = [&](float low, float high) {
-    return low + (high - low) * static_cast<float>(words() >> 40) * 0x1p-24f;
-  };
+  const auto uniform = [&](float low, float high) { return low + (high - low) * static_cast<float>(words() >> 40) * 0x1p-24f; };
   for (std::uint32_t k = 0; k < pairs; ++k) {
     const float x = uniform(0, 100);
     beads.push_back({2 * k + 7, x, uniform(-9, 9), uniform(0.1f, 4), 0});
@@ -233,7 +227,8 @@ class Uncertain : public Beads {
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
     const std::size_t first = out.size();
     Beads::enclose(group, out);
-    for (std::size_t k = first; k < out.size(); ++k) out[k].floats[1] = enclosed::Enclosure(out[k].floats[1].lo - extent_ / 2, out[k].floats[1].hi + extent_ / 2);
+    for (std::size_t k = first; k < out.size(); ++k)
+      out[k].floats[1] = enclosed::Enclosure(out[k].floats[1].lo - extent_ / 2, out[k].floats[1].hi + extent_ / 2);
   }
 
  private:

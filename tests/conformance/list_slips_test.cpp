@@ -43,7 +43,9 @@ struct ListCase {
   const Array& reference() const { return c->outputs[output].array; }
   const capture::KeyedModel* keyed() const { return model->keyed(c->outputs[output].name); }
   std::vector<Deviation> deviations() const { return deviations_of(pass, *c, *model, before ? &*before : nullptr); }
-  KeyedJudgement judged(const Array& list, const std::string& under = "vulkan") const { return judge_keyed(c->outputs[output], list, keyed(), profile(under)); }
+  KeyedJudgement judged(const Array& list, const std::string& under = "vulkan") const {
+    return judge_keyed(c->outputs[output], list, keyed(), profile(under));
+  }
   std::vector<Cause> causes(const Array& list) const {
     std::vector<Array> port;
     for (const capture::CaseOutput& o : c->outputs) port.push_back(o.array);
@@ -200,7 +202,8 @@ TEST(ListSlipsOfMerge, AreEventsAndNamedOnOtherDevicesToo) {
     const Array fused = fused_list(l);
     ASSERT_EQ(l.judged(fused).failing, 0);
     for (const Deviation& d : l.deviations()) {
-      const auto expected = std::find_if(std::begin(expected_of_merge), std::end(expected_of_merge), [&](const Expected& e) { return d.name == e.slip; });
+      const auto expected =
+          std::find_if(std::begin(expected_of_merge), std::end(expected_of_merge), [&](const Expected& e) { return d.name == e.slip; });
       if (expected == std::end(expected_of_merge)) continue;
       for (const Array& base : {l.reference(), fused}) {
         const std::optional<Array> port = deviated_list(d, *l.c, l.output, l.readings(), l.model.get(), base);
@@ -209,7 +212,8 @@ TEST(ListSlipsOfMerge, AreEventsAndNamedOnOtherDevicesToo) {
         EXPECT_THAT(l.judged(*port).events.text(), HasSubstr(expected->events)) << l.text(d);
         const std::vector<Cause> causes = l.causes(*port);
         ASSERT_FALSE(causes.empty()) << l.text(d);
-        EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return c.name == d.name && c.inside == c.of; })) << l.text(d) << ": " << text_of(causes);
+        EXPECT_TRUE(std::any_of(causes.begin(), causes.end(), [&](const Cause& c) { return c.name == d.name && c.inside == c.of; }))
+            << l.text(d) << ": " << text_of(causes);
       }
     }
   }

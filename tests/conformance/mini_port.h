@@ -43,13 +43,13 @@ struct MiniPort {
   explicit MiniPort(const std::string& name) : pack(small_packs / name) {}
 
   capture::Pack pack;
-  HalfMode stores = HalfMode::either;  ///< how it rounds half stores; either: as the reference does
-  std::string stores_only;             ///< the pass that rounds so, the others as the reference does; "": each
-  deviant::Behaviour behaviour;        ///< of its arithmetic
-  std::string only;                    ///< the pass that behaves so; "": each
-  bool free_running = false;           ///< inputs are the outputs of its own runs before, and are dumped too
-  std::function<void(capture::PassCase&)> before;                                      ///< changes what a pass takes
-  std::function<void(capture::PassCase&)> dumped;                                      ///< changes what is dumped of that
+  HalfMode stores = HalfMode::either;              ///< how it rounds half stores; either: as the reference does
+  std::string stores_only;                         ///< the pass that rounds so, the others as the reference does; "": each
+  deviant::Behaviour behaviour;                    ///< of its arithmetic
+  std::string only;                                ///< the pass that behaves so; "": each
+  bool free_running = false;                       ///< inputs are the outputs of its own runs before, and are dumped too
+  std::function<void(capture::PassCase&)> before;  ///< changes what a pass takes
+  std::function<void(capture::PassCase&)> dumped;  ///< changes what is dumped of that
   std::function<void(const capture::PassCase&, std::vector<capture::Array>&)> after;  ///< changes what it gave
 
   /// What a pass gives for a case.
@@ -74,7 +74,8 @@ struct MiniPort {
         model->evaluate(x, y, values.data());
         for (std::size_t v = 0; v < slots.size(); ++v) {
           const Slot& s = slots[v];
-          store_value(s, values[v].v, rounding_of(s, stores_only.empty() || stores_only == c.pass ? stores : HalfMode::either), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+          store_value(s, values[v].v, rounding_of(s, stores_only.empty() || stores_only == c.pass ? stores : HalfMode::either),
+                      out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
         }
       }
     }
@@ -108,7 +109,8 @@ struct MiniPort {
   }
 };
 
-inline PortJudgement judge(const capture::Pack& pack, const std::filesystem::path& port, const std::string& profile = "vulkan", bool diagnose = false) {
+inline PortJudgement judge(const capture::Pack& pack, const std::filesystem::path& port, const std::string& profile = "vulkan",
+                           bool diagnose = false) {
   ValidateOptions options;
   options.profile = profile;
   options.diagnose = diagnose;

@@ -85,8 +85,7 @@ int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
     for (std::size_t v = 0; v < b.slots.size(); ++v) {
       const Slot& s = b.slots[v];
       const std::size_t o = static_cast<std::size_t>(s.output);
-      const double got = stored_value(s, s.at(stored[o], x, y)),
-                   expected = stored_value(s, s.at(b.c->outputs[o].array, x, y));
+      const double got = stored_value(s, s.at(stored[o], x, y)), expected = stored_value(s, s.at(b.c->outputs[o].array, x, y));
       far |= !b.model->is_free(static_cast<int>(v)) &&
              std::abs(got - expected) > std::max(s.range, std::max(std::abs(got), std::abs(expected))) / 16;
     }
@@ -100,9 +99,10 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   const Count count(report);
   fmt::print("{}: {} of {} deviations that change something are caught\n", GetParam(), count.caught, count.bugs);
   // Masks of 8 bits hide what moves them by less than a code.
-  const std::map<std::string, int> least{{"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},
-                                         {"rainy_glass-corrected", 80}, {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75},
-                                         {"screen_drops-as-published", 70}, {"screen_drops-corrected", 74}, {"windshield-as-published", 94}, {"windshield-corrected", 93}};
+  const std::map<std::string, int> least{
+      {"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},  {"rainy_glass-corrected", 80},
+      {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75}, {"screen_drops-as-published", 70}, {"screen_drops-corrected", 74},
+      {"windshield-as-published", 94},  {"windshield-corrected", 93}};
   EXPECT_GE(count.caught, count.bugs * least.at(GetParam()) / 100);
 
   const capture::Pack pack(pack_folder(GetParam()));
@@ -125,9 +125,8 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
       // It moves the grid by less than the profile allows a sine beyond pi.
       if (pass.pack == "screen_drops-as-published" && d.name.starts_with("constant 0.5 off by 1 %")) continue;
       ++large;
-      const auto found = std::find_if(report.mutants.begin(), report.mutants.end(), [&](const MutantJudgement& m) {
-        return m.pass == pass.pass && m.name == d.name;
-      });
+      const auto found = std::find_if(report.mutants.begin(), report.mutants.end(),
+                                      [&](const MutantJudgement& m) { return m.pass == pass.pass && m.name == d.name; });
       ASSERT_NE(found, report.mutants.end());
       EXPECT_TRUE(found->caught()) << line(*found) << ", far off at " << far;
     }
@@ -140,7 +139,8 @@ TEST(Binding, ALatticeWithoutCellsIsRefused) {
   const capture::Pack pack(pack_folder("rainy_glass-as-published"));
   const Bind bind = binder(pack.effect, "bake_rivulets");
   for (const std::int32_t cells : {0, -1, 0x7fffffff}) {
-    const auto baked = std::find_if(pack.cases.begin(), pack.cases.end(), [](const capture::PackCase& c) { return c.pass == "bake_rivulets"; });
+    const auto baked =
+        std::find_if(pack.cases.begin(), pack.cases.end(), [](const capture::PackCase& c) { return c.pass == "bake_rivulets"; });
     ASSERT_NE(baked, pack.cases.end());
     capture::PassCase c = pack.read(*baked);
     std::memcpy(c.uniforms.data() + offsetof(rainy_glass::BakeRivuletsUniforms, flow_cells), &cells, 4);

@@ -14,7 +14,8 @@ bool run(const std::vector<std::uint8_t>& program) { return judge_pack(std::as_b
 TEST(PackFuzz, UntouchedPacksReachAVerdict) {
   for (std::size_t b = 0; b < bases().size(); ++b)
     for (std::size_t k = 0; k < bases()[b].cases.size(); ++k)
-      for (std::uint8_t verb : {0, 2}) EXPECT_TRUE(run({static_cast<std::uint8_t>(b), verb, static_cast<std::uint8_t>(k)})) << bases()[b].cases[k].folder();
+      for (std::uint8_t verb : {0, 2})
+        EXPECT_TRUE(run({static_cast<std::uint8_t>(b), verb, static_cast<std::uint8_t>(k)})) << bases()[b].cases[k].folder();
 }
 
 // Each crashed, hung or was judged from memory that is not the program's once.

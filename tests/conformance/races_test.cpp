@@ -31,7 +31,9 @@ TEST(Races, TheFirstElementAndTheirNumberAreNamed) {
   const std::vector<std::filesystem::path> folders{runs / "1", runs / "2", runs / "3", runs / "4"};
   const std::vector<Race> races = find_races(port.pack, folders, "");
   ASSERT_EQ(races.size(), 1u);
-  EXPECT_EQ(races[0].text(), "race: puddle.display/0012.0/out.picture differs between runs 1 and 3 on the same inputs, first at (3, 2).y, 2 of 2940 elements");
+  EXPECT_EQ(
+      races[0].text(),
+      "race: puddle.display/0012.0/out.picture differs between runs 1 and 3 on the same inputs, first at (3, 2).y, 2 of 2940 elements");
   EXPECT_TRUE(find_races(port.pack, folders, "shade").empty());
 
   PortJudgement j = judge(port.pack, runs / "1");

@@ -32,7 +32,8 @@ TEST(ReportBaseline, WhatItRefuses) {
   EXPECT_THAT(parse_refusal("[shade.colour]\nreason = ''\n"), StartsWith("b.toml:2:1: reason: expected a text that says why, found "));
   EXPECT_THAT(parse_refusal("[shade.colour]\nreason = 3\n"), HasSubstr("reason: expected a text that says why, found 3"));
   EXPECT_EQ(parse_refusal("[shade.colour]\nraeson = 'x'\n"), "b.toml:2:1: expected 'reason' alone, found 'raeson'; did you mean 'reason'?");
-  EXPECT_THAT(parse_refusal("[shade]\nreason = 'x'\n"), HasSubstr("expected 'reason' in a table [PASS.OUTPUT] or [PASS.OUTPUT.\"CASE\"], found 'shade.reason'"));
+  EXPECT_THAT(parse_refusal("[shade]\nreason = 'x'\n"),
+              HasSubstr("expected 'reason' in a table [PASS.OUTPUT] or [PASS.OUTPUT.\"CASE\"], found 'shade.reason'"));
   EXPECT_THAT(parse_refusal("[shade.colour.a.b]\nreason = 'x'\n"), HasSubstr("found 'shade.colour.a.b.reason'"));
   EXPECT_THAT(parse_refusal("[shade]\n"), HasSubstr("expected a table [PASS.OUTPUT]"));
   EXPECT_THAT(parse_refusal("shade.colour = \n"), StartsWith("b.toml:1"));
@@ -47,8 +48,10 @@ TEST(ReportBaseline, NamesMustBeThePacks) {
   EXPECT_NO_THROW(check("[shade.colour]\nreason = 'x'\n[surface_hit.hit.\"puddle.surface_hit/0012.0\"]\nreason = 'y'\n"));
   EXPECT_EQ(refusal([&] { check("\n[shad.colour]\nreason = 'x'\n"); }),
             "b.toml:3:1: expected a pass (raindrops, wave_step, surface_hit, shade, display), found 'shad'; did you mean 'shade'?");
-  EXPECT_EQ(refusal([&] { check("[surface_hit.hid]\nreason = 'x'\n"); }), "b.toml:2:1: expected an output of surface_hit (hit, normal), found 'hid'; did you mean 'hit'?");
-  EXPECT_THAT(refusal([&] { check("[shade.colour.\"puddle.shade/0010.0\"]\nreason = 'x'\n"); }), HasSubstr("found 'puddle.shade/0010.0'; did you mean 'puddle.shade/0011.0'?"));
+  EXPECT_EQ(refusal([&] { check("[surface_hit.hid]\nreason = 'x'\n"); }),
+            "b.toml:2:1: expected an output of surface_hit (hit, normal), found 'hid'; did you mean 'hit'?");
+  EXPECT_THAT(refusal([&] { check("[shade.colour.\"puddle.shade/0010.0\"]\nreason = 'x'\n"); }),
+              HasSubstr("found 'puddle.shade/0010.0'; did you mean 'puddle.shade/0011.0'?"));
 }
 
 TEST(ReportBaseline, AListedFailureIsKnown) {

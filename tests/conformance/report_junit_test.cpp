@@ -36,7 +36,8 @@ class ReportJunit : public testing::Test {
   std::string asked(const PortJudgement& j, bool allow_untested, const std::string& xpath) {
     put(folder / "junit.xml", report_junit(j, allow_untested));
     const std::string file = (folder / "junit.xml").string();
-    const std::string complaint = output_of(fmt::format("xmllint --noout --schema {}/tests/conformance/junit.xsd {} 2>&1", RAINREF_SOURCE_DIR, file));
+    const std::string complaint =
+        output_of(fmt::format("xmllint --noout --schema {}/tests/conformance/junit.xsd {} 2>&1", RAINREF_SOURCE_DIR, file));
     EXPECT_EQ(complaint, file + " validates\n");
     std::string value = output_of(fmt::format("xmllint --xpath '{}' {}", xpath, file));
     while (value.ends_with('\n')) value.pop_back();
@@ -62,8 +63,12 @@ TEST_F(ReportJunit, ASuiteForEachPassACaseForEachOutput) {
   EXPECT_EQ(asked(j, false, "string(//testsuite[4]/testcase[1]/@classname)"), "rain.shade");
   EXPECT_EQ(asked(j, false, "string(//testsuite[4]/testcase[1]/failure/@message)"), "6 of 32 elements outside");
   const std::string text = asked(j, false, "string(//testsuite[4]/testcase[1]/failure)");
-  EXPECT_THAT(text, HasSubstr("(0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  expected 1 (0x3c00)  off by 3 codes\n"));
-  EXPECT_THAT(text, HasSubstr("likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes near 1)"));
+  EXPECT_THAT(text,
+              HasSubstr("(0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  expected 1 (0x3c00)  off by 3 codes\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes near 1)"));
   EXPECT_EQ(asked(j, false, "count(//testsuite[4]/testcase[2]/*)"), "0");
   EXPECT_THAT(asked(j, false, "string(//testsuite[2]/testcase[1]/system-out)"), HasSubstr("WARN: 2 elements"));
   EXPECT_EQ(asked(j, false, "string(//testsuite[1]/properties/property[@name=\"device\"]/@value)"), "Test & <Device>");
@@ -145,15 +150,16 @@ TEST_F(ReportJunit, HostileNames) {
   PortJudgement j = example_judgement();
   j.port = "a\x01 \"b\" <c> & 'd' \xff \xc3\xa9 ]]> \n\t\xef\xbf\xbf \xed\xa0\x80";
   EXPECT_EQ(asked(j, false, "string(//testsuite[1]/properties/property[@name=\"port\"]/@value)"),
-            "a\xef\xbf\xbd \"b\" <c> & 'd' \xef\xbf\xbd \xc3\xa9 ]]> \n\t\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
+            "a\xef\xbf\xbd \"b\" <c> & 'd' \xef\xbf\xbd \xc3\xa9 ]]> \n\t\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd "
+            "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
 }
 
 TEST(ReportMarkup, KeepsWhatXmlCanHold) {
   EXPECT_EQ(marked_up("<a b=\"c\">&\t\n\r"), "&lt;a b=&quot;c&quot;&gt;&amp;&#9;&#10;&#13;");
   EXPECT_EQ(marked_up("\xf0\x9f\x8c\xa7 \xe2\x80\xa6"), "\xf0\x9f\x8c\xa7 \xe2\x80\xa6");
-  EXPECT_EQ(marked_up("\xc0\xaf"), "\xef\xbf\xbd\xef\xbf\xbd");                  // overlong
+  EXPECT_EQ(marked_up("\xc0\xaf"), "\xef\xbf\xbd\xef\xbf\xbd");                                  // overlong
   EXPECT_EQ(marked_up("\xf4\x90\x80\x80"), "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");  // beyond U+10FFFF
-  EXPECT_EQ(marked_up("\xe2\x80"), "\xef\xbf\xbd\xef\xbf\xbd");                  // cut off
+  EXPECT_EQ(marked_up("\xe2\x80"), "\xef\xbf\xbd\xef\xbf\xbd");                                  // cut off
   EXPECT_EQ(marked_up(std::string_view("\0", 1)), "\xef\xbf\xbd");
 }
 

@@ -102,7 +102,8 @@ TEST_F(ReportPage, UntestedSaysWhichPassAndWhy) {
   j.passes.pop_back();
   j.first_bad_pass.clear();
   j.status = Status::untested;
-  EXPECT_THAT(report_html(j, {}), HasSubstr("Too little could be judged. <a href=\"#pass-noise\">noise</a>: 100 % of the elements have no useful bound.</p>"));
+  EXPECT_THAT(report_html(j, {}),
+              HasSubstr("Too little could be judged. <a href=\"#pass-noise\">noise</a>: 100 % of the elements have no useful bound.</p>"));
 }
 
 // --only: the one pass is drawn at its size, and what it takes from others is no link to nowhere.
@@ -155,13 +156,21 @@ TEST_F(ReportPageInBrowser, LoadsQuietlyAndEveryPictureIsDecoded) {
     browser.open(*folder_ / name);
     EXPECT_EQ(browser.value("document.querySelectorAll('svg.graph a .node').length"), 5);
     EXPECT_GT(browser.value("document.images.length"), 40);
-    EXPECT_EQ(browser.value("Promise.all([...document.images].map(i => i.decode().then(() => 0, () => 1))).then(bad => bad.filter(b => b).length)"), 0);
-    EXPECT_EQ(browser.value("[...document.querySelectorAll('svg.graph a')].filter(a => !document.querySelector(a.getAttribute('href'))).length"), 0);
+    EXPECT_EQ(browser.value(
+                  "Promise.all([...document.images].map(i => i.decode().then(() => 0, () => 1))).then(bad => bad.filter(b => b).length)"),
+              0);
+    EXPECT_EQ(
+        browser.value("[...document.querySelectorAll('svg.graph a')].filter(a => !document.querySelector(a.getAttribute('href'))).length"),
+        0);
     // Nothing is cut off on a laptop: neither the passes nor a table, and no legend runs into its neighbour.
     browser.call("Emulation.setDeviceMetricsOverride", {{"width", 1280}, {"height", 900}, {"deviceScaleFactor", 1}, {"mobile", false}});
     EXPECT_EQ(browser.value("document.documentElement.scrollWidth > innerWidth"), false);
-    EXPECT_EQ(browser.value("[...document.querySelectorAll('.scroll, figcaption')].filter(e => e.scrollWidth > e.clientWidth).map(e => e.textContent).join(' | ')"), "");
-    EXPECT_EQ(browser.value("[...document.querySelectorAll('.node')].filter(n => n.querySelector('.state').getBBox().width > n.querySelector('rect').getBBox().width - 8).length"), 0);
+    EXPECT_EQ(browser.value("[...document.querySelectorAll('.scroll, figcaption')].filter(e => e.scrollWidth > e.clientWidth).map(e => "
+                            "e.textContent).join(' | ')"),
+              "");
+    EXPECT_EQ(browser.value("[...document.querySelectorAll('.node')].filter(n => n.querySelector('.state').getBBox().width > "
+                            "n.querySelector('rect').getBBox().width - 8).length"),
+              0);
     browser.call("Emulation.clearDeviceMetricsOverride");
     expect_quiet(browser, *folder_ / name);
   }
@@ -171,10 +180,14 @@ TEST_F(ReportPageInBrowser, FlickerShowsThePortInThePlaceOfTheReference) {
   Browser browser;
   browser.open(*folder_ / "bad.html");
   const std::string viewer = "document.querySelector('#pass-shade .viewer')";
-  const auto port_is_shown = [&] { return browser.value("getComputedStyle(" + viewer + ".querySelector('.reference .other')).visibility"); };
+  const auto port_is_shown = [&] {
+    return browser.value("getComputedStyle(" + viewer + ".querySelector('.reference .other')).visibility");
+  };
   const auto wait_for = [&](const std::string& state) {
-    return browser.value("new Promise(done => { const end = Date.now() + 10000; (function look() { const v = getComputedStyle(" + viewer + ".querySelector('.reference .other')).visibility; "
-                         "v === '" + state + "' || Date.now() > end ? done(v) : setTimeout(look, 10); })(); })");
+    return browser.value("new Promise(done => { const end = Date.now() + 10000; (function look() { const v = getComputedStyle(" + viewer +
+                         ".querySelector('.reference .other')).visibility; "
+                         "v === '" +
+                         state + "' || Date.now() > end ? done(v) : setTimeout(look, 10); })(); })");
   };
   EXPECT_EQ(port_is_shown(), "hidden");
   EXPECT_EQ(browser.value(viewer + ".querySelector('.reference .other').src === " + viewer + ".querySelector('.port img').src"), true);
@@ -206,7 +219,9 @@ TEST_F(ReportPageInBrowser, KeysZoomMoveAndEnlarge) {
   EXPECT_EQ(zoom(), 1);
   EXPECT_EQ(left(), 0);  // never beyond the edge
   browser.press("2");
-  EXPECT_EQ(browser.value("[...document.querySelectorAll('#pass-surface_hit .viewer')][0].querySelectorAll('.view:not([hidden]) .pane').length"), 4);
+  EXPECT_EQ(
+      browser.value("[...document.querySelectorAll('#pass-surface_hit .viewer')][0].querySelectorAll('.view:not([hidden]) .pane').length"),
+      4);
   EXPECT_EQ(browser.value("[..." + viewer + ".querySelectorAll('.view:not([hidden]) .pane')].filter(p => p.offsetParent).length"), 1);
   browser.press("2");
   browser.press("v");
@@ -219,10 +234,13 @@ TEST_F(ReportPageInBrowser, AWorstElementIsFound) {
   const std::string viewer = "document.querySelector('#pass-shade .viewer')";
   browser.value(viewer + ".querySelector('.place').click()");
   // The mark lies on the texel that the button names: the middle of the mark, in texels, row 0 at the bottom.
-  const Browser::Json place = browser.value("[+" + viewer + ".querySelector('.place').dataset.x, +" + viewer + ".querySelector('.place').dataset.y]");
-  const Browser::Json mark = browser.value("(() => { const m = " + viewer + ".querySelector('.view:not([hidden]) .mark').getBoundingClientRect(), i = " + viewer +
-                                           ".querySelector('.view:not([hidden]) img').getBoundingClientRect(); const u = (m.x + m.width / 2 - i.x) / i.width, v = (m.y + m.height / 2 - i.y) / i.height; "
-                                           "return [Math.floor(35 * u), 20 - Math.floor(21 * v)]; })()");
+  const Browser::Json place =
+      browser.value("[+" + viewer + ".querySelector('.place').dataset.x, +" + viewer + ".querySelector('.place').dataset.y]");
+  const Browser::Json mark =
+      browser.value("(() => { const m = " + viewer + ".querySelector('.view:not([hidden]) .mark').getBoundingClientRect(), i = " + viewer +
+                    ".querySelector('.view:not([hidden]) img').getBoundingClientRect(); const u = (m.x + m.width / 2 - i.x) / i.width, v = "
+                    "(m.y + m.height / 2 - i.y) / i.height; "
+                    "return [Math.floor(35 * u), 20 - Math.floor(21 * v)]; })()");
   EXPECT_EQ(mark, place);
   EXPECT_THAT(browser.value(viewer + ".querySelector('.readout').textContent").get<std::string>(), HasSubstr("accepted"));
 }

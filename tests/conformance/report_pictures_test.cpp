@@ -22,13 +22,15 @@ Array array_of(Format format, int width, int height) {
   a.format = format;
   a.width = width;
   a.height = height;
-  a.levels.emplace_back(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(info(format).texel_bytes()));
+  a.levels.emplace_back(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                        static_cast<std::size_t>(info(format).texel_bytes()));
   return a;
 }
 template <class T>
 void set(Array& a, int x, int y, int channel, T value) {
   const FormatInfo& f = info(a.format);
-  std::memcpy(a.levels[0].data() + static_cast<std::size_t>((y * a.width + x) * f.texel_bytes() + channel * f.channel_bytes), &value, sizeof value);
+  std::memcpy(a.levels[0].data() + static_cast<std::size_t>((y * a.width + x) * f.texel_bytes() + channel * f.channel_bytes), &value,
+              sizeof value);
 }
 
 capture::CaseOutput output_of(Array array, const std::string& unit, const std::string& color_space) {

@@ -64,21 +64,26 @@ TEST(ReportText, OneAlignedLineForEachPass) {
                               "PASS      wave    0 of 8    100 %           0     0          0      0 %      0 %\n"
                               "WARN      hit     0 of 8  87.50 %           7  none          4  12.50 %  25.00 %\n"));
   EXPECT_THAT(text, HasSubstr("          1 of 4 ambiguous invocations took another branch than the reference\n"));
-  EXPECT_THAT(text, HasSubstr("UNTESTED  noise   0 of 8      0 %           0     0          0    100 %      0 %\n          100 % of the elements have no useful bound\n"));
+  EXPECT_THAT(text, HasSubstr("UNTESTED  noise   0 of 8      0 %           0     0          0    100 %      0 %\n          100 % of the "
+                              "elements have no useful bound\n"));
 }
 
 TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
   const std::string text = report_text(example_judgement());
-  EXPECT_THAT(text, HasSubstr("\nFAIL shade is outside the as-written envelope of rain.shade/1 under profile vulkan\n"
-                              "  first bad pass, its inputs are good\n"
-                              "  rain.shade/0000.0/out.colour (rgba16f 4x2): 6 of 32 elements outside (18.75 %)\n"
-                              "    (2, 0).y  got nan (0x7e01)  accepted 0.125 (0x3000) to 0.125122 (0x3001)  is not a number\n"
-                              "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes\n"
-                              "    (4 more not shown)\n"
-                              "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes\n"
-                              "    near 1)\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("\nFAIL shade is outside the as-written envelope of rain.shade/1 under profile vulkan\n"
+                "  first bad pass, its inputs are good\n"
+                "  rain.shade/0000.0/out.colour (rgba16f 4x2): 6 of 32 elements outside (18.75 %)\n"
+                "    (2, 0).y  got nan (0x7e01)  accepted 0.125 (0x3000) to 0.125122 (0x3001)  is not a number\n"
+                "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes\n"
+                "    (4 more not shown)\n"
+                "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes\n"
+                "    near 1)\n"));
   EXPECT_THAT(text, HasSubstr("note: port/x.exr: one note\n"));
-  EXPECT_THAT(text, ContainsRegex("\nFAIL: port against pack, profile vulkan, Vulkan 1.3 Test & <Device> \\(1 FAIL, 1 UNTESTED, 1 WARN, 1 PASS\\)\n$"));
+  EXPECT_THAT(
+      text,
+      ContainsRegex("\nFAIL: port against pack, profile vulkan, Vulkan 1.3 Test & <Device> \\(1 FAIL, 1 UNTESTED, 1 WARN, 1 PASS\\)\n$"));
 }
 
 TEST(ReportText, ManyFailingOutputsAreCounted) {
@@ -99,7 +104,8 @@ TEST(ReportText, WhatIsBrokenSaysWhy) {
   j.first_bad_pass = "wave";
   wave.inputs_are_good = false;
   const std::string text = report_text(j);
-  EXPECT_THAT(text, HasSubstr("\nFAIL wave\n  first bad pass, its inputs are not good either\n  rain.wave/0000.0: race: differs between runs 1 and 2\n\nFAIL shade is outside"));
+  EXPECT_THAT(text, HasSubstr("\nFAIL wave\n  first bad pass, its inputs are not good either\n  rain.wave/0000.0: race: differs between "
+                              "runs 1 and 2\n\nFAIL shade is outside"));
   EXPECT_EQ(text.find("race:"), text.rfind("race:"));  // once
   // A wrong input is the cause of what is outside too.
   j.passes[3].causes.clear();
@@ -110,16 +116,21 @@ TEST(ReportText, WhatIsBrokenSaysWhy) {
 
 TEST(ReportText, SentencesAreBrokenAt120Columns) {
   PortJudgement j = example_judgement();
-  const std::string sentence = "one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen twenty";
+  const std::string sentence =
+      "one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen seventeen eighteen nineteen twenty";
   j.passes[1].reason = j.passes[3].causes[0].sentence = j.passes[3].cases[0].reason = sentence;
   j.passes[3].cases[0].broken = true;
   j.passes[3].formula = "rain_on_a_windshield.screen_drops_collected.as-published/12";
   const std::string text = report_text(j);
-  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) EXPECT_LE(text.find('\n', at) - at, 120u) << text.substr(at, text.find('\n', at) - at);
-  EXPECT_THAT(text, HasSubstr("  rain.shade/0000.0: one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen\n"
-                              "    seventeen eighteen nineteen twenty\n"));
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+    EXPECT_LE(text.find('\n', at) - at, 120u) << text.substr(at, text.find('\n', at) - at);
+  EXPECT_THAT(
+      text,
+      HasSubstr("  rain.shade/0000.0: one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen\n"
+                "    seventeen eighteen nineteen twenty\n"));
   std::string joined = text;
-  for (std::size_t at = 0; (at = joined.find("\n ", at)) != std::string::npos;) joined.replace(at, joined.find_first_not_of(' ', at + 1) - at, " ");
+  for (std::size_t at = 0; (at = joined.find("\n ", at)) != std::string::npos;)
+    joined.replace(at, joined.find_first_not_of(' ', at + 1) - at, " ");
   EXPECT_THAT(joined, HasSubstr("likely cause: upside down: " + sentence + " (gives"));  // no word is lost
 }
 

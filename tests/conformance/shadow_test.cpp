@@ -92,8 +92,9 @@ TEST_F(ShadowTest, SwappedChannelsOfAnInputAreNamed) {
   const PortJudgement j = shadow_of();
   const PassJudgement& wave = pass_of(j, "wave_step");
   EXPECT_EQ(wave.status, Status::fail);
-  EXPECT_THAT(wave.reason, AllOf(HasSubstr("input puddle.wave_step/0012.0/in.wave is not the previous output puddle.wave_step/0011.1/out.wave"),
-                                 HasSubstr("with its first two channels swapped: ping-pong order")));
+  EXPECT_THAT(wave.reason,
+              AllOf(HasSubstr("input puddle.wave_step/0012.0/in.wave is not the previous output puddle.wave_step/0011.1/out.wave"),
+                    HasSubstr("with its first two channels swapped: ping-pong order")));
   EXPECT_FALSE(wave.inputs_are_good);
   for (const CaseJudgement& c : wave.cases) EXPECT_EQ(c.failing, 0) << c.id;  // its arithmetic is right
 }
@@ -105,7 +106,8 @@ TEST_F(ShadowTest, AStaleInputIsNamed) {
     if (c.folder() == "puddle.wave_step/0012.0") input_of(c, "wave").array = old;
   };
   const PortJudgement j = shadow_of();
-  EXPECT_THAT(pass_of(j, "wave_step").reason, HasSubstr("it is puddle.wave_step/0011.1/in.wave, the state before that run: a missing swap or a stale frame"));
+  EXPECT_THAT(pass_of(j, "wave_step").reason,
+              HasSubstr("it is puddle.wave_step/0011.1/in.wave, the state before that run: a missing swap or a stale frame"));
 }
 
 TEST_F(ShadowTest, APictureOfTheFrameBeforeIsNamed) {
@@ -124,7 +126,8 @@ TEST_F(ShadowTest, AHiddenPassIsSeen) {
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "shade");
-  EXPECT_THAT(pass_of(j, "shade").reason, AllOf(HasSubstr("1 of 2940 values differ, first at x 5, y 1, channel 0"), HasSubstr("a pass between them")));
+  EXPECT_THAT(pass_of(j, "shade").reason,
+              AllOf(HasSubstr("1 of 2940 values differ, first at x 5, y 1, channel 0"), HasSubstr("a pass between them")));
 }
 
 // The input that is dumped is right, but the pass took another.
@@ -161,7 +164,8 @@ TEST_F(ShadowTest, BoundsOfAnotherFrameFail) {
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "surface_hit") << why(j);
-  EXPECT_THAT(pass_of(j, "surface_hit").reason, AllOf(HasSubstr("in.bounds at (0, 0) says height 0.0001 m"), HasSubstr("of another frame?")));
+  EXPECT_THAT(pass_of(j, "surface_hit").reason,
+              AllOf(HasSubstr("in.bounds at (0, 0) says height 0.0001 m"), HasSubstr("of another frame?")));
 }
 
 TEST_F(ShadowTest, ACounterOfAnotherRunFails) {
@@ -171,7 +175,8 @@ TEST_F(ShadowTest, ACounterOfAnotherRunFails) {
     if (c.folder() == "puddle.raindrops/0012.1") c.uniforms = old;
   };
   const PortJudgement j = shadow_of();
-  EXPECT_THAT(pass_of(j, "raindrops").reason, AllOf(HasSubstr("uniform step is 24"), HasSubstr("expected 25"), HasSubstr("it is that of puddle.raindrops/0012.0")));
+  EXPECT_THAT(pass_of(j, "raindrops").reason,
+              AllOf(HasSubstr("uniform step is 24"), HasSubstr("expected 25"), HasSubstr("it is that of puddle.raindrops/0012.0")));
 }
 
 TEST_F(ShadowTest, AConstantThatThePortChoseIsANote) {
@@ -181,7 +186,8 @@ TEST_F(ShadowTest, AConstantThatThePortChoseIsANote) {
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.status, Status::pass) << why(j);
-  EXPECT_THAT(j.notes, Contains(AllOf(HasSubstr("uniform exposure of display is not the manifest's in 2 runs"), HasSubstr("1.5 0x3fc00000, expected 1.6245048"))));
+  EXPECT_THAT(j.notes, Contains(AllOf(HasSubstr("uniform exposure of display is not the manifest's in 2 runs"),
+                                      HasSubstr("1.5 0x3fc00000, expected 1.6245048"))));
 }
 
 TEST_F(ShadowTest, AUniformThatIsNoNumberFails) {
@@ -249,7 +255,8 @@ TEST_F(PublishedShadowTest, TheTimeOfAnotherFrameFails) {
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "raindrops") << why(j);
-  EXPECT_THAT(pass_of(j, "raindrops").reason, AllOf(HasSubstr("uniform time is 0.18333334"), HasSubstr("expected 0.2"), HasSubstr("it is that of puddle.raindrops/0011.0")));
+  EXPECT_THAT(pass_of(j, "raindrops").reason, AllOf(HasSubstr("uniform time is 0.18333334"), HasSubstr("expected 0.2"),
+                                                    HasSubstr("it is that of puddle.raindrops/0011.0")));
 }
 
 // The other effects: lists of drops that are handed from pass to pass, and a picture whose mip levels come from a run each.
@@ -326,8 +333,10 @@ TEST_F(WindshieldShadowTest, EachMipLevelMustBeTheOutputOfItsOwnRun) {
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "composite") << why(j);
-  EXPECT_THAT(pass_of(j, "composite").reason,
-              HasSubstr("input windshield.composite/0012.0/in.blurred.L2 is not the previous output windshield.blur_pyramid/0012.0.L2/out.blurred"));
+  EXPECT_THAT(
+      pass_of(j, "composite").reason,
+      HasSubstr(
+          "input windshield.composite/0012.0/in.blurred.L2 is not the previous output windshield.blur_pyramid/0012.0.L2/out.blurred"));
 }
 
 TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
@@ -339,8 +348,10 @@ TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
   };
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.first_bad_pass, "blur_pyramid") << why(j);
-  EXPECT_THAT(pass_of(j, "blur_pyramid").reason,
-              HasSubstr("input windshield.blur_pyramid/0012.0.L2/in.blurred is not the previous output windshield.blur_pyramid/0012.0.L1/out.blurred"));
+  EXPECT_THAT(
+      pass_of(j, "blur_pyramid").reason,
+      HasSubstr(
+          "input windshield.blur_pyramid/0012.0.L2/in.blurred is not the previous output windshield.blur_pyramid/0012.0.L1/out.blurred"));
 }
 
 }  // namespace

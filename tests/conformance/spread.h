@@ -28,8 +28,7 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
   b.model->evaluate(x, y, reference.data());
   std::vector<float> port, low;
   for (std::size_t v = 0; v < n; ++v) {
-    port.push_back(
-        stored_value(b.slots[v], b.slots[v].at(b.c->outputs[static_cast<std::size_t>(b.slots[v].output)].array, x, y)));
+    port.push_back(stored_value(b.slots[v], b.slots[v].at(b.c->outputs[static_cast<std::size_t>(b.slots[v].output)].array, x, y)));
     low.push_back(reference[v].v);
   }
   std::vector<float> high = low;
@@ -58,8 +57,8 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
     ASSERT_TRUE(found);
   }
   for (int k = 0; k < devices; ++k) {
-    const std::vector<float> got = conforming_values(
-        *b.model, x, y, liberties, static_cast<std::uint64_t>(k) + 1000u * static_cast<std::uint64_t>(x + 1000 * y));
+    const std::vector<float> got =
+        conforming_values(*b.model, x, y, liberties, static_cast<std::uint64_t>(k) + 1000u * static_cast<std::uint64_t>(x + 1000 * y));
     if (!held(e, got)) continue;
     for (std::size_t v = 0; v < n; ++v) {
       low[v] = std::min(low[v], got[v]);
@@ -73,8 +72,7 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
       continue;
     }
     m.widths.push_back(e[v].width_in_ulp());
-    m.ratios.push_back(
-        high[v] > low[v] ? (static_cast<double>(e[v].hi) - e[v].lo) / (static_cast<double>(high[v]) - low[v]) : 1e9);
+    m.ratios.push_back(high[v] > low[v] ? (static_cast<double>(e[v].hi) - e[v].lo) / (static_cast<double>(high[v]) - low[v]) : 1e9);
     m.constant += high[v] == low[v];
     if (std::getenv("RAINREF_TRACE"))
       fmt::print("v {} at {} {} width {} ulp spread {} ratio {} ref {}\n", v, x, y, e[v].width_in_ulp(),
@@ -88,8 +86,8 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
   const std::int64_t texels = 300;
   const auto enough = static_cast<std::size_t>(count_from("RAINREF_SPREADS", 100));  // values with an open envelope
   const char* only = std::getenv("RAINREF_ONLY");
-  fmt::print("{:<26} {:<8} {:>7} {:>7} {:>12} {:>10} {:>10} {:>9}\n", "pass", "profile", "ratio", "p90", "width (ULP)",
-             "exact", "ambiguous", "constant");
+  fmt::print("{:<26} {:<8} {:>7} {:>7} {:>12} {:>10} {:>10} {:>9}\n", "pass", "profile", "ratio", "p90", "width (ULP)", "exact",
+             "ambiguous", "constant");
   for (const BoundPass& pass : passes) {
     if (only && pass.name() != only) continue;
     // The cases of the last frame, which are levels of a pyramid or one.
@@ -101,15 +99,14 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       for (std::int64_t k = 0; k < texels && m.ratios.size() < enough; ++k) {
         const BoundCase& b = *cases[static_cast<std::size_t>(k) % cases.size()];
         const std::int64_t texel = (k * 37 + 5) % (static_cast<std::int64_t>(b.model->width()) * b.model->height());
-        measure(b, static_cast<int>(texel % b.model->width()), static_cast<int>(texel / b.model->width()),
-                profile(name), devices, m);
+        measure(b, static_cast<int>(texel % b.model->width()), static_cast<int>(texel / b.model->width()), profile(name), devices, m);
       }
       const auto at = [](std::vector<double>& values, double share) {
         std::sort(values.begin(), values.end());
         return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
       };
-      fmt::print("{:<26} {:<8} {:7.2f} {:7.3g} {:12.0f} {:10} {:10} {:9}\n", pass.name(), name, at(m.ratios, 0.5),
-                 at(m.ratios, 0.9), at(m.widths, 0.5), m.exact, m.ambiguous, m.constant);
+      fmt::print("{:<26} {:<8} {:7.2f} {:7.3g} {:12.0f} {:10} {:10} {:9}\n", pass.name(), name, at(m.ratios, 0.5), at(m.ratios, 0.9),
+                 at(m.widths, 0.5), m.exact, m.ambiguous, m.constant);
       if (cases[0]->model->rounds_inside()) {
         // What is rounded on the way is one half but for a few, where the two neighbours are the whole envelope.
         EXPECT_GT(m.exact, static_cast<std::int64_t>(20 * m.ratios.size())) << pass.name() << ' ' << name;

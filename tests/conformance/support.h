@@ -15,9 +15,9 @@
 
 namespace rainref::conformance::test {
 
-inline const std::vector<std::string> packs{"puddle-as-published",      "puddle-corrected",      "rainy_glass-as-published",
-                                            "rainy_glass-corrected", "edge_splash-as-published", "edge_splash-corrected",
-                                            "screen_drops-as-published", "screen_drops-corrected", "windshield-as-published", "windshield-corrected"};
+inline const std::vector<std::string> packs{
+    "puddle-as-published",   "puddle-corrected",          "rainy_glass-as-published", "rainy_glass-corrected",   "edge_splash-as-published",
+    "edge_splash-corrected", "screen_drops-as-published", "screen_drops-corrected",   "windshield-as-published", "windshield-corrected"};
 /// Every profile under which results may differ.
 inline std::vector<std::string> inexact_profiles() {
   std::vector<std::string> names = profile_names();
@@ -26,7 +26,9 @@ inline std::vector<std::string> inexact_profiles() {
   return names;
 }
 /// Where more than 1 % of a pass's elements have no useful bound; docs/conformance.md names them.
-inline bool is_known_loose(const std::string& pass, const std::string& profile) { return (pass == "rain_on_glass" || pass == "drops") && (profile == "webgpu" || profile == "metal"); }
+inline bool is_known_loose(const std::string& pass, const std::string& profile) {
+  return (pass == "rain_on_glass" || pass == "drops") && (profile == "webgpu" || profile == "metal");
+}
 inline std::filesystem::path pack_folder(const std::string& name) { return RAINREF_SOURCE_DIR "/tests/packs/" + name; }
 
 /// A case that some envelope judges.
@@ -46,14 +48,16 @@ struct BoundPass {
   bool is_of_masks() const { return name() == "edge_splash-as-published splash"; }
   /// Of whole quanta, and the pack has no place where a device could tip one: nothing spreads. windshield_motion_test.cpp has
   /// places where one can.
-  bool is_of_quanta() const { return name() == "screen_drops-corrected merge" || name() == "windshield-corrected merge" || name() == "windshield-corrected wipe_drops"; }
+  bool is_of_quanta() const {
+    return name() == "screen_drops-corrected merge" || name() == "windshield-corrected merge" ||
+           name() == "windshield-corrected wipe_drops";
+  }
   std::string pack, pass;
   std::vector<BoundCase> cases;
   std::string name() const { return pack + " " + pass; }
 };
 /// Of some packs; all passes, or those named.
-inline std::vector<BoundPass> enveloped_passes(const std::vector<std::string>& of = packs,
-                                               const std::vector<std::string>& only = {}) {
+inline std::vector<BoundPass> enveloped_passes(const std::vector<std::string>& of = packs, const std::vector<std::string>& only = {}) {
   std::vector<BoundPass> all;
   for (const std::string& name : of) {
     const capture::Pack pack(pack_folder(name));
@@ -92,8 +96,8 @@ class Words {
 
 /// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere,
 /// or lean to one end throughout.
-inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y,
-                                            const deviant::Liberties& liberties, std::uint64_t seed) {
+inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y, const deviant::Liberties& liberties,
+                                            std::uint64_t seed) {
   deviant::Behaviour behaviour;
   behaviour.liberties = &liberties;
   behaviour.random = Words(seed)();
@@ -113,8 +117,7 @@ inline HalfMode drawn_mode(const enclosed::Profile& p, Words& words) {
   constexpr HalfMode modes[] = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
   return modes[words() % 3];
 }
-inline void store_conforming(const Slot& slot, float value, const enclosed::Profile& p, HalfMode mode, Words& words,
-                             std::byte* at) {
+inline void store_conforming(const Slot& slot, float value, const enclosed::Profile& p, HalfMode mode, Words& words, std::byte* at) {
   if (slot.kind == FormatInfo::float16) {
     const float cut = to_float(to_half(value, Rounding::rtz));
     const bool beyond = value >= 65520.0f || value <= -65520.0f;
@@ -127,8 +130,7 @@ inline void store_conforming(const Slot& slot, float value, const enclosed::Prof
     return store_value(slot, value, mode == HalfMode::rtz ? Rounding::rtz : Rounding::rne, at);
   }
   if (slot.kind == FormatInfo::unorm8 && p.unorm_store_ulp > 0 && slot.store_rounding == Rounding::rne) {
-    const double scaled = 255.0 * std::min(std::max(value, 0.0f), 1.0f),
-                 below = static_cast<double>(static_cast<int>(scaled));
+    const double scaled = 255.0 * std::min(std::max(value, 0.0f), 1.0f), below = static_cast<double>(static_cast<int>(scaled));
     const double other = words.coin() ? below : std::min(below + 1, 255.0);
     const bool is_code = to_float(Unorm8{to_unorm8(value).code}) == value;
     if (!is_code && std::abs(other - scaled) <= p.unorm_store_ulp) {

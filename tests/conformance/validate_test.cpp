@@ -52,7 +52,8 @@ TEST_P(EveryProfile, TheExpectedOutputsPass) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Packs, EveryProfile, testing::Combine(testing::Values("puddle-corrected", "puddle-as-published"), testing::ValuesIn(profile_names())),
+INSTANTIATE_TEST_SUITE_P(Packs, EveryProfile,
+                         testing::Combine(testing::Values("puddle-corrected", "puddle-as-published"), testing::ValuesIn(profile_names())),
                          [](const auto& tested) {
                            std::string name = std::get<0>(tested.param) + "_" + std::get<1>(tested.param);
                            std::replace(name.begin(), name.end(), '-', '_');
@@ -64,7 +65,9 @@ struct Moved {
   const char *pack, *pass, *output, *profile;
   int x, y, channel;
 
-  friend void PrintTo(const Moved& m, std::ostream* out) { *out << m.pack << '/' << m.pass << '/' << m.output << '(' << m.x << ',' << m.y << ')'; }
+  friend void PrintTo(const Moved& m, std::ostream* out) {
+    *out << m.pack << '/' << m.pass << '/' << m.output << '(' << m.x << ',' << m.y << ')';
+  }
 };
 class OneElement : public testing::TestWithParam<Moved> {
  protected:
@@ -92,7 +95,8 @@ class OneElement : public testing::TestWithParam<Moved> {
     const Moved& m = GetParam();
     ASSERT_EQ(p.status, Status::fail) << why(last_);
     EXPECT_EQ(last_.first_bad_pass, m.pass);
-    const auto& output = *std::find_if(p.cases.front().outputs.begin(), p.cases.front().outputs.end(), [&](const OutputJudgement& o) { return o.name == m.output; });
+    const auto& output = *std::find_if(p.cases.front().outputs.begin(), p.cases.front().outputs.end(),
+                                       [&](const OutputJudgement& o) { return o.name == m.output; });
     EXPECT_EQ(output.failing, 1);
     ASSERT_EQ(output.worst.size(), 1u);
     named = output.worst.front();
@@ -138,7 +142,8 @@ const Moved floats[] = {{"puddle-corrected", "wave_step", "wave", "vulkan", 5, 7
                         {"puddle-as-published", "wave_step", "wave", "webgpu", 34, 20, 0},
                         {"puddle-corrected", "shade", "colour", "cuda", 0, 0, 2},
                         {"puddle-as-published", "shade", "colour", "d3d", 17, 3, 1}};
-const Moved codes[] = {{"puddle-corrected", "display", "picture", "metal", 9, 20, 0}, {"puddle-as-published", "display", "picture", "vulkan", 34, 0, 2}};
+const Moved codes[] = {{"puddle-corrected", "display", "picture", "metal", 9, 20, 0},
+                       {"puddle-as-published", "display", "picture", "vulkan", 34, 0, 2}};
 INSTANTIATE_TEST_SUITE_P(Floats, OneElement, testing::ValuesIn(floats), name_of);
 INSTANTIATE_TEST_SUITE_P(Pictures, OneElement, testing::ValuesIn(codes), name_of);
 INSTANTIATE_TEST_SUITE_P(Floats, OneFloat, testing::ValuesIn(floats), name_of);
@@ -218,8 +223,8 @@ TEST_F(Files, AllThatAreMissingAreNamedAtOnce) {
   std::filesystem::remove_all(file("puddle.display/0012.0"));
   std::tie(code, text) = refusal();
   EXPECT_EQ(code, ExitCode::port_files);
-  EXPECT_THAT(text, AllOf(HasSubstr("3 files are missing or cannot be used"), HasSubstr("puddle.wave_step/0012.1"), HasSubstr("puddle.shade/0011.0"),
-                          HasSubstr("puddle.display/0012.0")));
+  EXPECT_THAT(text, AllOf(HasSubstr("3 files are missing or cannot be used"), HasSubstr("puddle.wave_step/0012.1"),
+                          HasSubstr("puddle.shade/0011.0"), HasSubstr("puddle.display/0012.0")));
 }
 
 TEST_F(Files, WrongShapeTypeAndLengthAreRefused) {
@@ -245,7 +250,8 @@ TEST_F(Files, WrongShapeTypeAndLengthAreRefused) {
 // A hard link and a symbolic one are the pack's file; a copy is the port's own, whatever is in it.
 TEST_F(Files, ThePacksOwnAreRefused) {
   EXPECT_EQ(error_of([&] { judge(port.pack, port.pack.folder()); }).first, ExitCode::usage);
-  const std::filesystem::path path = file("puddle.shade/0011.0/out.colour.npy"), own = port.pack.folder() / "puddle.shade/0011.0/out.colour.npy";
+  const std::filesystem::path path = file("puddle.shade/0011.0/out.colour.npy"),
+                              own = port.pack.folder() / "puddle.shade/0011.0/out.colour.npy";
   EXPECT_EQ(refusal().first, ExitCode::pass);
   std::filesystem::remove(path);
   std::filesystem::create_symlink(own, path);

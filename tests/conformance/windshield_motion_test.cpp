@@ -127,7 +127,8 @@ TEST(WindshieldMotion, TheReferenceIsThePacksAndADeviantWithoutLiberties) {
         EXPECT_EQ(l.judged(expected.levels[0], "ieee").failing, 0) << l.c->folder();
       }
     }
-    for (const PassCase& c : cases_of(variant, "spawn")) EXPECT_TRUE(same_records(drops::recompute_spawn(c)[0], c.outputs[0].array)) << c.folder();
+    for (const PassCase& c : cases_of(variant, "spawn"))
+      EXPECT_TRUE(same_records(drops::recompute_spawn(c)[0], c.outputs[0].array)) << c.folder();
   }
 }
 
@@ -152,8 +153,8 @@ TEST(WindshieldMotion, NoConformingDeviceIsOutside) {
           }
         }
         if (lists == 0) continue;
-        fmt::print("{:<13} {:<17} {:<8} {:5} lists, {:5} differ, {:7} groups, {:5} ambiguous, {:4} another branch, {:3} given up\n", variant, pass, name, lists, differing, groups,
-                   ambiguous, other, gave_up);
+        fmt::print("{:<13} {:<17} {:<8} {:5} lists, {:5} differ, {:7} groups, {:5} ambiguous, {:4} another branch, {:3} given up\n",
+                   variant, pass, name, lists, differing, groups, ambiguous, other, gave_up);
         // The published frame is a dozen operations, of which few are inexact.
         EXPECT_GT(differing, pass == "windshield_frame" ? lists / 50 : lists / 2) << variant << ' ' << pass << ' ' << name;
         EXPECT_LE(gave_up * 1000, groups) << variant << ' ' << pass << ' ' << name;
@@ -238,7 +239,8 @@ Widths widths_of(const ListCase& l, const std::string& under) {
   std::size_t id_at = 0;
   std::vector<std::size_t> floats_at;
   for (const scene::Member& m : l.list.array.record.members) {
-    if (m.name == "id") id_at = m.offset;
+    if (m.name == "id")
+      id_at = m.offset;
     else if (m.scalar == scene::Scalar::float32 && !m.name.starts_with("padding"))
       for (int k = 0; k < m.components; ++k) floats_at.push_back(m.offset + 4 * static_cast<std::size_t>(k));
   }
@@ -302,7 +304,8 @@ TEST(WindshieldMotion, EnvelopesAreTight) {
         std::sort(w.ulp.begin(), w.ulp.end());
         const double median = w.over_spread[w.over_spread.size() / 2], widest = *std::max_element(w.over_field.begin(), w.over_field.end());
         const double ulp = w.ulp[w.ulp.size() / 2];
-        fmt::print("{:<13} {:<17} {:<8} {:5} floats, width over spread {:6.2f}, {:4} ULP, widest over field {:.1e}\n", variant, pass, name, w.over_spread.size(), median, ulp, widest);
+        fmt::print("{:<13} {:<17} {:<8} {:5} floats, width over spread {:6.2f}, {:4} ULP, widest over field {:.1e}\n", variant, pass, name,
+                   w.over_spread.size(), median, ulp, widest);
         // Devices that round to nearest differ by an ULP or none: of envelopes this narrow the spread says nothing.
         EXPECT_TRUE(median <= 4 || ulp <= 6) << variant << ' ' << pass << ' ' << name << ": " << median << ", " << ulp << " ULP";
         // Not vacuous: a hundredth of a percent of what the field holds would not go unseen.
@@ -406,7 +409,8 @@ TEST_F(SharedFilm, TheWaterOfABinGoesToOneDropWhicheverItIs) {
   ASSERT_GT(second[1].mass, 500);
   for (const ListCase* l : {&captured, &free}) {
     const Drop stays = l == &captured ? b.last : b.first_free;
-    const KeyedJudgement one = l->judged(drops::bytes_of(first), "vulkan"), other = l->judged(drops::bytes_of({stays, second[1]}), "vulkan");
+    const KeyedJudgement one = l->judged(drops::bytes_of(first), "vulkan"),
+                         other = l->judged(drops::bytes_of({stays, second[1]}), "vulkan");
     EXPECT_EQ(one.failing, 0) << one.events.text();
     EXPECT_EQ(other.failing, 0) << other.events.text();
     EXPECT_EQ(one.ambiguous, 1);

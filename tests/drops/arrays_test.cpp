@@ -68,7 +68,8 @@ TEST(DropArrays, RefusesWhatCannotBe) {
   EXPECT_NE(message_of([] { DropArrays a(100'000'001); }), "");
   DropArrays a(1);
   EXPECT_EQ(message_of([&] { a.assign(std::vector<Drop>(2, drop(0, 0, 1, 0))); }), "drops: expected at most 1 records, found 2");
-  EXPECT_EQ(message_of([&] { a.assign(std::vector<Drop>{drop(0, std::nanf(""), 1, 7)}); }), "drops: expected finite numbers, found nan in record 0 (id 7)");
+  EXPECT_EQ(message_of([&] { a.assign(std::vector<Drop>{drop(0, std::nanf(""), 1, 7)}); }),
+            "drops: expected finite numbers, found nan in record 0 (id 7)");
   EXPECT_EQ(a.live(), 0);
 }
 

@@ -83,7 +83,8 @@ TEST(IntegrateCorrected, BrakingIsASlope) {
   const double braking = -g * std::sin(beta) - a * std::cos(beta);
   const double sloped = -std::hypot(g, a) * std::sin(beta + std::atan2(a, g));
   for (const double mm : {2.0, 3.5, 5.0}) {
-    const auto one = after(30, test::glass_of(0, braking), mass_of(mm * 1e-3)), other = after(30, test::glass_of(0, sloped), mass_of(mm * 1e-3));
+    const auto one = after(30, test::glass_of(0, braking), mass_of(mm * 1e-3)),
+               other = after(30, test::glass_of(0, sloped), mass_of(mm * 1e-3));
     ASSERT_EQ(one.size(), 1u);
     // The two forces differ by the rounding of one double, so at most by one float.
     EXPECT_NEAR(one[0].position[1], other[0].position[1], 1e-6);
@@ -124,7 +125,8 @@ TEST(IntegrateCorrected, WindTurnsDropsRoundAtTheBalanceWithHysteresis) {
   const Settings s;
   const double beta = 27 * degree, angle = 35 * degree;
   for (const double mm : {1.0, 2.0, 3.0, 5.0}) {
-    const double d = mm * 1e-3, v = test::pi / 6 * d * d * d, pull = test::standard_gravity * std::sin(beta), hold = held_acceleration(v, {50 * degree, 20 * degree});
+    const double d = mm * 1e-3, v = test::pi / 6 * d * d * d, pull = test::standard_gravity * std::sin(beta),
+                 hold = held_acceleration(v, {50 * degree, 20 * degree});
     const double up = std::sqrt((pull + hold) / wind_acceleration(v, angle, s.wind_drag, s.wind_exposure));
     const auto at = [&](double wind) { return after(40, test::glass_of(0, -pull, 0, wind), mass_of(d)).at(0).position[1]; };
     EXPECT_GT(at(1.01 * up), 0.5f) << mm;
@@ -142,7 +144,8 @@ TEST(IntegrateCorrected, WindTurnsDropsRoundAtTheBalanceWithHysteresis) {
 TEST(IntegrateCorrected, NoApparentWindNoPush) {
   Settings still;
   still.wind_exposure = 0;
-  const auto with = after(60, test::parked(27 * degree), mass_of(5e-3)), without = after(60, test::parked(27 * degree), mass_of(5e-3), 0, still);
+  const auto with = after(60, test::parked(27 * degree), mass_of(5e-3)),
+             without = after(60, test::parked(27 * degree), mass_of(5e-3), 0, still);
   EXPECT_EQ(std::memcmp(with.data(), without.data(), sizeof(Drop)), 0);
 }
 
@@ -152,7 +155,8 @@ TEST(IntegrateCorrected, EvaporatesAtTheRateOfHuAndLarson) {
   const double d = 2e-3, seconds = 20;
   const float mass = mass_of(d);
   // dm/dt = -k m^(1/3): m^(2/3) falls evenly.
-  // The base of a cap of one quantum, and the fit of H. Hu and R. G. Larson, J. Phys. Chem. B 106 (2002), which DropPhysics holds against exact diffusion.
+  // The base of a cap of one quantum, and the fit of H. Hu and R. G. Larson, J. Phys. Chem. B 106 (2002), which DropPhysics holds against
+  // exact diffusion.
   const double angle = 35 * degree, c = std::cos(angle), sine = std::sin(angle);
   const double base = std::cbrt(3 * (2e-11 / 998.2) * sine * sine * sine / (test::pi * (2 + c) * (1 - c) * (1 - c)));
   const double k = test::pi * base * 2.4e-5 * (1 - 0.2) * 17.3e-3 * (0.27 * angle * angle + 1.30) / 2e-11;
@@ -180,7 +184,8 @@ TEST(IntegrateCorrected, ADropThatDriesUpIsGoneAndSoIsItsWater) {
 
 TEST(IntegrateCorrected, LifeAndTheEdgeRemove) {
   const parallel::Executor executor(1);
-  DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 1000, 0, 0, 0, 0.05f), test::drop(0.5f, 0.001f, mass_of(6e-3), 1, 0, -3), test::drop(1.0199f, 0.5f, 3000, 2)});
+  DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 1000, 0, 0, 0, 0.05f), test::drop(0.5f, 0.001f, mass_of(6e-3), 1, 0, -3),
+                                  test::drop(1.0199f, 0.5f, 3000, 2)});
   const std::int64_t before = a.water();
   Settings s;
   s.humidity = 1;

@@ -73,7 +73,8 @@ TEST_P(DropsDeterminism, EveryTargetThreadCountOrderAndNumberOfDrops) {
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
       for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(run(start, GetParam(), threads, static_cast<std::uint64_t>(threads + count), 3), expected) << target << ", " << threads << " threads, " << count << " drops";
+        ASSERT_EQ(run(start, GetParam(), threads, static_cast<std::uint64_t>(threads + count), 3), expected)
+            << target << ", " << threads << " threads, " << count << " drops";
       }
     }
   }
@@ -92,7 +93,12 @@ TEST_P(DropsDeterminism, ManyChunks) {
 
 // + 0: stored zeros are positive.
 Drop record_of(const scalar::DropState<F>& s, const Drop& from, bool mass) {
-  return {{s.u.v + 0.0f, s.v.v + 0.0f}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, mass ? s.mass.v : from.mass, s.life.v + 0.0f, from.id, 0};
+  return {{s.u.v + 0.0f, s.v.v + 0.0f},
+          {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f},
+          mass ? s.mass.v : from.mass,
+          s.life.v + 0.0f,
+          from.id,
+          0};
 }
 
 TEST_P(DropsDeterminism, LanesEqualThePlainReading) {
@@ -133,11 +139,13 @@ TEST_P(DropsDeterminism, LanesEqualThePlainReading) {
       if (left.quanta.v > 0) expected_film.row<float>(static_cast<int>(left.v.v * 32))[static_cast<int>(left.u.v * 64)] += left.quanta.v;
     }
     EXPECT_GT(film_water(film), 0);
-    for (int y = 0; y < 32; ++y) ASSERT_EQ(std::memcmp(film.row<float>(y), expected_film.row<float>(y), 64 * sizeof(float)), 0) << target << " row " << y;
+    for (int y = 0; y < 32; ++y)
+      ASSERT_EQ(std::memcmp(film.row<float>(y), expected_film.row<float>(y), 64 * sizeof(float)), 0) << target << " row " << y;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Drops, DropsDeterminism, testing::Bool(), [](const auto& param) { return param.param ? "corrected" : "as_published"; });
+INSTANTIATE_TEST_SUITE_P(Drops, DropsDeterminism, testing::Bool(),
+                         [](const auto& param) { return param.param ? "corrected" : "as_published"; });
 
 }  // namespace
 }  // namespace rainref::drops

@@ -16,7 +16,8 @@ TEST(DropsInfo, BlocksAndRecordsHaveOneLayoutInEveryLanguage) {
 TEST(DropsInfo, BuffersOfPassesAreDeclared) {
   std::vector<std::string> names;
   for (const auto& b : buffers()) names.push_back(b.name);
-  for (const auto& pass : {spawn_info({"wipe_drops", "merge"}), integrate_info("spawn", "windshield_frame"), merge_info("wipe_drops", "merge")}) {
+  for (const auto& pass :
+       {spawn_info({"wipe_drops", "merge"}), integrate_info("spawn", "windshield_frame"), merge_info("wipe_drops", "merge")}) {
     for (const auto& read : pass.reads) EXPECT_NE(std::find(names.begin(), names.end(), read.buffer), names.end()) << read.buffer;
     for (const auto& written : pass.writes) EXPECT_NE(std::find(names.begin(), names.end(), written), names.end()) << written;
   }

@@ -25,7 +25,9 @@ std::vector<Drop> merged(std::vector<Drop> drops, const MergeUniforms& u = unifo
   std::sort(drops.begin(), drops.end(), [](const Drop& x, const Drop& y) { return x.id < y.id; });
   return drops;
 }
-bool same(const std::vector<Drop>& a, const std::vector<Drop>& b) { return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Drop)) == 0; }
+bool same(const std::vector<Drop>& a, const std::vector<Drop>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Drop)) == 0;
+}
 
 TEST(Merge, TwoDropsBecomeOneWithTheirMassAndMomentum) {
   const Drop a = drop(0.5f, 0.5f, 300000, 4, 0.25f, -0.5f, 10), b = drop(0.5005f, 0.5f, 100000, 2, -0.75f, 0.5f, 90);
@@ -34,11 +36,12 @@ TEST(Merge, TwoDropsBecomeOneWithTheirMassAndMomentum) {
   EXPECT_EQ(out[0].id, 4u);
   EXPECT_EQ(out[0].mass, 400000);
   EXPECT_EQ(out[0].life, 10);
-  EXPECT_EQ(out[0].velocity[0], 0.0f);   // (3 * 1/4 - 3/4) / 4
+  EXPECT_EQ(out[0].velocity[0], 0.0f);  // (3 * 1/4 - 3/4) / 4
   EXPECT_EQ(out[0].velocity[1], -0.25f);
   EXPECT_NEAR(out[0].position[0], 0.500125f, 1e-7);
   // r^3 = r1^3 + r2^3, the same contact angle.
-  EXPECT_NEAR(std::pow(radius_of(400000), 3), std::pow(radius_of(300000), 3) + std::pow(radius_of(100000), 3), 1e-6 * std::pow(radius_of(400000), 3));
+  EXPECT_NEAR(std::pow(radius_of(400000), 3), std::pow(radius_of(300000), 3) + std::pow(radius_of(100000), 3),
+              1e-6 * std::pow(radius_of(400000), 3));
   // Kinetic energy lost: m1 m2 / (2 m) |v1 - v2|^2.
   const auto energy = [](const Drop& d) { return 0.5 * d.mass * (d.velocity[0] * d.velocity[0] + d.velocity[1] * d.velocity[1]); };
   EXPECT_NEAR(energy(a) + energy(b) - energy(out[0]), 300000.0 * 100000 / (2 * 400000.0) * 2, 1e-2);
@@ -62,7 +65,8 @@ TEST(Merge, OfEqualDropsTheOlderOneStays) {
 // a touches b, b touches c, a and c are apart: a -> b -> c ends in c, whatever the slots.
 TEST(Merge, ChainsEndInTheirLargestDrop) {
   const float step = 1.2f * radius_of(100000) / static_cast<float>(test::glass_width);
-  std::vector<Drop> chain{drop(0.5f, 0.5f, 100000, 0, 0.1f, 0), drop(0.5f + step, 0.5f, 110000, 1, 0.2f, 0), drop(0.5f + 2 * step, 0.5f, 120000, 2, 0.3f, 0)};
+  std::vector<Drop> chain{drop(0.5f, 0.5f, 100000, 0, 0.1f, 0), drop(0.5f + step, 0.5f, 110000, 1, 0.2f, 0),
+                          drop(0.5f + 2 * step, 0.5f, 120000, 2, 0.3f, 0)};
   std::vector<Drop> expected;
   std::sort(chain.begin(), chain.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
   do {
@@ -86,7 +90,8 @@ TEST(Merge, GoesToTheLargestThatTouches) {
 
 TEST(Merge, BeyondTheLargestMassItDoesNotHappen) {
   std::int64_t ended = 0;
-  const auto out = merged({drop(0.5f, 0.5f, 0x1p24f - 100, 0), drop(0.5f, 0.5f, 60, 1), drop(0.5f, 0.5f, 50, 2), drop(0.5f, 0.5f, 40, 3)}, uniforms, 1, &ended);
+  const auto out = merged({drop(0.5f, 0.5f, 0x1p24f - 100, 0), drop(0.5f, 0.5f, 60, 1), drop(0.5f, 0.5f, 50, 2), drop(0.5f, 0.5f, 40, 3)},
+                          uniforms, 1, &ended);
   // 60 fits, then 50 does not, 40 does: exactly 2^24.
   ASSERT_EQ(out.size(), 2u);
   EXPECT_EQ(out[0].mass, 0x1p24f);
@@ -117,9 +122,11 @@ std::vector<Drop> by_brute_force(std::vector<Drop> drops, const MergeUniforms& u
   for (const Drop& d : drops) {
     all[d.id] = d;
     const Drop* best = nullptr;
-    const auto x = scalar::plane_x(u, F(d.position[0]), F(d.position[1])), y = scalar::plane_y(u, F(d.position[1])), r = scalar::base_radius(u, F(d.mass));
+    const auto x = scalar::plane_x(u, F(d.position[0]), F(d.position[1])), y = scalar::plane_y(u, F(d.position[1])),
+               r = scalar::base_radius(u, F(d.mass));
     for (const Drop& o : drops) {
-      const auto ox = scalar::plane_x(u, F(o.position[0]), F(o.position[1])), oy = scalar::plane_y(u, F(o.position[1])), orad = scalar::base_radius(u, F(o.mass));
+      const auto ox = scalar::plane_x(u, F(o.position[0]), F(o.position[1])), oy = scalar::plane_y(u, F(o.position[1])),
+                 orad = scalar::base_radius(u, F(o.mass));
       if (larger(o, d) && scalar::touches(x, y, r, ox, oy, orad) && (!best || larger(o, *best))) best = &o;
     }
     if (best) to[d.id] = best->id;
@@ -168,7 +175,8 @@ TEST(Merge, DoesNotDependOnSlots) {
   const auto expected = merged(drops);
   ASSERT_LT(expected.size(), 4300u);
   for (std::uint32_t k = 1; k <= 5; ++k) {
-    for (std::size_t i = drops.size(); i > 1; --i) std::swap(drops[i - 1], drops[random::block(k, random::Purpose::drop_arrival, 1, static_cast<std::uint32_t>(i))[0] % i]);
+    for (std::size_t i = drops.size(); i > 1; --i)
+      std::swap(drops[i - 1], drops[random::block(k, random::Purpose::drop_arrival, 1, static_cast<std::uint32_t>(i))[0] % i]);
     ASSERT_TRUE(same(merged(drops, uniforms, 2), expected));
   }
 }
@@ -210,7 +218,8 @@ TEST(Trails, LieUnderTheTailAndTheDropKeepsTheRest) {
 TEST(Trails, RestingOrTinyDropsLeaveNothingAndNoneLosesItsLastQuantum) {
   const parallel::Executor executor(1);
   Image film(Format::r32f, 64, 32);
-  DropArrays a = test::arrays_of({drop(0.5f, 0.5f, 1e6f, 0), drop(0.2f, 0.5f, 1, 1, 1, 1), drop(0.3f, 0.5f, 5, 2, 40, 40), drop(0.999f, 0.5f, 1e6f, 3, -1, 0), drop(0.5f, 0.5f, 1e6f, 4, 1, 1, 0)});
+  DropArrays a = test::arrays_of({drop(0.5f, 0.5f, 1e6f, 0), drop(0.2f, 0.5f, 1, 1, 1, 1), drop(0.3f, 0.5f, 5, 2, 40, 40),
+                                  drop(0.999f, 0.5f, 1e6f, 3, -1, 0), drop(0.5f, 0.5f, 1e6f, 4, 1, 1, 0)});
   const Ledger ledger = leave_trails(executor, a, uniforms, film);
   EXPECT_EQ(a.mass()[0], 1e6f);
   EXPECT_EQ(a.mass()[1], 1);

@@ -68,7 +68,9 @@ TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {
     EXPECT_EQ(p.key.find("wind"), std::string::npos) << p.key;
   }
   const scene::EffectTable table{{{"pane", variants, all}}};
-  const Settings s = still_settings_from(scene::parse("effect = 'pane'\nvariant = 'corrected'\nseed = 5\n", "scene", {"pane.mobility=0.5"}, table), "pane"), d;
+  const Settings s = still_settings_from(
+                     scene::parse("effect = 'pane'\nvariant = 'corrected'\nseed = 5\n", "scene", {"pane.mobility=0.5"}, table), "pane"),
+                 d;
   EXPECT_EQ(s.lifetime, d.lifetime);  // that of corrected
   EXPECT_EQ(s.mobility, 0.5);
   EXPECT_EQ(s.wind_drag, 0);
@@ -76,9 +78,11 @@ TEST(DropsParameters, OfAStillGlassAreCorrectedsWithoutTheWindAlongIt) {
 }
 
 TEST(DropsParameters, RefuseWhatContradictsItself) {
-  EXPECT_EQ(refusal("corrected", {"windshield.receding_angle=60"}), "windshield.receding_angle is 60 degrees: expected at most windshield.advancing_angle = 50");
+  EXPECT_EQ(refusal("corrected", {"windshield.receding_angle=60"}),
+            "windshield.receding_angle is 60 degrees: expected at most windshield.advancing_angle = 50");
   EXPECT_EQ(refusal("as-published", {"windshield.mass_min=2"}), "windshield.mass_min is 2: expected at most windshield.mass_max = 1.6");
-  EXPECT_EQ(refusal("as-published", {"windshield.drag=120"}), "windshield.drag is 120: expected less than 120, twice run.fps; the published step is unstable beyond");
+  EXPECT_EQ(refusal("as-published", {"windshield.drag=120"}),
+            "windshield.drag is 120: expected less than 120, twice run.fps; the published step is unstable beyond");
   EXPECT_EQ(refusal("as-published", {"windshield.drag=119"}), "");
   EXPECT_NE(refusal("as-published", {"windshield.humidity=0.5"}), "");  // corrected only
 }

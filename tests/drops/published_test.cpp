@@ -26,7 +26,9 @@ TEST(IntegrateAsPublished, IsItsRecurrenceExactly) {
     auto d = test::state_of<D>(test::drop(0.25f, 0.75f, 1.5f, 0, 0.5f, -0.25f));
     const double dt = c.dt, drag = c.drag, q = 1 - drag * dt;
     const auto v_inf = [&](int axis) {
-      return (static_cast<double>(glass.gravity[axis]) * 1.5 - static_cast<double>(glass.acceleration[axis]) * c.inertia_coupling + static_cast<double>(glass.wind[axis]) * c.wind_coupling) / drag;
+      return (static_cast<double>(glass.gravity[axis]) * 1.5 - static_cast<double>(glass.acceleration[axis]) * c.inertia_coupling +
+              static_cast<double>(glass.wind[axis]) * c.wind_coupling) /
+             drag;
     };
     const double u_inf = v_inf(0), w_inf = v_inf(1);
     for (int n = 1; n <= 200; ++n) {

@@ -44,7 +44,23 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
   const MergeUniforms merge = merge_uniforms(Settings(), test::frame, dt, 8, 8, 3);
   const auto both = every::absorb<N>(d, o);
   const auto left = every::trail<N>(merge, d);
-  motion = {p.u, p.v, p.velocity_u, p.velocity_v, p.life, c.drop.u, c.drop.v, c.drop.velocity_u, c.drop.velocity_v, c.drop.life, both.u, both.v, both.velocity_u, both.velocity_v, left.u, left.v, every::base_radius<N>(merge, d.mass)};
+  motion = {p.u,
+            p.v,
+            p.velocity_u,
+            p.velocity_v,
+            p.life,
+            c.drop.u,
+            c.drop.v,
+            c.drop.velocity_u,
+            c.drop.velocity_v,
+            c.drop.life,
+            both.u,
+            both.v,
+            both.velocity_u,
+            both.velocity_v,
+            left.u,
+            left.v,
+            every::base_radius<N>(merge, d.mass)};
   whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.quanta, every::dried<N>(merge, N(drop.mass))};
 }
 
@@ -62,7 +78,8 @@ TEST_F(DropsReadings, DoubleLiesWithinTheErrorOfFloats) {
     evaluate(drops_[i], drops_[i + 1], motion_oracle, whole_oracle);
     // All are of order 1 and made by fewer than 60 roundings of 2^-24, of which those of the force, up to 50 per s^2,
     // count by dt: 64 roundings of 1 are a bound.
-    for (std::size_t k = 0; k < motion.size(); ++k) ASSERT_NEAR(motion[k].v, motion_oracle[k].v, 64 * 0x1p-24 * std::max(1.0, std::abs(motion_oracle[k].v))) << k << " of " << i;
+    for (std::size_t k = 0; k < motion.size(); ++k)
+      ASSERT_NEAR(motion[k].v, motion_oracle[k].v, 64 * 0x1p-24 * std::max(1.0, std::abs(motion_oracle[k].v))) << k << " of " << i;
     // Where a rate times life is all but whole, the floor may fall on the other side.
     for (std::size_t k = 0; k < whole.size(); ++k) {
       const double off = std::abs(whole[k].v - whole_oracle[k].v);

@@ -25,9 +25,10 @@ scene::Config config(const std::string& variant, const std::vector<std::string>&
 TEST(SplatDeclared, ScenesSetWhatTheVariantUses) {
   const std::vector<std::string> variants{"as-published", "corrected"};
   scene::validate(keys(), variants);
-  const drops::SplatKeys published = drops::splat_keys(
-      config("as-published", {"pane.kernel=disc", "pane.blend=max", "pane.rounding=rtz", "pane.accumulate=float", "pane.drop_radius=0.01", "pane.drop_height=2",
-                              "pane.height_size=[320, 200]"}), "pane");
+  const drops::SplatKeys published =
+      drops::splat_keys(config("as-published", {"pane.kernel=disc", "pane.blend=max", "pane.rounding=rtz", "pane.accumulate=float",
+                                                "pane.drop_radius=0.01", "pane.drop_height=2", "pane.height_size=[320, 200]"}),
+                        "pane");
   EXPECT_EQ(published.kernel, drops::SplatKernel::disc);
   EXPECT_EQ(published.blend, drops::SplatBlend::max);
   EXPECT_EQ(published.rounding, Rounding::rtz);

@@ -80,7 +80,8 @@ TEST_F(SplatDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
         for (parallel::Executor& executor : executors) {
           const int threads = executor.threads();
           executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
-          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under), expected)) << target << ", " << threads << " threads, width " << width << ", case " << number;
+          ASSERT_TRUE(equal(splatted(executor, c.settings, drops, under), expected))
+              << target << ", " << threads << " threads, width " << width << ", case " << number;
         }
       }
     }
@@ -138,7 +139,8 @@ TEST_F(SplatDeterminism, FloatsAreWithinRoundingOfDoubles) {
     // The centre is known to 2^-17 texels here and q^2 changes by 2 / R a texel, in texels: 2^-14 at the least radius of
     // 1.5 texels. A hemisphere turns an error e of q^2 at its rim into sqrt(e). Sixty drops at most.
     const double slope = 0x1p-15;
-    EXPECT_LE(worst, top * (c.settings.keys.kernel == SplatKernel::hemisphere ? std::sqrt(slope) : slope)) << static_cast<int>(c.settings.keys.kernel);
+    EXPECT_LE(worst, top * (c.settings.keys.kernel == SplatKernel::hemisphere ? std::sqrt(slope) : slope))
+        << static_cast<int>(c.settings.keys.kernel);
   }
 }
 

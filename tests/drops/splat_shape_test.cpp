@@ -11,21 +11,23 @@ namespace {
 constexpr int side = 96;
 
 struct Shape {
-  double volume;           ///< [m^3]
-  double ratio;            ///< of the principal axes of second moments
-  double second_moment;    ///< <x^2> [m^2], mean of both axes
+  double volume;         ///< [m^3]
+  double ratio;          ///< of the principal axes of second moments
+  double second_moment;  ///< <x^2> [m^2], mean of both axes
 };
 Shape shape_of(const Image& height, const Glass& glass) {
   const auto f = glass.frame();
   double sum = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
   for (int j = 0; j < height.height(); ++j) {
     for (int i = 0; i < height.width(); ++i) {
-      const double u = (i + 0.5) / height.width(), v = (j + 0.5) / height.height(), x = f[0] * u + f[1] * v, y = f[2] * v, h = at(height, i, j);
+      const double u = (i + 0.5) / height.width(), v = (j + 0.5) / height.height(), x = f[0] * u + f[1] * v, y = f[2] * v,
+                   h = at(height, i, j);
       sum += h, sx += h * x, sy += h * y, sxx += h * x * x, sxy += h * x * y, syy += h * y * y;
     }
   }
   sx /= sum, sy /= sum;
-  const double a = sxx / sum - sx * sx, b = sxy / sum - sx * sy, c = syy / sum - sy * sy, half = std::hypot((a - c) / 2, b), mean = (a + c) / 2;
+  const double a = sxx / sum - sx * sx, b = sxy / sum - sx * sy, c = syy / sum - sy * sy, half = std::hypot((a - c) / 2, b),
+               mean = (a + c) / 2;
   return {sum * 1e-3 * f[0] * f[2] / height.width() / height.height(), std::sqrt((mean + half) / (mean - half)), mean};
 }
 
@@ -38,12 +40,12 @@ struct Case {
 };
 // Those of the smoothstep, and of hemisphere and disc at 16, are measured here; theory gives how they fall.
 const Case cases[] = {
-    {SplatKernel::paraboloid, 4, 9e-3, 2.3e-2, 1.0 / 6, 2.5},     {SplatKernel::paraboloid, 8, 1.5e-3, 3.7e-3, 1.0 / 6, 2.5},
-    {SplatKernel::paraboloid, 16, 2.3e-4, 7e-4, 1.0 / 6, 2.5},    {SplatKernel::quartic, 4, 1.3e-3, 2e-3, 1.0 / 8, 3.5},
-    {SplatKernel::quartic, 8, 1.8e-4, 3.2e-4, 1.0 / 8, 3.5},      {SplatKernel::quartic, 16, 1.2e-5, 3.4e-5, 1.0 / 8, 3.5},
-    {SplatKernel::smoothstep, 4, 1.4e-3, 2.1e-3, 5.0 / 42, 3.5},  {SplatKernel::smoothstep, 8, 2.5e-4, 3.2e-4, 5.0 / 42, 3.5},
-    {SplatKernel::smoothstep, 16, 2e-5, 3.4e-5, 5.0 / 42, 3.5},   {SplatKernel::hemisphere, 8, 7.6e-3, 1.3e-2, 1.0 / 5, 2},
-    {SplatKernel::hemisphere, 16, 1.9e-3, 3.6e-3, 1.0 / 5, 2},    {SplatKernel::disc, 8, 3.5e-2, 4.5e-2, 1.0 / 4, 1.5},
+    {SplatKernel::paraboloid, 4, 9e-3, 2.3e-2, 1.0 / 6, 2.5},    {SplatKernel::paraboloid, 8, 1.5e-3, 3.7e-3, 1.0 / 6, 2.5},
+    {SplatKernel::paraboloid, 16, 2.3e-4, 7e-4, 1.0 / 6, 2.5},   {SplatKernel::quartic, 4, 1.3e-3, 2e-3, 1.0 / 8, 3.5},
+    {SplatKernel::quartic, 8, 1.8e-4, 3.2e-4, 1.0 / 8, 3.5},     {SplatKernel::quartic, 16, 1.2e-5, 3.4e-5, 1.0 / 8, 3.5},
+    {SplatKernel::smoothstep, 4, 1.4e-3, 2.1e-3, 5.0 / 42, 3.5}, {SplatKernel::smoothstep, 8, 2.5e-4, 3.2e-4, 5.0 / 42, 3.5},
+    {SplatKernel::smoothstep, 16, 2e-5, 3.4e-5, 5.0 / 42, 3.5},  {SplatKernel::hemisphere, 8, 7.6e-3, 1.3e-2, 1.0 / 5, 2},
+    {SplatKernel::hemisphere, 16, 1.9e-3, 3.6e-3, 1.0 / 5, 2},   {SplatKernel::disc, 8, 3.5e-2, 4.5e-2, 1.0 / 4, 1.5},
     {SplatKernel::disc, 16, 1.3e-2, 1.6e-2, 1.0 / 4, 1.5}};
 
 // Fractions of a texel that fill the square evenly.
@@ -75,12 +77,14 @@ TEST(SplatShape, VolumeAndRoundnessOnEveryGlass) {
       // A quarter more than the table for places that it did not try.
       double lattice = 1.25;
       if (&glass != &square_glass) {
-        const Case& at_8 = *std::find_if(std::begin(cases), std::end(cases), [&](const Case& o) { return o.kernel == c.kernel && o.radius == 8; });
+        const Case& at_8 =
+            *std::find_if(std::begin(cases), std::end(cases), [&](const Case& o) { return o.kernel == c.kernel && o.radius == 8; });
         lattice = 2 * std::max(1.0, at_8.ratio * std::pow(8.0 / c.radius, c.order) / c.ratio);
       }
       EXPECT_LE(volume, lattice * c.volume + stored) << glass.name << " kernel " << static_cast<int>(c.kernel) << " radius " << c.radius;
       EXPECT_LE(ratio, lattice * c.ratio + 2 * stored) << glass.name << " kernel " << static_cast<int>(c.kernel) << " radius " << c.radius;
-      EXPECT_LE(second, lattice * (c.volume + c.ratio) + 2 * stored) << glass.name << " kernel " << static_cast<int>(c.kernel) << " radius " << c.radius;
+      EXPECT_LE(second, lattice * (c.volume + c.ratio) + 2 * stored)
+          << glass.name << " kernel " << static_cast<int>(c.kernel) << " radius " << c.radius;
     }
   }
 }

@@ -22,7 +22,8 @@ struct Glass {
   std::array<double, 3> frame() const { return {u, v * std::cos(phi), v * std::sin(phi)}; }
   std::array<double, 3> axes() const { return {u, 0, v}; }
 };
-inline constexpr Glass square_glass{"square", 0.96, 0.96, pi / 2}, oblong_glass{"oblong", 1.2, 0.8, pi / 2}, sheared_glass{"sheared", 1.0, 0.9, 70 * pi / 180};
+inline constexpr Glass square_glass{"square", 0.96, 0.96, pi / 2}, oblong_glass{"oblong", 1.2, 0.8, pi / 2},
+    sheared_glass{"sheared", 1.0, 0.9, 70 * pi / 180};
 
 inline SplatSettings settings_on(const Glass& glass, bool corrected, int width, int height, SplatKernel kernel = SplatKernel::paraboloid) {
   SplatSettings s;
@@ -37,7 +38,8 @@ inline SplatSettings settings_on(const Glass& glass, bool corrected, int width, 
 inline Drop drop_at(double u, double v, double mass, std::uint32_t id = 0) {
   return {{static_cast<float>(u), static_cast<float>(v)}, {0, 0}, static_cast<float>(mass), 1, id, 0};
 }
-inline Image splatted(const parallel::Executor& executor, const SplatSettings& s, const std::vector<Drop>& drops, const Image* film = nullptr) {
+inline Image splatted(const parallel::Executor& executor, const SplatSettings& s, const std::vector<Drop>& drops,
+                      const Image* film = nullptr) {
   Image height(Format::r16f, s.keys.width, s.keys.height);
   SplatScratch scratch;
   splat(executor, splat_uniforms(s), s.keys.half_accumulation, s.keys.rounding, drops, film, height, scratch);
@@ -79,7 +81,8 @@ std::vector<scalar::Stamp<N>> stamps_of(const SplatUniforms& u, const std::vecto
 }
 /// One texel of the finished texture, before it is stored, by a scalar reading.
 template <class N>
-N plain_texel(SplatUniforms u, bool half_accumulation, Rounding rounding, const std::vector<scalar::Stamp<N>>& stamps, const Image* film, int x, int y) {
+N plain_texel(SplatUniforms u, bool half_accumulation, Rounding rounding, const std::vector<scalar::Stamp<N>>& stamps, const Image* film,
+              int x, int y) {
   u.drop_count = static_cast<std::int32_t>(stamps.size());
   const N sum = scalar::splat_drops(u, stamps.data(), x, y, [&](N h) {
     if constexpr (std::is_same_v<N, plain::Plain<float>>) {

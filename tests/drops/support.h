@@ -49,10 +49,12 @@ inline DropArrays arrays_of(const std::vector<Drop>& drops, std::int64_t capacit
 inline std::vector<Drop> random_drops(int count, std::uint32_t seed, float most_mass, float speed = 0.2f) {
   std::vector<Drop> out;
   for (int i = 0; i < count; ++i) {
-    const auto r = random::block(seed, random::Purpose::drop_arrival, 77, static_cast<std::uint32_t>(i)), s = random::block(seed, random::Purpose::drop_arrival, 78, static_cast<std::uint32_t>(i));
+    const auto r = random::block(seed, random::Purpose::drop_arrival, 77, static_cast<std::uint32_t>(i)),
+               s = random::block(seed, random::Purpose::drop_arrival, 78, static_cast<std::uint32_t>(i));
     const auto signed_uniform = [](std::uint32_t w) { return 2 * random::uniform(w) - 1; };
     const float mass = std::floor(1 + most_mass * random::uniform(r[2]) * random::uniform(r[3]) * random::uniform(s[3]));
-    out.push_back(drop(random::uniform(r[0]), random::uniform(r[1]), mass, static_cast<std::uint32_t>(i), speed * signed_uniform(s[0]), speed * signed_uniform(s[1]), s[2] % 8 == 0 ? 0.0f : 5 * random::uniform(s[2])));
+    out.push_back(drop(random::uniform(r[0]), random::uniform(r[1]), mass, static_cast<std::uint32_t>(i), speed * signed_uniform(s[0]),
+                       speed * signed_uniform(s[1]), s[2] % 8 == 0 ? 0.0f : 5 * random::uniform(s[2])));
   }
   return out;
 }

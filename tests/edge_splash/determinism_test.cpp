@@ -13,7 +13,9 @@ namespace rainref::edge_splash {
 namespace {
 
 Inputs scene_of(int width, int height) {
-  Inputs in = inputs_of_distance(width, height, [&](int x, int y) { return 3 * y < height + (x * 5) % 7 ? 0.8 + 0.03 * x : y > height / 2 + x / 3 ? 900.0 : 4.0 + 0.2 * y; });
+  Inputs in = inputs_of_distance(width, height, [&](int x, int y) {
+    return 3 * y < height + (x * 5) % 7 ? 0.8 + 0.03 * x : y > height / 2 + x / 3 ? 900.0 : 4.0 + 0.2 * y;
+  });
   for (int y = 0; y < height; ++y) {
     for (int i = 0; i < 4 * width; ++i) in.colour.row<float>(y)[i] = 0.02f * static_cast<float>(1 + (7 * i + 13 * y) % 41);
   }
@@ -53,7 +55,8 @@ TEST_P(Determinism, EveryTargetThreadCountOrderAndWidth) {
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
       for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, in, threads, static_cast<std::uint64_t>(threads + width)), expected) << target << ", " << threads << " threads, width " << width;
+        ASSERT_EQ(hash_of_run(s, in, threads, static_cast<std::uint64_t>(threads + width)), expected)
+            << target << ", " << threads << " threads, width " << width;
       }
     }
   }
@@ -95,7 +98,8 @@ struct Reading {
   Inputs in;
   Image scene, layer, depth_image, noise_image;
   TextureData depth, noise;
-  Reading(Variant variant, int width, int height) : s(settings(variant)), in(scene_of(width, height)), scene(prepare_scene(in)), layer(prepare_layer(in)) {
+  Reading(Variant variant, int width, int height)
+      : s(settings(variant)), in(scene_of(width, height)), scene(prepare_scene(in)), layer(prepare_layer(in)) {
     s.width = width;
     s.height = height;
     const bool corrected = variant == Variant::corrected;
@@ -109,9 +113,11 @@ struct Reading {
     scalar::Channels<N, 4> c;
     for (int k = 0; k < 4; ++k) c[k] = N::load(scene.row<Half>(y) + 4 * x + k);
     if (s.variant == Variant::as_published) {
-      return scalar::splash_as_published<N>(published_splash_uniforms(s, frame, noise_image.width(), noise_image.height()), depth.view(), noise.view(), c, x, y);
+      return scalar::splash_as_published<N>(published_splash_uniforms(s, frame, noise_image.width(), noise_image.height()), depth.view(),
+                                            noise.view(), c, x, y);
     }
-    return scalar::splash_corrected<N>(splash_uniforms(s, frame, noise_image.width(), noise_image.height()), depth.view(), noise.view(), N::load(layer.row<Unorm8>(y) + x), c, x, y);
+    return scalar::splash_corrected<N>(splash_uniforms(s, frame, noise_image.width(), noise_image.height()), depth.view(), noise.view(),
+                                       N::load(layer.row<Unorm8>(y) + x), c, x, y);
   }
 };
 
@@ -134,7 +140,8 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
           ASSERT_EQ(effect.colour().row<Half>(y)[4 * x + k].bits, stored.bits) << target << " " << x << "," << y;
         }
         const Half* colour = effect.colour().row<Half>(y) + 4 * x;
-        const auto shown = pass::every::display<F>(pass::display_uniforms(reading.s.exposure), {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
+        const auto shown = pass::every::display<F>(pass::display_uniforms(reading.s.exposure),
+                                                   {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x].code, to_unorm8(shown.x.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 2].code, to_unorm8(shown.z.v).code);
@@ -154,7 +161,8 @@ TEST_P(Determinism, FloatStaysNearDouble) {
       const auto f = reading.at<F>(7, x, y);
       const auto d = reading.at<D>(7, x, y);
       ++checked;
-      if (GetParam() == Variant::as_published && (f.edge.v != d.edge.v || f.noise.v != d.noise.v || (f.edge.v == 1 && f.angle.v != d.angle.v))) {
+      if (GetParam() == Variant::as_published &&
+          (f.edge.v != d.edge.v || f.noise.v != d.noise.v || (f.edge.v == 1 && f.angle.v != d.angle.v))) {
         ++jumped;
         continue;
       }

@@ -41,14 +41,17 @@ inline std::vector<GoldenScene> golden_scenes() {
       s.camera_position = {-0.9, 1.05, -0.4};
       s.camera_target = {-1.4, 0.6, -3};
       s.vertical_fov_deg = 60;
-      scenes.push_back({fmt::format("edge_splash/{}{}", variant == Variant::as_published ? "as-published" : "corrected", rounding == Rounding::rtz ? "/rtz" : ""), s});
+      scenes.push_back({fmt::format("edge_splash/{}{}", variant == Variant::as_published ? "as-published" : "corrected",
+                                    rounding == Rounding::rtz ? "/rtz" : ""),
+                        s});
     }
   }
   return scenes;
 }
 
 /// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
+                                             const golden::Caller& caller = golden::call_plainly) {
   const Settings& s = scene.settings;
   ShapesView view = render_shapes(camera(s), s.width, s.height, s.depth.far_plane, executor);
   Inputs in;

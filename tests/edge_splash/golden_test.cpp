@@ -11,7 +11,8 @@ class Golden : public testing::TestWithParam<GoldenScene> {};
 
 TEST_P(Golden, HashesAreAsRecorded) { golden::expect_as_recorded(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(EdgeSplash, Golden, testing::ValuesIn(golden_scenes()), [](const auto& param) { return golden::test_name(param); });
+INSTANTIATE_TEST_SUITE_P(EdgeSplash, Golden, testing::ValuesIn(golden_scenes()),
+                         [](const auto& param) { return golden::test_name(param); });
 
 TEST(Golden, EveryRecordedLineBelongsToAScene) { golden::expect_every_line_has_a_scene("edge_splash", golden_scenes()); }
 

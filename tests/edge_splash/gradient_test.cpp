@@ -88,7 +88,9 @@ TEST(EdgeSplashGradient, CorrectedSumsOfAStep) {
       }
       return beyond / 65536.0;
     };
-    const Field inverse(17, 17, Address::clamp, [&](int x, int y) { return std::abs(x - 8) > 1 || std::abs(y - 8) > 1 ? 1.0 : 1 / (nearest + height * share(x, y)); });
+    const Field inverse(17, 17, Address::clamp, [&](int x, int y) {
+      return std::abs(x - 8) > 1 || std::abs(y - 8) > 1 ? 1.0 : 1 / (nearest + height * share(x, y));
+    });
     const auto g = corrected_gradient<D>(1, inverse, 8, 8);
     EXPECT_NEAR(std::hypot(g.x.v, g.y.v) / height, row.ratio, 4e-3) << row.degrees;
     EXPECT_NEAR(std::atan2(g.y.v, g.x.v) * 180 / pi, row.degrees, 1.4);  // centred: at most 1.4 degrees

@@ -53,28 +53,35 @@ TEST(EdgeSplashInput, DepthOutsideItsRange) {
   for (const double bad : {1.5, -0.25, std::nan("")}) {
     const std::string found = message_of(published(), inputs_of(32, 24, [=](int x, int y) { return x == 7 && y == 3 ? bad : 0.5; }));
     EXPECT_EQ(found, fmt::format("2 scene.depth_image: expected device depths from 0 to 1, found {} at column 7, row 3 from the bottom "
-                                 "(scene.depth_encoding = \"metres\" takes distances)", bad));
+                                 "(scene.depth_encoding = \"metres\" takes distances)",
+                                 bad));
   }
   EXPECT_EQ(message_of(corrected(), inputs_of_distance(32, 24, [](int, int y) { return y == 2 ? 2000.0 : 4.0; })),
-            "2 scene.depth_image: expected distances [m] from 0.3 to 1000, found 2000 at column 0, row 2 from the bottom (scene.near and scene.far are the limits)");
+            "2 scene.depth_image: expected distances [m] from 0.3 to 1000, found 2000 at column 0, row 2 from the bottom (scene.near and "
+            "scene.far are the limits)");
 }
 
 TEST(EdgeSplashInput, PlanesThatAreNoRange) {
   Settings s = corrected();
   s.depth = {2, 1, true};
-  EXPECT_EQ(message_of(s, inputs_of(8, 8, [](int, int) { return 0.5; })), "2 scene.near, scene.far: expected 0 < near < far, found 2 and 1");
+  EXPECT_EQ(message_of(s, inputs_of(8, 8, [](int, int) { return 0.5; })),
+            "2 scene.near, scene.far: expected 0 < near < far, found 2 and 1");
 }
 
 TEST(EdgeSplashInput, ScalesOfZero) {
   EXPECT_EQ(message_of_scene("corrected", {}), "none");
-  for (const char* key : {"edge_splash.band", "edge_splash.noise_size", "edge_splash.edge_step", "edge_splash.edge_bend", "edge_splash.softness", "scene.near"}) {
+  for (const char* key : {"edge_splash.band", "edge_splash.noise_size", "edge_splash.edge_step", "edge_splash.edge_bend",
+                          "edge_splash.softness", "scene.near"}) {
     const std::string found = message_of_scene("corrected", {fmt::format("{}=0", key)});
     EXPECT_TRUE(found.starts_with("2 ")) << key << ": " << found;
     EXPECT_NE(found.find(key), std::string::npos) << found;
   }
   EXPECT_EQ(message_of_scene("corrected", {"edge_splash.up=[0,0,0]"}), "2 edge_splash.up: expected a direction, found [0, 0, 0]");
-  EXPECT_NE(message_of_scene("corrected", {"edge_splash.smallest_band=0.02", "edge_splash.largest_band=0.01"}).find("no more than edge_splash.largest_band"), std::string::npos);
-  EXPECT_NE(message_of_scene("as-published", {"edge_splash.band=1"}).find("edge_splash.band"), std::string::npos) << "a key of the other variant";
+  EXPECT_NE(message_of_scene("corrected", {"edge_splash.smallest_band=0.02", "edge_splash.largest_band=0.01"})
+                .find("no more than edge_splash.largest_band"),
+            std::string::npos);
+  EXPECT_NE(message_of_scene("as-published", {"edge_splash.band=1"}).find("edge_splash.band"), std::string::npos)
+      << "a key of the other variant";
   // A thickness or threshold of zero is the article's own range, and runs.
   EXPECT_EQ(message_of_scene("as-published", {"edge_splash.thickness=0", "edge_splash.edge_threshold=0"}), "none");
 }

@@ -40,7 +40,8 @@ TEST(EdgeSplashMask, PublishedAngleIsAHalfPlane) {
   int passed = 0;
   const int directions = 360;
   for (int k = 0; k < directions; ++k) {
-    const double a = k % 90 == 0 ? std::round(std::cos(k * pi / 180)) : std::cos(k * pi / 180), b = k % 180 == 0 ? 0 : std::sin(k * pi / 180);
+    const double a = k % 90 == 0 ? std::round(std::cos(k * pi / 180)) : std::cos(k * pi / 180),
+                 b = k % 180 == 0 ? 0 : std::sin(k * pi / 180);
     PublishedSplashUniforms u{};
     u.width = u.height = 16;
     u.thickness = 3;
@@ -61,7 +62,9 @@ TEST(EdgeSplashMask, CorrectedAngleOfALoop) {
   s.widest_angle_deg = 90;
   s.band = 0.02;
   s.vertical_fov_deg = 40;
-  EdgeSplash e(s, inputs_of_distance(121, 121, [](int x, int y) { return (x - 60) * (x - 60) + (y - 60) * (y - 60) < 40 * 40 ? 2.0 : 6.0; }), executor());
+  EdgeSplash e(s,
+               inputs_of_distance(121, 121, [](int x, int y) { return (x - 60) * (x - 60) + (y - 60) * (y - 60) < 40 * 40 ? 2.0 : 6.0; }),
+               executor());
   e.render();
   int upper = 0, lower = 0;
   for (int y = 0; y < 121; ++y) {
@@ -215,7 +218,9 @@ TEST(EdgeSplashMask, CorrectedBandCoversAsMuchOfThePictureAtEveryResolution) {
 }
 
 TEST(EdgeSplashMask, CorrectedDoesNotDependOnTheDepthConvention) {
-  const auto scene = [] { return inputs_of_distance(96, 54, [](int x, int y) { return y < 20 + x / 8 ? 2.0 + 0.01 * x : (x / 12) % 2 == 0 ? 12.0 : 30.0; }); };
+  const auto scene = [] {
+    return inputs_of_distance(96, 54, [](int x, int y) { return y < 20 + x / 8 ? 2.0 + 0.01 * x : (x / 12) % 2 == 0 ? 12.0 : 30.0; });
+  };
   Settings s = corrected();
   s.softness = 0.3;
   EdgeSplash reversed(s, scene(), executor());

@@ -19,7 +19,8 @@ struct Influence {
 };
 Influence published_influence(int thickness, double centre, int dx, int dy) {
   const auto with = [&](double bump) {
-    const Field f(64, 64, Address::border, [&](int x, int y) { return (x == 32 && y == 32 ? centre : 0.5) + (x == 32 + dx && y == 32 + dy ? bump : 0); });
+    const Field f(64, 64, Address::border,
+                  [&](int x, int y) { return (x == 32 && y == 32 ? centre : 0.5) + (x == 32 + dx && y == 32 + dy ? bump : 0); });
     return published_gradient<D>(thickness, f, 32, 32);
   };
   const auto a = with(0), b = with(0.25);
@@ -91,8 +92,10 @@ TEST(EdgeSplashOddities, Oddity04_TruncationMakesLopsidedTaps) {
     for (int y = 0; y < 48; ++y) {
       for (int x = 0; x < 64; ++x) differing += code(a.edge(), x, y) != code(b.edge(), 63 - x, y);
     }
-    if (is_corrected) EXPECT_EQ(differing, 0);
-    else EXPECT_GT(differing, 10);
+    if (is_corrected)
+      EXPECT_EQ(differing, 0);
+    else
+      EXPECT_GT(differing, 10);
   }
 }
 
@@ -202,7 +205,10 @@ TEST(EdgeSplashOddities, Oddity10_TheTargetClampsLight) {
   // ARGB32 holds no more than 1. (A target handle never initialised, a null check made twice while the noise is unchecked, a
   // submit inside the pass and a buffer named after another effect have no bits.)
   for (const bool is_corrected : {false, true}) {
-    EdgeSplash e(is_corrected ? corrected() : published(), inputs_of(32, 32, [](int, int) { return 0.5; }, 3.0f), executor());
+    EdgeSplash e(is_corrected ? corrected() : published(),
+                 inputs_of(
+                     32, 32, [](int, int) { return 0.5; }, 3.0f),
+                 executor());
     e.render();
     EXPECT_EQ(to_float(e.colour().row<Half>(16)[4 * 16]), is_corrected ? 3.0f : 1.0f);
   }

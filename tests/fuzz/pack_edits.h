@@ -33,9 +33,10 @@ class Program {
   }
   float number() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    constexpr std::array all{0.0f,   -0.0f,   1.0f,    -1.0f,    0.5f,  2.0f,  200.0f,   -200.0f,    1e5f,     -1e5f,     1e9f,      -1e9f,
-                             3e38f,  -3e38f,  1e-45f,  1e-30f,   7.25f, 64.0f, 4096.0f,  65536.0f,   0x1p24f,  0x1p31f,   -0x1p31f,  1e-7f,
-                             0.999f, -0.001f, 1.0001f, infinity, 1e-3f, 3.0f,  -infinity, std::bit_cast<float>(0x7fc00000u)};
+    constexpr std::array all{0.0f,   -0.0f,   1.0f,    -1.0f,    0.5f,    2.0f,    200.0f,    -200.0f,
+                             1e5f,   -1e5f,   1e9f,    -1e9f,    3e38f,   -3e38f,  1e-45f,    1e-30f,
+                             7.25f,  64.0f,   4096.0f, 65536.0f, 0x1p24f, 0x1p31f, -0x1p31f,  1e-7f,
+                             0.999f, -0.001f, 1.0001f, infinity, 1e-3f,   3.0f,    -infinity, std::bit_cast<float>(0x7fc00000u)};
     const std::uint32_t kind = next();
     if (kind < 240) return all[kind % all.size()];
     return std::bit_cast<float>(next() | next() << 8 | next() << 16 | next() << 24);
@@ -67,8 +68,11 @@ inline void resize(capture::Array& a, int width, int height) {
     std::vector<std::byte> to(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * size);
     for (int y = 0; y < h && !old[l].empty(); ++y)
       for (int x = 0; x < w; ++x)
-        std::memcpy(&to[(static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)) * size],
-                    &old[l][(static_cast<std::size_t>(y % from_h) * static_cast<std::size_t>(from_w) + static_cast<std::size_t>(x % from_w)) * size], size);
+        std::memcpy(
+            &to[(static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)) * size],
+            &old[l]
+                [(static_cast<std::size_t>(y % from_h) * static_cast<std::size_t>(from_w) + static_cast<std::size_t>(x % from_w)) * size],
+            size);
     a.levels[l] = std::move(to);
   }
 }
@@ -89,8 +93,10 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
       capture::Array& a = array_of(c, p);
       constexpr int sides[] = {0, 1, 2, 3, 5, 8, 13, 17, 64, 256};
       const int width = sides[p.below(std::size(sides))], height = sides[p.below(std::size(sides))];
-      if (a.is_records) resize(a, width, 1);
-      else resize(a, std::max(width, 1), std::max(height, 1));
+      if (a.is_records)
+        resize(a, width, 1);
+      else
+        resize(a, std::max(width, 1), std::max(height, 1));
       return;
     }
     case 3: {  // a value
@@ -99,18 +105,22 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
       const float number = p.number();
       const std::size_t at = p.below(std::max<std::size_t>(bytes.size() / 4, 1)) * 4;
       // The upper half of a float is much like a half of the same kind.
-      if (bytes.size() >= at + 4) std::memcpy(&bytes[at], &number, 4);
-      else if (bytes.size() >= 2) std::memcpy(bytes.data(), reinterpret_cast<const char*>(&number) + 2, 2);
+      if (bytes.size() >= at + 4)
+        std::memcpy(&bytes[at], &number, 4);
+      else if (bytes.size() >= 2)
+        std::memcpy(bytes.data(), reinterpret_cast<const char*>(&number) + 2, 2);
       return;
     }
     case 4: {  // a format
       capture::Array& a = array_of(c, p);
       if (a.is_records) return;
-      constexpr Format formats[] = {Format::r8, Format::rg8, Format::rgba8, Format::r16f, Format::rg16f, Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f, Format::r32ui};
+      constexpr Format formats[] = {Format::r8,      Format::rg8,  Format::rgba8, Format::r16f,    Format::rg16f,
+                                    Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f, Format::r32ui};
       a.format = formats[p.below(std::size(formats))];
       for (std::size_t l = 0; l < a.levels.size(); ++l) {
         const int level = static_cast<int>(l);
-        a.levels[l].resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) * a.element_bytes());
+        a.levels[l].resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) *
+                           a.element_bytes());
       }
       return;
     }
@@ -120,7 +130,8 @@ inline void edit_case(capture::PassCase& c, const scene::UniformBlock& block, Pr
       a.levels.resize(1 + p.below(7));
       for (std::size_t l = 1; l < a.levels.size(); ++l) {
         const int level = static_cast<int>(l);
-        a.levels[l].resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) * a.element_bytes());
+        a.levels[l].resize(static_cast<std::size_t>(a.level_width(level)) * static_cast<std::size_t>(a.level_height(level)) *
+                           a.element_bytes());
       }
       return;
     }
@@ -146,12 +157,24 @@ inline void edit_manifest(nlohmann::ordered_json& manifest, Program& p) {
     nlohmann::ordered_json& child = *std::next(at->begin(), static_cast<std::ptrdiff_t>(p.below(at->size())));
     if (!child.is_structured() || p.below(4) == 0) {
       switch (p.below(8)) {
-        case 0: at->erase(std::next(at->begin(), static_cast<std::ptrdiff_t>(p.below(at->size())))); return;
-        case 1: child = p.word(); return;
-        case 2: child = -1; return;
-        case 3: child = nullptr; return;
-        case 4: child = "envelope"; return;
-        case 5: child = "records"; return;
+        case 0:
+          at->erase(std::next(at->begin(), static_cast<std::ptrdiff_t>(p.below(at->size()))));
+          return;
+        case 1:
+          child = p.word();
+          return;
+        case 2:
+          child = -1;
+          return;
+        case 3:
+          child = nullptr;
+          return;
+        case 4:
+          child = "envelope";
+          return;
+        case 5:
+          child = "records";
+          return;
         case 6:
           if (at->is_array()) {
             const nlohmann::ordered_json copy = child;

@@ -39,13 +39,17 @@ struct Base {
   std::vector<capture::PassCase> cases;
 };
 /// Passes whose uniforms say how large their images are, or whose images must be of a certain size, keep theirs.
-inline bool keeps_size(const std::string& pass) { return pass == "merge" || pass == "wipe_drops" || pass == "splat" || pass == "bake_rivulets" || pass == "bake_raindrops" || pass == "cells"; }
+inline bool keeps_size(const std::string& pass) {
+  return pass == "merge" || pass == "wipe_drops" || pass == "splat" || pass == "bake_rivulets" || pass == "bake_raindrops" ||
+         pass == "cells";
+}
 
 inline const std::vector<Base>& bases() {
   static const std::vector<Base> all = [] {
     std::vector<Base> out;
-    for (const char* name : {"puddle-as-published", "puddle-corrected", "windshield-as-published", "windshield-corrected", "edge_splash-as-published", "edge_splash-corrected",
-                             "screen_drops-as-published", "screen_drops-corrected", "rainy_glass-as-published", "rainy_glass-corrected"}) {
+    for (const char* name : {"puddle-as-published", "puddle-corrected", "windshield-as-published", "windshield-corrected",
+                             "edge_splash-as-published", "edge_splash-corrected", "screen_drops-as-published", "screen_drops-corrected",
+                             "rainy_glass-as-published", "rainy_glass-corrected"}) {
       const capture::Pack pack(fs::path(RAINREF_SOURCE_DIR "/tests/packs") / name);
       Base base{name, Json::parse(contents(pack.folder() / capture::manifest_name)), pack.effect, {}};
       base.head["cases"] = Json::array();
@@ -103,7 +107,8 @@ inline bool settle(const Base& base, capture::PassCase& c) {
     capture::check_case(*effect.info, effect.parameters, c);
     if (!capture::uniform_fault(*effect.info, c).empty() || !capture::record_fault(c).empty()) return false;
     const capture::PassReadings* readings = conformance::readings_of(base.effect, c.pass);
-    const bool is_data = std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; });
+    const bool is_data =
+        std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; });
     if (!readings || is_data) return true;
     std::vector<capture::Array> expected;
     const std::unique_ptr<capture::PassModel> model = conformance::bound(c.pass, readings->bind, c);
@@ -155,13 +160,15 @@ inline bool judge_pack(Bytes bytes) {
   pack.put(id + "uniforms.bin", uniforms);
   Json entry = capture::case_json(planned, effect, {id + "uniforms.bin", uniforms.size(), file_hash(uniforms)});
   entry["inputs"] = entry["outputs"] = Json::array();
-  for (const capture::CaseInput& i : planned.inputs) entry["inputs"].push_back(capture::input_json(i, effect.buffer(i.name, planned.variant), pack.put(id + "in." + i.name, i.array)));
+  for (const capture::CaseInput& i : planned.inputs)
+    entry["inputs"].push_back(capture::input_json(i, effect.buffer(i.name, planned.variant), pack.put(id + "in." + i.name, i.array)));
   for (const capture::CaseOutput& o : planned.outputs)
-    entry["outputs"].push_back(capture::output_json(o, effect.buffer(o.name, planned.variant), effect.pass(planned.pass), pack.put(id + "out." + o.name, o.array)));
+    entry["outputs"].push_back(capture::output_json(o, effect.buffer(o.name, planned.variant), effect.pass(planned.pass),
+                                                    pack.put(id + "out." + o.name, o.array)));
   manifest["cases"].push_back(std::move(entry));
   for (std::size_t edits = p.below(8) < 4 ? 0 : 1 + p.below(3); edits > 0; --edits) edit_manifest(manifest, p);
   std::string text = manifest.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (p.below(32) == 31) text.insert(text.size() - 1, ",\"deep\":" + std::string(100 * p.below(2000), '[') + "1" );
+  if (p.below(32) == 31) text.insert(text.size() - 1, ",\"deep\":" + std::string(100 * p.below(2000), '[') + "1");
   rainref::put(pack.root() / capture::manifest_name, text);
 
   // The port: what is expected, with or without a wrong value, shape or byte.

@@ -29,9 +29,7 @@ __attribute__((noinline)) void* operator new(std::size_t size) {
   throw std::bad_alloc();
 }
 // The standard library takes a temporary buffer by this one; a sanitizer's own would not go with the delete below.
-__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return allocate(size);
-}
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
 __attribute__((noinline)) void operator delete(void* block) noexcept { std::free(block); }
 __attribute__((noinline)) void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
@@ -48,8 +46,7 @@ struct Seed {
 std::vector<Seed> seeds_of(const Target& target) {
   std::vector<Seed> out;
   const std::filesystem::path folder = std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds" / target.name;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    out.push_back({entry.path().filename(), contents(entry.path())});
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back({entry.path().filename(), contents(entry.path())});
   std::ranges::sort(out, {}, &Seed::name);
   return out;
 }
@@ -113,8 +110,7 @@ class Replay : public ::testing::TestWithParam<Target> {
   void SetUp() override { largest_block = 0; }
   void TearDown() override { EXPECT_LT(largest_block, most_memory); }
 };
-INSTANTIATE_TEST_SUITE_P(Targets, Replay, ::testing::ValuesIn(targets),
-                         [](const auto& param) { return std::string(param.param.name); });
+INSTANTIATE_TEST_SUITE_P(Targets, Replay, ::testing::ValuesIn(targets), [](const auto& param) { return std::string(param.param.name); });
 
 TEST_P(Replay, SeedsAreAcceptedOrRefusedAsNamed) {
   int accepted = 0;

@@ -34,8 +34,7 @@ inline void require(bool holds) {
 }
 
 /// Reads one file as an image of this shape and looks at every byte that came out.
-inline bool reads_image(const port_dump::FileBytes& file, Format format, std::size_t width, std::size_t height,
-                        std::size_t levels) {
+inline bool reads_image(const port_dump::FileBytes& file, Format format, std::size_t width, std::size_t height, std::size_t levels) {
   capture::Array expected, out;
   expected.format = format;
   expected.width = static_cast<int>(width);
@@ -48,8 +47,7 @@ inline bool reads_image(const port_dump::FileBytes& file, Format format, std::si
   require(!out.levels.empty() && out.levels.size() <= levels);
   for (std::size_t l = 0; l < out.levels.size(); ++l) {
     const auto level = static_cast<int>(l);
-    require(out.levels[l].size() ==
-            expected.element_bytes() * expected.level_width(level) * expected.level_height(level));
+    require(out.levels[l].size() == expected.element_bytes() * expected.level_width(level) * expected.level_height(level));
   }
   return true;
 }
@@ -58,11 +56,8 @@ inline bool reads_records(const port_dump::FileBytes& file) {
   using scene::Scalar;
   capture::Array expected, out;
   expected.is_records = true;
-  expected.record = {"Drop",
-                     16,
-                     {{"x", Scalar::float32, 1, 0, "m", "."},
-                      {"y", Scalar::float32, 1, 4, "m", "."},
-                      {"id", Scalar::uint32, 1, 8, "1", "."}}};
+  expected.record = {
+      "Drop", 16, {{"x", Scalar::float32, 1, 0, "m", "."}, {"y", Scalar::float32, 1, 4, "m", "."}, {"id", Scalar::uint32, 1, 8, "1", "."}}};
   port_dump::ReadNotes notes;
   if (!accepts([&] { port_dump::read_records(file, expected, out, notes); })) return false;
   require(out.levels.size() == 1 && out.levels[0].size() == 16 * static_cast<std::size_t>(out.width));
@@ -72,11 +67,9 @@ inline bool reads_records(const port_dump::FileBytes& file) {
 // The shape that the seeds have.
 constexpr std::size_t seed_width = 5, seed_height = 3;
 
-inline bool any_image(const port_dump::FileBytes& file, std::size_t width = seed_width,
-                      std::size_t height = seed_height) {
+inline bool any_image(const port_dump::FileBytes& file, std::size_t width = seed_width, std::size_t height = seed_height) {
   bool accepted = false;
-  for (const Format format :
-       {Format::r8, Format::rgba8, Format::rgba8_srgb, Format::r16f, Format::rgba16f, Format::rg32f, Format::r32ui}) {
+  for (const Format format : {Format::r8, Format::rgba8, Format::rgba8_srgb, Format::r16f, Format::rgba16f, Format::rg32f, Format::r32ui}) {
     accepted = reads_image(file, format, width, height, 1) || accepted;
   }
   return reads_image(file, Format::r16f, width, height, 3) || accepted;
@@ -94,16 +87,14 @@ inline bool dds(Bytes bytes) { return any_image({port_dump::FileType::dds, "'a.d
 inline bool sidecar(Bytes bytes) {
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::size_t end = std::min(all.find('\0'), all.size());
-  const port_dump::FileBytes file{port_dump::FileType::bin, "'a.bin'", bytes.subspan(std::min(end + 1, all.size())),
-                                  all.substr(0, end), "'a.json'"};
+  const port_dump::FileBytes file{port_dump::FileType::bin, "'a.bin'", bytes.subspan(std::min(end + 1, all.size())), all.substr(0, end),
+                                  "'a.json'"};
   const bool image = any_image(file);
   return reads_records(file) || image;
 }
 
 inline bool port_json(Bytes bytes) {
-  return accepts([&] {
-    port_dump::parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "'port.json'");
-  });
+  return accepts([&] { port_dump::parse_port_info({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "'port.json'"); });
 }
 
 /// EXR or PNG by its first bytes. Small sizes are taken from the file, so that they are decoded whatever they are.

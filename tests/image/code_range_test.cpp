@@ -38,8 +38,7 @@ CodeRange half_range(float lo, float hi, const StoreRules& rules) { return code_
 TEST(CodeRange, EveryHalfAndWhatLiesBetweenItAndTheNext) {
   for (int code = -0x7bff; code < 0x7bff; ++code) {
     const auto value = [](int c) { return static_cast<float>(code_value(Kind::float16, c)); };
-    const float here = value(code), next = value(code + 1),
-                middle = static_cast<float>((static_cast<double>(here) + next) / 2);
+    const float here = value(code), next = value(code + 1), middle = static_cast<float>((static_cast<double>(here) + next) / 2);
     for (const StoreRounding rounding : {StoreRounding::rne, StoreRounding::rtz, StoreRounding::either}) {
       ASSERT_TRUE(is(half_range(here, here, halves(rounding)), code, code)) << here;
     }
@@ -57,8 +56,7 @@ TEST(CodeRange, HalfIntervalsAreTheHullOfTheirPoints) {
   std::mt19937 words(3);
   for (int i = 0; i < 20000; ++i) {
     const auto any = [&] {
-      return to_float(Half{static_cast<std::uint16_t>(words() % 0x7c00 | (words() & 0x8000))}) *
-             (1 + (words() & 0xff) * 0x1p-18f);
+      return to_float(Half{static_cast<std::uint16_t>(words() % 0x7c00 | (words() & 0x8000))}) * (1 + (words() & 0xff) * 0x1p-18f);
     };
     float a = any(), b = any();
     if (a > b) std::swap(a, b);
@@ -79,12 +77,10 @@ TEST(CodeRange, HalvesOverflowAsTheRulesSay) {
     R rounding;
     O overflow;
     std::int64_t lo, hi;
-  } cases[] = {{65504, R::either, O::either, max, max}, {65519, R::rne, O::inf, max, max},
-               {65520, R::rne, O::inf, inf, inf},       {65520, R::rne, O::max, max, max},
-               {65520, R::rne, O::either, max, inf},    {65535, R::rtz, O::inf, max, max},
-               {65536, R::rtz, O::inf, inf, inf},       {65536, R::rtz, O::max, max, max},
-               {1e9f, R::rtz, O::either, max, inf},     {65505, R::either, O::inf, max, inf},
-               {65505, R::either, O::max, max, max},    {65536, R::either, O::inf, inf, inf},
+  } cases[] = {{65504, R::either, O::either, max, max}, {65519, R::rne, O::inf, max, max},    {65520, R::rne, O::inf, inf, inf},
+               {65520, R::rne, O::max, max, max},       {65520, R::rne, O::either, max, inf}, {65535, R::rtz, O::inf, max, max},
+               {65536, R::rtz, O::inf, inf, inf},       {65536, R::rtz, O::max, max, max},    {1e9f, R::rtz, O::either, max, inf},
+               {65505, R::either, O::inf, max, inf},    {65505, R::either, O::max, max, max}, {65536, R::either, O::inf, inf, inf},
                {65536, R::either, O::either, max, inf}};
   for (const auto& c : cases) {
     EXPECT_TRUE(is(half_range(c.x, c.x, halves(c.rounding, c.overflow)), c.lo, c.hi)) << c.x;
@@ -156,8 +152,7 @@ TEST(CodeRange, UnormCodesLieWithinTheStatedDistance) {
         }
       }
       const CodeRange cut = code_range(Kind::unorm8, {x, x}, unorms(ulp, Rounding::rtz));
-      ASSERT_TRUE(cut.contains(to_unorm8(x, Rounding::rtz).code) && cut.contains(static_cast<int>(scaled)) &&
-                  cut.hi - cut.lo <= 1);
+      ASSERT_TRUE(cut.contains(to_unorm8(x, Rounding::rtz).code) && cut.contains(static_cast<int>(scaled)) && cut.hi - cut.lo <= 1);
     }
   }
 }

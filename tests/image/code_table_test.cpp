@@ -21,12 +21,16 @@ TEST(CodeTable, GivesThePassesCodes) {
     }
   };
   int runs = 0;
-  const CodeTable table(97, 676, [&](const Image& c, Image& p, int y0, int y1) { ++runs; pass(c, p, y0, y1); });
+  const CodeTable table(97, 676, [&](const Image& c, Image& p, int y0, int y1) {
+    ++runs;
+    pass(c, p, y0, y1);
+  });
   Image colour(Format::rgba16f, 97, 676), picture(Format::rgba8, 97, 676);
   for (int y = 0; y < colour.height(); ++y) {
     for (int x = 0; x < colour.width(); ++x) {
       const std::uint32_t i = static_cast<std::uint32_t>(y) * 97u + static_cast<std::uint32_t>(x);
-      for (std::uint32_t c = 0; c < 4; ++c) colour.row<Half>(y)[4 * x + static_cast<int>(c)].bits = static_cast<std::uint16_t>(i + c * 9973);
+      for (std::uint32_t c = 0; c < 4; ++c)
+        colour.row<Half>(y)[4 * x + static_cast<int>(c)].bits = static_cast<std::uint16_t>(i + c * 9973);
     }
   }
   table.rows(colour, picture, 1, 300);

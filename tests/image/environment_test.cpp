@@ -51,8 +51,8 @@ TEST(LatLong, PolesAndSeam) {
   const auto at = [&](float x, float y, float z) { return look_up_by_plain(Lookup::latlong, data.view(), {x, y, z, 0}); };
   EXPECT_EQ(at(0, -1, 0).c[1], 0.0f);  // row 0 looks straight down
   EXPECT_EQ(at(0, 1, 0).c[1], 3.0f);
-  EXPECT_NEAR(at(1, 0, 0).c[0], 3.5f, 1e-5);  // +x in the middle
-  EXPECT_NEAR(at(0, 0, 1).c[0], 5.5f, 1e-5);  // +z a quarter further
+  EXPECT_NEAR(at(1, 0, 0).c[0], 3.5f, 1e-5);       // +x in the middle
+  EXPECT_NEAR(at(0, 0, 1).c[0], 5.5f, 1e-5);       // +z a quarter further
   EXPECT_NEAR(at(-1, 0, 1e-7f).c[0], 3.5f, 1e-4);  // the seam, between columns 7 and 0
   EXPECT_NEAR(at(-1, 0, -1e-7f).c[0], 3.5f, 1e-4);
 }

@@ -35,8 +35,11 @@ double filtered_by_h100(const std::vector<float>& texels, double x, double y, bo
   y = snapped(y);
   const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
   const double fx = x - i, fy = y - j, both = std::floor(fx * fy * 256 + 0.5) / 256;
-  const auto texel = [&](int a, int b) { return static_cast<double>(texels[static_cast<std::size_t>(std::min(b, size - 1) * size + std::min(a, size - 1))]); };
-  const double value = (1 - fx - fy + both) * texel(i, j) + (fx - both) * texel(i + 1, j) + (fy - both) * texel(i, j + 1) + both * texel(i + 1, j + 1);
+  const auto texel = [&](int a, int b) {
+    return static_cast<double>(texels[static_cast<std::size_t>(std::min(b, size - 1) * size + std::min(a, size - 1))]);
+  };
+  const double value =
+      (1 - fx - fy + both) * texel(i, j) + (fx - both) * texel(i + 1, j) + (fy - both) * texel(i, j + 1) + both * texel(i + 1, j + 1);
   return half ? static_cast<double>(to_float(to_half(static_cast<float>(value)))) : value;
 }
 
@@ -56,7 +59,9 @@ double between_by_h100(const TwoLevels& t, double u, double v, double lod, bool 
     const double right = std::floor(share * (x - i) + 0.5), left = share - right;
     const double right_above = std::floor(right * (y - j) + 0.5), left_above = std::ceil(left * (y - j) - 0.5);
     const auto texel = [&](int a, int b) { return static_cast<double>(texels[std::min(b, s - 1) * s + std::min(a, s - 1)]); };
-    value += ((left - left_above) * texel(i, j) + (right - right_above) * texel(i + 1, j) + left_above * texel(i, j + 1) + right_above * texel(i + 1, j + 1)) / 256;
+    value += ((left - left_above) * texel(i, j) + (right - right_above) * texel(i + 1, j) + left_above * texel(i, j + 1) +
+              right_above * texel(i + 1, j + 1)) /
+             256;
   }
   return half ? static_cast<double>(to_float(to_half(static_cast<float>(value)))) : value;
 }
@@ -92,19 +97,23 @@ TEST_P(H100Filter, BetweenTwoLevelsLiesInTheHull) {
   const auto random = [&](double low, double high) { return low + (high - low) * (words() * 0x1p-32); };
   const enclosed::ProfileScope scope(profile_named("vulkan"));
   const bool half = GetParam() == TexelPrecision::float16;
-  const auto one = [](const Texture& t, Enclosure u, Enclosure v, Enclosure lod) { return h100::sample_trilinear<0, 1, Enclosure>(t, u, v, lod)[0]; };
+  const auto one = [](const Texture& t, Enclosure u, Enclosure v, Enclosure lod) {
+    return h100::sample_trilinear<0, 1, Enclosure>(t, u, v, lod)[0];
+  };
   int beyond_each_alone = 0;
   double widest = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     TwoLevels levels{8, std::vector<float>(64 + 16)};
     // Strong edges: most of what rounding moves.
-    for (float& t : levels.texels) t = words() % 2 == 0 ? to_float(to_half(static_cast<float>(random(0, 0.1)))) : to_float(to_half(static_cast<float>(random(0.9, 1))));
+    for (float& t : levels.texels)
+      t = words() % 2 == 0 ? to_float(to_half(static_cast<float>(random(0, 0.1)))) : to_float(to_half(static_cast<float>(random(0.9, 1))));
     TextureData data(std::vector<float>(levels.texels.begin(), levels.texels.begin() + 64), 1, 8, 8, Address::clamp, Address::clamp);
     data.build_mips(2);
     std::copy(levels.texels.begin() + 64, levels.texels.end(), data.texels() + 64);
     Texture t = data.view();
     t.precision = GetParam();
-    const float u = static_cast<float>(random(0.2, 0.8)), v = static_cast<float>(random(0.2, 0.8)), lod = trial % 2 == 0 ? 0.5f : static_cast<float>(random(0, 1));
+    const float u = static_cast<float>(random(0.2, 0.8)), v = static_cast<float>(random(0.2, 0.8)),
+                lod = trial % 2 == 0 ? 0.5f : static_cast<float>(random(0, 1));
     const Enclosure hull = one(t, Enclosure(u), Enclosure(v), Enclosure(lod));
     const double got = between_by_h100(levels, u, v, lod, half);
     EXPECT_LE(hull.lo, got) << u << ' ' << v << ' ' << lod;

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Format formats[] = {Format::r8,    Format::rg8,     Format::rgba8, Format::rgba8_srgb, Format::r16f, Format::rg16f,
+constexpr Format formats[] = {Format::r8,      Format::rg8,  Format::rgba8, Format::rgba8_srgb, Format::r16f, Format::rg16f,
                               Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f,    Format::r32ui};
 
 template <class F>
@@ -32,11 +32,16 @@ TEST(Format, NamesAndSizes) {
     const char* name;
     int channels, channel_bytes;
     FormatInfo::Kind kind;
-  } table[] = {{Format::r8, "r8", 1, 1, FormatInfo::unorm8},         {Format::rg8, "rg8", 2, 1, FormatInfo::unorm8},
-               {Format::rgba8, "rgba8", 4, 1, FormatInfo::unorm8},   {Format::rgba8_srgb, "rgba8_srgb", 4, 1, FormatInfo::srgb8},
-               {Format::r16f, "r16f", 1, 2, FormatInfo::float16},    {Format::rg16f, "rg16f", 2, 2, FormatInfo::float16},
-               {Format::rgba16f, "rgba16f", 4, 2, FormatInfo::float16}, {Format::r32f, "r32f", 1, 4, FormatInfo::float32},
-               {Format::rg32f, "rg32f", 2, 4, FormatInfo::float32},  {Format::rgba32f, "rgba32f", 4, 4, FormatInfo::float32},
+  } table[] = {{Format::r8, "r8", 1, 1, FormatInfo::unorm8},
+               {Format::rg8, "rg8", 2, 1, FormatInfo::unorm8},
+               {Format::rgba8, "rgba8", 4, 1, FormatInfo::unorm8},
+               {Format::rgba8_srgb, "rgba8_srgb", 4, 1, FormatInfo::srgb8},
+               {Format::r16f, "r16f", 1, 2, FormatInfo::float16},
+               {Format::rg16f, "rg16f", 2, 2, FormatInfo::float16},
+               {Format::rgba16f, "rgba16f", 4, 2, FormatInfo::float16},
+               {Format::r32f, "r32f", 1, 4, FormatInfo::float32},
+               {Format::rg32f, "rg32f", 2, 4, FormatInfo::float32},
+               {Format::rgba32f, "rgba32f", 4, 4, FormatInfo::float32},
                {Format::r32ui, "r32ui", 1, 4, FormatInfo::uint32}};
   for (const auto& row : table) {
     EXPECT_EQ(info(row.format).name, row.name);

@@ -32,9 +32,7 @@ float looked_up(Slip slip, Address address, float texel) {
   b.slip = slip;
   const Scope scope(b);
   const TextureData t = ramp(address);
-  return deviant_readings::sample_bilinear<0, 1, Deviant>(t.view(), Deviant::of((texel + 0.5f) / 4),
-                                                          Deviant::of(0.5f))[0]
-      .v;
+  return deviant_readings::sample_bilinear<0, 1, Deviant>(t.view(), Deviant::of((texel + 0.5f) / 4), Deviant::of(0.5f))[0].v;
 }
 
 TEST(SamplingDeviant, EachSlipIsWhatItsSentenceSays) {
@@ -68,9 +66,7 @@ TEST(SamplingDeviant, SamplersStayWithinTheirBitsAndReachThem) {
       fine = std::min(fine, sampler.level(2.3f) - 2.3f);
       coarse = std::max(coarse, sampler.level(2.3f) - 2.3f);
       EXPECT_EQ(sampler.level(2), 2);
-      EXPECT_LE(std::abs(sampler.coordinate(0.7f) - 0.7f),
-                p.coordinate_bits == 0 ? 0 : std::ldexp(0.7f, -p.coordinate_bits))
-          << p.name;
+      EXPECT_LE(std::abs(sampler.coordinate(0.7f) - 0.7f), p.coordinate_bits == 0 ? 0 : std::ldexp(0.7f, -p.coordinate_bits)) << p.name;
     }
     const auto expect_step = [&](int bits, float below, float above) {
       const float step = bits == 0 ? 0 : std::ldexp(1.0f, -bits);

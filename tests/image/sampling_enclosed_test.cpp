@@ -36,8 +36,7 @@ struct Hulls {
   Enclosure c[4];
 };
 // The alternatives of a lookup; empty when there are too many.
-std::vector<Hulls> look_up(Lookup lookup, const Texture& t, Enclosure u, Enclosure v, Enclosure w = 0.0f,
-                           Enclosure lod = 0.0f) {
+std::vector<Hulls> look_up(Lookup lookup, const Texture& t, Enclosure u, Enclosure v, Enclosure w = 0.0f, Enclosure lod = 0.0f) {
   std::vector<Hulls> found;
   Replay replay;
   const bool whole = replay.for_each_alternative([&] {
@@ -65,8 +64,7 @@ struct Random {
 TEST(SamplingEnclosed, HasTheBitsOfThePlainReadingUnderIeee) {
   Random random;
   std::vector<Place> places;
-  const float values[] = {0.0f,         -0.0f, 0.5f,     1.0f,   -1.0f, 0x1p-149f, -0x1p-30f,
-                          1 - 0x1p-24f, 0.25f, 1.0f / 3, -2.75f, 7.0f,  255.5f,    1e6f};
+  const float values[] = {0.0f, -0.0f, 0.5f, 1.0f, -1.0f, 0x1p-149f, -0x1p-30f, 1 - 0x1p-24f, 0.25f, 1.0f / 3, -2.75f, 7.0f, 255.5f, 1e6f};
   for (const float u : values)
     for (const float v : values) places.push_back({u, v, 0.3f, u});
   for (int i = 0; i < 300; ++i) {
@@ -77,8 +75,8 @@ TEST(SamplingEnclosed, HasTheBitsOfThePlainReadingUnderIeee) {
   for (const Address u : addresses) {
     for (const Address v : addresses) {
       const TextureData one = noise_texture(13, 6, 1, u, v), four = noise_texture(8, 16, 4, u, v);
-      for (const Lookup lookup : {Lookup::nearest, Lookup::bilinear, Lookup::bilinear_of_level_1, Lookup::trilinear,
-                                  Lookup::mip, Lookup::middle_channels}) {
+      for (const Lookup lookup :
+           {Lookup::nearest, Lookup::bilinear, Lookup::bilinear_of_level_1, Lookup::trilinear, Lookup::mip, Lookup::middle_channels}) {
         const bool of_one = lookup == Lookup::bilinear_of_level_1 || lookup == Lookup::mip;
         const Texture& t = of_one ? one.view() : four.view();
         for (const Place& p : places) {
@@ -86,8 +84,7 @@ TEST(SamplingEnclosed, HasTheBitsOfThePlainReadingUnderIeee) {
           const Texel expected = look_up_by_plain(lookup, t, p);
           ASSERT_EQ(alternatives.size(), 1u);
           for (int k = 0; k < 4; ++k) {
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(alternatives[0].c[k].lo),
-                      std::bit_cast<std::uint32_t>(expected.c[k]))
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(alternatives[0].c[k].lo), std::bit_cast<std::uint32_t>(expected.c[k]))
                 << static_cast<int>(lookup) << " at " << p.u << ' ' << p.v << ' ' << p.lod;
             ASSERT_EQ(alternatives[0].c[k].lo, alternatives[0].c[k].hi);
           }
@@ -118,19 +115,15 @@ TEST(SamplingEnclosed, HoldsEverySampleWithinTheSlackAndLiesWithinTheTexels) {
         const Enclosure hull = alternatives[0].c[0];
         double least = 1e30, greatest = -1e30;
         for (int sample = 0; sample < 40; ++sample) {
-          const double x =
-              (sample < 4 ? (sample & 1 ? eu.hi : eu.lo) : random(eu.lo, eu.hi)) + random(-step, step) / t.width[0];
-          const double y =
-              (sample < 4 ? (sample & 2 ? ev.hi : ev.lo) : random(ev.lo, ev.hi)) + random(-step, step) / t.height[0];
+          const double x = (sample < 4 ? (sample & 1 ? eu.hi : eu.lo) : random(eu.lo, eu.hi)) + random(-step, step) / t.width[0];
+          const double y = (sample < 4 ? (sample & 2 ? ev.hi : ev.lo) : random(ev.lo, ev.hi)) + random(-step, step) / t.height[0];
           const double value = bilinear_at(t, 0, x, y, 0);
           ASSERT_TRUE(hull.lo <= value + 1e-12 && value - 1e-12 <= hull.hi)
-              << p.name << " address " << static_cast<int>(a) << " at " << x << ' ' << y << ": " << value << " in ["
-              << hull.lo << ", " << hull.hi << "]";
+              << p.name << " address " << static_cast<int>(a) << " at " << x << ' ' << y << ": " << value << " in [" << hull.lo << ", "
+              << hull.hi << "]";
         }
         // The texels of the cells in reach, one more to each side where rounding may reach it.
-        const auto first = [&](double c, int side) {
-          return static_cast<long long>(std::floor(c * side - 0.5 - step - 1e-3));
-        };
+        const auto first = [&](double c, int side) { return static_cast<long long>(std::floor(c * side - 0.5 - step - 1e-3)); };
         for (long long x = first(eu.lo, 13); x <= first(eu.hi + 2 * (step + 1e-3) / 13, 13) + 1; ++x) {
           for (long long y = first(ev.lo, 9); y <= first(ev.hi + 2 * (step + 1e-3) / 9, 9) + 1; ++y) {
             const double texel = texel_at(t, 0, x, y, 0);
@@ -139,8 +132,8 @@ TEST(SamplingEnclosed, HoldsEverySampleWithinTheSlackAndLiesWithinTheTexels) {
           }
         }
         const double rounding = 20 * 0x1p-23 * std::max(-least, greatest);
-        ASSERT_GE(hull.lo, least - rounding) << p.name << " address " << static_cast<int>(a) << " from " << u << " "
-                                             << v << " by " << du << ", " << least - hull.lo << " above " << rounding;
+        ASSERT_GE(hull.lo, least - rounding) << p.name << " address " << static_cast<int>(a) << " from " << u << " " << v << " by " << du
+                                             << ", " << least - hull.lo << " above " << rounding;
         ASSERT_LE(hull.hi, greatest + rounding) << p.name;
       }
     }
@@ -152,23 +145,21 @@ TEST(SamplingEnclosed, HoldsThePlainReading) {
   for (const Profile& p : profiles()) {
     const ProfileScope scope(p);
     for (const Address a : addresses) {
-      const TextureData one = noise_texture(16, 9, 1, a, a),
-                        four = noise_texture(64, 32, 4, Address::repeat, Address::clamp);
+      const TextureData one = noise_texture(16, 9, 1, a, a), four = noise_texture(64, 32, 4, Address::repeat, Address::clamp);
       const TextureData cube = noise_texture(8, 48, 4, Address::clamp, Address::clamp);
       for (int i = 0; i < 300; ++i) {
         const auto next = [&](double size) { return static_cast<float>(random(-size, size)); };
         const Place place{next(2), next(2), next(1), i % 3 == 0 ? static_cast<float>(i % 5) : next(5)};
-        for (const Lookup lookup : {Lookup::nearest, Lookup::bilinear, Lookup::trilinear, Lookup::mip, Lookup::latlong,
-                                    Lookup::latlong_mip, Lookup::cube}) {
+        for (const Lookup lookup :
+             {Lookup::nearest, Lookup::bilinear, Lookup::trilinear, Lookup::mip, Lookup::latlong, Lookup::latlong_mip, Lookup::cube}) {
           const bool colour = lookup >= Lookup::latlong;
           const Texture& t = lookup == Lookup::cube ? cube.view() : colour ? four.view() : one.view();
           const auto alternatives = look_up(lookup, t, place.u, place.v, place.w, place.lod);
           const Texel expected = look_up_by_plain(lookup, t, place);
           ASSERT_FALSE(alternatives.empty());
           ASSERT_TRUE(holds(alternatives, {expected.c[0], expected.c[1], expected.c[2], expected.c[3]}, 4))
-              << p.name << " lookup " << static_cast<int>(lookup) << " at " << place.u << ' ' << place.v << ' '
-              << place.w << ' ' << place.lod << ": " << expected.c[0] << " in [" << alternatives[0].c[0].lo << ", "
-              << alternatives[0].c[0].hi << "]";
+              << p.name << " lookup " << static_cast<int>(lookup) << " at " << place.u << ' ' << place.v << ' ' << place.w << ' '
+              << place.lod << ": " << expected.c[0] << " in [" << alternatives[0].c[0].lo << ", " << alternatives[0].c[0].hi << "]";
         }
       }
     }
@@ -188,8 +179,8 @@ TEST(SamplingEnclosed, NeighboursHoldThePlainReading) {
         Replay replay;
         ASSERT_TRUE(replay.for_each_alternative([&] {
           const auto held = enclosed_reading::sample_neighbours<0, Enclosure>(data.view(), Enclosure(u), Enclosure(v));
-          EXPECT_TRUE(held.left.contains(near.left.v) && held.right.contains(near.right.v) &&
-                      held.down.contains(near.down.v) && held.up.contains(near.up.v))
+          EXPECT_TRUE(held.left.contains(near.left.v) && held.right.contains(near.right.v) && held.down.contains(near.down.v) &&
+                      held.up.contains(near.up.v))
               << p.name << ' ' << static_cast<int>(a) << ' ' << u << ' ' << v;
         }));
         ASSERT_EQ(replay.runs(), 1);
@@ -258,14 +249,12 @@ TEST(SamplingEnclosed, TrilinearHoldsEveryLevelBetween) {
     const ProfileScope scope(p);
     const double step = p.lod_bits > 0 ? std::ldexp(1.0, -p.lod_bits) : 0;
     for (int i = 0; i < 300; ++i) {
-      const float u = static_cast<float>(random(-1, 2)), v = static_cast<float>(random(-1, 2)),
-                  lod = static_cast<float>(random(-1, 6));
+      const float u = static_cast<float>(random(-1, 2)), v = static_cast<float>(random(-1, 2)), lod = static_cast<float>(random(-1, 6));
       const Enclosure range(lod, lod + (i % 2 ? 0 : static_cast<float>(random(0, 2))));
       const Enclosure hull = look_up(Lookup::trilinear, data.view(), u, v, 0.0f, range)[0].c[0];
       for (int sample = 0; sample < 20; ++sample) {
         const double value = trilinear_at(data.view(), u, v, random(range.lo, range.hi) + random(-step, step), 0);
-        ASSERT_TRUE(hull.lo <= value + 1e-12 && value - 1e-12 <= hull.hi)
-            << p.name << ' ' << u << ' ' << v << ' ' << lod;
+        ASSERT_TRUE(hull.lo <= value + 1e-12 && value - 1e-12 <= hull.hi) << p.name << ' ' << u << ' ' << v << ' ' << lod;
       }
     }
   }
@@ -279,8 +268,7 @@ TEST(SamplingEnclosed, WideCoordinatesGiveTheHullOfTheTexelsOrNothing) {
   const Enclosure all = look_up(Lookup::bilinear, small.view(), Enclosure(-5.0f, 1e6f), Enclosure(0.0f, 2.0f))[0].c[0];
   EXPECT_NEAR(all.lo, *least, 1e-5);
   EXPECT_NEAR(all.hi, *greatest, 1e-5);
-  EXPECT_TRUE(
-      look_up(Lookup::bilinear, large.view(), Enclosure(-5.0f, 1e6f), Enclosure(0.0f, 2.0f))[0].c[0].is_vacuous());
+  EXPECT_TRUE(look_up(Lookup::bilinear, large.view(), Enclosure(-5.0f, 1e6f), Enclosure(0.0f, 2.0f))[0].c[0].is_vacuous());
   EXPECT_TRUE(look_up(Lookup::bilinear, small.view(), Enclosure::vacuous(), 0.5f)[0].c[0].is_vacuous());
   EXPECT_TRUE(look_up(Lookup::nearest, small.view(), Enclosure(0.0f, 1.0f), 0.5f)[0].c[0].lo >= *least);
 }
@@ -289,8 +277,7 @@ TEST(SamplingEnclosed, WideCoordinatesGiveTheHullOfTheTexelsOrNothing) {
 TEST(SamplingEnclosed, ThePoleHoldsItsRow) {
   const TextureData data = noise_texture(64, 32, 4, Address::repeat, Address::clamp);
   const ProfileScope scope(profile_named("vulkan"));
-  const auto alternatives =
-      look_up(Lookup::latlong, data.view(), Enclosure(-1e-8f, 1e-8f), Enclosure(-1.0f), Enclosure(-1e-8f, 1e-8f));
+  const auto alternatives = look_up(Lookup::latlong, data.view(), Enclosure(-1e-8f, 1e-8f), Enclosure(-1.0f), Enclosure(-1e-8f, 1e-8f));
   ASSERT_EQ(alternatives.size(), 1u);
   for (int x = 0; x < 64; ++x) EXPECT_TRUE(alternatives[0].c[0].contains(data.view().texels[4 * x])) << x;
   EXPECT_FALSE(alternatives[0].c[0].is_vacuous());

@@ -13,8 +13,9 @@ namespace {
 
 std::vector<Place> tricky_places() {
   std::vector<Place> out;
-  const float values[] = {0.0f, -0.0f, 0.5f, 1.0f, -1.0f, 0x1p-149f, -0x1p-149f, -0x1p-30f, 1 - 0x1p-24f, 1 + 0x1p-23f, 0.25f, 1.0f / 3,
-                          -2.75f, 7.0f, 255.5f, 1e6f, -1e6f, 0x1p31f, -0x1p31f, 1e20f, 0x1.fffffep127f, -0x1.fffffep127f};
+  const float values[] = {
+      0.0f,     -0.0f,  0.5f, 1.0f,   -1.0f, 0x1p-149f, -0x1p-149f, -0x1p-30f, 1 - 0x1p-24f, 1 + 0x1p-23f,    0.25f,
+      1.0f / 3, -2.75f, 7.0f, 255.5f, 1e6f,  -1e6f,     0x1p31f,    -0x1p31f,  1e20f,        0x1.fffffep127f, -0x1.fffffep127f};
   for (const float u : values)
     for (const float v : values) out.push_back({u, v, 0.3f, u});
   std::mt19937 random(4);

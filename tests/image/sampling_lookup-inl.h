@@ -19,14 +19,20 @@ RAINREF_FN void look_up(Lookup lookup, const Texture& t, N u, N v, N w, N lod, N
     case Lookup::bilinear:
       if (t.channels == 1) return put(sample_bilinear<0, 1, N>(t, u, v), 0, 1);
       return put(sample_bilinear<0, 4, N>(t, u, v), 0, 4);
-    case Lookup::bilinear_of_level_1: return put(sample_bilinear<0, 1, N>(t, u, v, 1), 0, 1);
+    case Lookup::bilinear_of_level_1:
+      return put(sample_bilinear<0, 1, N>(t, u, v, 1), 0, 1);
     case Lookup::trilinear:
       if (t.channels == 1) return put(sample_trilinear<0, 1, N>(t, u, v, lod), 0, 1);
       return put(sample_trilinear<0, 4, N>(t, u, v, lod), 0, 4);
-    case Lookup::mip: return put(sample_mip<0, 1, N>(t, u, v, lod), 0, 1);
-    case Lookup::middle_channels: return put(sample_bilinear<1, 2, N>(t, u, v), 1, 2);
-    case Lookup::latlong: return put_colour(sample_latlong(t, direction));
-    case Lookup::latlong_mip: return put_colour(sample_environment(t, false, direction, lod));
-    case Lookup::cube: return put_colour(sample_environment(t, true, direction, lod));
+    case Lookup::mip:
+      return put(sample_mip<0, 1, N>(t, u, v, lod), 0, 1);
+    case Lookup::middle_channels:
+      return put(sample_bilinear<1, 2, N>(t, u, v), 1, 2);
+    case Lookup::latlong:
+      return put_colour(sample_latlong(t, direction));
+    case Lookup::latlong_mip:
+      return put_colour(sample_environment(t, false, direction, lod));
+    case Lookup::cube:
+      return put_colour(sample_environment(t, true, direction, lod));
   }
 }

@@ -67,7 +67,8 @@ TEST(Sampling, Trilinear) {
     const Texture& t = data.view();
     for (Place p : places(2.0f, 7)) {
       const Texel got = look_up_by_plain(Lookup::trilinear, t, p);
-      for (int c = 0; c < 4; ++c) ASSERT_NEAR(got.c[c], trilinear_at(t, p.u, p.v, p.lod, c), tolerance(t, p)) << p.u << ' ' << p.v << ' ' << p.lod;
+      for (int c = 0; c < 4; ++c)
+        ASSERT_NEAR(got.c[c], trilinear_at(t, p.u, p.v, p.lod, c), tolerance(t, p)) << p.u << ' ' << p.v << ' ' << p.lod;
     }
   });
 }
@@ -91,7 +92,8 @@ TEST(Sampling, MipIsTheNearestLevel) {
   for (const Place& p : places(1.0f, 12)) {
     if (std::fabs(p.lod - std::floor(p.lod) - 0.5f) < 1e-5f) continue;
     const double level = std::clamp(std::round(double{p.lod}), 0.0, data.view().levels - 1.0);
-    EXPECT_NEAR(look_up_by_plain(Lookup::mip, data.view(), p).c[0], trilinear_at(data.view(), p.u, p.v, level, 0), tolerance(data.view(), p));
+    EXPECT_NEAR(look_up_by_plain(Lookup::mip, data.view(), p).c[0], trilinear_at(data.view(), p.u, p.v, level, 0),
+                tolerance(data.view(), p));
   }
 }
 
@@ -111,7 +113,8 @@ TEST(Sampling, AtATexelCentreItIsTheTexelBitForBit) {
       const TextureData data = noise_texture(w, h, 1, address, address, 2);
       for (int y = 0; y < h; ++y) {
         for (int x = 0; x < w; ++x) {
-          const Place p{(static_cast<float>(x) + 0.5f) / static_cast<float>(w), (static_cast<float>(y) + 0.5f) / static_cast<float>(h), 0, 0};
+          const Place p{(static_cast<float>(x) + 0.5f) / static_cast<float>(w), (static_cast<float>(y) + 0.5f) / static_cast<float>(h), 0,
+                        0};
           const float texel = data.view().texels[y * w + x];
           for (const Lookup lookup : {Lookup::bilinear, Lookup::nearest, Lookup::trilinear}) {
             ASSERT_EQ(std::bit_cast<std::uint32_t>(look_up_by_plain(lookup, data.view(), p).c[0]), std::bit_cast<std::uint32_t>(texel))
@@ -188,7 +191,8 @@ TEST(Sampling, HugeCoordinatesKeepToTheRule) {
         const TextureData tiled(texels, 1, 4, 1, address, Address::clamp);
         for (const float u : {far, -far}) {
           EXPECT_EQ(look_up_by_plain(lookup, tiled.view(), {u, 0.5f, 0, 0}).c[0],
-                    look_up_by_plain(lookup, tiled.view(), {0.0f, 0.5f, 0, 0}).c[0]) << text(address) << ' ' << u;
+                    look_up_by_plain(lookup, tiled.view(), {0.0f, 0.5f, 0, 0}).c[0])
+              << text(address) << ' ' << u;
         }
       }
     }

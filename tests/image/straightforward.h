@@ -15,10 +15,14 @@ inline int addressed(Address address, long long i, int size) {
   const long long period = address == Address::mirror ? 2LL * size : size;
   const long long m = ((i % period) + period) % period;
   switch (address) {
-    case Address::clamp: return static_cast<int>(i < 0 ? 0 : i >= size ? size - 1 : i);
-    case Address::repeat: return static_cast<int>(m);
-    case Address::mirror: return static_cast<int>(m < size ? m : period - 1 - m);
-    case Address::border: return i < 0 || i >= size ? -1 : static_cast<int>(i);
+    case Address::clamp:
+      return static_cast<int>(i < 0 ? 0 : i >= size ? size - 1 : i);
+    case Address::repeat:
+      return static_cast<int>(m);
+    case Address::mirror:
+      return static_cast<int>(m < size ? m : period - 1 - m);
+    case Address::border:
+      return i < 0 || i >= size ? -1 : static_cast<int>(i);
   }
   return -1;
 }

@@ -65,20 +65,17 @@ TEST(ReadErrors, ATruncatedPngIsNoticedAtEveryLength) {
   for (int y = 0; y < 9; ++y) rows.emplace_back(21, static_cast<char>('a' + y));
   expect_truncation_is_noticed(png(7, 9, 8, 2, rows), "stored");
   const TemporaryFolder folder;
-  write_png(folder / "p.png", make_image(Format::rgba8, 13, 7, [](int x, int y, int c) {
-              return Unorm8{static_cast<std::uint8_t>(x * x * 7 + y * 13 + c)};
-            }));
+  write_png(folder / "p.png", make_image(Format::rgba8, 13, 7,
+                                         [](int x, int y, int c) { return Unorm8{static_cast<std::uint8_t>(x * x * 7 + y * 13 + c)}; }));
   expect_truncation_is_noticed(contents(folder / "p.png"), "compressed");
 }
 
 TEST(ReadErrors, ATruncatedExrIsNoticedAtEveryLength) {
   const auto sample = [](int x, int y) { return raw(static_cast<float>(x + 10 * y)); };
-  expect_truncation_is_noticed(exr({0, 0, 3, 4}, {{"B", ExrType::float32, sample}, {"R", ExrType::float32, sample}}),
-                               "uncompressed");
+  expect_truncation_is_noticed(exr({0, 0, 3, 4}, {{"B", ExrType::float32, sample}, {"R", ExrType::float32, sample}}), "uncompressed");
   const TemporaryFolder folder;
-  const Image image = make_image(Format::rgba16f, 5, 18, [](int x, int y, int c) {
-    return Half{static_cast<std::uint16_t>((x * 977 + y * 3331 + c * 71) & 0x7bff)};
-  });
+  const Image image = make_image(
+      Format::rgba16f, 5, 18, [](int x, int y, int c) { return Half{static_cast<std::uint16_t>((x * 977 + y * 3331 + c * 71) & 0x7bff)}; });
   write_exr(folder / "p.exr", {{"", {"R", "G", "B", "A"}, &image}});
   expect_truncation_is_noticed(contents(folder / "p.exr"), "zip");
 }
@@ -106,8 +103,7 @@ TEST(ReadErrors, DamagedBytesNeverCrash) {
   const auto sample = [](int x, int y) { return raw(static_cast<float>(x + 10 * y)); };
   const std::string files[] = {
       png(4, 3, 8, 2, {std::string(12, 'a'), std::string(12, 'b'), std::string(12, 'c')}),
-      exr({0, 0, 3, 4},
-          {{"B", ExrType::float32, sample}, {"R", ExrType::half, [](int, int) { return raw(std::uint16_t{7}); }}}),
+      exr({0, 0, 3, 4}, {{"B", ExrType::float32, sample}, {"R", ExrType::half, [](int, int) { return raw(std::uint16_t{7}); }}}),
       hdr(2, 2, {{1, 2, 3, 130}, {4, 5, 6, 130}, {7, 8, 9, 130}, {1, 1, 1, 130}}), jpeg(2)};
   const TemporaryFolder folder;
   ::testing::internal::CaptureStderr();  // libpng says there what it finds

@@ -36,13 +36,11 @@ TEST(ReadExr, EveryFiniteHalfKeepsItsBits) {
   const auto channel = [&](const std::string& name, int shift) {
     return ExrChannel{name, ExrType::half, [=](int x, int y) { return raw(code(x, y, shift)); }};
   };
-  const Picture p =
-      read_bytes(exr({0, 0, 248, 256}, {channel("A", 3), channel("B", 2), channel("G", 1), channel("R", 0)}));
+  const Picture p = read_bytes(exr({0, 0, 248, 256}, {channel("A", 3), channel("B", 2), channel("G", 1), channel("R", 0)}));
   ASSERT_EQ(p.image.format(), Format::rgba16f);
   for (int y = 0; y < 256; ++y) {
     for (int x = 0; x < 248; ++x) {
-      ASSERT_EQ(texel<std::uint16_t>(p.image, x, y),
-                (Halves{code(x, y, 0), code(x, y, 1), code(x, y, 2), code(x, y, 3)}));
+      ASSERT_EQ(texel<std::uint16_t>(p.image, x, y), (Halves{code(x, y, 0), code(x, y, 1), code(x, y, 2), code(x, y, 3)}));
     }
   }
   EXPECT_FALSE(p.srgb_encoded);
@@ -69,22 +67,20 @@ TEST(ReadExr, GreyIsReplicatedAndMissingAlphaIsOne) {
             (Halves{0x1234, 0x1234, 0x1234, 0x3c00}));
   EXPECT_EQ(texel<float>(read_bytes(exr({0, 0, 1, 1}, {float_channel("A", .5f), float_channel("Y", 7)})).image, 0, 0),
             (Floats{7, 7, 7, .5f}));
-  EXPECT_EQ(
-      texel<std::uint16_t>(read_bytes(exr({0, 0, 1, 1}, {half_channel("G", 2), half_channel("R", 1)})).image, 0, 0),
-      (Halves{1, 2, 0, 0x3c00}));
+  EXPECT_EQ(texel<std::uint16_t>(read_bytes(exr({0, 0, 1, 1}, {half_channel("G", 2), half_channel("R", 1)})).image, 0, 0),
+            (Halves{1, 2, 0, 0x3c00}));
 }
 
 TEST(ReadExr, HalfBesideFloatIsWidened) {
-  const Picture p = read_bytes(exr({0, 0, 3, 2}, {half_channel("A", 0x0001), float_channel("B", .1f),
-                                                  half_channel("G", 0xc000), float_channel("R", 5)}));
+  const Picture p =
+      read_bytes(exr({0, 0, 3, 2}, {half_channel("A", 0x0001), float_channel("B", .1f), half_channel("G", 0xc000), float_channel("R", 5)}));
   ASSERT_EQ(p.image.format(), Format::rgba32f);
   EXPECT_EQ(texel<float>(p.image, 2, 1), (Floats{5, -2, .1f, 0x1p-24f}));
 }
 
 TEST(ReadExr, ALayerIsReadByName) {
-  const std::string bytes =
-      exr({0, 0, 2, 2}, {half_channel("B", 3), half_channel("G", 2), half_channel("R", 1), float_channel("depth.Z", 9),
-                         half_channel("id.X", 7), half_channel("id.Y", 8)});
+  const std::string bytes = exr({0, 0, 2, 2}, {half_channel("B", 3), half_channel("G", 2), half_channel("R", 1),
+                                               float_channel("depth.Z", 9), half_channel("id.X", 7), half_channel("id.Y", 8)});
   EXPECT_EQ(texel<std::uint16_t>(read_bytes(bytes).image, 1, 1), (Halves{1, 2, 3, 0x3c00}));
   EXPECT_EQ(texel<float>(read_bytes(bytes, "depth").image, 1, 1), (Floats{9, 9, 9, 1}));
   EXPECT_EQ(texel<std::uint16_t>(read_bytes(bytes, "id").image, 1, 1), (Halves{7, 8, 0, 0x3c00}));
@@ -94,10 +90,9 @@ TEST(ReadExr, ALayerIsReadByName) {
 
 TEST(ReadExr, NanAndInfinityAreRefusedWithTheirPlace) {
   const auto bad = [](float value) {
-    return exr({0, 0, 4, 3},
-               {float_channel("B", 0),
-                {"G", ExrType::float32, [=](int x, int y) { return raw(x >= 2 && y >= 1 ? value : 1.0f); }},
-                float_channel("R", 0)});
+    return exr({0, 0, 4, 3}, {float_channel("B", 0),
+                              {"G", ExrType::float32, [=](int x, int y) { return raw(x >= 2 && y >= 1 ? value : 1.0f); }},
+                              float_channel("R", 0)});
   };
   const auto nan = error_of([&] { read_bytes(bad(std::nanf(""))); });
   ASSERT_TRUE(nan);
@@ -120,9 +115,7 @@ TEST(ReadExr, NanInAChannelThatIsNotReadDoesNotMatter) {
 }
 
 TEST(ReadExr, IntegersCropsAndOverscanAreRefused) {
-  const auto integer = error_of([] {
-    read_bytes(exr({0, 0, 1, 1}, {{"R", ExrType::uint, [](int, int) { return raw(1u); }}}));
-  });
+  const auto integer = error_of([] { read_bytes(exr({0, 0, 1, 1}, {{"R", ExrType::uint, [](int, int) { return raw(1u); }}})); });
   ASSERT_TRUE(integer);
   EXPECT_EQ(integer->code(), ExitCode::usage);
   EXPECT_THAT(integer->what(), HasSubstr("channel 'R' is of type uint"));
@@ -136,8 +129,7 @@ TEST(ReadExr, IntegersCropsAndOverscanAreRefused) {
 TEST(ReadExr, ASizeBeyondMeasureIsRefusedNotAllocated) {
   const std::string small = exr({0, 0, 1, 1}, {half_channel("Y", 1)});
   const std::size_t at = small.find("box2i") + 10, display = small.find("box2i", at) + 10;
-  for (const auto& [width, height] :
-       {std::pair{100000, 1}, {1, 100000}, {65536, 65536}, {0x7fffffff, 0x7fffffff}, {0, 5}, {-5, 5}}) {
+  for (const auto& [width, height] : {std::pair{100000, 1}, {1, 100000}, {65536, 65536}, {0x7fffffff, 0x7fffffff}, {0, 5}, {-5, 5}}) {
     std::string bytes = small;
     bytes.replace(at + 8, 8, little(width - 1) + little(height - 1));
     bytes.replace(display + 8, 8, little(width - 1) + little(height - 1));

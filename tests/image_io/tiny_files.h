@@ -46,8 +46,7 @@ inline std::string png_chunk(const std::string& type, const std::string& data) {
 
 /// A PNG whose rows are given as raw bytes, stored without compression in one block (under 65 536 bytes of rows).
 /// colour: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA. `extra` is chunks to stand before the data.
-inline std::string png(int width, int height, int depth, int colour, const std::vector<std::string>& rows,
-                       const std::string& extra = {}) {
+inline std::string png(int width, int height, int depth, int colour, const std::vector<std::string>& rows, const std::string& extra = {}) {
   std::string lines;
   for (const std::string& row : rows) lines += '\0' + row;  // filter 0
   std::uint32_t a = 1, b = 0;
@@ -57,8 +56,7 @@ inline std::string png(int width, int height, int depth, int colour, const std::
   }
   const auto size = static_cast<std::uint32_t>(lines.size());
   const std::string stream = "\x78\x01\x01" + little(size, 2) + little(~size, 2) + lines + big(b << 16 | a);
-  const std::string header =
-      big(width) + big(height) + static_cast<char>(depth) + static_cast<char>(colour) + std::string(3, '\0');
+  const std::string header = big(width) + big(height) + static_cast<char>(depth) + static_cast<char>(colour) + std::string(3, '\0');
   return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + extra + png_chunk("IDAT", stream) + png_chunk("IEND", "");
 }
 
@@ -77,9 +75,7 @@ inline std::string exr(ExrWindow data, const std::vector<ExrChannel>& channels, 
   const auto attribute = [](const std::string& name, const std::string& type, const std::string& value) {
     return name + '\0' + type + '\0' + little(static_cast<std::uint32_t>(value.size())) + value;
   };
-  const auto box = [](const ExrWindow& w) {
-    return little(w.x) + little(w.y) + little(w.x + w.width - 1) + little(w.y + w.height - 1);
-  };
+  const auto box = [](const ExrWindow& w) { return little(w.x) + little(w.y) + little(w.x + w.width - 1) + little(w.y + w.height - 1); };
   std::string list;
   for (const ExrChannel& c : channels) {
     list += c.name + '\0' + little(static_cast<std::uint32_t>(c.type)) + std::string(4, '\0') + little(1) + little(1);
@@ -130,9 +126,8 @@ inline std::string jpeg(int columns) {
     return std::string("\xff") + static_cast<char>(marker) + big(static_cast<std::uint32_t>(data.size() + 2), 2) + data;
   };
   std::string out = "\xff\xd8";
-  out += segment(0xdb, '\0' + std::string(64, 8));  // every step is 8
-  out += segment(0xc0, std::string("\x08") + big(16, 2) + big(8 * columns, 2) +
-                           std::string("\1\1\x11\0", 4));  // 8 bits, one channel
+  out += segment(0xdb, '\0' + std::string(64, 8));                                                              // every step is 8
+  out += segment(0xc0, std::string("\x08") + big(16, 2) + big(8 * columns, 2) + std::string("\1\1\x11\0", 4));  // 8 bits, one channel
   // DC codes: 0 "no change", 10 "one bit follows". AC codes: 0 "end of block".
   out += segment(0xc4, std::string("\0\1\1", 3) + std::string(14, '\0') + std::string("\0\1", 2));
   out += segment(0xc4, std::string("\x10\1", 2) + std::string(15, '\0') + std::string("\0", 1));

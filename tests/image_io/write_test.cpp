@@ -29,9 +29,8 @@ Image codes(Format format, int width = 67, int height = 19) {
 }
 
 Image halves(int width = 67, int height = 19) {
-  return make_image(Format::rgba16f, width, height, [](int x, int y, int c) {
-    return Half{static_cast<std::uint16_t>((x * 977 + y * 3331 + c * 71) & 0xbbff)};
-  });
+  return make_image(Format::rgba16f, width, height,
+                    [](int x, int y, int c) { return Half{static_cast<std::uint16_t>((x * 977 + y * 3331 + c * 71) & 0xbbff)}; });
 }
 
 Image floats(int width = 67, int height = 19) {
@@ -46,9 +45,8 @@ void expect_equal_texels(const Image& a, const Image& b, int channels) {
   ASSERT_EQ(info(a.format()).channel_bytes, info(b.format()).channel_bytes);
   for (int y = 0; y < a.height(); ++y) {
     for (int x = 0; x < a.width(); ++x) {
-      ASSERT_EQ(std::memcmp(a.row_bytes(y) + x * info(a.format()).texel_bytes(),
-                            b.row_bytes(y) + x * info(b.format()).texel_bytes(), bytes),
-                0)
+      ASSERT_EQ(
+          std::memcmp(a.row_bytes(y) + x * info(a.format()).texel_bytes(), b.row_bytes(y) + x * info(b.format()).texel_bytes(), bytes), 0)
           << "x " << x << ", y " << y;
     }
   }
@@ -98,9 +96,7 @@ TEST(WriteExr, EveryFiniteHalfKeepsItsBits) {
 TEST(WriteExr, LayersOfSeveralTypesKeepTheirBits) {
   const TemporaryFolder folder;
   const Image colour = halves(), motion = floats(), normal = halves(67, 19);
-  write_exr(
-      folder / "a.exr",
-      {{"", {"R", "G", "B", "A"}, &colour}, {"motion", {"U", "V"}, &motion}, {"normal", {"X", "Y", "Z"}, &normal}});
+  write_exr(folder / "a.exr", {{"", {"R", "G", "B", "A"}, &colour}, {"motion", {"U", "V"}, &motion}, {"normal", {"X", "Y", "Z"}, &normal}});
   const Picture main = read(folder / "a.exr");
   ASSERT_EQ(main.image.format(), Format::rgba16f);
   EXPECT_EQ(main.channel_names.size(), 9u);
@@ -122,8 +118,7 @@ TEST(WriteExr, HalfAndFloatInOneLayerAreReadAsFloat) {
 
 TEST(WriteExr, NanIsWrittenAndRefusedOnReading) {
   const TemporaryFolder folder;
-  const Image image =
-      make_image(Format::r32f, 3, 2, [](int x, int y, int) { return x == 1 && y == 1 ? std::nanf("") : 0.0f; });
+  const Image image = make_image(Format::r32f, 3, 2, [](int x, int y, int) { return x == 1 && y == 1 ? std::nanf("") : 0.0f; });
   write_exr(folder / "a.exr", {{"", {"height"}, &image}});
   const auto error = error_of([&] { read(folder / "a.exr"); });
   ASSERT_TRUE(error);

@@ -61,10 +61,8 @@ const std::vector<Case>& cases() {
       {Slip::square_missing, [] { return square(d(3)).v; }, 9, 3},
       // At right angles of incidence and of the plane: sin is 0.6, so 0.3 with the ratio 1/2 and beyond 1 with 2.
       {Slip::refract_ratio_inverted,
-       [] { return refract(Vec3<Deviant>(d(0.6f), d(-0.8f), d(0)), Vec3<Deviant>(d(0), d(1), d(0)), 0.5f).x.v; }, 0.3f,
-       0},
-      {Slip::reflect_doubled_missing,
-       [] { return reflect(Vec3<Deviant>(d(0), d(-1), d(0)), Vec3<Deviant>(d(0), d(1), d(0))).y.v; }, 1, 0},
+       [] { return refract(Vec3<Deviant>(d(0.6f), d(-0.8f), d(0)), Vec3<Deviant>(d(0), d(1), d(0)), 0.5f).x.v; }, 0.3f, 0},
+      {Slip::reflect_doubled_missing, [] { return reflect(Vec3<Deviant>(d(0), d(-1), d(0)), Vec3<Deviant>(d(0), d(1), d(0))).y.v; }, 1, 0},
       {Slip::exp_base_two, [] { return exp(d(1)).v; }, 0x1.5bf0a8p+1f, 2},
       {Slip::exp2_base_e, [] { return exp2(d(1)).v; }, 2, 0x1.5bf0a8p+1f},
       {Slip::pow_squared, [] { return pow(d(3), d(4)).v; }, 81, 9},
@@ -91,9 +89,8 @@ TEST(Deviant, EachSlipIsWhatItsSentenceSays) {
   }
 }
 TEST(Deviant, EverySlipIsInTheTableOrOneOfLookups) {
-  const std::set<Slip> lookups{Slip::address_clamped,  Slip::address_repeated,  Slip::address_mirrored,
-                               Slip::nearest_filter,   Slip::weights_of_8_bits, Slip::half_texel_missing,
-                               Slip::half_texel_twice, Slip::texel_after};
+  const std::set<Slip> lookups{Slip::address_clamped,   Slip::address_repeated,   Slip::address_mirrored, Slip::nearest_filter,
+                               Slip::weights_of_8_bits, Slip::half_texel_missing, Slip::half_texel_twice, Slip::texel_after};
   for (const SlipInfo& s : slips()) {
     const bool here = std::any_of(cases().begin(), cases().end(), [&](const Case& c) { return c.slip == s.slip; });
     EXPECT_NE(here, lookups.contains(s.slip)) << s.name;
@@ -101,8 +98,7 @@ TEST(Deviant, EverySlipIsInTheTableOrOneOfLookups) {
 }
 
 float any_number(std::mt19937& words) {
-  return std::ldexp(static_cast<float>(words() >> 8) * (words() & 1 ? 0x1p-24f : -0x1p-24f),
-                    static_cast<int>(words() % 20) - 10);
+  return std::ldexp(static_cast<float>(words() >> 8) * (words() & 1 ? 0x1p-24f : -0x1p-24f), static_cast<int>(words() % 20) - 10);
 }
 
 // Against MPFR's fused multiply-add, which rounds once.
@@ -207,8 +203,7 @@ void expect_drawn_within(const Profile& p, const std::string& what, const std::f
     behaviour().lean = i % 3 - 1;
     const double y = exact(x), got = draw(x), ulp = std::ldexp(1.0, std::ilogb(y) - 23);
     // Without an accuracy it is the nearest float.
-    const double bound =
-        a.is_zero() ? 0.5 * ulp : (a.ulp + a.ulp_per_x * std::abs(x)) * ulp + a.relative * std::abs(y) + a.absolute;
+    const double bound = a.is_zero() ? 0.5 * ulp : (a.ulp + a.ulp_per_x * std::abs(x)) * ulp + a.relative * std::abs(y) + a.absolute;
     ASSERT_LE(std::abs(got - y), bound * (1 + 1e-9) + 1e-18) << p.name << ' ' << what << ' ' << x;
     above += got - y > 0.7 * bound;
     below += y - got > 0.7 * bound;
@@ -224,11 +219,10 @@ TEST(Deviant, LibertiesStayWithinTheProfileAndReachItsEnds) {
     b.liberties = &all;
     const Scope scope(b);
     expect_drawn_within(
-        p, "division", [](float x) { return (d(x) / d(7.3f)).v; }, [](double x) { return x / 7.3f; }, p.division, 0.1f,
-        9);
+        p, "division", [](float x) { return (d(x) / d(7.3f)).v; }, [](double x) { return x / 7.3f; }, p.division, 0.1f, 9);
     expect_drawn_within(
-        p, "inverse_sqrt", [](float x) { return inverse_sqrt(d(x)).v; }, [](double x) { return 1 / std::sqrt(x); },
-        p.inverse_sqrt, 0.1f, 9);
+        p, "inverse_sqrt", [](float x) { return inverse_sqrt(d(x)).v; }, [](double x) { return 1 / std::sqrt(x); }, p.inverse_sqrt, 0.1f,
+        9);
     if (!p.sqrt_is_inherited)
       expect_drawn_within(
           p, "sqrt", [](float x) { return sqrt(d(x)).v; }, [](double x) { return std::sqrt(x); }, p.sqrt, 0.1f, 9);
@@ -239,13 +233,12 @@ TEST(Deviant, LibertiesStayWithinTheProfileAndReachItsEnds) {
     expect_drawn_within(
         p, "log", [](float x) { return log(d(x)).v; }, [](double x) { return std::log(x); }, p.log, 3, 50);
     expect_drawn_within(
-        p, "log near 1", [](float x) { return log(d(x)).v; }, [](double x) { return std::log(x); }, p.log_near_one,
-        1.1f, 1.9f);
+        p, "log near 1", [](float x) { return log(d(x)).v; }, [](double x) { return std::log(x); }, p.log_near_one, 1.1f, 1.9f);
     expect_drawn_within(
         p, "sin", [](float x) { return sin(d(x)).v; }, [](double x) { return std::sin(x); }, p.sin_cos, 0.1f, 1.2f);
     expect_drawn_within(
-        p, "atan2", [](float x) { return atan2(d(x), d(0.7f)).v; },
-        [](double x) { return std::atan2(x, static_cast<double>(0.7f)); }, p.atan2, 0.1f, 9);
+        p, "atan2", [](float x) { return atan2(d(x), d(0.7f)).v; }, [](double x) { return std::atan2(x, static_cast<double>(0.7f)); },
+        p.atan2, 0.1f, 9);
   }
 }
 

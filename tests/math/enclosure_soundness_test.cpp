@@ -25,8 +25,7 @@ using random_gpu::toss;
 using random_gpu::uniform;
 
 float draw(double low_exponent, double high_exponent) {
-  return static_cast<float>(
-      std::ldexp(uniform(1, 2) * (toss() ? 1 : -1), static_cast<int>(uniform(low_exponent, high_exponent))));
+  return static_cast<float>(std::ldexp(uniform(1, 2) * (toss() ? 1 : -1), static_cast<int>(uniform(low_exponent, high_exponent))));
 }
 // Ordinary numbers, small ones, exact ones and special ones.
 float any_operand() {
@@ -71,8 +70,7 @@ N held(N x, float low, float high) {
 }
 
 #define OPERATION(name, expression) \
-  operation(name,                   \
-            []<class N>([[maybe_unused]] N a, [[maybe_unused]] N b, [[maybe_unused]] N c) -> N { return expression; })
+  operation(name, []<class N>([[maybe_unused]] N a, [[maybe_unused]] N b, [[maybe_unused]] N c) -> N { return expression; })
 const std::vector<Operation>& operations() {
   static const std::vector<Operation> all{
       OPERATION("a + b", a + b),
@@ -104,12 +102,10 @@ const std::vector<Operation>& operations() {
       OPERATION("normalize", normalize(plain::Vec3<N>(held(a, -4, 4), held(b, -4, 4), N(1.0f))).x),
       OPERATION("length", length(plain::Vec3<N>(held(a, -4, 4), held(b, -4, 4), held(c, -4, 4)))),
       OPERATION("dot", dot(plain::Vec3<N>(a, b, c), plain::Vec3<N>(b, c, a))),
-      OPERATION("reflect", reflect(plain::Vec3<N>(held(a, -1, 1), held(b, -1, 1), N(0.5f)),
-                                   plain::Vec3<N>(N(0.6f), held(c, 0, 1), N(0.0f)))
-                               .y),
-      OPERATION("refract", refract(plain::Vec3<N>(N(0.6f), N(-0.8f), N(0.0f)),
-                                   plain::Vec3<N>(held(a, -0.5f, 0.5f), N(1.0f), N(0.0f)), 0.75f)
-                               .x),
+      OPERATION("reflect",
+                reflect(plain::Vec3<N>(held(a, -1, 1), held(b, -1, 1), N(0.5f)), plain::Vec3<N>(N(0.6f), held(c, 0, 1), N(0.0f))).y),
+      OPERATION("refract",
+                refract(plain::Vec3<N>(N(0.6f), N(-0.8f), N(0.0f)), plain::Vec3<N>(held(a, -0.5f, 0.5f), N(1.0f), N(0.0f)), 0.75f).x),
       OPERATION("octave", nearest_octave(abs(a))),
       OPERATION("a threshold", select(a < b, a, c)),
   };
@@ -136,10 +132,9 @@ TEST(EnclosureSoundness, HoldsEveryLegalResultOfEveryOperation) {
           const float got = f.gpu(x, y, z).v;
           bool held_somewhere = false;
           for (const Enclosure& e : alternatives) held_somewhere |= e.is_vacuous() || e.contains(got);
-          ASSERT_TRUE(held_somewhere) << p.name << ", " << f.name << " of " << x.v << ' ' << y.v << ' ' << z.v << ": "
-                                      << got << " outside [" << alternatives[0].lo << ", " << alternatives[0].hi
-                                      << "], operands [" << a.lo << ", " << a.hi << "] [" << b.lo << ", " << b.hi
-                                      << "] [" << c.lo << ", " << c.hi << "]";
+          ASSERT_TRUE(held_somewhere) << p.name << ", " << f.name << " of " << x.v << ' ' << y.v << ' ' << z.v << ": " << got
+                                      << " outside [" << alternatives[0].lo << ", " << alternatives[0].hi << "], operands [" << a.lo << ", "
+                                      << a.hi << "] [" << b.lo << ", " << b.hi << "] [" << c.lo << ", " << c.hi << "]";
         }
       }
       EXPECT_GT(bounded, trials / 3) << p.name << ", " << f.name << ": nothing is tested where all is vacuous";

@@ -29,9 +29,8 @@ std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 }
 
 std::vector<float> operands() {
-  std::vector<float> out{0.0f,         -0.0f,        1.0f,   -1.0f,    0.5f,      2.0f,      3.0f,
-                         1.0f / 3,     0.1f,         255.0f, 65504.0f, 0x1p-126f, 0x1p-149f, -0x1p-130f,
-                         1 - 0x1p-24f, 1 + 0x1p-23f, 1e-20f, 1e10f,    -7.25f};
+  std::vector<float> out{0.0f,     -0.0f,     1.0f,      -1.0f,      0.5f,         2.0f,         3.0f,   1.0f / 3, 0.1f,  255.0f,
+                         65504.0f, 0x1p-126f, 0x1p-149f, -0x1p-130f, 1 - 0x1p-24f, 1 + 0x1p-23f, 1e-20f, 1e10f,    -7.25f};
   std::mt19937 words(1);
   while (out.size() < 200) {
     const float mantissa = static_cast<float>(words()) * 0x1p-31f - 1;
@@ -106,10 +105,9 @@ TEST(Enclosure, ExactResultsStayPoints) {
     for (const float a : {0.0f, 1.0f, -3.0f, 0.375f, 1000.0f}) {
       for (const float b : {0.5f, 2.0f, -4.0f}) {
         const Enclosure x(a), y(b);
-        for (const Enclosure& e :
-             {x + y, x - y, x * y, square(x), abs(x), floor(x), min(x, y), max(x, y), fract(x), sum_any_order(x, y, x),
-              sum_any_order(x, y, x, y), sum_any_order_in_pairs(x, y, y, x), mix(x, y, Enclosure(0.0f)),
-              mix(x, y, Enclosure(0.5f)), dot(plain::Vec3<Enclosure>(x, y, x), plain::Vec3<Enclosure>(y, y, x))}) {
+        for (const Enclosure& e : {x + y, x - y, x * y, square(x), abs(x), floor(x), min(x, y), max(x, y), fract(x), sum_any_order(x, y, x),
+                                   sum_any_order(x, y, x, y), sum_any_order_in_pairs(x, y, y, x), mix(x, y, Enclosure(0.0f)),
+                                   mix(x, y, Enclosure(0.5f)), dot(plain::Vec3<Enclosure>(x, y, x), plain::Vec3<Enclosure>(y, y, x))}) {
           EXPECT_TRUE(e.is_point()) << p.name << ' ' << a << ' ' << b << ": " << e.lo << ' ' << e.hi;
         }
       }
@@ -171,15 +169,13 @@ TEST(Enclosure, WhatMayBeInfiniteOrUndefinedIsVacuousAndStaysSo) {
   for (const Profile& p : profiles()) {
     if (p.reference) continue;
     const ProfileScope scope(p);
-    for (const Enclosure& e :
-         {one / zero, one / around, sqrt(Enclosure(-1.0f)), sqrt(around), log(zero), log(around), pow(around, one),
-          exp(Enclosure(100.0f)), exp2(Enclosure(130.0f)), Enclosure(3e38f) + Enclosure(3e38f),
-          Enclosure(1e30f) * Enclosure(1e30f), Enclosure(INFINITY), Enclosure(NAN)}) {
+    for (const Enclosure& e : {one / zero, one / around, sqrt(Enclosure(-1.0f)), sqrt(around), log(zero), log(around), pow(around, one),
+                               exp(Enclosure(100.0f)), exp2(Enclosure(130.0f)), Enclosure(3e38f) + Enclosure(3e38f),
+                               Enclosure(1e30f) * Enclosure(1e30f), Enclosure(INFINITY), Enclosure(NAN)}) {
       EXPECT_TRUE(e.is_vacuous()) << p.name << ": " << e.lo << ' ' << e.hi;
       for (const Enclosure& after :
-           {e + one, one - e, e * zero, e / one, one / e, abs(e), min(e, one), max(e, one), square(e), sqrt(e), exp(e),
-            sin(e), mix(one, zero, e), atan2(e, one), sum_any_order(one, e, one), smoothstep(0.0f, 1.0f, e),
-            saturate(e), floor(e), fract(e)}) {
+           {e + one, one - e, e * zero, e / one, one / e, abs(e), min(e, one), max(e, one), square(e), sqrt(e), exp(e), sin(e),
+            mix(one, zero, e), atan2(e, one), sum_any_order(one, e, one), smoothstep(0.0f, 1.0f, e), saturate(e), floor(e), fract(e)}) {
         EXPECT_TRUE(after.is_vacuous()) << p.name;
       }
     }
@@ -208,8 +204,7 @@ TEST(Enclosure, FunctionsKeepTheirCodomain) {
 TEST(Enclosure, SineHasItsExtremaInside) {
   const ProfileScope scope(profile_named("typical"));
   for (int k = -20; k <= 20; ++k) {
-    const auto top = static_cast<float>((2 * k + 0.5) * 3.14159265358979),
-               bottom = static_cast<float>((2 * k - 0.5) * 3.14159265358979);
+    const auto top = static_cast<float>((2 * k + 0.5) * 3.14159265358979), bottom = static_cast<float>((2 * k - 0.5) * 3.14159265358979);
     EXPECT_EQ(sin(Enclosure(top - 0.1f, top + 0.1f)).hi, 1.0f);
     EXPECT_GT(sin(Enclosure(top - 0.1f, top + 0.1f)).lo, 0.9f);
     EXPECT_EQ(sin(Enclosure(bottom - 0.1f, bottom + 0.1f)).lo, -1.0f);

@@ -16,8 +16,8 @@ namespace rainref::test {
 inline bool has_half_hardware() { return __builtin_cpu_supports("f16c") && __builtin_cpu_supports("avx"); }
 
 /// codes[i] = x[i] converted by hardware; count is a multiple of 8.
-__attribute__((target("avx,f16c"))) inline void to_half_by_hardware(const float* x, std::uint16_t* codes,
-                                                                    std::size_t count, Rounding rounding) {
+__attribute__((target("avx,f16c"))) inline void to_half_by_hardware(const float* x, std::uint16_t* codes, std::size_t count,
+                                                                    Rounding rounding) {
   for (std::size_t i = 0; i < count; i += 8) {
     const __m256 v = _mm256_loadu_ps(x + i);
     const __m128i h = rounding == Rounding::rne ? _mm256_cvtps_ph(v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC)
@@ -26,8 +26,7 @@ __attribute__((target("avx,f16c"))) inline void to_half_by_hardware(const float*
   }
 }
 /// x[i] = codes[i] converted by hardware; count is a multiple of 8.
-__attribute__((target("avx,f16c"))) inline void to_float_by_hardware(const std::uint16_t* codes, float* x,
-                                                                     std::size_t count) {
+__attribute__((target("avx,f16c"))) inline void to_float_by_hardware(const std::uint16_t* codes, float* x, std::size_t count) {
   for (std::size_t i = 0; i < count; i += 8) {
     _mm256_storeu_ps(x + i, _mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(codes + i))));
   }

@@ -72,8 +72,10 @@ TEST(Half, EveryCodeIsItsDefinedValueAndComesBack) {
       for (const Rounding r : both) ASSERT_EQ(to_half(x, r).bits, (bits & 0x8000) | 0x7e00) << bits;
       continue;
     }
-    if (magnitude == 0x7c00) ASSERT_TRUE(std::isinf(x)) << bits;
-    else ASSERT_EQ(double{x}, value_of(h.bits)) << bits;
+    if (magnitude == 0x7c00)
+      ASSERT_TRUE(std::isinf(x)) << bits;
+    else
+      ASSERT_EQ(double{x}, value_of(h.bits)) << bits;
     for (const Rounding r : both) ASSERT_EQ(to_half(x, r).bits, bits) << bits;
   }
 }
@@ -84,15 +86,15 @@ TEST(Half, KnownValues) {
   EXPECT_EQ(to_half(65504.0f).bits, 0x7bff);
   EXPECT_EQ(to_half(0x1p-14f).bits, 0x0400);
   EXPECT_EQ(to_half(0x1p-24f).bits, 0x0001);
-  EXPECT_EQ(to_half(0x1p-25f).bits, 0x0000);          // a tie, to even
+  EXPECT_EQ(to_half(0x1p-25f).bits, 0x0000);  // a tie, to even
   EXPECT_EQ(to_half(0x1.000002p-25f).bits, 0x0001);
-  EXPECT_EQ(to_half(0x1.8p-24f).bits, 0x0002);        // a tie, to even
+  EXPECT_EQ(to_half(0x1.8p-24f).bits, 0x0002);  // a tie, to even
   EXPECT_EQ(to_half(1.0f / 3).bits, 0x3555);
   EXPECT_EQ(to_half(0.1f).bits, 0x2e66);
   EXPECT_EQ(to_half(0.1f, Rounding::rtz).bits, 0x2e66);
-  EXPECT_EQ(to_half(0x1.ff8p-15f).bits, 0x03ff);      // the largest subnormal
+  EXPECT_EQ(to_half(0x1.ff8p-15f).bits, 0x03ff);  // the largest subnormal
   EXPECT_EQ(to_half(0x1.ffbffep-15f).bits, 0x03ff);
-  EXPECT_EQ(to_half(0x1.ffcp-15f).bits, 0x0400);      // a tie, to even
+  EXPECT_EQ(to_half(0x1.ffcp-15f).bits, 0x0400);  // a tie, to even
   EXPECT_EQ(to_half(-0.0f).bits, 0x8000);
 }
 

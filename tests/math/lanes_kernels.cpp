@@ -87,27 +87,49 @@ void index_by_lanes(int first, float* out) { RAINREF_DISPATCH(Index)(first, out)
 bool any_less_by_lanes(const float* a, const float* b) { return RAINREF_DISPATCH(AnyLess)(a, b); }
 
 template <>
-void load_by_lanes(const float* in, float* out) { RAINREF_DISPATCH(LoadFloat)(in, out); }
+void load_by_lanes(const float* in, float* out) {
+  RAINREF_DISPATCH(LoadFloat)(in, out);
+}
 template <>
-void load_by_lanes(const Half* in, float* out) { RAINREF_DISPATCH(LoadHalf)(in, out); }
+void load_by_lanes(const Half* in, float* out) {
+  RAINREF_DISPATCH(LoadHalf)(in, out);
+}
 template <>
-void load_by_lanes(const Unorm8* in, float* out) { RAINREF_DISPATCH(LoadUnorm8)(in, out); }
+void load_by_lanes(const Unorm8* in, float* out) {
+  RAINREF_DISPATCH(LoadUnorm8)(in, out);
+}
 template <>
-void store_by_lanes(float* out, const float* in, Rounding r, int count) { RAINREF_DISPATCH(StoreFloat)(out, in, r, count); }
+void store_by_lanes(float* out, const float* in, Rounding r, int count) {
+  RAINREF_DISPATCH(StoreFloat)(out, in, r, count);
+}
 template <>
-void store_by_lanes(Half* out, const float* in, Rounding r, int count) { RAINREF_DISPATCH(StoreHalf)(out, in, r, count); }
+void store_by_lanes(Half* out, const float* in, Rounding r, int count) {
+  RAINREF_DISPATCH(StoreHalf)(out, in, r, count);
+}
 template <>
-void store_by_lanes(Unorm8* out, const float* in, Rounding r, int count) { RAINREF_DISPATCH(StoreUnorm8)(out, in, r, count); }
+void store_by_lanes(Unorm8* out, const float* in, Rounding r, int count) {
+  RAINREF_DISPATCH(StoreUnorm8)(out, in, r, count);
+}
 template <>
-void load4_by_lanes(const float* in, float* out) { RAINREF_DISPATCH(Load4Float)(in, out); }
+void load4_by_lanes(const float* in, float* out) {
+  RAINREF_DISPATCH(Load4Float)(in, out);
+}
 template <>
-void load4_by_lanes(const Half* in, float* out) { RAINREF_DISPATCH(Load4Half)(in, out); }
+void load4_by_lanes(const Half* in, float* out) {
+  RAINREF_DISPATCH(Load4Half)(in, out);
+}
 template <>
-void store4_by_lanes(float* out, const float* in, Rounding r) { RAINREF_DISPATCH(Store4Float)(out, in, r); }
+void store4_by_lanes(float* out, const float* in, Rounding r) {
+  RAINREF_DISPATCH(Store4Float)(out, in, r);
+}
 template <>
-void store4_by_lanes(Half* out, const float* in, Rounding r) { RAINREF_DISPATCH(Store4Half)(out, in, r); }
+void store4_by_lanes(Half* out, const float* in, Rounding r) {
+  RAINREF_DISPATCH(Store4Half)(out, in, r);
+}
 template <>
-void store4_by_lanes(Unorm8* out, const float* in, Rounding r) { RAINREF_DISPATCH(Store4Unorm8)(out, in, r); }
+void store4_by_lanes(Unorm8* out, const float* in, Rounding r) {
+  RAINREF_DISPATCH(Store4Unorm8)(out, in, r);
+}
 
 }  // namespace rainref::test
 #endif

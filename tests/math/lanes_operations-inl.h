@@ -25,8 +25,8 @@ RAINREF_FN auto loop_body(int round, const LoopState<N>& s) {
 }
 template <class N>
 RAINREF_FN N run_loop(N a, N b) {
-  const LoopState<N> end =
-      advance_while(100, LoopState<N>{fract(a), N(0.0f)}, a < b, [](int round, const LoopState<N>& s) RAINREF_LAMBDA { return loop_body<N>(round, s); });
+  const LoopState<N> end = advance_while(100, LoopState<N>{fract(a), N(0.0f)}, a < b,
+                                         [](int round, const LoopState<N>& s) RAINREF_LAMBDA { return loop_body<N>(round, s); });
   return end.x + end.rounds;
 }
 
@@ -35,7 +35,8 @@ RAINREF_FN N apply_operation(Operation operation, N a, N b, N c) {
   (void)b, (void)c;
   switch (operation) {
 #define RAINREF_CASE(name, domain, expression) \
-  case Operation::name: return expression;
+  case Operation::name:                        \
+    return expression;
     RAINREF_OPERATIONS(RAINREF_CASE)
 #undef RAINREF_CASE
   }

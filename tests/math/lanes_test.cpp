@@ -22,10 +22,15 @@ std::uint32_t hashed(std::uint32_t x) {
 }
 
 std::vector<float> tricky_values() {
-  std::vector<float> values = {0.0f, 0x1p-149f, 0x1.8p-148f, 0x1p-127f, 0x1.fffffcp-127f, 0x1p-126f, 0x1p-75f, 0x1p-64f, 1e-20f, 0x1p-25f,
-                               0x1p-24f, 0x1p-23f, 0.1f, 0.25f, 1.0f / 3, 0.4999999f, 0.5f, 2.5f, 3.5f, 0x1.921fb6p1f,
-                               100.0f, 127.5f, 255.0f, 65504.0f, 65520.0f, 0x1p22f, 0x1p22f + 0.5f, 0x1p23f - 0.5f, 0x1p23f, 0x1p23f + 1, 0x1p24f,
-                               0x1p31f, 0x1p32f, 0x1p52f, 0x1p63f, 0x1p64f, 1e20f, 0x1p100f, 0x1p126f, 0x1p127f, 0x1.fffffep127f};
+  std::vector<float> values = {0.0f,           0x1p-149f,      0x1.8p-148f,    0x1p-127f, 0x1.fffffcp-127f,
+                               0x1p-126f,      0x1p-75f,       0x1p-64f,       1e-20f,    0x1p-25f,
+                               0x1p-24f,       0x1p-23f,       0.1f,           0.25f,     1.0f / 3,
+                               0.4999999f,     0.5f,           2.5f,           3.5f,      0x1.921fb6p1f,
+                               100.0f,         127.5f,         255.0f,         65504.0f,  65520.0f,
+                               0x1p22f,        0x1p22f + 0.5f, 0x1p23f - 0.5f, 0x1p23f,   0x1p23f + 1,
+                               0x1p24f,        0x1p31f,        0x1p32f,        0x1p52f,   0x1p63f,
+                               0x1p64f,        1e20f,          0x1p100f,       0x1p126f,  0x1p127f,
+                               0x1.fffffep127f};
   for (int n = 1; n <= 16; ++n) {  // whole numbers and their neighbours
     for (const int ulps : {-1, 0, 1}) values.push_back(moved(static_cast<float>(n), ulps));
   }

@@ -81,7 +81,9 @@ TEST(Beer, IsExponentialAndMultiplies) {
 }
 
 template <class N>
-auto srgb(N x) { return readings::encode_srgb(readings::Vec3<N>(N(0.5f), x, N(1.0f))).y.v; }
+auto srgb(N x) {
+  return readings::encode_srgb(readings::Vec3<N>(N(0.5f), x, N(1.0f))).y.v;
+}
 
 TEST(Srgb, IsTheCurveOfTheStandard) {
   for (int k = 0; k <= 4000; ++k) {

@@ -35,9 +35,8 @@ inline enclosed::Profile read_profile(const std::string& name) {
                                                     {"sin_cos", &p.sin_cos},
                                                     {"atan2", &p.atan2},
                                                     {"unorm_load", &p.unorm_load}};
-  const std::map<std::string, bool*> flags{{"contraction", &p.contraction},
-                                           {"sqrt_is_inherited", &p.sqrt_is_inherited},
-                                           {"pow_is_inherited", &p.pow_is_inherited}};
+  const std::map<std::string, bool*> flags{
+      {"contraction", &p.contraction}, {"sqrt_is_inherited", &p.sqrt_is_inherited}, {"pow_is_inherited", &p.pow_is_inherited}};
   const std::map<std::string, int*> counts{
       {"subtexel_bits", &p.subtexel_bits}, {"coordinate_bits", &p.coordinate_bits}, {"lod_bits", &p.lod_bits}};
   const std::map<std::string, double*> numbers{{"sin_cos_domain", &p.sin_cos_domain},
@@ -73,8 +72,7 @@ inline enclosed::Profile read_profile(const std::string& name) {
     std::map<std::string, std::string> values;
     std::string rest = m[2];
     for (std::smatch v; !rest.empty(); rest = v.suffix()) {
-      if (!std::regex_search(rest, v, pair, std::regex_constants::match_continuous))
-        throw std::runtime_error(path + ": " + line);
+      if (!std::regex_search(rest, v, pair, std::regex_constants::match_continuous)) throw std::runtime_error(path + ": " + line);
       values[v[1]] = v[2];
     }
     if (accuracies.count(key)) {
@@ -105,12 +103,10 @@ inline enclosed::Profile read_profile(const std::string& name) {
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) throw std::runtime_error(path + ": missing or too many: " + what);
   };
-  for (const char* key : {"half_store", "half_overflow", "unorm_store_ulp", "srgb_store_ulp"})
-    require(seen.count(key), key);
+  for (const char* key : {"half_store", "half_overflow", "unorm_store_ulp", "srgb_store_ulp"}) require(seen.count(key), key);
   if (p.reference) return p;
-  for (const char* key :
-       {"basic", "contraction", "flush", "division", "inverse_sqrt", "exp", "exp2", "log", "log2", "log_near_one",
-        "log2_near_one", "sin_cos", "atan2", "subtexel_bits", "coordinate_bits", "lod_bits", "unorm_load"}) {
+  for (const char* key : {"basic", "contraction", "flush", "division", "inverse_sqrt", "exp", "exp2", "log", "log2", "log_near_one",
+                          "log2_near_one", "sin_cos", "atan2", "subtexel_bits", "coordinate_bits", "lod_bits", "unorm_load"}) {
     require(seen.count(key), key);
   }
   require(seen.count("sqrt") + seen.count("sqrt_is_inherited") == 1, "sqrt or sqrt_is_inherited");

@@ -38,8 +38,7 @@ inline float flushed(float x) {
 /// Either neighbour of an inexact result, or the nearest.
 inline float rounded(Wide exact) {
   float f = static_cast<float>(exact);
-  if (rules().basic == enclosed::BasicRounding::either && exact != f && toss())
-    f = std::nextafter(f, exact > f ? INFINITY : -INFINITY);
+  if (rules().basic == enclosed::BasicRounding::either && exact != f && toss()) f = std::nextafter(f, exact > f ? INFINITY : -INFINITY);
   return flushed(f);
 }
 /// A float within the accuracy of the exact y; often one at its edge.
@@ -112,9 +111,7 @@ struct RandomGpu {
   friend RandomGpu max(RandomGpu a, RandomGpu b) { return exactly(std::max(a.v, b.v)); }
   friend RandomGpu abs(RandomGpu a) { return a.v < 0 ? -a : a; }
   friend RandomGpu square(RandomGpu a) { return a * a; }
-  friend RandomGpu inverse_sqrt(RandomGpu a) {
-    return exactly(perturbed(1 / std::sqrt(static_cast<double>(a.v)), rules().inverse_sqrt));
-  }
+  friend RandomGpu inverse_sqrt(RandomGpu a) { return exactly(perturbed(1 / std::sqrt(static_cast<double>(a.v)), rules().inverse_sqrt)); }
   friend RandomGpu sqrt(RandomGpu a) {
     if (a.v == 0) return a;
     if (rules().sqrt_is_inherited) return exactly(1.0f) / inverse_sqrt(a);
@@ -124,20 +121,15 @@ struct RandomGpu {
   friend RandomGpu fract(RandomGpu a) { return a - floor(a); }
   friend Int to_int(RandomGpu a) { return {static_cast<std::int32_t>(a.v)}; }
   friend RandomGpu to_number(Int a) { return index(a.i); }
-  friend RandomGpu mix(RandomGpu a, RandomGpu b, RandomGpu t) {
-    return toss() ? a * (exactly(1.0f) - t) + b * t : a + (b - a) * t;
-  }
+  friend RandomGpu mix(RandomGpu a, RandomGpu b, RandomGpu t) { return toss() ? a * (exactly(1.0f) - t) + b * t : a + (b - a) * t; }
 
   friend RandomGpu exp(RandomGpu a) { return exactly(perturbed(std::exp(static_cast<double>(a.v)), rules().exp, a.v)); }
-  friend RandomGpu exp2(RandomGpu a) {
-    return exactly(perturbed(std::exp2(static_cast<double>(a.v)), rules().exp2, a.v));
-  }
+  friend RandomGpu exp2(RandomGpu a) { return exactly(perturbed(std::exp2(static_cast<double>(a.v)), rules().exp2, a.v)); }
   friend RandomGpu log(RandomGpu a) {
     return exactly(perturbed(std::log(static_cast<double>(a.v)), near_one(a.v) ? rules().log_near_one : rules().log));
   }
   friend RandomGpu log2(RandomGpu a) {
-    return exactly(
-        perturbed(std::log2(static_cast<double>(a.v)), near_one(a.v) ? rules().log2_near_one : rules().log2));
+    return exactly(perturbed(std::log2(static_cast<double>(a.v)), near_one(a.v) ? rules().log2_near_one : rules().log2));
   }
   friend RandomGpu pow(RandomGpu x, RandomGpu y) {
     if (x.v == 0) return exactly(0.0f);
@@ -172,9 +164,7 @@ inline RandomGpu sum_any_order(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu 
   std::shuffle(x, x + 4, words());
   return toss() ? (x[0] + x[1]) + (x[2] + x[3]) : ((x[0] + x[1]) + x[2]) + x[3];
 }
-inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) {
-  return sum_any_order(a, b, c, d);
-}
+inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) { return sum_any_order(a, b, c, d); }
 inline RandomGpu uniform_quotient(float a, float b, RandomGpu) { return RandomGpu(a) / RandomGpu(b); }
 inline plain::Vec3<RandomGpu> normalize(const plain::Vec3<RandomGpu>& a) {
   const RandomGpu squared = plain::dot(a, a);

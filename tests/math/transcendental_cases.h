@@ -43,9 +43,7 @@ inline constexpr Case cases[] = {
 inline bool has_two_arguments(Function f) { return f == Function::pow || f == Function::atan2; }
 
 /// The float with these bits, or 1 in place of an infinity or a NaN.
-inline float finite_from_bits(std::uint32_t bits) {
-  return (bits & 0x7f800000u) == 0x7f800000u ? 1.0f : std::bit_cast<float>(bits);
-}
+inline float finite_from_bits(std::uint32_t bits) { return (bits & 0x7f800000u) == 0x7f800000u ? 1.0f : std::bit_cast<float>(bits); }
 
 /// The second argument that goes with the first argument of these bits.
 inline float second_argument(const Case& c, std::uint32_t bits) {
@@ -58,8 +56,7 @@ inline float second_argument(const Case& c, std::uint32_t bits) {
       return finite_from_bits(hash);
     case Second::alike: {  // sign and mantissa of the hash, an exponent at most 4 away, so that no angle is trivial
       const int exponent = static_cast<int>(bits >> 23 & 0xff) + static_cast<int>(hash >> 23 & 7) - 3;
-      return std::bit_cast<float>((hash & 0x807fffffu) | static_cast<std::uint32_t>(std::clamp(exponent, 0, 254))
-                                                             << 23);
+      return std::bit_cast<float>((hash & 0x807fffffu) | static_cast<std::uint32_t>(std::clamp(exponent, 0, 254)) << 23);
     }
     case Second::moderate:
       return static_cast<float>(static_cast<int>(hash >> 8) - (1 << 23)) * 0x1p-20f;

@@ -108,8 +108,8 @@ Accuracy measure(const Case& c, const Options& options) {
   Accuracy accuracy;
   std::mutex mutex;
   for_blocks(options, [&] {
-    return [&, in = Inputs(), out = std::vector<float>(block_size), oracle = std::make_unique<MpfrOracle>()](
-               std::uint64_t, std::uint64_t first) mutable {
+    return [&, in = Inputs(), out = std::vector<float>(block_size), oracle = std::make_unique<MpfrOracle>()](std::uint64_t,
+                                                                                                             std::uint64_t first) mutable {
       in.fill(c, first, options.stride);
       run_array(c.function, in.a, in.b, out.data());
       for (std::size_t i = 0; i < block_size; ++i) {
@@ -121,8 +121,8 @@ Accuracy measure(const Case& c, const Options& options) {
         ++accuracy.not_nearest;
         accuracy.worst_ulp = std::max(accuracy.worst_ulp, error);
         if (accuracy.examples.size() < 40) {
-          accuracy.examples.push_back(fmt::format("f({:a}, {:a}) = {:a}, correct {:a}, {:.9f} ULP", in.a[i], in.b[i],
-                                                  out[i], reference, error));
+          accuracy.examples.push_back(
+              fmt::format("f({:a}, {:a}) = {:a}, correct {:a}, {:.9f} ULP", in.a[i], in.b[i], out[i], reference, error));
         }
       }
     };
@@ -142,8 +142,8 @@ auto timed(double& seconds, F f) {
 bool check_accuracy(const Case& c, const Options& options) {
   double seconds = 0;
   const Accuracy accuracy = timed(seconds, [&] { return measure(c, options); });
-  fmt::print("{:13} accuracy: {} not nearest (documented {}), at most {:.9f} ULP, {:.0f} s\n", c.name,
-             accuracy.not_nearest, c.not_nearest, accuracy.worst_ulp, seconds);
+  fmt::print("{:13} accuracy: {} not nearest (documented {}), at most {:.9f} ULP, {:.0f} s\n", c.name, accuracy.not_nearest, c.not_nearest,
+             accuracy.worst_ulp, seconds);
   for (const std::string& example : accuracy.examples) fmt::print("    {}\n", example);
   return accuracy.not_nearest <= c.not_nearest && accuracy.worst_ulp <= 1;
 }
@@ -161,9 +161,8 @@ bool check_bits(const Case& c, const Options& options) {
   Hasher all;
   for (const Hash128& hash : best) all.add(hash.text());
   const bool equal = best == scalar && best == plain;
-  fmt::print("{:13} bits: {}, hash {}, {} {:.0f} s, {} {:.0f} s, plain {:.0f} s\n", c.name, equal ? "equal" : "DIFFER",
-             all.finish().text(), hwy::TargetName(targets.front()), best_s, hwy::TargetName(targets.back()), scalar_s,
-             plain_s);
+  fmt::print("{:13} bits: {}, hash {}, {} {:.0f} s, {} {:.0f} s, plain {:.0f} s\n", c.name, equal ? "equal" : "DIFFER", all.finish().text(),
+             hwy::TargetName(targets.front()), best_s, hwy::TargetName(targets.back()), scalar_s, plain_s);
   for (std::size_t i = 0; i < best.size(); ++i) {
     if (best[i] == scalar[i] && best[i] == plain[i]) continue;
     fmt::print("    first difference in block {} of {} floats, stride {}\n", i, block_size, options.stride);

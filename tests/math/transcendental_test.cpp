@@ -193,8 +193,7 @@ TEST_P(Transcendental, IsGoodInDouble) {
     const double fraction = std::fmod(i * 0x1.9e3779b97f4a7p-1, 1.0);
     // Small enough that nothing saturates; the angles reach far beyond the split at 2^22.
     const bool angle = c.function == Function::sin || c.function == Function::cos;
-    const double a = std::ldexp(1 + fraction, angle ? i % 60 - 20 : i % 26 - 20),
-                 b = c.function == Function::pow ? 2.2 : a - 3;
+    const double a = std::ldexp(1 + fraction, angle ? i % 60 - 20 : i % 26 - 20), b = c.function == Function::pow ? 2.2 : a - 3;
     double got = 0;
     switch (c.function) {
       case Function::exp:
@@ -346,8 +345,7 @@ TEST(TranscendentalShape, Identities) {
     const float x = finite_from_bits(static_cast<std::uint32_t>(i));
     const double s = sin_float(x), c = cos_float(x);
     ASSERT_NEAR(s * s + c * c, 1, 0x1p-23) << x;
-    ASSERT_NEAR(atan2_float(sin_float(x), cos_float(x)), std::atan2(std::sin(double{x}), std::cos(double{x})), 0x1p-22)
-        << x;
+    ASSERT_NEAR(atan2_float(sin_float(x), cos_float(x)), std::atan2(std::sin(double{x}), std::cos(double{x})), 0x1p-22) << x;
     if (x > 0) {
       // The rounding of the logarithm, at most 103 in size, is an absolute error of the exponent.
       ASSERT_NEAR(exp_float(log_float(x)), x, x * 0x1p-17 + smallest) << x;

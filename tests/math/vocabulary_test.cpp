@@ -16,8 +16,8 @@ constexpr double pi = 3.14159265358979323846;
 V vector(double x, double y, double z) { return V(D(x), D(y), D(z)); }
 
 TEST(Floor, IsTheLargestWholeNumberNotAboveWithAPositiveZero) {
-  for (const float x : {0.0f, -0.0f, 0.5f, -0.5f, 1.0f, -1.0f, 1.9999999f, -1.0000001f, 0x1p-149f, -0x1p-149f, 8388607.5f, -8388607.5f, 0x1p23f,
-                        -0x1p23f, 0x1p30f, 0x1.fffffep127f, -0x1.fffffep127f}) {
+  for (const float x : {0.0f, -0.0f, 0.5f, -0.5f, 1.0f, -1.0f, 1.9999999f, -1.0000001f, 0x1p-149f, -0x1p-149f, 8388607.5f, -8388607.5f,
+                        0x1p23f, -0x1p23f, 0x1p30f, 0x1.fffffep127f, -0x1.fffffep127f}) {
     EXPECT_EQ(floor(F(x)).v, std::floor(x)) << x;
     EXPECT_EQ(std::signbit(floor(F(x)).v), std::floor(x) < 0) << x;
     EXPECT_EQ(floor(D(double{x})).v, std::floor(double{x})) << x;

@@ -12,7 +12,6 @@
 namespace rainref::night_street {
 namespace {
 
-
 const Street& street() {
   static const Street one({1});
   return one;
@@ -35,10 +34,8 @@ TEST(NightStreet, HasTheSameBitsOnAnyNumberOfThreadsInAnyOrder) {
     for (const std::uint64_t shuffle : {0u, 1u, 977u}) {
       parallel::Executor executor(threads);
       executor.shuffle_tiles(shuffle);
-      EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), panorama)
-          << threads << " threads, shuffle " << shuffle;
-      EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), view)
-          << threads << " threads, shuffle " << shuffle;
+      EXPECT_EQ(hash_of(street().panorama(96, 48, puddle_eye, executor)), panorama) << threads << " threads, shuffle " << shuffle;
+      EXPECT_EQ(hash_of(street().view(driver(), 96, 54, 400, executor)), view) << threads << " threads, shuffle " << shuffle;
     }
   }
 }
@@ -59,8 +56,7 @@ TEST(NightStreet, AClearLaneHasNoCarAndNothingElseChanges) {
 
 TEST(NightStreet, IsAnotherStreetForAnotherSeed) {
   const parallel::Executor executor(2);
-  const Image a = street().panorama(64, 32, puddle_eye, executor),
-              b = Street({2}).panorama(64, 32, puddle_eye, executor);
+  const Image a = street().panorama(64, 32, puddle_eye, executor), b = Street({2}).panorama(64, 32, puddle_eye, executor);
   int different = 0;
   for (int y = 16; y < 32; ++y) {  // above the horizon, where the houses are
     for (int x = 0; x < 64; ++x) {
@@ -77,8 +73,7 @@ TEST(NightStreet, RadianceIsFiniteAndNotNegativeAndAlphaIsOne) {
     for (int y = 0; y < image->height(); ++y) {
       for (int x = 0; x < image->width(); ++x) {
         const float* texel = image->row<float>(y) + 4 * x;
-        for (int c = 0; c < 3; ++c)
-          ASSERT_TRUE(std::isfinite(texel[c]) && texel[c] >= 0) << x << ' ' << y << ' ' << texel[c];
+        for (int c = 0; c < 3; ++c) ASSERT_TRUE(std::isfinite(texel[c]) && texel[c] >= 0) << x << ' ' << y << ' ' << texel[c];
         ASSERT_EQ(texel[3], 1);
       }
     }
@@ -155,8 +150,7 @@ TEST(NightStreet, PanoramaHasNoSeam) {
   const Image& image = small_panorama();
   const int width = image.width();
   double nearby = 0;
-  for (int i = 0; i < 8; ++i)
-    nearby += (column_step(image, i, i + 1) + column_step(image, width - 2 - i, width - 1 - i)) / 16;
+  for (int i = 0; i < 8; ++i) nearby += (column_step(image, i, i + 1) + column_step(image, width - 2 - i, width - 1 - i)) / 16;
   EXPECT_LT(column_step(image, width - 1, 0), 2 * nearby);
 }
 
@@ -164,8 +158,7 @@ TEST(NightStreet, PanoramaPolesAreTheirDirections) {
   // All texels of the top row look almost straight up into the sky: one colour within the clouds of a degree.
   const Image& image = small_panorama();
   const float first = image.row<float>(image.height() - 1)[2];
-  for (int x = 0; x < image.width(); ++x)
-    EXPECT_NEAR(image.row<float>(image.height() - 1)[4 * x + 2], first, 0.05f * first);
+  for (int x = 0; x < image.width(); ++x) EXPECT_NEAR(image.row<float>(image.height() - 1)[4 * x + 2], first, 0.05f * first);
 }
 
 TEST(NightStreet, PanoramaAndViewAgree) {
@@ -187,16 +180,13 @@ TEST(NightStreet, PanoramaAndViewAgree) {
         }
       }
       if (high > 1.08f * low) continue;
-      const double azimuth = 2 * pi * ((x + 0.5) / image.width() - 0.5),
-                   elevation = pi * ((y + 0.5) / image.height() - 0.5);
-      const scene::Vector3 direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-                                     std::cos(elevation) * std::sin(azimuth)};
+      const double azimuth = 2 * pi * ((x + 0.5) / image.width() - 0.5), elevation = pi * ((y + 0.5) / image.height() - 0.5);
+      const scene::Vector3 direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation), std::cos(elevation) * std::sin(azimuth)};
       const scene::Camera camera{puddle_eye, puddle_eye + direction, {0, 1, 0}, 10};
       const Street::View view = street().view(camera, 1, 1, 400, executor);
       for (int c = 0; c < 3; ++c) {
         const float from_panorama = image.row<float>(y)[4 * x + c];
-        EXPECT_NEAR(view.colour.row<float>(0)[c], from_panorama, 0.08f * from_panorama)
-            << x << ' ' << y << " channel " << c;
+        EXPECT_NEAR(view.colour.row<float>(0)[c], from_panorama, 0.08f * from_panorama) << x << ' ' << y << " channel " << c;
       }
       ++judged;
     }
@@ -233,13 +223,10 @@ TEST(NightStreet, NothingOutshinesTheLamps) {
   for (int y = image.height() / 2; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       if (image.row<float>(y)[4 * x] < 16) continue;
-      const double azimuth = 2 * pi * ((x + 0.5) / image.width() - 0.5),
-                   elevation = pi * ((y + 0.5) / image.height() - 0.5);
-      const scene::Vector3 direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
-                                     std::cos(elevation) * std::sin(azimuth)};
+      const double azimuth = 2 * pi * ((x + 0.5) / image.width() - 0.5), elevation = pi * ((y + 0.5) / image.height() - 0.5);
+      const scene::Vector3 direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation), std::cos(elevation) * std::sin(azimuth)};
       double best = -1;
-      for (const Lamp& lamp : street().lamps())
-        best = std::max(best, glm::dot(direction, scene::normalized(lamp.position - puddle_eye)));
+      for (const Lamp& lamp : street().lamps()) best = std::max(best, glm::dot(direction, scene::normalized(lamp.position - puddle_eye)));
       EXPECT_GT(best, std::cos(2.5 * 2 * pi / image.width())) << x << ' ' << y;
     }
   }

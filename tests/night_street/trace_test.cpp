@@ -34,8 +34,7 @@ TEST(NightStreetTrace, HierarchyFindsWhatASearchOfAllSolidsFinds) {
     double by_hierarchy = 1e9;
     city().hierarchy.walk(ray, by_hierarchy, [&](int index, double& limit) {
       SolidHit hit;
-      if (intersect(city().solids[static_cast<std::size_t>(index)], city().planes, ray, 1e-9, limit, hit))
-        limit = hit.t;
+      if (intersect(city().solids[static_cast<std::size_t>(index)], city().planes, ray, 1e-9, limit, hit)) limit = hit.t;
     });
     ASSERT_EQ(by_hierarchy, nearest) << "ray " << i;
     met += nearest < 1e9;
@@ -49,8 +48,7 @@ TEST(NightStreetTrace, BuildingWalkFindsWhatASearchOfAllLotsFinds) {
     const Hit hit = trace(city(), ray);
     for (int side = 0; side < 2; ++side) {
       for (const Lot& lot : city().lots[static_cast<std::size_t>(side)]) {
-        const Box box{{side == 0 ? -plan::back : lot.front, 0, lot.z0},
-                      {side == 0 ? -lot.front : plan::back, lot.height, lot.z1}};
+        const Box box{{side == 0 ? -plan::back : lot.front, 0, lot.z0}, {side == 0 ? -lot.front : plan::back, lot.height, lot.z1}};
         double t = 0;
         if (!crosses(box, ray, 1e9, t) || t <= 0) continue;
         ASSERT_TRUE(hit.is_surface() && hit.t <= t) << "ray " << i << " passes a building of side " << side;
@@ -78,12 +76,11 @@ TEST(NightStreetTrace, HitsLieOnTheirSolidsAndFaceTheRay) {
 TEST(NightStreetTrace, RayThatStartsAnywhereHasASoundRadiance) {
   for (std::uint64_t i = 0; i < 20000; ++i) {
     Ray ray = some_ray(i);
-    if (i % 4 == 0) ray = Ray(20.0 * ray.origin, ray.direction);               // far outside, or in a house
+    if (i % 4 == 0) ray = Ray(20.0 * ray.origin, ray.direction);             // far outside, or in a house
     if (i % 4 == 1) ray = Ray(ray.origin, {0, 0, i % 8 == 1 ? 1.0 : -1.0});  // along an axis
     if (i % 4 == 2) ray = Ray(ray.origin, {0, i % 8 == 2 ? 1.0 : -1.0, 0});
     const Vec radiance = look(city(), ray).radiance;
-    ASSERT_TRUE(radiance.x >= 0 && radiance.y >= 0 && radiance.z >= 0 && radiance.x < 1e4 && radiance.y < 1e4 &&
-                radiance.z < 1e4)
+    ASSERT_TRUE(radiance.x >= 0 && radiance.y >= 0 && radiance.z >= 0 && radiance.x < 1e4 && radiance.y < 1e4 && radiance.z < 1e4)
         << "ray " << i << ": " << radiance.x << ' ' << radiance.y << ' ' << radiance.z;
   }
 }

@@ -27,7 +27,8 @@ Settings small() {
 Image ramp(Format format, float low) {
   Image image(format, width, height);
   for (int y = 0; y < height; ++y) {
-    for (int i = 0; i < width * image.channels(); ++i) image.row<float>(y)[i] = low * (1 + static_cast<float>(i) / static_cast<float>(width * image.channels()));
+    for (int i = 0; i < width * image.channels(); ++i)
+      image.row<float>(y)[i] = low * (1 + static_cast<float>(i) / static_cast<float>(width * image.channels()));
   }
   return image;
 }

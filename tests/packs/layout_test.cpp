@@ -77,7 +77,8 @@ class Layout : public testing::TestWithParam<const char*> {
     }
     for (const auto& [path, manifest] : packs) {
       for (const ordered_json& c : manifest["cases"]) {
-        const auto pass = std::find_if(manifest["passes"].begin(), manifest["passes"].end(), [&](const ordered_json& p) { return p["name"] == c["pass"]; });
+        const auto pass = std::find_if(manifest["passes"].begin(), manifest["passes"].end(),
+                                       [&](const ordered_json& p) { return p["name"] == c["pass"]; });
         if ((*pass)["uniform_block"]["name"] != name) continue;
         const std::string bytes = contents(path / c["uniform_block"]["file"].get<std::string>());
         ASSERT_EQ(static_cast<int>(bytes.size()), found.size);
@@ -111,8 +112,10 @@ class Layout : public testing::TestWithParam<const char*> {
       const std::size_t a = line.find(' '), b = line.rfind(' ');
       const std::string member = line.substr(a + 1, b - a - 1);
       const int value = std::atoi(line.c_str() + b + 1);
-      if (member == "=") found[line.substr(0, a)].size = value;
-      else found[line.substr(0, a)].of[member] = value;
+      if (member == "=")
+        found[line.substr(0, a)].size = value;
+      else
+        found[line.substr(0, a)].of[member] = value;
     }
     for (const bool records : {false, true}) {
       for (const auto& [name, layout] : layouts(records)) expect_agrees(layout, found[name]);
@@ -121,8 +124,10 @@ class Layout : public testing::TestWithParam<const char*> {
   /// Offsets from glslang's reflection: "drops[0].x: offset 0, type ...", and the size of the block.
   Offsets reflected(const std::string& file, const std::string& options, const std::string& block, bool is_record) const {
     Offsets out;
-    static const std::regex member("([A-Za-z0-9_]+): offset ([0-9]+), .*"), whole("([A-Za-z0-9_]+): offset -1, type [0-9a-f]+, size ([0-9]+), .*");
-    for (std::string line : lines_of(output(fmt::format("glslangValidator {} -l -q --reflect-all-block-variables -S comp {}", options, file)))) {
+    static const std::regex member("([A-Za-z0-9_]+): offset ([0-9]+), .*"),
+        whole("([A-Za-z0-9_]+): offset -1, type [0-9a-f]+, size ([0-9]+), .*");
+    for (std::string line :
+         lines_of(output(fmt::format("glslangValidator {} -l -q --reflect-all-block-variables -S comp {}", options, file)))) {
       std::smatch m;
       if (std::regex_match(line, m, whole)) {
         if (m[1] == block) out.size = std::stoi(m[2]);
@@ -152,7 +157,8 @@ class Layout : public testing::TestWithParam<const char*> {
   std::vector<std::pair<std::filesystem::path, ordered_json>> packs;
 };
 
-INSTANTIATE_TEST_SUITE_P(Effects, Layout, testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"), [](const auto& effect) { return std::string(effect.param); });
+INSTANTIATE_TEST_SUITE_P(Effects, Layout, testing::Values("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"),
+                         [](const auto& effect) { return std::string(effect.param); });
 
 TEST_P(Layout, C) {
   put(folder / "a.c", printing_program(described("c")));
@@ -164,7 +170,9 @@ TEST_P(Layout, C) {
 TEST_P(Layout, CudaTextInCpp) {
   std::string vectors;
   for (const auto& [name, of] : {std::pair("float", "float"), std::pair("int", "int"), std::pair("uint", "unsigned int")}) {
-    vectors += fmt::format("struct alignas(8) {0}2 {{ {1} x, y; }};\nstruct {0}3 {{ {1} x, y, z; }};\nstruct alignas(16) {0}4 {{ {1} x, y, z, w; }};\n", name, of);
+    vectors += fmt::format(
+        "struct alignas(8) {0}2 {{ {1} x, y; }};\nstruct {0}3 {{ {1} x, y, z; }};\nstruct alignas(16) {0}4 {{ {1} x, y, z, w; }};\n", name,
+        of);
   }
   put(folder / "a.cpp", printing_program(vectors + described("cuda")));
   output(fmt::format("{} -x c++ -std=c++17 -Wall -Wextra -Werror -o program a.cpp", RAINREF_CXX_COMPILER));
@@ -184,8 +192,10 @@ TEST_P(Layout, Glsl) {
   for (const bool records : {false, true}) {
     for (const auto& [name, layout] : layouts(records)) {
       const std::string use = records ? snake(name) + "s[1]" : snake(name);
-      put(folder / "a.comp", fmt::format("#version 450\n{}layout(std430, binding = 9) buffer Out {{ float result; }};\nvoid main() {{ result = float({}.{}); }}\n", section(text, name), use,
-                                         first_member(layout)));
+      put(folder / "a.comp",
+          fmt::format(
+              "#version 450\n{}layout(std430, binding = 9) buffer Out {{ float result; }};\nvoid main() {{ result = float({}.{}); }}\n",
+              section(text, name), use, first_member(layout)));
       expect_agrees(layout, reflected("a.comp", "", records ? name + "Buffer" : name, records));
     }
   }
@@ -197,7 +207,10 @@ TEST_P(Layout, Hlsl) {
   for (const bool records : {false, true}) {
     for (const auto& [name, layout] : layouts(records)) {
       const std::string use = records ? fmt::format("{}s[1].{}", snake(name), first_member(layout)) : first_member(layout);
-      put(folder / "a.hlsl", fmt::format("{}RWStructuredBuffer<float> result : register(u0);\n[numthreads(1, 1, 1)] void main() {{ result[0] = float({}); }}\n", section(text, name), use));
+      put(folder / "a.hlsl",
+          fmt::format(
+              "{}RWStructuredBuffer<float> result : register(u0);\n[numthreads(1, 1, 1)] void main() {{ result[0] = float({}); }}\n",
+              section(text, name), use));
       expect_agrees(layout, reflected("a.hlsl", "-V -o a.spv -D -e main", records ? snake(name) + "s" : name, records));
     }
   }

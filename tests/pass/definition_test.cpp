@@ -38,9 +38,12 @@ Image noise(Format format, int width, int height, unsigned seed) {
   for (int y = 0; y < height; ++y) {
     for (int i = 0; i < width * image.channels(); ++i) {
       const float value = static_cast<float>(words() >> 8) * 0x1p-24f;
-      if constexpr (std::is_same_v<Storage, Half>) image.row<Half>(y)[i] = to_half(value);
-      else if constexpr (std::is_same_v<Storage, Unorm8>) image.row<Unorm8>(y)[i] = to_unorm8(value);
-      else image.row<float>(y)[i] = value;
+      if constexpr (std::is_same_v<Storage, Half>)
+        image.row<Half>(y)[i] = to_half(value);
+      else if constexpr (std::is_same_v<Storage, Unorm8>)
+        image.row<Unorm8>(y)[i] = to_unorm8(value);
+      else
+        image.row<float>(y)[i] = value;
     }
   }
   return image;
@@ -56,8 +59,15 @@ struct Pane {
   ShineUniforms shine{0.9f, 0.4f, 1, 0};
 
   Pane(int w, int h)
-      : width(w), height(h), heights(noise<Half>(Format::r16f, w, h, 1)), mask(noise<Unorm8>(Format::r8, w, h, 2)), tint(noise<Half>(Format::rgba16f, w, h, 3)), thickness(Format::r32f, w, h),
-        picture(Format::rgba8, w, h), thick(Format::r8, w, h), sky({0.5f, 0.75f, 0.25f, 1.0f}, 4, 1, 1, Address::clamp, Address::clamp) {}
+      : width(w),
+        height(h),
+        heights(noise<Half>(Format::r16f, w, h, 1)),
+        mask(noise<Unorm8>(Format::r8, w, h, 2)),
+        tint(noise<Half>(Format::rgba16f, w, h, 3)),
+        thickness(Format::r32f, w, h),
+        picture(Format::rgba8, w, h),
+        thick(Format::r8, w, h),
+        sky({0.5f, 0.75f, 0.25f, 1.0f}, 4, 1, 1, Address::clamp, Address::clamp) {}
 
   pass::HostIo<GrowPass> grow_io(bool corrected) {
     pass::HostIo<GrowPass> io;
@@ -117,7 +127,9 @@ TEST(Definition, LanesGiveTheBitsOfLoopsWrittenByHand) {
               ASSERT_EQ(p.thickness.row<float>(y)[x], t) << target << ' ' << width << ": " << x << ", " << y;
               if (!corrected) continue;
               for (int c = 0; c < 3; ++c)
-                ASSERT_EQ(p.picture.row<Unorm8>(y)[4 * x + c].code, to_unorm8(v * p.sky.view().texels[c] * to_float(p.tint.row<Half>(y)[4 * x + c]), rounding).code) << target << ' ' << width;
+                ASSERT_EQ(p.picture.row<Unorm8>(y)[4 * x + c].code,
+                          to_unorm8(v * p.sky.view().texels[c] * to_float(p.tint.row<Half>(y)[4 * x + c]), rounding).code)
+                    << target << ' ' << width;
               ASSERT_EQ(p.picture.row<Unorm8>(y)[4 * x + 3].code, 255);
               ASSERT_EQ(p.thick.row<Unorm8>(y)[x].code, v >= p.shine.threshold ? 255 : 0);
             }
@@ -133,9 +145,13 @@ capture::EffectInfo frost() {
   capture::EffectInfo info;
   info.name = "frost";
   info.passes = {pass::info_of<GrowPass>(), pass::info_of<ShinePass>()};
-  info.records = {scene::record<Seed>("Seed", {scene::member<&Seed::column>("column", "texel", "Of the crystal."), scene::member<&Seed::strength>("strength", "mm", "There.")})};
-  info.buffers = {{"height", "r16f", "Of the glass."}, {"mask", "r8", "Where ice may be."}, {"seeds", "records", "Crystals.", "1", {0, 1}, "none", "none", "none", "", "Seed", "corrected"},
-                  {"sky", "rgba32f", "Radiance."}, {"tint", "rgba16f", "Of the ice."}};
+  info.records = {scene::record<Seed>("Seed", {scene::member<&Seed::column>("column", "texel", "Of the crystal."),
+                                               scene::member<&Seed::strength>("strength", "mm", "There.")})};
+  info.buffers = {{"height", "r16f", "Of the glass."},
+                  {"mask", "r8", "Where ice may be."},
+                  {"seeds", "records", "Crystals.", "1", {0, 1}, "none", "none", "none", "", "Seed", "corrected"},
+                  {"sky", "rgba32f", "Radiance."},
+                  {"tint", "rgba16f", "Of the ice."}};
   for (const capture::BufferInfo& b : pass::buffers_of<GrowPass>()) info.buffers.push_back(b);
   for (const capture::BufferInfo& b : pass::buffers_of<ShinePass>()) info.buffers.push_back(b);
   return info;
@@ -143,7 +159,9 @@ capture::EffectInfo frost() {
 std::vector<capture::PassCase> captured(Pane& p, bool corrected, Rounding rounding = Rounding::rne) {
   static const capture::EffectInfo info = frost();
   std::vector<capture::PassCase> cases;
-  capture::CaptureRecorder recorder(info, corrected ? "corrected" : "as-published", true, [](int, std::string_view) { return true; }, [&](capture::PassCase c) { cases.push_back(std::move(c)); });
+  capture::CaptureRecorder recorder(
+      info, corrected ? "corrected" : "as-published", true, [](int, std::string_view) { return true; },
+      [&](capture::PassCase c) { cases.push_back(std::move(c)); });
   p.frame(parallel::Executor(2), corrected, rounding, &recorder);
   for (const capture::PassCase& c : cases) {
     capture::check_case(info, {}, c);
@@ -294,7 +312,8 @@ TEST(Definition, ARunWithoutItsImagesIsRefused) {
   EXPECT_EQ(refused(io, true), "grow: mask has another format");
   EXPECT_THROW(pass::Run<ShinePass>(p.shine, false, Rounding::rne, p.shine_io()), Error) << "as published there is none";
   p.grow.seed_count = 3;
-  EXPECT_EQ(refused(p.grow_io(true), true), "grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
+  EXPECT_EQ(refused(p.grow_io(true), true),
+            "grow: seeds does not fit: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
   p.grow.seed_count = 2;
   const Image narrow(Format::r8, 8, 5);
   io.mask = narrow;

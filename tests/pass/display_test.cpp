@@ -21,7 +21,8 @@ Image ramp(int width, int height) {
   Image image(Format::rgba16f, width, height);
   std::uint32_t i = 0;
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < 4 * width; ++x, ++i) image.row<Half>(y)[x].bits = static_cast<std::uint16_t>(i * 31 % 0x7c00u | (i % 97 == 0 ? 0x8000u : 0u));
+    for (int x = 0; x < 4 * width; ++x, ++i)
+      image.row<Half>(y)[x].bits = static_cast<std::uint16_t>(i * 31 % 0x7c00u | (i % 97 == 0 ? 0x8000u : 0u));
   }
   return image;
 }
@@ -59,7 +60,8 @@ TEST(Display, LanesAndTableGiveThePlainCodes) {
           for (int x = 0; x < width; ++x) {
             const Half* in = colour.row<Half>(y) + 4 * x;
             const auto c = every::display(u, plain::Vec3<F>(F::load(in), F::load(in + 1), F::load(in + 2)));
-            const int expected[4] = {to_unorm8(c.x.v, rounding).code, to_unorm8(c.y.v, rounding).code, to_unorm8(c.z.v, rounding).code, 255};
+            const int expected[4] = {to_unorm8(c.x.v, rounding).code, to_unorm8(c.y.v, rounding).code, to_unorm8(c.z.v, rounding).code,
+                                     255};
             for (int k = 0; k < 4; ++k) {
               ASSERT_EQ(rows.row<Unorm8>(y)[4 * x + k].code, expected[k]) << target << " " << width << ": " << x << "," << y;
               ASSERT_EQ(table.row<Unorm8>(y)[4 * x + k].code, expected[k]) << target << " " << width << ": " << x << "," << y;

@@ -21,7 +21,8 @@ struct GrowPass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("GrowUniforms", {member<&U::gain>("gain", "1", {0, 10}, "Of a difference of heights."), member<&U::rate>("rate", "1", {0, 10}, "corrected: of the height."),
+    return scene::uniform_block<U>("GrowUniforms", {member<&U::gain>("gain", "1", {0, 10}, "Of a difference of heights."),
+                                                    member<&U::rate>("rate", "1", {0, 10}, "corrected: of the height."),
                                                     member<&U::seed_count>("seed_count", "1", {0, 100}, "Seeds in the list.")});
   }
   template <class B>
@@ -29,8 +30,9 @@ struct GrowPass {
     typename B::template Texels<Format::r16f, 2> height = pass::In{.name = "height"};
     typename B::template Texels<Format::r8> mask = pass::In{.name = "mask"};
     typename B::template Records<Seed> seeds = pass::In{.name = "seeds", .variant = "corrected", .count = "seed_count"};
-    typename B::template Result<Format::r32f> thickness = {pass::Out{.name = "thickness", .sentence = "Of the ice, as printed.", .unit = "mm", .range = {-9, 9}},
-                                                           pass::Out{.name = "thickness", .sentence = "Of the ice.", .unit = "mm", .range = {-9, 9}}};
+    typename B::template Result<Format::r32f> thickness = {
+        pass::Out{.name = "thickness", .sentence = "Of the ice, as printed.", .unit = "mm", .range = {-9, 9}},
+        pass::Out{.name = "thickness", .sentence = "Of the ice.", .unit = "mm", .range = {-9, 9}}};
   };
 };
 
@@ -45,7 +47,8 @@ struct ShinePass {
   static scene::UniformBlock uniforms() {
     using scene::member;
     using U = Uniforms;
-    return scene::uniform_block<U>("ShineUniforms", {member<&U::scale>("scale", "1/mm", {0, 10}, "Radiance of a millimetre."), member<&U::threshold>("threshold", "1", {0, 1}, "From which it is thick."),
+    return scene::uniform_block<U>("ShineUniforms", {member<&U::scale>("scale", "1/mm", {0, 10}, "Radiance of a millimetre."),
+                                                     member<&U::threshold>("threshold", "1", {0, 1}, "From which it is thick."),
                                                      member<&U::has_tint>("has_tint", "1", scene::flag, "1: tint counts.")});
   }
   template <class B>
@@ -68,7 +71,8 @@ struct GrowPassText {
     const N slope = N(u.gain) * (io.height(-2, -1) - io.height(1, 2));
     if constexpr (corrected) {
       N t = slope * io.mask() + N(u.rate) * io.height();
-      for (int k = 0; k < u.seed_count; ++k) t = t + N(io.seeds.data()[k].strength) * max(N(1.0f) - abs(N::index(column) - N(io.seeds.data()[k].column)), N(0.0f));
+      for (int k = 0; k < u.seed_count; ++k)
+        t = t + N(io.seeds.data()[k].strength) * max(N(1.0f) - abs(N::index(column) - N(io.seeds.data()[k].column)), N(0.0f));
       io.thickness(t);
     } else {
       io.thickness(slope + io.mask());
@@ -79,7 +83,8 @@ struct ShinePassText {
   template <class N, bool, class Io>
   static RAINREF_FN void run(const ShineUniforms& u, const Io& io, int column, int row) {
     const N v = N(u.scale) * io.thickness();
-    const auto s = sample_bilinear<0, 3, N>(io.sky.template fixed<Address::clamp, Address::clamp, 4>(), N::index(column), N(static_cast<float>(row)));
+    const auto s =
+        sample_bilinear<0, 3, N>(io.sky.template fixed<Address::clamp, Address::clamp, 4>(), N::index(column), N(static_cast<float>(row)));
     Vec3<N> c = v * Vec3<N>(s[0], s[1], s[2]);
     if (u.has_tint != 0) c = c * io.tint.rgb();
     io.picture(c, N(1.0f));

@@ -46,8 +46,7 @@ TEST(Dds, EveryFormat) {
                         {9, Format::rgba16f},
                         {27, Format::rgba8_srgb},
                         {27, Format::rgba8}}) {
-    const std::string data =
-        texel.substr(0, info(c.format).texel_bytes()) + texel.substr(16 - info(c.format).texel_bytes());
+    const std::string data = texel.substr(0, info(c.format).texel_bytes()) + texel.substr(16 - info(c.format).texel_bytes());
     const Result r = read(DdsFile{.width = 1, .height = 2, .dxgi = c.dxgi}.with(data), image(c.format, 1, 2));
     EXPECT_EQ(r.level, data) << c.dxgi;
     EXPECT_THAT(r.notes, IsEmpty()) << c.dxgi;
@@ -57,15 +56,13 @@ TEST(Dds, EveryFormat) {
 TEST(Dds, BlueFirst) {
   EXPECT_EQ(read(DdsFile{.dxgi = 87}.with("bgra"), image(Format::rgba8, 1, 1)).level, "rgba");
   EXPECT_EQ(read(DdsFile{.dxgi = 91}.with("bgra"), image(Format::rgba8_srgb, 1, 1)).level, "rgba");
-  EXPECT_THAT(read(DdsFile{.dxgi = 88}.with("bgrx"), image(Format::rgba8, 1, 1)).level,
-              HasSubstr("expected 4 channels of rgba8, found 3"));
+  EXPECT_THAT(read(DdsFile{.dxgi = 88}.with("bgrx"), image(Format::rgba8, 1, 1)).level, HasSubstr("expected 4 channels of rgba8, found 3"));
   EXPECT_EQ(read(DdsFile{.width = 2, .dxgi = 88}.with("bgrxBGRX"), image(Format::rg8, 2, 1)).level, "rgRG");
 }
 
 TEST(Dds, OlderPixelFormats) {
   const std::string texel = "0123456789abcdef";
-  const std::vector<Format> floats{Format::r16f, Format::rg16f, Format::rgba16f,
-                                   Format::r32f, Format::rg32f, Format::rgba32f};
+  const std::vector<Format> floats{Format::r16f, Format::rg16f, Format::rgba16f, Format::r32f, Format::rg32f, Format::rgba32f};
   for (std::uint32_t i = 0; i < 6; ++i) {
     const std::string data = texel.substr(0, info(floats[i]).texel_bytes());
     EXPECT_EQ(read(DdsFile{.code = 111 + i}.with(data), image(floats[i], 1, 1)).level, data);
@@ -81,8 +78,7 @@ TEST(Dds, OlderPixelFormats) {
 TEST(Dds, EncodingIsALabel) {
   const Result r = read(DdsFile{.dxgi = 29}.with("rgba"), image(Format::rgba8, 1, 1));
   EXPECT_EQ(r.level, "rgba");
-  EXPECT_THAT(r.notes,
-              ElementsAre(HasSubstr("R8G8B8A8_UNORM_SRGB, the buffer is rgba8: the codes are taken as they are")));
+  EXPECT_THAT(r.notes, ElementsAre(HasSubstr("R8G8B8A8_UNORM_SRGB, the buffer is rgba8: the codes are taken as they are")));
   EXPECT_THAT(read(DdsFile{.dxgi = 28}.with("rgba"), image(Format::rgba8_srgb, 1, 1)).notes,
               ElementsAre(HasSubstr("R8G8B8A8_UNORM, the buffer is rgba8_srgb")));
 }
@@ -135,10 +131,8 @@ TEST(Dds, Refusals) {
   EXPECT_THAT(why({.dxgi = 61, .caps2 = 0x200}), HasSubstr("a cube"));
   EXPECT_THAT(why({.dxgi = 61, .caps2 = 0x200000}), HasSubstr("a volume"));
   EXPECT_THAT(why({.width = 0, .dxgi = 61}), HasSubstr("size 0x1"));
-  EXPECT_THAT(why({.width = 0xffffffff, .height = 0xffffffff, .dxgi = 2}),
-              HasSubstr("each side must be from 1 to 65536"));
-  EXPECT_THAT(why({.width = 65536, .height = 65536, .dxgi = 2}),
-              HasSubstr("needs 68719476736 bytes behind the header, found 1"));
+  EXPECT_THAT(why({.width = 0xffffffff, .height = 0xffffffff, .dxgi = 2}), HasSubstr("each side must be from 1 to 65536"));
+  EXPECT_THAT(why({.width = 65536, .height = 65536, .dxgi = 2}), HasSubstr("needs 68719476736 bytes behind the header, found 1"));
   EXPECT_THAT(why({.levels = 0xffffffff, .dxgi = 61}), HasSubstr("4294967295 mip levels"));
   EXPECT_THAT(why({.dxgi = 61}, ""), HasSubstr("truncated"));
   EXPECT_THAT(why({.dxgi = 61}, "xy"), HasSubstr("bytes too many"));
@@ -147,8 +141,7 @@ TEST(Dds, Refusals) {
   EXPECT_THAT(read("", r8).level, HasSubstr("empty file"));
   EXPECT_THAT(read("BM", r8).level, HasSubstr("not a DDS file"));
   EXPECT_THAT(read(DdsFile{.dxgi = 61}.with("x").replace(4, 1, "\x7d"), r8).level, HasSubstr("DDS header is not 124"));
-  EXPECT_THAT(read(DdsFile{.dxgi = 61}.with("x").replace(76, 1, "\x7d"), r8).level,
-              HasSubstr("pixel format is not 32"));
+  EXPECT_THAT(read(DdsFile{.dxgi = 61}.with("x").replace(76, 1, "\x7d"), r8).level, HasSubstr("pixel format is not 32"));
 }
 
 TEST(Dds, EveryTruncationIsRefused) {

@@ -24,11 +24,8 @@ const std::string texels = "abcdefghijklmnopqrstuvwx";
 TEST(Document, TheWriterInCpp) {
   Dump dump;
   const std::string folder = dump.path().string();
-  dump.file("main.cpp",
-            block("cpp") + "int main(int, char** a) { save_npy(a[1], \"" + texels + "\", 24, \"<f2\", 2, 3, 2); }\n");
-  ASSERT_EQ(run(std::string(RAINREF_CXX_COMPILER) + " -std=c++11 -Wall -Wextra -Werror " + folder + "/main.cpp -o " +
-                folder + "/main"),
-            0);
+  dump.file("main.cpp", block("cpp") + "int main(int, char** a) { save_npy(a[1], \"" + texels + "\", 24, \"<f2\", 2, 3, 2); }\n");
+  ASSERT_EQ(run(std::string(RAINREF_CXX_COMPILER) + " -std=c++11 -Wall -Wextra -Werror " + folder + "/main.cpp -o " + folder + "/main"), 0);
   ASSERT_EQ(run(folder + "/main " + folder + "/out.b.npy"), 0);
   EXPECT_EQ(dump.level(image(Format::rg16f, 3, 2)), texels);
 }

@@ -12,8 +12,8 @@ const capture::Array r8 = image(Format::r8, 1, 1);
 
 TEST(DumpFile, MissingFilesNameTheNearest) {
   Dump dump;
-  EXPECT_THAT(dump.refusal(r8), AllOf(HasSubstr(dump.path().string()),
-                                      HasSubstr("no 'out.b' as .npy, .exr, .dds, .png or .bin with .json")));
+  EXPECT_THAT(dump.refusal(r8),
+              AllOf(HasSubstr(dump.path().string()), HasSubstr("no 'out.b' as .npy, .exr, .dds, .png or .bin with .json")));
   EXPECT_THAT(dump.refusal(r8), Not(HasSubstr("did you mean")));
   dump.file("out.d.npy", "");
   EXPECT_THAT(dump.refusal(r8), HasSubstr("did you mean 'out.d.npy'?"));
@@ -38,8 +38,7 @@ TEST(DumpFile, RawBytesAndSidecarBelongTogether) {
 }
 
 TEST(DumpFile, LossyKindsAreRefusedWithTheReason) {
-  EXPECT_THAT(Dump().file("out.b.jpg", "x").refusal(r8),
-              HasSubstr("out.b.jpg': JPEG is lossy: no evidence of a buffer's values"));
+  EXPECT_THAT(Dump().file("out.b.jpg", "x").refusal(r8), HasSubstr("out.b.jpg': JPEG is lossy: no evidence of a buffer's values"));
   EXPECT_THAT(Dump().file("out.b.hdr", "x").refusal(r8), HasSubstr("8 bits and a shared exponent"));
   EXPECT_THAT(Dump().file("out.b.bmp", "x").refusal(r8), HasSubstr("RenderDoc makes RGB of R8"));
 }

@@ -73,8 +73,7 @@ TEST(NpyBuffer, MipLevelsAreFiles) {
   EXPECT_EQ(dump.level(expected, {}, 2), "c");
   EXPECT_THAT(dump.refusal(image(Format::r8, 5, 3, 4)), HasSubstr("no 'out.b.L3' as .npy"));
   dump.file("out.b.L1.npy", npy("'|u1'", "(2, 1)", "bb"));
-  EXPECT_THAT(dump.refusal(expected),
-              AllOf(HasSubstr("out.b.L1.npy': expected 2x1 texels, found 1x2"), HasSubstr("exchanged")));
+  EXPECT_THAT(dump.refusal(expected), AllOf(HasSubstr("out.b.L1.npy': expected 2x1 texels, found 1x2"), HasSubstr("exchanged")));
 }
 
 TEST(NpyBuffer, AFloatIsTakenForTheHalfThatItEquals) {
@@ -96,8 +95,7 @@ TEST(NpyBuffer, AFloatThatIsNoHalfIsRefused) {
   for (const float value : {0x1.000002p0f, 0x1.002p0f, 65520.0f, 0x1p-25f, 0.1f}) {
     Dump dump;
     dump.file("out.b.npy", npy("'<f4'", "(2, 2)", values<float>({1, 2, value, 4})));
-    EXPECT_THAT(dump.refusal(image(Format::r16f, 2, 2)),
-                AllOf(HasSubstr("texel x 0, y 1, channel r is"), HasSubstr("no half equals")));
+    EXPECT_THAT(dump.refusal(image(Format::r16f, 2, 2)), AllOf(HasSubstr("texel x 0, y 1, channel r is"), HasSubstr("no half equals")));
   }
 }
 
@@ -107,14 +105,12 @@ TEST(NpyBuffer, OtherTypesAreRefused) {
     dump.file("out.b.npy", npy(descr, "(2, 2)", std::string(4 * bytes, '\0')));
     return dump.refusal(image(format, 2, 2));
   };
-  EXPECT_THAT(refusal("'<f2'", 2, Format::r32f),
-              HasSubstr("expected r32f as floats, found halves: the exporter has rounded"));
+  EXPECT_THAT(refusal("'<f2'", 2, Format::r32f), HasSubstr("expected r32f as floats, found halves: the exporter has rounded"));
   EXPECT_THAT(refusal("'|u1'", 1, Format::r32f), HasSubstr("found 8-bit codes: the exporter has quantized"));
   EXPECT_THAT(refusal("'|u1'", 1, Format::r16f), HasSubstr("found 8-bit codes"));
   EXPECT_THAT(refusal("'<f4'", 4, Format::r8), HasSubstr("expected r8 as 8-bit codes, found floats"));
   EXPECT_THAT(refusal("'<u4'", 4, Format::r32f), HasSubstr("found 32-bit unsigned integers"));
-  EXPECT_THAT(refusal("'<f4'", 4, Format::r32ui),
-              HasSubstr("expected r32ui as 32-bit unsigned integers, found floats"));
+  EXPECT_THAT(refusal("'<f4'", 4, Format::r32ui), HasSubstr("expected r32ui as 32-bit unsigned integers, found floats"));
   EXPECT_THAT(refusal("'<f8'", 8, Format::r32f), HasSubstr("found '<f8'"));
   EXPECT_THAT(refusal("[('x', '<f4')]", 4, Format::r32f), HasSubstr("records; an image was expected"));
 }
@@ -131,8 +127,7 @@ TEST(NpyBuffer, OtherShapesAreRefused) {
   EXPECT_THAT(refusal("(2, 3, 5)", 30, Format::r8), HasSubstr("channels up to 4"));
   EXPECT_THAT(refusal("(2, 3, 0)", 0, Format::r8), HasSubstr("channels up to 4"));
   EXPECT_THAT(refusal("(0, 0)", 0, Format::r8), HasSubstr("expected 3x2 texels, found 0x0"));
-  EXPECT_THAT(refusal("(3, 2)", 6, Format::r8),
-              HasSubstr("expected 3x2 texels, found 2x3; width and height are exchanged"));
+  EXPECT_THAT(refusal("(3, 2)", 6, Format::r8), HasSubstr("expected 3x2 texels, found 2x3; width and height are exchanged"));
   EXPECT_THAT(refusal("(2, 3, 3)", 18, Format::rgba8), HasSubstr("expected 4 channels of rgba8, found 3"));
 }
 

@@ -21,8 +21,7 @@ ExrChannel halves(const std::string& name, int first) {
   return {name, ExrType::half, [=](int x, int y) { return raw(static_cast<std::uint16_t>(first + 16 * y + x)); }};
 }
 ExrChannel floats(const std::string& name, float first) {
-  return {name, ExrType::float32,
-          [=](int x, int y) { return raw(first + 16 * static_cast<float>(y) + static_cast<float>(x)); }};
+  return {name, ExrType::float32, [=](int x, int y) { return raw(first + 16 * static_cast<float>(y) + static_cast<float>(x)); }};
 }
 std::string read(const std::string& extension, const std::string& bytes, const capture::Array& expected) {
   Dump dump;
@@ -43,43 +42,31 @@ TEST(ExrDump, ChannelsByName) {
   const auto texel = [](int r, int g, int b, int a) {
     return values<std::uint16_t>({std::uint16_t(r), std::uint16_t(g), std::uint16_t(b), std::uint16_t(a)});
   };
-  const capture::Array rgba = image(Format::rgba16f, 1, 1), rg = image(Format::rg16f, 1, 1),
-                       r = image(Format::r16f, 1, 1);
-  EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("A", 4), halves("B", 3), halves("G", 2), halves("R", 1)}), rgba),
+  const capture::Array rgba = image(Format::rgba16f, 1, 1), rg = image(Format::rg16f, 1, 1), r = image(Format::r16f, 1, 1);
+  EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("A", 4), halves("B", 3), halves("G", 2), halves("R", 1)}), rgba), texel(1, 2, 3, 4));
+  EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("W", 4), halves("X", 1), halves("Y", 2), halves("Z", 3)}), rgba), texel(1, 2, 3, 4));
+  EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("a.A", 4), halves("a.B", 3), halves("a.G", 2), halves("a.R", 1)}), rgba),
             texel(1, 2, 3, 4));
-  EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("W", 4), halves("X", 1), halves("Y", 2), halves("Z", 3)}), rgba),
-            texel(1, 2, 3, 4));
-  EXPECT_EQ(
-      read("exr", exr({0, 0, 1, 1}, {halves("a.A", 4), halves("a.B", 3), halves("a.G", 2), halves("a.R", 1)}), rgba),
-      texel(1, 2, 3, 4));
   EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("U", 1), halves("V", 2)}), rg), texel(1, 2, 0, 0).substr(0, 4));
   EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("A", 2), halves("Y", 1)}), rg), texel(1, 2, 0, 0).substr(0, 4));
   EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("height", 1)}), r), texel(1, 0, 0, 0).substr(0, 2));
   EXPECT_EQ(read("exr", exr({0, 0, 1, 1}, {halves("Y", 1)}), r), texel(1, 0, 0, 0).substr(0, 2));
   EXPECT_THAT(read("exr", exr({0, 0, 1, 1}, {halves("height", 1), halves("velocity", 1)}), rg),
               HasSubstr("the order of channels height velocity cannot be told"));
-  EXPECT_THAT(read("exr", exr({0, 0, 1, 1}, {halves("G", 2), halves("n.X", 1)}), rg),
-              HasSubstr("several layers: G n.X"));
-  EXPECT_THAT(
-      read("exr", exr({0, 0, 1, 1}, {halves("A", 4), halves("B", 3), halves("G", 2), halves("R", 1), halves("Z", 1)}),
-           rgba),
-      HasSubstr("5 channels; expected 1 to 4"));
+  EXPECT_THAT(read("exr", exr({0, 0, 1, 1}, {halves("G", 2), halves("n.X", 1)}), rg), HasSubstr("several layers: G n.X"));
+  EXPECT_THAT(read("exr", exr({0, 0, 1, 1}, {halves("A", 4), halves("B", 3), halves("G", 2), halves("R", 1), halves("Z", 1)}), rgba),
+              HasSubstr("5 channels; expected 1 to 4"));
   EXPECT_THAT(read("exr", exr({0, 0, 1, 1}, {halves("B", 3), halves("G", 2), halves("R", 1)}), rgba),
               HasSubstr("expected 4 channels of rgba16f, found 3"));
 }
 
 TEST(ExrDump, FloatsAndIntegers) {
-  const ExrChannel odd{
-      "R", ExrType::float32, [](int x, int) {
-        return raw(x == 0 ? std::numeric_limits<float>::infinity() : std::bit_cast<float>(0xffc12345u));
-      }};
-  EXPECT_EQ(read("exr", exr({0, 0, 2, 1}, {odd}), image(Format::r32f, 2, 1)),
-            values<std::uint32_t>({0x7f800000u, 0xffc12345u}));
+  const ExrChannel odd{"R", ExrType::float32,
+                       [](int x, int) { return raw(x == 0 ? std::numeric_limits<float>::infinity() : std::bit_cast<float>(0xffc12345u)); }};
+  EXPECT_EQ(read("exr", exr({0, 0, 2, 1}, {odd}), image(Format::r32f, 2, 1)), values<std::uint32_t>({0x7f800000u, 0xffc12345u}));
   const ExrChannel ids{"id", ExrType::uint, [](int x, int) { return raw(0xfffffffeu + x); }};
-  EXPECT_EQ(read("exr", exr({0, 0, 2, 1}, {ids}), image(Format::r32ui, 2, 1)),
-            values<std::uint32_t>({0xfffffffeu, 0xffffffffu}));
-  EXPECT_THAT(read("exr", exr({0, 0, 2, 1}, {ids}), image(Format::r32f, 2, 1)),
-              HasSubstr("found 32-bit unsigned integers"));
+  EXPECT_EQ(read("exr", exr({0, 0, 2, 1}, {ids}), image(Format::r32ui, 2, 1)), values<std::uint32_t>({0xfffffffeu, 0xffffffffu}));
+  EXPECT_THAT(read("exr", exr({0, 0, 2, 1}, {ids}), image(Format::r32f, 2, 1)), HasSubstr("found 32-bit unsigned integers"));
   // A float file of a half buffer: exact or refused.
   EXPECT_EQ(read("exr", exr({0, 0, 2, 2}, {floats("R", 1)}), image(Format::r16f, 2, 2)),
             values<std::uint16_t>({0x3c00, 0x4000, 0x4c40, 0x4c80}));
@@ -103,9 +90,8 @@ TEST(ExrDump, RowsAsInTheFile) {
 }
 
 TEST(ExrDump, OurOwnWriter) {
-  const Image in = image_io::make_image(Format::rgba16f, 33, 17, [](int x, int y, int c) {
-    return Half{static_cast<std::uint16_t>(1000 * y + 10 * x + c)};
-  });
+  const Image in = image_io::make_image(Format::rgba16f, 33, 17,
+                                        [](int x, int y, int c) { return Half{static_cast<std::uint16_t>(1000 * y + 10 * x + c)}; });
   std::string bytes;
   for (int y = 0; y < 17; ++y) bytes.append(reinterpret_cast<const char*>(in.row_bytes(y)), 33 * 8);
   Dump dump;
@@ -120,8 +106,7 @@ TEST(ExrDump, EveryLosslessCompression) {
     for (int i = 0; i < 20; ++i) expected.push_back(static_cast<std::uint16_t>(0x3c01 + 100 * y + i / 4 + i % 4));
   }
   for (const std::string name : {"none", "rle", "zips", "zip", "piz", "tiled"}) {
-    const std::string file =
-        contents(std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds/exr" / (name + ".exr"));
+    const std::string file = contents(std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds/exr" / (name + ".exr"));
     ASSERT_NE(file, "");
     EXPECT_EQ(read("exr", file, image(Format::rgba16f, 5, 3)), values(expected)) << name;
   }
@@ -142,8 +127,7 @@ TEST(ExrDump, Refusals) {
   EXPECT_THAT(read("exr", std::string(good).replace(5, 1, "\x08"), r16f), HasSubstr("deep"));
   EXPECT_THAT(read("exr", std::string(good).replace(5, 1, "\x10"), r16f), HasSubstr("several parts"));
   EXPECT_THAT(read("exr", good, image(Format::r16f, 1, 2)), HasSubstr("expected 1x2 texels, found 2x1"));
-  EXPECT_THAT(read("exr", exr({0, 0, 2, 1}, {floats("R", 0)}), image(Format::rgba8, 2, 1)),
-              HasSubstr("expected 4 channels of rgba8"));
+  EXPECT_THAT(read("exr", exr({0, 0, 2, 1}, {floats("R", 0)}), image(Format::rgba8, 2, 1)), HasSubstr("expected 4 channels of rgba8"));
   EXPECT_THAT(read("exr", exr({0, 0, 2, 1}, {floats("R", 0)}), image(Format::r8, 2, 1)),
               HasSubstr("expected r8 as 8-bit codes, found floats"));
   EXPECT_THAT(read("exr", "", r16f), HasSubstr("empty file"));
@@ -151,8 +135,7 @@ TEST(ExrDump, Refusals) {
 }
 
 TEST(ExrDump, GiganticWindowsAreRefusedBeforeTheLibrarySeesThem) {
-  EXPECT_THAT(read("exr", exr({0, 0, 2147483647, 0}, {halves("R", 0)}), image(Format::r16f, 2, 1)),
-              HasSubstr("size 2147483647x0"));
+  EXPECT_THAT(read("exr", exr({0, 0, 2147483647, 0}, {halves("R", 0)}), image(Format::r16f, 2, 1)), HasSubstr("size 2147483647x0"));
   std::string wide = exr({0, 0, 1, 1}, {halves("R", 0)});
   for (const char* name : {"dataWindow", "displayWindow"})
     wide.replace(wide.find(name) + std::string(name).size() + 1 + 6 + 4 + 8, 4, little(0x7fffffff));
@@ -171,8 +154,7 @@ TEST(ExrDump, AttributesThatClaimMemoryAreRefused) {
               HasSubstr("tiles of 32768x32768; expected at most 2048"));
   EXPECT_THAT(read("exr", with("tiles", "tiledesc", little(8) + little(8) + '\1', 2), r16f),
               HasSubstr("mip levels in one EXR; save one file a level"));
-  EXPECT_THAT(read("exr", with("preview", "preview", little(0xffff) + little(0xffff)), r16f),
-              HasSubstr("an attribute of type preview"));
+  EXPECT_THAT(read("exr", with("preview", "preview", little(0xffff) + little(0xffff)), r16f), HasSubstr("an attribute of type preview"));
   EXPECT_THAT(read("exr", with("ids", "idmanifest", little(1)), r16f), HasSubstr("an attribute of type idmanifest"));
   // Others are nobody's business. (The texels cannot be read: their offsets do not know of the insertion.)
   const std::string comment = with("comment", "string", "hello");
@@ -200,9 +182,8 @@ TEST(PngDump, ColourChunksConvertNothing) {
   for (int i = 0; i < 256; ++i) all += static_cast<char>(i);
   const std::string gamma = png_chunk("gAMA", image_io::big(100000)), srgb = png_chunk("sRGB", std::string(1, '\0')),
                     primaries =
-                        png_chunk("cHRM", image_io::big(31270) + image_io::big(32900) + image_io::big(64000) +
-                                              image_io::big(33000) + image_io::big(30000) + image_io::big(60000) +
-                                              image_io::big(15000) + image_io::big(6000));
+                        png_chunk("cHRM", image_io::big(31270) + image_io::big(32900) + image_io::big(64000) + image_io::big(33000) +
+                                              image_io::big(30000) + image_io::big(60000) + image_io::big(15000) + image_io::big(6000));
   for (const std::string& chunk : {gamma, srgb, gamma + primaries, primaries + srgb}) {
     EXPECT_EQ(read("png", png(64, 1, 8, 6, {all}, chunk), image(Format::rgba8, 64, 1)), all);
     EXPECT_EQ(read("png", png(64, 1, 8, 6, {all}, chunk), image(Format::rgba8_srgb, 64, 1)), all);
@@ -210,9 +191,8 @@ TEST(PngDump, ColourChunksConvertNothing) {
 }
 
 TEST(PngDump, OurOwnWriter) {
-  const Image in = image_io::make_image(Format::rgba8_srgb, 9, 5, [](int x, int y, int c) {
-    return Unorm8{static_cast<std::uint8_t>(50 * y + 5 * x + c)};
-  });
+  const Image in = image_io::make_image(Format::rgba8_srgb, 9, 5,
+                                        [](int x, int y, int c) { return Unorm8{static_cast<std::uint8_t>(50 * y + 5 * x + c)}; });
   std::string bytes;
   for (int y = 0; y < 5; ++y) bytes.append(reinterpret_cast<const char*>(in.row_bytes(y)), 36);
   Dump dump;
@@ -238,14 +218,11 @@ TEST(PngDump, Refusals) {
               HasSubstr("transparent colour"));
   EXPECT_THAT(read("png", png(1, 1, 8, 0, {"x"}), image(Format::r16f, 1, 1)),
               HasSubstr("a PNG holds 8-bit codes, the buffer is r16f: the exporter has quantized"));
-  EXPECT_THAT(read("png", png(1, 1, 8, 0, {"x"}), image(Format::r8, 2, 1)),
-              HasSubstr("expected 2x1 texels, found 1x1"));
+  EXPECT_THAT(read("png", png(1, 1, 8, 0, {"x"}), image(Format::r8, 2, 1)), HasSubstr("expected 2x1 texels, found 1x1"));
   EXPECT_THAT(read("png", png(0x7fffffff, 0x7fffffff, 8, 6, {"x"}), image(Format::rgba8, 2, 1)),
               HasSubstr("each side must be from 1 to 65536"));
-  EXPECT_THAT(read("png", image_io::jpeg(1), image(Format::r8, 8, 16)),
-              HasSubstr("its content is JPEG, which is lossy"));
-  EXPECT_THAT(read("exr", image_io::hdr(1, 1, {{1, 2, 3, 4}}), image(Format::rgba16f, 1, 1)),
-              HasSubstr("its content is Radiance HDR"));
+  EXPECT_THAT(read("png", image_io::jpeg(1), image(Format::r8, 8, 16)), HasSubstr("its content is JPEG, which is lossy"));
+  EXPECT_THAT(read("exr", image_io::hdr(1, 1, {{1, 2, 3, 4}}), image(Format::rgba16f, 1, 1)), HasSubstr("its content is Radiance HDR"));
 }
 
 TEST(PngDump, EveryTruncationIsRefused) {

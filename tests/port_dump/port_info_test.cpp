@@ -32,8 +32,8 @@ TEST(PortInfo, EveryKey) {
 
 TEST(PortInfo, DefaultsAndAbsentFile) {
   const TemporaryFolder folder;
-  for (const PortInfo& info : {parse_port_info("{}", "'p'"), parse_port_info(R"({"half_store": "unknown"})", "'p'"),
-                               read_port_info(folder.path())}) {
+  for (const PortInfo& info :
+       {parse_port_info("{}", "'p'"), parse_port_info(R"({"half_store": "unknown"})", "'p'"), read_port_info(folder.path())}) {
     EXPECT_EQ(info.half_store, std::nullopt);
     EXPECT_EQ(info.flush_denormals, std::nullopt);
     EXPECT_EQ(info.origin, Origin::top_left);
@@ -52,8 +52,7 @@ TEST(PortInfo, Refusals) {
   EXPECT_THAT(refusal(R"({"half_stor": "rne"})"), HasSubstr("unknown key 'half_stor'; did you mean 'half_store'?"));
   EXPECT_THAT(refusal(R"({"half_store": "rtn"})"),
               HasSubstr("half_store: expected one of 'rne', 'rtz', 'unknown', found 'rtn'; did you mean 'rt"));
-  EXPECT_THAT(refusal(R"({"flush_denormals": "yes"})"),
-              HasSubstr("flush_denormals: expected true or false, found 'yes'"));
+  EXPECT_THAT(refusal(R"({"flush_denormals": "yes"})"), HasSubstr("flush_denormals: expected true or false, found 'yes'"));
   EXPECT_THAT(refusal(R"({"flush_denormals": null})"), HasSubstr("found null"));
   EXPECT_THAT(refusal(R"({"api": 12})"), HasSubstr("api: expected a text, found 12"));
   EXPECT_THAT(refusal(R"({"api": ["a"]})"), HasSubstr("found a list"));
@@ -72,8 +71,7 @@ TEST(PortInfo, Refusals) {
 TEST(PortInfo, EveryTruncationIsRefused) {
   const std::string whole = R"({"api": "Vulkan", "half_store": "rne", "flush_denormals": true, "precise": false})";
   ASSERT_EQ(refusal(whole), "accepted");
-  for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_THAT(refusal(whole.substr(0, size)), HasSubstr("not JSON")) << size;
+  for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_THAT(refusal(whole.substr(0, size)), HasSubstr("not JSON")) << size;
 }
 
 }  // namespace

@@ -20,8 +20,7 @@ std::string refusal(const std::string& bytes, const std::string& json, const cap
 
 TEST(RawImage, TightRows) {
   EXPECT_EQ(read("abcdef", R"({"format": "r8", "width": 3, "height": 2})", image(Format::r8, 3, 2)), "abcdef");
-  EXPECT_EQ(read("0123456789ab", R"({"format": "rg16f", "width": 1, "height": 3})", image(Format::rg16f, 1, 3)),
-            "0123456789ab");
+  EXPECT_EQ(read("0123456789ab", R"({"format": "rg16f", "width": 1, "height": 3})", image(Format::rg16f, 1, 3)), "0123456789ab");
 }
 
 TEST(RawImage, OffsetAndPitch) {
@@ -29,16 +28,14 @@ TEST(RawImage, OffsetAndPitch) {
   const capture::Array expected = image(Format::r8, 2, 3);
   EXPECT_EQ(read("junk!aa__bb__cc__", json, expected), "aabbcc");
   EXPECT_EQ(read("junk!aa__bb__cc", json, expected), "aabbcc");  // no padding behind the last row
-  EXPECT_THAT(refusal("junk!aa__bb__c", json, expected),
-              HasSubstr("truncated: expected 3 rows of 4 bytes behind offset 5, found 9 bytes"));
+  EXPECT_THAT(refusal("junk!aa__bb__c", json, expected), HasSubstr("truncated: expected 3 rows of 4 bytes behind offset 5, found 9 bytes"));
   EXPECT_THAT(refusal("junk!aa__bb__cc__d", json, expected), HasSubstr("1 bytes too many: expected 3 rows of 4 bytes"));
   EXPECT_THAT(refusal("junk", json, expected), HasSubstr("truncated: offset 5 in a file of 4 bytes"));
 }
 
 TEST(RawImage, EveryTruncationIsRefused) {
   for (const int height : {1, 3}) {
-    const std::string json =
-        R"({"format": "r16f", "width": 2, "height": )" + std::to_string(height) + R"(, "row_pitch": 5})";
+    const std::string json = R"({"format": "r16f", "width": 2, "height": )" + std::to_string(height) + R"(, "row_pitch": 5})";
     const std::string whole(5 * height - 1, 'x');
     ASSERT_EQ(read(whole, json, image(Format::r16f, 2, height)).size(), 4u * height);
     for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -60,15 +57,12 @@ TEST(RawImage, TheSidecarsOriginOverridesThePorts) {
 }
 
 TEST(RawImage, BlueFirst) {
-  EXPECT_EQ(read("bgraBGRA", R"({"format": "rgba8", "width": 2, "height": 1, "channel_order": "bgra"})",
-                 image(Format::rgba8, 2, 1)),
+  EXPECT_EQ(read("bgraBGRA", R"({"format": "rgba8", "width": 2, "height": 1, "channel_order": "bgra"})", image(Format::rgba8, 2, 1)),
             "rgbaRGBA");
-  EXPECT_EQ(read("bbggrraa", R"({"format": "rgba16f", "width": 1, "height": 1, "channel_order": "bgra"})",
-                 image(Format::rgba16f, 1, 1)),
+  EXPECT_EQ(read("bbggrraa", R"({"format": "rgba16f", "width": 1, "height": 1, "channel_order": "bgra"})", image(Format::rgba16f, 1, 1)),
             "rrggbbaa");
-  EXPECT_THAT(
-      refusal("bg", R"({"format": "rg8", "width": 1, "height": 1, "channel_order": "bgra"})", image(Format::rg8, 1, 1)),
-      HasSubstr("out.b.json': channel_order: 'bgra' needs four channels; rg8 has 2"));
+  EXPECT_THAT(refusal("bg", R"({"format": "rg8", "width": 1, "height": 1, "channel_order": "bgra"})", image(Format::rg8, 1, 1)),
+              HasSubstr("out.b.json': channel_order: 'bgra' needs four channels; rg8 has 2"));
 }
 
 TEST(RawImage, EncodingMustBeTheBuffers) {
@@ -86,16 +80,12 @@ TEST(RawImage, EncodingMustBeTheBuffers) {
 
 TEST(RawImage, RefusedSizes) {
   const capture::Array expected = image(Format::r32f, 3, 2);
-  EXPECT_THAT(refusal("", R"({"format": "r32f", "width": 2, "height": 3})", expected),
-              HasSubstr("expected 3x2 texels, found 2x3"));
-  EXPECT_THAT(
-      refusal("", R"({"format": "r32f", "width": 18446744073709551615, "height": 18446744073709551615})", expected),
-      HasSubstr("expected 3x2 texels"));
-  EXPECT_THAT(
-      refusal(std::string(24, 'x'), R"({"format": "r32f", "width": 3, "height": 2, "row_pitch": 11})", expected),
-      HasSubstr("row_pitch 11 is less than a row of 3 r32f texels, 12 bytes"));
-  EXPECT_THAT(refusal(std::string(24, 'x'),
-                      R"({"format": "r32f", "width": 3, "height": 2, "row_pitch": 18446744073709551615})", expected),
+  EXPECT_THAT(refusal("", R"({"format": "r32f", "width": 2, "height": 3})", expected), HasSubstr("expected 3x2 texels, found 2x3"));
+  EXPECT_THAT(refusal("", R"({"format": "r32f", "width": 18446744073709551615, "height": 18446744073709551615})", expected),
+              HasSubstr("expected 3x2 texels"));
+  EXPECT_THAT(refusal(std::string(24, 'x'), R"({"format": "r32f", "width": 3, "height": 2, "row_pitch": 11})", expected),
+              HasSubstr("row_pitch 11 is less than a row of 3 r32f texels, 12 bytes"));
+  EXPECT_THAT(refusal(std::string(24, 'x'), R"({"format": "r32f", "width": 3, "height": 2, "row_pitch": 18446744073709551615})", expected),
               HasSubstr("truncated"));
   EXPECT_THAT(refusal(std::string(12, 'x'), R"({"format": "r16f", "width": 3, "height": 2})", expected),
               HasSubstr("expected r32f as floats, found halves"));
@@ -111,22 +101,18 @@ TEST(RawImage, RefusedSidecars) {
   EXPECT_THAT(why(R"({"width": 1, "height": 1})"), HasSubstr("format: missing"));
   EXPECT_THAT(why(R"({"format": "rgba8", "height": 1})"), HasSubstr("width: missing"));
   EXPECT_THAT(why(R"({"format": "rgba8", "width": 1})"), HasSubstr("height: missing"));
-  EXPECT_THAT(why(R"({"format": "rgba16", "width": 1, "height": 1})"),
-              HasSubstr("found 'rgba16'; did you mean 'rgba16f'?"));
-  EXPECT_THAT(why(R"({"format": "rgba8", "width": -1, "height": 1})"),
-              HasSubstr("width: expected a whole number, at least 0, found -1"));
+  EXPECT_THAT(why(R"({"format": "rgba16", "width": 1, "height": 1})"), HasSubstr("found 'rgba16'; did you mean 'rgba16f'?"));
+  EXPECT_THAT(why(R"({"format": "rgba8", "width": -1, "height": 1})"), HasSubstr("width: expected a whole number, at least 0, found -1"));
   EXPECT_THAT(why(R"({"format": "rgba8", "width": 1.0, "height": 1})"), HasSubstr("width: expected a whole number"));
   EXPECT_THAT(why(R"({"format": "rgba8", "width": "1", "height": 1})"), HasSubstr("found '1'"));
-  EXPECT_THAT(why(R"({"format": "rgba8", "width": 1, "height": 1, "fields": {"x": 0}})"),
-              HasSubstr("fields: is for records"));
+  EXPECT_THAT(why(R"({"format": "rgba8", "width": 1, "height": 1, "fields": {"x": 0}})"), HasSubstr("fields: is for records"));
   EXPECT_THAT(why(R"({"format": "rgba8", "width": 1, "height": 1, "origin": "lower-left"})"),
               HasSubstr("origin: expected one of 'top-left', 'bottom-left'"));
   EXPECT_THAT(why(R"({"format": "rgba16f", "width": 1, "height": 1, "encoding": "srgb"})"),
               HasSubstr("encoding: 'srgb' is for 8-bit codes"));
   EXPECT_THAT(why(R"({"format": "records", "width": 1, "row_pitch": 4})"), HasSubstr("row_pitch: is for images"));
   EXPECT_THAT(why(R"({"format": "records", "width": 1, "height": 2})"), HasSubstr("records have height 1"));
-  EXPECT_THAT(why(R"({"format": "records", "width": 1, "fields": {"x": -1}})"),
-              HasSubstr("fields.x: expected a whole number"));
+  EXPECT_THAT(why(R"({"format": "records", "width": 1, "fields": {"x": -1}})"), HasSubstr("fields.x: expected a whole number"));
 }
 
 }  // namespace

@@ -26,10 +26,9 @@ TEST(Records, PackedAndPaddedArrays) {
 
 TEST(Records, FieldsAreMatchedByName) {
   Dump dump;
-  dump.file("out.b.npy",
-            npy("[('kind', '<u4'), ('id', '<u4'), ('velocity', '<f4', (2,)), ('y', '<f4'), ('x', '<f4'), ('padding_0', "
-                "'<f4'), ('age', '<f4')]",
-                "(1,)", raw(-6) + raw(5u) + raw(3.0f) + raw(4.0f) + raw(2.0f) + raw(1.0f) + raw(0.0f) + raw(9.0f)));
+  dump.file("out.b.npy", npy("[('kind', '<u4'), ('id', '<u4'), ('velocity', '<f4', (2,)), ('y', '<f4'), ('x', '<f4'), ('padding_0', "
+                             "'<f4'), ('age', '<f4')]",
+                             "(1,)", raw(-6) + raw(5u) + raw(3.0f) + raw(4.0f) + raw(2.0f) + raw(1.0f) + raw(0.0f) + raw(9.0f)));
   EXPECT_EQ(dump.level(drops()), first + pad);
   EXPECT_THAT(dump.notes(), ElementsAre(HasSubstr("not declared by the pack, not read: age")));
 }
@@ -55,15 +54,12 @@ TEST(Records, RefusedArrays) {
   };
   EXPECT_THAT(refusal("'<f4'", "(2, 6)", 48), HasSubstr("expected a structured array of Drop, found '<f4'"));
   EXPECT_THAT(refusal("[" + members + "]", "(1, 1)", 24), HasSubstr("expected a shape of (records,), found (1, 1)"));
-  EXPECT_THAT(
-      refusal("[('x', '<f4'), ('y', '<f4'), ('velocity', '<f4', (2,)), ('idd', '<u4'), ('kind', '<u4')]", "(1,)", 24),
-      AllOf(HasSubstr("no field 'id'"), HasSubstr("did you mean 'idd'")));
-  EXPECT_THAT(
-      refusal("[('x', '<u4'), ('y', '<f4'), ('velocity', '<f4', (2,)), ('id', '<u4'), ('kind', '<u4')]", "(1,)", 24),
-      HasSubstr("field 'x': expected 1 of '<f4', found 1 of '<u4'"));
-  EXPECT_THAT(
-      refusal("[('x', '<f4'), ('y', '<f4'), ('velocity', '<f4', (3,)), ('id', '<u4'), ('kind', '<u4')]", "(1,)", 28),
-      HasSubstr("field 'velocity': expected 2 of '<f4', found 3 of '<f4'"));
+  EXPECT_THAT(refusal("[('x', '<f4'), ('y', '<f4'), ('velocity', '<f4', (2,)), ('idd', '<u4'), ('kind', '<u4')]", "(1,)", 24),
+              AllOf(HasSubstr("no field 'id'"), HasSubstr("did you mean 'idd'")));
+  EXPECT_THAT(refusal("[('x', '<u4'), ('y', '<f4'), ('velocity', '<f4', (2,)), ('id', '<u4'), ('kind', '<u4')]", "(1,)", 24),
+              HasSubstr("field 'x': expected 1 of '<f4', found 1 of '<u4'"));
+  EXPECT_THAT(refusal("[('x', '<f4'), ('y', '<f4'), ('velocity', '<f4', (3,)), ('id', '<u4'), ('kind', '<u4')]", "(1,)", 28),
+              HasSubstr("field 'velocity': expected 2 of '<f4', found 3 of '<f4'"));
 }
 
 TEST(Records, RawBytesAsThePackDeclares) {
@@ -97,29 +93,21 @@ TEST(Records, RefusedRawBytes) {
     dump.file("out.b.json", json);
     return dump.refusal(drops());
   };
-  EXPECT_THAT(refusal(R"({"format": "records", "width": 2})", 55),
-              HasSubstr("truncated: 2 records of 32 bytes, found 55 bytes"));
-  EXPECT_THAT(refusal(R"({"format": "records", "width": 2})", 65),
-              HasSubstr("bytes too many: expected 2 records of 32 bytes"));
+  EXPECT_THAT(refusal(R"({"format": "records", "width": 2})", 55), HasSubstr("truncated: 2 records of 32 bytes, found 55 bytes"));
+  EXPECT_THAT(refusal(R"({"format": "records", "width": 2})", 65), HasSubstr("bytes too many: expected 2 records of 32 bytes"));
   EXPECT_THAT(refusal(R"({"format": "records", "width": 2})", 96), HasSubstr("bytes too many"));
-  EXPECT_THAT(refusal(R"({"format": "records", "width": 18446744073709551615})", 96),
-              HasSubstr("expected fewer than 2^31"));
-  EXPECT_THAT(refusal(R"({"format": "records", "width": 2147483647, "struct_stride": 18446744073709551615})", 96),
-              HasSubstr("truncated"));
+  EXPECT_THAT(refusal(R"({"format": "records", "width": 18446744073709551615})", 96), HasSubstr("expected fewer than 2^31"));
+  EXPECT_THAT(refusal(R"({"format": "records", "width": 2147483647, "struct_stride": 18446744073709551615})", 96), HasSubstr("truncated"));
   EXPECT_THAT(refusal(R"({"format": "records", "width": 2, "struct_stride": 20})", 40),
               HasSubstr("field 'kind': 4 bytes at offset 20 do not fit records of 20 bytes"));
-  EXPECT_THAT(refusal(R"({"format": "records", "width": 2, "offset": 200})", 64),
-              HasSubstr("truncated: offset 200 in a file of 64 bytes"));
+  EXPECT_THAT(refusal(R"({"format": "records", "width": 2, "offset": 200})", 64), HasSubstr("truncated: offset 200 in a file of 64 bytes"));
   EXPECT_THAT(refusal(R"({"format": "records", "width": 1, "fields": {"x": 0, "y": 4, "velocity": 8, "id": 16}})", 32),
               HasSubstr("no field 'kind'"));
+  EXPECT_THAT(refusal(R"({"format": "records", "width": 1, "fields": {"x": 0, "y": 4, "velocity": 8, "id": 16, "kind": 16}})", 32),
+              HasSubstr("fields 'id' and 'kind' overlap"));
   EXPECT_THAT(
-      refusal(R"({"format": "records", "width": 1, "fields": {"x": 0, "y": 4, "velocity": 8, "id": 16, "kind": 16}})",
+      refusal(R"({"format": "records", "width": 1, "fields": {"x": 18446744073709551615, "y": 4, "velocity": 8, "id": 16, "kind": 20}})",
               32),
-      HasSubstr("fields 'id' and 'kind' overlap"));
-  EXPECT_THAT(
-      refusal(
-          R"({"format": "records", "width": 1, "fields": {"x": 18446744073709551615, "y": 4, "velocity": 8, "id": 16, "kind": 20}})",
-          32),
       HasSubstr("do not fit"));
   EXPECT_THAT(refusal(R"({"format": "r32f", "width": 2, "height": 2})", 16), HasSubstr("records were expected"));
 }

@@ -72,8 +72,7 @@ struct DdsFile {
   std::uint32_t flags = 0x1007 | 0x20000, pitch = 0, caps2 = 0;
 
   std::string with(const std::string& data) const {
-    std::string out = "DDS " + little(124) + little(flags) + little(height) + little(width) + little(pitch) +
-                      little(0) + little(levels);
+    std::string out = "DDS " + little(124) + little(flags) + little(height) + little(width) + little(pitch) + little(0) + little(levels);
     out += std::string(44, '\0') + little(32) + little(pixel_flags) + little(code) + little(bits);
     for (const std::uint32_t mask : masks) out += little(mask);
     out += little(0x1000) + little(caps2) + std::string(12, '\0');

@@ -46,8 +46,7 @@ TEST(Traps, PaddedRows) {
   dump.file("out.b.json", R"({"format": "r32f", "width": 3, "height": 2})");
   EXPECT_THAT(dump.refusal(expected), HasSubstr("488 bytes too many: expected 2 rows of 12 bytes"));
   // As NPY, padding would have become columns.
-  EXPECT_THAT(Dump().file("out.b.npy", npy("'<f4'", "(2, 64)", bytes)).refusal(expected),
-              HasSubstr("expected 3x2 texels, found 64x2"));
+  EXPECT_THAT(Dump().file("out.b.npy", npy("'<f4'", "(2, 64)", bytes)).refusal(expected), HasSubstr("expected 3x2 texels, found 64x2"));
 }
 
 // RenderDoc saves an OpenGL target from the bottom row up, whatever its view shows; the pass may count v from the top.
@@ -55,8 +54,7 @@ TEST(Traps, PicturesUpsideDown) {
   PortInfo port;
   port.origin = Origin::bottom_left;
   EXPECT_EQ(Dump().file("out.b.png", png(1, 3, 8, 0, {"c", "b", "a"})).level(image(Format::r8, 1, 3), port), "abc");
-  EXPECT_EQ(Dump().file("out.b.dds", DdsFile{.height = 3, .dxgi = 61}.with("cba")).level(image(Format::r8, 1, 3), port),
-            "abc");
+  EXPECT_EQ(Dump().file("out.b.dds", DdsFile{.height = 3, .dxgi = 61}.with("cba")).level(image(Format::r8, 1, 3), port), "abc");
 }
 
 // Swap chains and Windows' own formats put blue first.
@@ -71,19 +69,15 @@ TEST(Traps, BlueFirst) {
 
 // RenderDoc's raw files say nothing about themselves.
 TEST(Traps, RawBytesWithoutASidecar) {
-  EXPECT_THAT(Dump().file("out.b.bin", "rgba").refusal(image(Format::rgba8, 1, 1)),
-              HasSubstr("raw bytes need 'out.b.json'"));
+  EXPECT_THAT(Dump().file("out.b.bin", "rgba").refusal(image(Format::rgba8, 1, 1)), HasSubstr("raw bytes need 'out.b.json'"));
 }
 
 // RenderDoc stitched the slices of an array or a cube through 8 bits.
 TEST(Traps, SlicesInOneFile) {
-  EXPECT_THAT(Dump()
-                  .file("out.b.dds", DdsFile{.dxgi = 10, .array_size = 2}.with(std::string(16, 'x')))
-                  .refusal(image(Format::rgba16f, 1, 1)),
-              HasSubstr("an array of 2 textures; save them one by one"));
-  EXPECT_THAT(Dump()
-                  .file("out.b.png", png(1, 6, 8, 6, std::vector<std::string>(6, "rgba")))
-                  .refusal(image(Format::rgba16f, 1, 1)),
+  EXPECT_THAT(
+      Dump().file("out.b.dds", DdsFile{.dxgi = 10, .array_size = 2}.with(std::string(16, 'x'))).refusal(image(Format::rgba16f, 1, 1)),
+      HasSubstr("an array of 2 textures; save them one by one"));
+  EXPECT_THAT(Dump().file("out.b.png", png(1, 6, 8, 6, std::vector<std::string>(6, "rgba"))).refusal(image(Format::rgba16f, 1, 1)),
               HasSubstr("expected 1x1 texels, found 1x6"));
 }
 
@@ -107,8 +101,7 @@ TEST(Traps, FourChannelsForOne) {
 // Unreal's and RenderDoc's HDR, anyone's JPEG, a PNG of a float target.
 TEST(Traps, LossyPictures) {
   const capture::Array expected = image(Format::rgba16f, 8, 16);
-  EXPECT_THAT(Dump().file("out.b.hdr", image_io::hdr(1, 1, {{1, 2, 3, 4}})).refusal(expected),
-              HasSubstr("Radiance HDR keeps 8 bits"));
+  EXPECT_THAT(Dump().file("out.b.hdr", image_io::hdr(1, 1, {{1, 2, 3, 4}})).refusal(expected), HasSubstr("Radiance HDR keeps 8 bits"));
   EXPECT_THAT(Dump().file("out.b.jpg", image_io::jpeg(1)).refusal(expected), HasSubstr("JPEG is lossy"));
   EXPECT_THAT(Dump().file("out.b.png", png(1, 1, 8, 6, {"rgba"})).refusal(image(Format::rgba16f, 1, 1)),
               HasSubstr("the exporter has quantized"));
@@ -116,9 +109,7 @@ TEST(Traps, LossyPictures) {
 
 // A sampler or a writer that decodes sRGB changes codes; a label alone does not.
 TEST(Traps, EncodingTwice) {
-  EXPECT_THAT(Dump()
-                  .file("out.b.npy", npy("'<f4'", "(1, 1, 4)", std::string(16, '\0')))
-                  .refusal(image(Format::rgba8_srgb, 1, 1)),
+  EXPECT_THAT(Dump().file("out.b.npy", npy("'<f4'", "(1, 1, 4)", std::string(16, '\0'))).refusal(image(Format::rgba8_srgb, 1, 1)),
               HasSubstr("a copy of the codes in another type has been converted"));
   EXPECT_THAT(Dump()
                   .file("out.b.bin", "rgba")

@@ -37,7 +37,8 @@ INSTANTIATE_TEST_SUITE_P(Variants, EdgeSplashPort, testing::Values("as-published
 TEST_P(EdgeSplashPort, PassesUnderTheProfileOfItsApi) {
   const TemporaryFolder folder;
   const std::string pack = source + "/tests/packs/edge_splash-" + GetParam();
-  const Outcome run = call(quiet + RAINREF_PORT_RUNNER " --device cpu --repeat 2 --pack '" + pack + "' --spirv '" + spirv + "' --out '" + folder.path().string() + "'");
+  const Outcome run = call(quiet + RAINREF_PORT_RUNNER " --device cpu --repeat 2 --pack '" + pack + "' --spirv '" + spirv + "' --out '" +
+                           folder.path().string() + "'");
   ASSERT_EQ(run.code, 0) << run.text;
   const Outcome verdict = call(RAINREF_PROGRAM " validate '" + pack + "' --port '" + folder.path().string() + "'");
   EXPECT_EQ(verdict.code, 0) << verdict.text;
@@ -46,9 +47,10 @@ TEST_P(EdgeSplashPort, PassesUnderTheProfileOfItsApi) {
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(EdgeSplashPort, SeededBugsGetTheirVerdicts) {
   const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/edge_splash/mutants.json' --packs '" + source +
-                           "/tests/packs' --spirv '" + spirv + "' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() +
-                           "' --ids 601,602,610,621,625,656,664,672,691");
+  const Outcome all =
+      call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/edge_splash/mutants.json' --packs '" + source +
+           "/tests/packs' --spirv '" + spirv + "' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() +
+           "' --ids 601,602,610,621,625,656,664,672,691");
   EXPECT_EQ(all.code, 0) << all.text;
 }
 

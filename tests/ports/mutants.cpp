@@ -38,14 +38,17 @@ std::int64_t ordered(const std::uint8_t* at, std::size_t bytes, bool is_float) {
   return code & sign ? -static_cast<std::int64_t>(code & (sign - 1)) : code;
 }
 void compare(const Array& meant, const Array& mutated, Change& change) {
-  const bool is_records = meant.type[0] == '[', is_float = is_records || meant.type[2] == 'f';  // whole numbers of records keep their order as well
+  const bool is_records = meant.type[0] == '[',
+             is_float = is_records || meant.type[2] == 'f';  // whole numbers of records keep their order as well
   const std::size_t bytes = is_records || meant.type[3] == '4' ? 4 : meant.type[3] == '2' ? 2 : 1;
   const std::size_t common = std::min(meant.bytes.size(), mutated.bytes.size()), all = std::max(meant.bytes.size(), mutated.bytes.size());
   for (std::size_t at = 0; at < all; at += bytes) {
     ++change.elements;
     const bool is_same = at < common && std::memcmp(&meant.bytes[at], &mutated.bytes[at], bytes) == 0;
     change.changed += !is_same;
-    const std::int64_t distance = at < common ? std::abs(ordered(&meant.bytes[at], bytes, is_float) - ordered(&mutated.bytes[at], bytes, is_float)) : std::int64_t{1} << 32;
+    const std::int64_t distance = at < common
+                                      ? std::abs(ordered(&meant.bytes[at], bytes, is_float) - ordered(&mutated.bytes[at], bytes, is_float))
+                                      : std::int64_t{1} << 32;
     change.largest = std::max(change.largest, distance);
   }
 }
@@ -79,8 +82,8 @@ class Judge {
   /// The verdict on the outputs under out(): the first word of the last line, PASS, WARN, FAIL or UNTESTED; "ERROR" for
   /// anything else, a crash included.
   std::string ask(const fs::path& pack, const std::string& pass, const std::string& profile) const {
-    const std::string command = "'" + program_ + "' validate '" + pack.string() + "' --port '" + out_.string() + "' --only " + pass + " --profile " + profile + " >'" +
-                                (out_ / "verdict.txt").string() + "' 2>&1";
+    const std::string command = "'" + program_ + "' validate '" + pack.string() + "' --port '" + out_.string() + "' --only " + pass +
+                                " --profile " + profile + " >'" + (out_ / "verdict.txt").string() + "' 2>&1";
     const int status = std::system(command.c_str());
     const std::vector<std::uint8_t> bytes = read_file(out_ / "verdict.txt");
     std::string text(bytes.begin(), bytes.end());
@@ -120,7 +123,8 @@ int run(const std::map<std::string, std::string>& options) {
 
   std::map<std::string, Port> ports;
   int wrong_verdicts = 0, wrong_labels = 0, small = 0, judged = 0;
-  std::printf("%4s %-12s %-13s %9s %9s  %s%s\n", "id", "pass", "variant", "changed", "codes", judge.is_asked() ? "verdict   " : "", "expected");
+  std::printf("%4s %-12s %-13s %9s %9s  %s%s\n", "id", "pass", "variant", "changed", "codes", judge.is_asked() ? "verdict   " : "",
+              "expected");
   for (const Mutant& m : mutants) {
     if (!wanted.empty() && !wanted.contains(std::to_string(m.id))) continue;
     Port& port = ports.try_emplace(m.variant).first->second;
@@ -158,7 +162,8 @@ int run(const std::map<std::string, std::string>& options) {
     }
     const double share = static_cast<double>(change.changed) / static_cast<double>(change.elements);
     std::printf("%4d %-12s %-13s %8.2f%% %9lld  %s%-17s %s\n", m.id, m.pass.c_str(), m.variant.c_str(), 100 * share,
-                static_cast<long long>(change.largest), verdict.c_str(), (m.expected + (has_true_label ? "" : "?") + ieee).c_str(), m.wrong.c_str());
+                static_cast<long long>(change.largest), verdict.c_str(), (m.expected + (has_true_label ? "" : "?") + ieee).c_str(),
+                m.wrong.c_str());
     std::fflush(stdout);
   }
   std::printf("%d mutants, %d of them change no element by 8 codes or more\n", judged, small);
@@ -174,7 +179,8 @@ int main(int argc, char** argv) try {
   std::map<std::string, std::string> options;
   const std::set<std::string> known{"--mutants", "--packs", "--spirv", "--device", "--ids", "--rainref", "--out"};
   for (int i = 1; i < argc; i += 2) {
-    if (i + 1 == argc || !known.contains(argv[i])) throw port_runner::Error(std::string(argv[i]) + ": unknown, or without its value\n" + port_runner::usage);
+    if (i + 1 == argc || !known.contains(argv[i]))
+      throw port_runner::Error(std::string(argv[i]) + ": unknown, or without its value\n" + port_runner::usage);
     options[argv[i]] = argv[i + 1];
   }
   return port_runner::run(options);

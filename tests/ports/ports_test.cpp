@@ -39,7 +39,8 @@ TEST_P(Port, PassesUnderTheProfileOfItsApi) {
   // The published march of a grazing ray has no useful bound, so that pass may be left unjudged; never failed.
   EXPECT_THAT(verdict.text, testing::Not(HasSubstr("FAIL"))) << verdict.text;
   EXPECT_EQ(judge(pack, folder.path(), "--allow-untested").code, 0) << verdict.text;
-  for (const char* pass : {"wave_step", "shade", "display"}) EXPECT_EQ(judge(pack, folder.path(), std::string("--only ") + pass).code, 0) << pass;
+  for (const char* pass : {"wave_step", "shade", "display"})
+    EXPECT_EQ(judge(pack, folder.path(), std::string("--only ") + pass).code, 0) << pass;
 }
 
 TEST_P(Port, PassesWhereTheShaderBlendsTexelsItself) {
@@ -80,9 +81,9 @@ TEST(Port, AnH100WeighsTwoLevelsTogether) {
 // One or two bugs of each pass; scripts/full/mutants has them all.
 TEST(Port, SeededBugsGetTheirVerdicts) {
   const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/mutants.json' --packs '" + source +
-                           "/tests/packs' --spirv '" + spirv + "/glsl' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() +
-                           "' --ids 101,106,138,139,203,252,322,334,353,412,456,461,504,507");
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/mutants.json' --packs '" +
+                           source + "/tests/packs' --spirv '" + spirv + "/glsl' --rainref '" RAINREF_PROGRAM "' --out '" +
+                           folder.path().string() + "' --ids 101,106,138,139,203,252,322,334,353,412,456,461,504,507");
   EXPECT_EQ(all.code, 0) << all.text;
 }
 
@@ -94,18 +95,21 @@ TEST(Port, FalseLabelsOfMutantsAreFound) {
     for (auto& m : all["mutants"])
       if (m["id"] == id) m["expected"] = label;
     put(folder / "mutants.json", all.dump());
-    return call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + (folder / "mutants.json").string() + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
-                "/glsl' --ids " + std::to_string(id));
+    return call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + (folder / "mutants.json").string() + "' --packs '" + source +
+                "/tests/packs' --spirv '" + spirv + "/glsl' --ids " + std::to_string(id));
   };
   for (const auto& [id, label] : {std::pair{101, "equivalent"}, {139, "equivalent"}, {139, "below-storage-ulp"}}) {
     const Outcome run = outcome(id, label);
     EXPECT_EQ(run.code, 1) << run.text;
     EXPECT_THAT(run.text, testing::HasSubstr("1 outputs are not what their label says"));
   }
-  for (const auto& [id, label] : {std::pair{113, "equivalent"}, {101, "below-storage-ulp"}, {139, "inside-envelope"}}) EXPECT_EQ(outcome(id, label).code, 0);
+  for (const auto& [id, label] : {std::pair{113, "equivalent"}, {101, "below-storage-ulp"}, {139, "inside-envelope"}})
+    EXPECT_EQ(outcome(id, label).code, 0);
 }
 
-TEST(Port, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants(source + "/tests/ports/mutants.json", source + "/tests/ports/glsl"), 40u); }
+TEST(Port, MutantsAreManyAndNamedOnce) {
+  EXPECT_GE(check_mutants(source + "/tests/ports/mutants.json", source + "/tests/ports/glsl"), 40u);
+}
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(Port, UniformBlocksAreTheDescribedOnes) {
@@ -125,8 +129,9 @@ TEST_P(Port, OfRainyGlassPasses) {
 TEST(Port, SeededBugsOfRainyGlassGetTheirVerdicts) {
   const TemporaryFolder folder;
   const std::string mutants = source + "/tests/ports/rainy_glass/mutants.json";
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + mutants + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
-                           "/rainy_glass' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids 702,713,734,762,784,796");
+  const Outcome all =
+      call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + mutants + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
+           "/rainy_glass' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids 702,713,734,762,784,796");
   EXPECT_EQ(all.code, 0) << all.text;
   std::string shaders;
   for (const auto& file : fs::directory_iterator(source + "/tests/ports/rainy_glass")) shaders += contents(file.path());

@@ -25,8 +25,9 @@ TEST_P(ScreenDropsPort, PassesUnderTheProfileOfItsApi) {
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(ScreenDropsPort, SeededBugsGetTheirVerdicts) {
   const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + folder_of_shaders + "/mutants.json' --packs '" + source + "/tests/packs' --spirv '" + spirv +
-                           "/screen_drops' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids 1802,1812,1823,1832,1843,1897");
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + folder_of_shaders + "/mutants.json' --packs '" +
+                           source + "/tests/packs' --spirv '" + spirv + "/screen_drops' --rainref '" RAINREF_PROGRAM "' --out '" +
+                           folder.path().string() + "' --ids 1802,1812,1823,1832,1843,1897");
   EXPECT_EQ(all.code, 0) << all.text;
 }
 

@@ -17,7 +17,9 @@ namespace rainref::ports {
 
 namespace fs = std::filesystem;
 inline const std::string source = RAINREF_SOURCE_DIR, spirv = RAINREF_SPIRV;
-inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") { return source + "/tests/packs/" + effect + "-" + variant; }
+inline std::string pack_of(const std::string& variant, const std::string& effect = "puddle") {
+  return source + "/tests/packs/" + effect + "-" + variant;
+}
 
 struct Outcome {
   int code;

@@ -63,7 +63,8 @@ class Wgsl : public testing::TestWithParam<const char*> {
     return judge(pack, folder.path(), "--only display --profile webgpu");
   }
 };
-INSTANTIATE_TEST_SUITE_P(Variants, Wgsl, testing::Values("as-published", "corrected"), [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
+INSTANTIATE_TEST_SUITE_P(Variants, Wgsl, testing::Values("as-published", "corrected"),
+                         [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
 
 TEST_P(Wgsl, DisplayPassesUnderWebgpuAndABugFails) {
   const Outcome meant = judged(0);

@@ -31,7 +31,8 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
   ASSERT_EQ(run.code, 0) << run.text;
   const std::vector<std::string> passes = ported(GetParam());
   for (const char* listed : {"windshield_frame", "spawn", "integrate", "wipe_drops"}) EXPECT_THAT(passes, testing::Contains(listed));
-  for (const char* drawn : {"splat", "wipe_texture", "normals", "blur_pyramid", "composite", "display"}) EXPECT_THAT(passes, testing::Contains(drawn));
+  for (const char* drawn : {"splat", "wipe_texture", "normals", "blur_pyramid", "composite", "display"})
+    EXPECT_THAT(passes, testing::Contains(drawn));
   for (const std::string& pass : passes) {
     const Outcome verdict = judge(pack, folder.path(), "--only " + pass);
     EXPECT_EQ(verdict.code, 0) << pass << '\n' << verdict.text;
@@ -41,8 +42,9 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
 // Some bugs of each pass; scripts/full/mutants has them all.
 void judge_bugs(const std::string& mutants, const std::string& ids) {
   const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/windshield/" + mutants + "' --packs '" + source +
-                           "/tests/packs' --spirv '" + spirv + "/windshield' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids " + ids);
+  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/windshield/" + mutants +
+                           "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
+                           "/windshield' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids " + ids);
   EXPECT_EQ(all.code, 0) << all.text;
 }
 TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
@@ -59,8 +61,10 @@ TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(WindshieldPort, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(check_blocks("windshield", source + "/tests/ports/windshield",
-                         {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct GlassFrame {"}), 9);
+  EXPECT_GE(
+      check_blocks("windshield", source + "/tests/ports/windshield",
+                   {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct GlassFrame {"}),
+      9);
 }
 
 }  // namespace

@@ -33,8 +33,9 @@ std::vector<PassCase> cases_of(const Settings& s, int frames) {
   const parallel::Executor executor(2);
   Puddle puddle(s, tiny_surroundings(), executor);
   std::vector<PassCase> cases;
-  capture::CaptureRecorder recorder(effect_info(), s.variant == Variant::corrected ? "corrected" : "as-published", true,
-                                    [](int, std::string_view) { return true; }, [&](PassCase c) { cases.push_back(std::move(c)); });
+  capture::CaptureRecorder recorder(
+      effect_info(), s.variant == Variant::corrected ? "corrected" : "as-published", true, [](int, std::string_view) { return true; },
+      [&](PassCase c) { cases.push_back(std::move(c)); });
   for (int frame = 0; frame < frames; ++frame) {
     puddle.simulate(&recorder);
     puddle.render(&recorder);
@@ -97,7 +98,8 @@ TEST_P(Announce, InputsAreTheOutputsThatTheGraphNames) {
       if (!input || read.from.empty()) continue;
       // The latest run of that pass; the run before this one is the latest too.
       std::size_t k = i;
-      while (k > 0 && cases[--k].pass != read.from) {}
+      while (k > 0 && cases[--k].pass != read.from) {
+      }
       if (cases[k].pass != read.from) continue;  // before the first step
       EXPECT_EQ(input->array.levels, cases[k].output(read.buffer)->array.levels) << cases[i].folder() << ' ' << read.buffer;
       ++edges;
@@ -107,7 +109,8 @@ TEST_P(Announce, InputsAreTheOutputsThatTheGraphNames) {
 }
 
 TEST_P(Announce, TheBoundaryIsAnAddressRule) {
-  for (const auto& [boundary, address] : {std::pair(Boundary::reflecting, Address::clamp), std::pair(Boundary::periodic, Address::repeat), std::pair(Boundary::fixed, Address::border)}) {
+  for (const auto& [boundary, address] : {std::pair(Boundary::reflecting, Address::clamp), std::pair(Boundary::periodic, Address::repeat),
+                                          std::pair(Boundary::fixed, Address::border)}) {
     for (const Format storage : {Format::rg16f, Format::rgba8}) {
       Settings s = small(GetParam());
       s.boundary = boundary;
@@ -126,7 +129,8 @@ TEST_P(Announce, TheBoundaryIsAnAddressRule) {
             EXPECT_EQ(wave->border[0], code / 255);
           }
         } else {
-          EXPECT_EQ(wave->address_u, GetParam() == Variant::as_published && boundary == Boundary::periodic ? Address::repeat : Address::clamp);
+          EXPECT_EQ(wave->address_u,
+                    GetParam() == Variant::as_published && boundary == Boundary::periodic ? Address::repeat : Address::clamp);
           EXPECT_TRUE(wave->linear);
         }
       }
@@ -154,7 +158,8 @@ TEST(AnnounceTime, IsThatOfTheFrameAndOfTheStep) {
   s.step_rate = 120;
   for (const PassCase& c : cases_of(s, 2)) {
     EXPECT_EQ(c.time, static_cast<float>(c.frame / 24.0)) << c.folder();
-    EXPECT_EQ(c.dt, c.pass == "raindrops" || c.pass == "wave_step" ? static_cast<float>(1 / 120.0) : static_cast<float>(1 / 24.0)) << c.folder();
+    EXPECT_EQ(c.dt, c.pass == "raindrops" || c.pass == "wave_step" ? static_cast<float>(1 / 120.0) : static_cast<float>(1 / 24.0))
+        << c.folder();
     EXPECT_LT(c.step, 5);
   }
 }
@@ -217,7 +222,8 @@ TEST(EffectInfo, TheDocumentListsEveryFormula) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const capture::PassInfo& pass : effect_info().passes) {
     for (const capture::PassVariant& v : pass.variants) {
-      EXPECT_NE(text.find("`" + capture::formula(effect_info(), pass, v) + "`"), std::string::npos) << capture::formula(effect_info(), pass, v);
+      EXPECT_NE(text.find("`" + capture::formula(effect_info(), pass, v) + "`"), std::string::npos)
+          << capture::formula(effect_info(), pass, v);
     }
   }
 }

@@ -63,8 +63,7 @@ struct Scene : Recorder {
     std::vector<float> out;
     for (int y = 0; y < plane.height(); ++y) {
       for (int x = 0; x < plane.width(); ++x) {
-        out.push_back(info(plane.format()).kind == FormatInfo::float32 ? plane.row<float>(y)[x]
-                                                                       : to_float(plane.row<Half>(y)[x]));
+        out.push_back(info(plane.format()).kind == FormatInfo::float32 ? plane.row<float>(y)[x] : to_float(plane.row<Half>(y)[x]));
       }
     }
     return out;

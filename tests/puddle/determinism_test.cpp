@@ -94,7 +94,8 @@ TEST_P(Determinism, EveryTargetThreadCountOrderAndWidth) {
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
       for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected) << target << ", " << threads << " threads, width " << width;
+        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected)
+            << target << ", " << threads << " threads, width " << width;
       }
     }
   }
@@ -126,8 +127,10 @@ TEST_P(Determinism, OtherSeedOrRainOtherBits) {
   // The hashes above would also agree if nothing happened.
   Settings s = settings(GetParam(), 33);
   const std::string before = hash_of_run(s, 1, 0);
-  if (GetParam() == Variant::corrected) s.seed = 4;
-  else s.rain_speed = 8;
+  if (GetParam() == Variant::corrected)
+    s.seed = 4;
+  else
+    s.rain_speed = 8;
   EXPECT_NE(hash_of_run(s, 1, 0), before);
 }
 
@@ -168,7 +171,8 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
     water.set_border(encoding(s).rest, 0, 0, 0);
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
-        const auto hit = corrected ? scalar::surface_hit_corrected<F>(u, water.view(), bounds.view(), x, y) : scalar::surface_hit_as_published<F>(u, water.view(), x, y);
+        const auto hit = corrected ? scalar::surface_hit_corrected<F>(u, water.view(), bounds.view(), x, y)
+                                   : scalar::surface_hit_as_published<F>(u, water.view(), x, y);
         const float* stored = puddle.hit().row<float>(y) + 4 * x;
         expect_same(stored[0], hit.position.x, "hit.x", x, y);
         expect_same(stored[1], hit.position.y, "hit.y", x, y);
@@ -184,7 +188,8 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
         const Half* colour = puddle.colour().row<Half>(y) + 4 * x;
         const scalar::Vec3<F> linear(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2])));
         const DisplayUniforms d = display_uniforms(s);
-        const auto shown_colour = corrected ? scalar::display_corrected<F>(d, linear, x, y) : scalar::display_as_published<F>(d, linear, x, y);
+        const auto shown_colour =
+            corrected ? scalar::display_corrected<F>(d, linear, x, y) : scalar::display_as_published<F>(d, linear, x, y);
         const Unorm8* code = puddle.picture().row<Unorm8>(y) + 4 * x;
         ASSERT_EQ(code[0].code, to_unorm8(shown_colour.x.v).code) << target << " " << x << "," << y;
         ASSERT_EQ(code[1].code, to_unorm8(shown_colour.y.v).code);

@@ -68,8 +68,8 @@ struct Account {
     fmt::print(
         "{:<28} {:<8} open {:4}  vacuous {:4} of {}  width median {:8.0f} p90 {:9.0f} ULP  gpu runs that differ "
         "{:5.1f} %  width / spread {:.2f}\n",
-        pass, profile, open, vacuous, elements, at(widths, 0.5), at(widths, 0.9),
-        gpu_runs ? 100.0 * gpu_differs / gpu_runs : 0.0, at(looseness, 0.5));
+        pass, profile, open, vacuous, elements, at(widths, 0.5), at(widths, 0.9), gpu_runs ? 100.0 * gpu_differs / gpu_runs : 0.0,
+        at(looseness, 0.5));
   }
 };
 
@@ -91,8 +91,8 @@ void judge(Account& account, const Pass& pass) {
       return a.v[0].contains(value[0].v) && a.v[1].contains(value[1].v) && a.v[2].contains(value[2].v);
     });
   };
-  const bool vacuous = !whole || std::any_of(alternatives.begin(), alternatives.end(),
-                                             [](const Alternative& a) { return a.v[0].is_vacuous(); });
+  const bool vacuous =
+      !whole || std::any_of(alternatives.begin(), alternatives.end(), [](const Alternative& a) { return a.v[0].is_vacuous(); });
   account.vacuous += vacuous;
   const Values<Single> reference = pass(Single());
   if (!whole) return;
@@ -101,10 +101,9 @@ void judge(Account& account, const Pass& pass) {
   }
   if (!held(reference)) {
     ++account.outside_reference;
-    account.first_outside =
-        fmt::format("reference {} {} {} in [{}, {}] [{}, {}] [{}, {}]", reference[0].v, reference[1].v, reference[2].v,
-                    alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
-                    alternatives[0].v[2].lo, alternatives[0].v[2].hi);
+    account.first_outside = fmt::format("reference {} {} {} in [{}, {}] [{}, {}] [{}, {}]", reference[0].v, reference[1].v, reference[2].v,
+                                        alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
+                                        alternatives[0].v[2].lo, alternatives[0].v[2].hi);
   }
   if (enclosed::profile().reference) {
     for (int k = 0; k < 3; ++k) {
@@ -124,10 +123,9 @@ void judge(Account& account, const Pass& pass) {
     account.gpu_differs += got[0].v != reference[0].v || got[1].v != reference[1].v || got[2].v != reference[2].v;
     if (held(got)) continue;
     ++account.outside_gpu;
-    account.first_outside =
-        fmt::format("gpu {} {} {} in [{}, {}] [{}, {}] [{}, {}], reference {} {} {}", got[0].v, got[1].v, got[2].v,
-                    alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
-                    alternatives[0].v[2].lo, alternatives[0].v[2].hi, reference[0].v, reference[1].v, reference[2].v);
+    account.first_outside = fmt::format("gpu {} {} {} in [{}, {}] [{}, {}] [{}, {}], reference {} {} {}", got[0].v, got[1].v, got[2].v,
+                                        alternatives[0].v[0].lo, alternatives[0].v[0].hi, alternatives[0].v[1].lo, alternatives[0].v[1].hi,
+                                        alternatives[0].v[2].lo, alternatives[0].v[2].hi, reference[0].v, reference[1].v, reference[2].v);
   }
   if (vacuous || alternatives.size() > 1) return;
   for (int k = 0; k < account.channels; ++k) {
@@ -146,11 +144,9 @@ template <class N>
 text::Surface<N> surface(const Scene& s, int x, int y) {
   const float* h = s.puddle->hit().row<float>(y) + 4 * x;
   const Half* n = s.puddle->normal().row<Half>(y) + 4 * x;
-  return {Vec3<N>(N::load(h), N::load(h + 1), N::load(h + 2)), Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)),
-          N::load(n + 3)};
+  return {Vec3<N>(N::load(h), N::load(h + 1), N::load(h + 2)), Vec3<N>(N::load(n), N::load(n + 1), N::load(n + 2)), N::load(n + 3)};
 }
-const std::string names[] = {"puddle/as-published/rg16f", "puddle/corrected/rg16f", "puddle/as-published/rg32f",
-                             "puddle/corrected/rg32f"};
+const std::string names[] = {"puddle/as-published/rg16f", "puddle/corrected/rg16f", "puddle/as-published/rg32f", "puddle/corrected/rg32f"};
 
 TEST(PuddleEnclosure, WaveStepHoldsTheReferenceAndEveryGpu) {
   for (const std::string& name : names) {
@@ -173,8 +169,7 @@ TEST(PuddleEnclosure, WaveStepHoldsTheReferenceAndEveryGpu) {
         rows.reach = 1;
         judge(account, [&]<class N>(N) -> Values<N> {
           const int drops = static_cast<int>(s.drops.size());
-          if (!s.corrected)
-            return {text::wave_step_as_published<N>(u, rows, s.drops.data(), drops, x, y), N(0.0f), N(0.0f)};
+          if (!s.corrected) return {text::wave_step_as_published<N>(u, rows, s.drops.data(), drops, x, y), N(0.0f), N(0.0f)};
           return {text::wave_step_corrected<N>(u, rows, s.drops.data(), drops, x, y),
                   text::wave_previous_corrected<N>(rows.here, nullptr, s.drops.data(), drops, x, y), N(0.0f)};
         });
@@ -195,11 +190,10 @@ TEST(PuddleEnclosure, ShadeHoldsTheReferenceAndEveryGpu) {
         const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
         judge(account, [&]<class N>(N) -> Values<N> {
           if (s.corrected) {
-            return values(text::shade_corrected<N>(s.shade, s.environment.view(), s.ground.view(), s.relief.view(),
-                                                   s.bed.view(), surface<N>(s, x, y), x, y));
+            return values(text::shade_corrected<N>(s.shade, s.environment.view(), s.ground.view(), s.relief.view(), s.bed.view(),
+                                                   surface<N>(s, x, y), x, y));
           }
-          return values(text::shade_as_published<N>(s.shade, s.environment.view(), s.ground.view(), surface<N>(s, x, y),
-                                                    N(0.25f), x, y));
+          return values(text::shade_as_published<N>(s.shade, s.environment.view(), s.ground.view(), surface<N>(s, x, y), N(0.25f), x, y));
         });
       }
       expect_inside(account, "shade " + name.substr(7), p.name);
@@ -219,8 +213,7 @@ TEST(PuddleEnclosure, DisplayHoldsTheReferenceAndEveryGpu) {
         const Half* c = s.puddle->colour().row<Half>(y) + 4 * x;
         judge(account, [&]<class N>(N) -> Values<N> {
           const Vec3<N> colour(N::load(c), N::load(c + 1), N::load(c + 2));
-          return values(s.corrected ? text::display_corrected<N>(u, colour, x, y)
-                                    : text::display_as_published<N>(u, colour, x, y));
+          return values(s.corrected ? text::display_corrected<N>(u, colour, x, y) : text::display_as_published<N>(u, colour, x, y));
         });
       }
       expect_inside(account, "display " + name.substr(7), p.name);
@@ -256,8 +249,7 @@ TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
       Account ray, distance{.channels = s.corrected ? 3 : 1};
       for (int i = 0; i < 400; ++i) {
         const int x = i * 37 % s.settings.width, y = i * 11 % s.settings.height;
-        judge(ray,
-              [&]<class N>(N) { return values(text::camera_ray<N>(u.camera, N::index(x), N(static_cast<float>(y)))); });
+        judge(ray, [&]<class N>(N) { return values(text::camera_ray<N>(u.camera, N::index(x), N(static_cast<float>(y)))); });
         judge(distance, [&]<class N>(N) -> Values<N> {
           const Vec3<N> place = surface<N>(s, x, y).position;
           if (!s.corrected) return {text::scene_distance<N>(u, water.view(), place), N(0.0f), N(0.0f)};
@@ -275,11 +267,11 @@ TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
 }  // namespace
 
 // The whole texts instantiate.
-template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_as_published<Enclosure>(
-    const SurfaceHitUniforms&, const Texture&, int, int);
-template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_corrected<Enclosure>(
-    const SurfaceHitUniforms&, const Texture&, const Texture&, int, int);
-template Enclosure scalar_readings::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&,
-                                                                         const text::Surface<Enclosure>&, int, int);
+template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&,
+                                                                                                     const Texture&, int, int);
+template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&, const Texture&,
+                                                                                                  const Texture&, int, int);
+template Enclosure scalar_readings::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&, int,
+                                                                         int);
 
 }  // namespace rainref::puddle

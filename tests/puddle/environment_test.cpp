@@ -29,12 +29,18 @@ Direction latlong_direction(double u, double v) {
 // The table of the OpenGL specification (cube map texture selection): (s, t) in [-1, 1] of a face to a direction.
 Direction cube_direction(int face, double s, double t) {
   switch (face) {
-    case 0: return {1, -t, -s};
-    case 1: return {-1, -t, s};
-    case 2: return {s, 1, t};
-    case 3: return {s, -1, -t};
-    case 4: return {s, -t, 1};
-    default: return {-s, -t, -1};
+    case 0:
+      return {1, -t, -s};
+    case 1:
+      return {-1, -t, s};
+    case 2:
+      return {s, 1, t};
+    case 3:
+      return {s, -1, -t};
+    case 4:
+      return {s, -t, 1};
+    default:
+      return {-s, -t, -1};
   }
 }
 

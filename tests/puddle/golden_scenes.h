@@ -69,7 +69,8 @@ inline std::vector<GoldenScene> golden_scenes() {
 }
 
 /// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
+                                             const golden::Caller& caller = golden::call_plainly) {
   static Surroundings around;  // one for all scenes
   if (around.environment.empty()) around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);
   std::optional<Puddle> puddle;

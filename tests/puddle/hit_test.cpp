@@ -173,7 +173,9 @@ struct Surface {
   TextureData wave;
   double above(const Seen& r, double t) const {
     return r.eye[1] + t * r.ray[1] -
-           scalar::water_height<Double>(uniforms, wave.view(), coordinate(0, r.eye[0] + t * r.ray[0]), coordinate(1, r.eye[2] + t * r.ray[2])).v;
+           scalar::water_height<Double>(uniforms, wave.view(), coordinate(0, r.eye[0] + t * r.ray[0]),
+                                        coordinate(1, r.eye[2] + t * r.ray[2]))
+               .v;
   }
   // Texture coordinate of a place in the world, along x (0) or z (1).
   Double coordinate(int axis, double place) const {

@@ -7,7 +7,9 @@
 namespace rainref::puddle::test {
 namespace {
 
-std::vector<float> constant(int cells, double value) { return std::vector<float>(static_cast<std::size_t>(cells), static_cast<float>(value)); }
+std::vector<float> constant(int cells, double value) {
+  return std::vector<float>(static_cast<std::size_t>(cells), static_cast<float>(value));
+}
 
 // A height that rises along +x, `rise` a texel, zero in the middle.
 std::vector<float> ramp(int width, int height, double rise) {
@@ -17,7 +19,8 @@ std::vector<float> ramp(int width, int height, double rise) {
   }
   return heights;
 }
-Puddle rendered(const Settings& s, const std::vector<float>& newest, const std::vector<float>& previous, float radiance = 1, float albedo = 0) {
+Puddle rendered(const Settings& s, const std::vector<float>& newest, const std::vector<float>& previous, float radiance = 1,
+                float albedo = 0) {
   Puddle p(s, uniform_surroundings(radiance, albedo), executor());
   p.set_water(newest, previous);
   p.render();
@@ -32,13 +35,17 @@ double down_colour(const Settings& s, float radiance, float albedo) {
 // The height is taken from the green channel, the previous level, and still encoded: level water lies at 5 - 1/2.
 TEST(PuddleOddities, Oddity07_HeightIsPreviousAndEncoded) {
   const Settings s = looking_down(as_published(4, 4), 18);
-  const auto height = [&](double newest, double previous) { return hit_of(rendered(s, constant(16, newest), constant(16, previous)), 1, 1)[1]; };
+  const auto height = [&](double newest, double previous) {
+    return hit_of(rendered(s, constant(16, newest), constant(16, previous)), 1, 1)[1];
+  };
   EXPECT_NEAR(height(0, 0), 4.5, 1e-3 + 1e-6);  // the march's epsilon
   EXPECT_NEAR(height(0.6, 0), 4.5, 1e-3 + 1e-6) << "the newest level is not seen";
   EXPECT_NEAR(height(0, 0.6), 4.5 - 0.3, 1e-3 + 1e-6) << "s = 1/2 + u/2";
   // Corrected: the newest level, in metres about y = 0.
   const Settings c = looking_down(corrected(4, 4), 0.5);
-  const auto metres = [&](double newest, double previous) { return hit_of(rendered(c, constant(1200, newest), constant(1200, previous)), 1, 1)[1]; };
+  const auto metres = [&](double newest, double previous) {
+    return hit_of(rendered(c, constant(1200, newest), constant(1200, previous)), 1, 1)[1];
+  };
   EXPECT_NEAR(metres(0, 0), 0, 1.1e-5);
   EXPECT_NEAR(metres(0.006, 0), 0.006, 1.1e-5);
   EXPECT_NEAR(metres(0, 0.006), 0, 1.1e-5);
@@ -207,7 +214,8 @@ TEST(PuddleOddities, Oddity13_PublishedMarchOvershootsCrests) {
     const TextureData water = wave_texture(heights, width, 2, Address::clamp);
     const auto fixed = scalar::surface_hit_corrected<Double>(v, water.view(), bounds.view(), 0, 0);
     const auto below = [&](double t) {
-      return 1.1 + t * direction[1] < scalar::water_height<Double>(v, water.view(), Double((start + t * direction[0]) / (0.1 * width) + 0.5), Double(0.5f)).v;
+      return 1.1 + t * direction[1] <
+             scalar::water_height<Double>(v, water.view(), Double((start + t * direction[0]) / (0.1 * width) + 0.5), Double(0.5f)).v;
     };
     const double crossing = first_where(0, 60, 0.002, below);
     // Newton's step starts at most 1e-4 above a slope of 10, of which central differences at the crest see 2 or more.

@@ -159,7 +159,8 @@ TEST(PuddleOddities, Oddity17_PublishedWaterDependsOnTheFrameRate) {
   };
   const auto bytes = [](const Puddle& p) {
     std::vector<float> all;
-    for (int y = 0; y < p.newest().height(); ++y) all.insert(all.end(), p.newest().row<float>(y), p.newest().row<float>(y) + p.newest().width());
+    for (int y = 0; y < p.newest().height(); ++y)
+      all.insert(all.end(), p.newest().row<float>(y), p.newest().row<float>(y) + p.newest().width());
     return all;
   };
   Settings published = as_published(24, 16);

@@ -16,9 +16,13 @@ constexpr double double_error = 2e-7, float_error = 1e-6;
 const float f0 = ((1.0f - scalar::water_ior) / (1.0f + scalar::water_ior)) * ((1.0f - scalar::water_ior) / (1.0f + scalar::water_ior));
 
 template <class N = Double>
-double schlick(double cosine) { return scalar::fresnel_schlick<N>(N(static_cast<decltype(N().v)>(cosine)), f0).v; }
+double schlick(double cosine) {
+  return scalar::fresnel_schlick<N>(N(static_cast<decltype(N().v)>(cosine)), f0).v;
+}
 template <class N = Double>
-double exact(double cosine) { return scalar::fresnel_dielectric<N>(N(static_cast<decltype(N().v)>(cosine)), scalar::water_ior).v; }
+double exact(double cosine) {
+  return scalar::fresnel_dielectric<N>(N(static_cast<decltype(N().v)>(cosine)), scalar::water_ior).v;
+}
 
 // 2 integral of R(mu) mu dmu over [0, 1]: Simpson's rule in 2000 intervals.
 double cosine_mean(const std::function<double(double)>& reflectance) {
@@ -36,8 +40,15 @@ TEST(PuddleOptics, FresnelHasTheTabulatedValues) {
     double angle, exact, schlick;
   };
   constexpr double half_digit = 5e-7;
-  for (const Case& c : {Case{0, .020373, .020373}, {30, .021436, .020415}, {45, .027898, .022485}, {60, .059691, .050987},
-                        {70, .133475, .141189}, {75, .212378, .239493}, {80, .347917, .397846}, {85, .583523, .641305}, {90, 1, 1}}) {
+  for (const Case& c : {Case{0, .020373, .020373},
+                        {30, .021436, .020415},
+                        {45, .027898, .022485},
+                        {60, .059691, .050987},
+                        {70, .133475, .141189},
+                        {75, .212378, .239493},
+                        {80, .347917, .397846},
+                        {85, .583523, .641305},
+                        {90, 1, 1}}) {
     const double cosine = c.angle == 90 ? 0 : std::cos(c.angle * degree);
     EXPECT_NEAR(exact(cosine), c.exact, half_digit + double_error) << c.angle;
     EXPECT_NEAR(schlick(cosine), c.schlick, half_digit + double_error) << c.angle;

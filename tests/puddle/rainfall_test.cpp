@@ -84,7 +84,8 @@ TEST(PuddleRainfall, CountsArePoissonWithTheFluxOfTheRain) {
   EXPECT_NEAR(y / sum, 15, 4 * 30 / std::sqrt(12 * sum));
 }
 
-/// Counts of points of the unit square in a 10 x 10 grid are those of a fair generator: places along a diagonal, or on few columns, are not.
+/// Counts of points of the unit square in a 10 x 10 grid are those of a fair generator: places along a diagonal, or on few columns, are
+/// not.
 void expect_uniform(const std::vector<int>& cells, const char* what) {
   const double chi = rainref::test::chi_square(cells);
   EXPECT_GT(chi, rainref::test::chi_square_99_low) << what;
@@ -103,7 +104,9 @@ TEST(PuddleRainfall, PlacesAndSizesAreIndependentAndUniform) {
   for (int k = 0; k < 4000; ++k) {
     double before = -1;
     for (const Drop& d : rain.drops(k)) {
-      const double x = d.x / 40, y = d.y / 30, size = (static_cast<double>(std::lower_bound(depths.begin(), depths.end(), -d.amplitude) - depths.begin()) + 0.5) / Rainfall::sizes;
+      const double x = d.x / 40, y = d.y / 30,
+                   size = (static_cast<double>(std::lower_bound(depths.begin(), depths.end(), -d.amplitude) - depths.begin()) + 0.5) /
+                          Rainfall::sizes;
       ++x_y[rainref::test::cell_of(x, y)];
       ++x_size[rainref::test::cell_of(x, size)];
       ++y_size[rainref::test::cell_of(y, size)];

@@ -148,8 +148,7 @@ struct Water {
   Image newest, previous, rest_row;
   int width, height;
 
-  explicit Water(const Settings& s)
-      : settings(s), uniforms(wave_step_uniforms(s)), width(wave_size(s)[0]), height(wave_size(s)[1]) {
+  explicit Water(const Settings& s) : settings(s), uniforms(wave_step_uniforms(s)), width(wave_size(s)[0]), height(wave_size(s)[1]) {
     const Format format = s.storage == Format::rgba8 ? Format::r8 : s.storage == Format::rg16f ? Format::r16f : Format::r32f;
     newest = Image(format, width, height);
     previous = Image(format, width, height);

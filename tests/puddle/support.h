@@ -108,9 +108,14 @@ inline Field stored_values(const Image& plane) {
   for (int y = 0; y < plane.height(); ++y) {
     for (int x = 0; x < plane.width(); ++x) {
       switch (info(plane.format()).kind) {
-        case FormatInfo::float16: out.push_back(to_float(plane.row<Half>(y)[x])); break;
-        case FormatInfo::float32: out.push_back(plane.row<float>(y)[x]); break;
-        default: out.push_back(to_float(plane.row<Unorm8>(y)[x]));
+        case FormatInfo::float16:
+          out.push_back(to_float(plane.row<Half>(y)[x]));
+          break;
+        case FormatInfo::float32:
+          out.push_back(plane.row<float>(y)[x]);
+          break;
+        default:
+          out.push_back(to_float(plane.row<Unorm8>(y)[x]));
       }
     }
   }

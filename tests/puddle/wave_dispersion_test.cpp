@@ -98,9 +98,7 @@ TEST(WaveDispersion, PublishedFrequenciesWithDamping) {
 
 // Level water rings: cos w0 = sqrt(gamma), a period of 27.9, 62.7, 198.7 steps.
 TEST(WaveDispersion, PublishedMeanRingsWithThePeriodsOfTheTable) {
-  const struct {
-    double gamma, period;
-  } table[] = {{0.95, 27.9}, {0.99, 62.7}, {0.999, 198.7}};
+  const struct { double gamma, period; } table[] = {{0.95, 27.9}, {0.99, 62.7}, {0.999, 198.7}};
   for (const auto& row : table) {
     const Settings s = as_published(5, 3, row.gamma);
     Puddle puddle = puddle_of(s);
@@ -191,9 +189,17 @@ TEST(WaveDispersion, CorrectedSpeedByDirectionWavenumberAndCourantNumber) {
   for (const double courant : {courant_limit, 0.5, 0.25}) {
     const Settings s = corrected(size, size, 1, courant, Boundary::periodic);
     EXPECT_EQ(puddle_of(s).courant(), courant);
-    for (const auto& [p, q] : {std::array{1, 0}, {2, 0}, {4, 0}, {8, 0}, {0, 8}, {16, 0},  // axis: 64 to 4 texels
-                               {1, 1}, {4, 4}, {8, 8},                                     // diagonal
-                               {7, 4}, {14, 8}}) {                                         // 29.7 degrees
+    for (const auto& [p, q] : {std::array{1, 0},
+                               {2, 0},
+                               {4, 0},
+                               {8, 0},
+                               {0, 8},
+                               {16, 0},  // axis: 64 to 4 texels
+                               {1, 1},
+                               {4, 4},
+                               {8, 8},  // diagonal
+                               {7, 4},
+                               {14, 8}}) {  // 29.7 degrees
       const double kx = 2 * pi * p / size, ky = 2 * pi * q / size, k = std::hypot(kx, ky);
       const double exact = 2 * std::asin(courant * std::hypot(std::sin(kx / 2), std::sin(ky / 2)));
       const double speed = measure(s, p, q).frequency() / (courant * k);

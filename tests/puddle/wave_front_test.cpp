@@ -57,7 +57,9 @@ Crests crests(const Puddle& puddle, const Settings& s, int centre, int n) {
     diagonal.push_back(u[static_cast<std::size_t>(centre + r) * width + centre + r]);
   }
   const double expected = n * std::sqrt(0.5);
-  const auto around = [&](const std::vector<double>& ray, double r) { return crest(ray, static_cast<int>(r) - 15, static_cast<int>(r) + 15); };
+  const auto around = [&](const std::vector<double>& ray, double r) {
+    return crest(ray, static_cast<int>(r) - 15, static_cast<int>(r) + 15);
+  };
   return {around(axis, expected), std::sqrt(2.0) * around(diagonal, expected / std::sqrt(2.0))};
 }
 
@@ -78,7 +80,8 @@ TEST(WaveFront, RingsAreAsFastAndAsRoundAsTheTable) {
       const Crests first = crests(puddle, s, centre, 100);
       for (int n = 0; n < 100; ++n) puddle.simulate();
       const Crests last = crests(puddle, s, centre, 200);
-      const double axis = (last.axis - first.axis) / 100 * std::sqrt(2.0), diagonal = (last.diagonal - first.diagonal) / 100 * std::sqrt(2.0);
+      const double axis = (last.axis - first.axis) / 100 * std::sqrt(2.0),
+                   diagonal = (last.diagonal - first.diagonal) / 100 * std::sqrt(2.0);
       const std::string key = fmt::format("{} sigma {}", text(s), row.sigma);
       record(key + " axis", axis);
       record(key + " diagonal", diagonal);

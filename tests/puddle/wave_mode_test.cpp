@@ -60,7 +60,8 @@ TEST(WaveMode, AnOffsetOfTwoDecouplesFourLattices) {
     for (int n = 0; n < 50; ++n) whole.simulate();
     for (int lattice = 0; lattice < 4; ++lattice) {
       const auto part = [&](const Field& field) {
-        return make_field(17, 37, [&](int x, int y) { return field[static_cast<std::size_t>(2 * y + lattice / 2) * 34 + 2 * x + lattice % 2]; });
+        return make_field(17, 37,
+                          [&](int x, int y) { return field[static_cast<std::size_t>(2 * y + lattice / 2) * 34 + 2 * x + lattice % 2]; });
       };
       Puddle alone = puddle_of(coarse);
       put(alone, part(newest), part(previous));
@@ -217,9 +218,7 @@ TEST(WaveMode, StoredModesObeyTheirRecurrenceWithinTheRoundingOfAStep) {
 
 // -2 ln 2 / ln gamma steps: 27.0, 68.6, 137.9, 1385.6.
 TEST(WaveMode, HalfLivesOfTheTable) {
-  const struct {
-    double gamma, steps;
-  } table[] = {{0.95, 27.0}, {0.98, 68.6}, {0.99, 137.9}, {0.999, 1385.6}};
+  const struct { double gamma, steps; } table[] = {{0.95, 27.0}, {0.98, 68.6}, {0.99, 137.9}, {0.999, 1385.6}};
   for (const auto& row : table) {
     const Settings s = as_published(16, 12, row.gamma);
     const Mode m = mode(s.boundary, 16, 12, 5, 3);

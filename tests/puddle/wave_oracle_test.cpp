@@ -24,7 +24,8 @@ template <class Storage>
   for (int y = 0; y < plane.height(); ++y) {
     for (int x = 0; x < plane.width(); ++x) {
       const Storage& expected = level[static_cast<std::size_t>(y) * plane.width() + x];
-      if (std::memcmp(plane.row<Storage>(y) + x, &expected, sizeof(Storage)) != 0) return ::testing::AssertionFailure() << "at " << x << ", " << y;
+      if (std::memcmp(plane.row<Storage>(y) + x, &expected, sizeof(Storage)) != 0)
+        return ::testing::AssertionFailure() << "at " << x << ", " << y;
     }
   }
   return ::testing::AssertionSuccess();

@@ -33,7 +33,8 @@ TEST(WaveRate, CorrectedWaterHasTheSameBitsAtEqualTimesForEveryFrameRate) {
   for (const Format storage : {Format::rg32f, Format::rg16f}) {
     const std::vector<Levels> expected = levels_at_each_thirtieth(rain_at(Variant::corrected, 30, storage));
     EXPECT_GT(largest(expected.back().newest), 1e-4) << "there are waves";
-    for (const double fps : {60.0, 120.0, 240.0}) EXPECT_EQ(levels_at_each_thirtieth(rain_at(Variant::corrected, fps, storage)), expected) << fps;
+    for (const double fps : {60.0, 120.0, 240.0})
+      EXPECT_EQ(levels_at_each_thirtieth(rain_at(Variant::corrected, fps, storage)), expected) << fps;
   }
 }
 // Oddity 17: a published step is a frame, so speed, fading and impulse follow the frame rate.

@@ -46,7 +46,8 @@ TEST(WaveStability, AtTheLimitWaterStaysBounded) {
     Field opposite = checkerboard;
     for (double& u : opposite) u = -u;
     Puddle puddle = puddle_of(s);
-    for (const auto& [newest, previous] : {std::pair{noise(192, 9), noise(192, 10)}, {checkerboard, opposite}, {checkerboard, checkerboard}}) {
+    for (const auto& [newest, previous] :
+         {std::pair{noise(192, 9), noise(192, 10)}, {checkerboard, opposite}, {checkerboard, checkerboard}}) {
       put(puddle, newest, previous);
       double top = 0;
       for (int n = 0; n < 3000; ++n) {
@@ -58,7 +59,8 @@ TEST(WaveStability, AtTheLimitWaterStaysBounded) {
       EXPECT_LE(top, 2 / (1 - 0.98) * (1 + step_rounding * ulp_float * growth(s, 3000))) << text(s);
       // It is the checkerboard that lasts: with its two levels opposite it flips for ever.
       if (boundary == Boundary::periodic && newest == checkerboard && previous == opposite) {
-        EXPECT_NEAR(largest(heights(puddle.newest(), s)), 1, 3000 * 50 * 8 * ulp_float) << "K and gamma are floats: the root is -1 to 4e-7/(1-gamma)";
+        EXPECT_NEAR(largest(heights(puddle.newest(), s)), 1, 3000 * 50 * 8 * ulp_float)
+            << "K and gamma are floats: the root is -1 to 4e-7/(1-gamma)";
       }
     }
   }

@@ -93,7 +93,8 @@ TEST(WaveSymmetry, ExactStepsHaveAllEightSymmetriesToTheBit) {
   const int size = 35;
   for (const Variant variant : variants) {
     for (const Boundary boundary : boundaries) {
-      const Settings s = variant == Variant::as_published ? as_published(size, size, 1, boundary) : corrected(size, size, 1, courant_limit, boundary);
+      const Settings s =
+          variant == Variant::as_published ? as_published(size, size, 1, boundary) : corrected(size, size, 1, courant_limit, boundary);
       for (const auto& [cx, cy] : {std::array{17, 17}, {3, 30}}) {
         Field impulse(cells_of(s));
         impulse[static_cast<std::size_t>(cy) * size + cx] = 1;

@@ -12,10 +12,11 @@ namespace rainref::rain {
 namespace {
 
 // R. Gunn and G. D. Kinzer, J. Meteor. 6 (1949): diameter [mm], velocity [m/s].
-constexpr double gunn_kinzer[][2] = {{.1, .27},  {.2, .72},  {.3, 1.17},  {.4, 1.62},  {.5, 2.06},  {.6, 2.47},  {.7, 2.87},  {.8, 3.27},  {.9, 3.67},
-                                     {1.0, 4.03}, {1.2, 4.64}, {1.4, 5.17}, {1.6, 5.65}, {1.8, 6.09}, {2.0, 6.49}, {2.2, 6.90}, {2.4, 7.27}, {2.6, 7.57},
-                                     {2.8, 7.82}, {3.0, 8.06}, {3.2, 8.26}, {3.4, 8.44}, {3.6, 8.60}, {3.8, 8.72}, {4.0, 8.83}, {4.2, 8.92}, {4.4, 8.98},
-                                     {4.6, 9.03}, {4.8, 9.07}, {5.0, 9.09}, {5.2, 9.12}, {5.4, 9.14}, {5.6, 9.16}, {5.8, 9.17}};
+constexpr double gunn_kinzer[][2] = {{.1, .27},   {.2, .72},   {.3, 1.17},  {.4, 1.62},  {.5, 2.06},  {.6, 2.47},  {.7, 2.87},
+                                     {.8, 3.27},  {.9, 3.67},  {1.0, 4.03}, {1.2, 4.64}, {1.4, 5.17}, {1.6, 5.65}, {1.8, 6.09},
+                                     {2.0, 6.49}, {2.2, 6.90}, {2.4, 7.27}, {2.6, 7.57}, {2.8, 7.82}, {3.0, 8.06}, {3.2, 8.26},
+                                     {3.4, 8.44}, {3.6, 8.60}, {3.8, 8.72}, {4.0, 8.83}, {4.2, 8.92}, {4.4, 8.98}, {4.6, 9.03},
+                                     {4.8, 9.07}, {5.0, 9.09}, {5.2, 9.12}, {5.4, 9.14}, {5.6, 9.16}, {5.8, 9.17}};
 
 /// Integral of f over [a, b] by Simpson's rule.
 template <class F>
@@ -88,7 +89,8 @@ TEST(DropSizes, WaterIsAboveTheRateByTheKnownAmount) {
   const double table[][3] = {{1, 1.18, .005}, {5, 5.90, .005}, {10, 11.64, .005}, {25, 28.3, .05}, {50, 54.8, .05}, {100, 105.1, .05}};
   for (const auto& [rate, water, digits] : table) {
     EXPECT_NEAR(DropSizes(rate, 0).water_mm_per_h() + beyond_the_largest(rate, water_of), water, digits) << rate;
-    EXPECT_NEAR(DropSizes(rate, 0).water_mm_per_h(), integral(0, 6, [&](double d) { return arrivals(rate, d) * water_of(d); }), 2e-6 * water);
+    EXPECT_NEAR(DropSizes(rate, 0).water_mm_per_h(), integral(0, 6, [&](double d) { return arrivals(rate, d) * water_of(d); }),
+                2e-6 * water);
     EXPECT_GT(DropSizes(rate, 0).water_mm_per_h(), 1.029 * rate);
     EXPECT_LT(DropSizes(rate, 0).water_mm_per_h(), 1.185 * rate);
     EXPECT_LT(DropSizes(rate, 1).water_mm_per_h(), DropSizes(rate, 0).water_mm_per_h());
@@ -126,7 +128,8 @@ TEST(DropSizes, ManyQuantilesKeepTheMean) {
   const std::vector<double> q = sizes.quantiles(1024);
   double mean = 0;
   for (const double d : q) mean += d / 1024;
-  const double exact = integral(0, 6, [](double d) { return d * arrivals(25, d); }) / integral(0, 6, [](double d) { return arrivals(25, d); });
+  const double exact =
+      integral(0, 6, [](double d) { return d * arrivals(25, d); }) / integral(0, 6, [](double d) { return arrivals(25, d); });
   EXPECT_NEAR(mean, exact, 1e-3 * exact);
 }
 

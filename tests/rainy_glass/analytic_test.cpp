@@ -196,8 +196,8 @@ TEST(RainyGlassRefraction, IsThatOfAThinPrism) {
     EXPECT_NEAR(p.moved()[1], 0, 1e-6);
   }
 }
-// How far the prism of small angles is off where angles are not small: the numbers of docs/effects/rainy_glass.md and compositor.md. Light through flat glass
-// leaves a sheet of slope tan a at asin(n sin a) - a.
+// How far the prism of small angles is off where angles are not small: the numbers of docs/effects/rainy_glass.md and compositor.md. Light
+// through flat glass leaves a sheet of slope tan a at asin(n sin a) - a.
 TEST(RainyGlassRefraction, FallsShortOfSnellsLawAsTheDocumentsSay) {
   struct Known {
     double slope, snell, prism, share;  ///< degrees; what the prism is short by
@@ -206,7 +206,8 @@ TEST(RainyGlassRefraction, FallsShortOfSnellsLawAsTheDocumentsSay) {
     const double a = std::atan(k.slope), degree = pi / 180;
     EXPECT_NEAR((std::asin(1.333 * std::sin(a)) - a) / degree, k.snell, 0.05);
     RainOnGlassUniforms u = rain_on_glass_uniforms(settings(Variant::corrected, 8, 8), 0, {0.5, 0.5}, {0.5, 0.5});
-    const scalar::Two<Double> moved = scalar::prism(u, plain::Vec3<Double>(Double(0.0), Double(0.0), Double(1.0)), Double(1.0), scalar::Two<Double>(Double(k.slope), Double(0.0)));
+    const scalar::Two<Double> moved = scalar::prism(u, plain::Vec3<Double>(Double(0.0), Double(0.0), Double(1.0)), Double(1.0),
+                                                    scalar::Two<Double>(Double(k.slope), Double(0.0)));
     const double bent = std::atan(std::hypot(moved.a.v, moved.b.v)) / degree;
     EXPECT_NEAR(bent, k.prism, 0.05);
     EXPECT_NEAR(1 - bent / k.snell, k.share, 0.006);
@@ -265,7 +266,8 @@ TEST(RainyGlassRefraction, NearDepthIsBelowEveryTexelOfALookup) {
   const TextureData near(near_depth(depth), 1, 33, 21, Address::clamp, Address::clamp);
   for (int k = 0; k < 20000; ++k) {
     const double u = std::fmod(k * 0.61803398875, 1.2) - 0.1, v = std::fmod(k * 0.7548776662, 1.2) - 0.1;
-    const float found = scalar::sample_bilinear<0, 1>(near.view(), test::Single(static_cast<float>(u)), test::Single(static_cast<float>(v)))[0].v;
+    const float found =
+        scalar::sample_bilinear<0, 1>(near.view(), test::Single(static_cast<float>(u)), test::Single(static_cast<float>(v)))[0].v;
     const double x = std::clamp(u * 33 - 0.5, 0.0, 32.0), y = std::clamp(v * 21 - 0.5, 0.0, 20.0);
     for (int j = 0; j < 2; ++j) {
       for (int i = 0; i < 2; ++i) {
@@ -286,7 +288,8 @@ TEST(RainyGlassRefraction, DryGlassIsClear) {
     glass.frame();
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
-        for (int k = 0; k < 3; ++k) ASSERT_EQ(glass.colour().row<Half>(y)[4 * x + k].bits, to_half(around.colour.row<float>(y)[4 * x + k]).bits);
+        for (int k = 0; k < 3; ++k)
+          ASSERT_EQ(glass.colour().row<Half>(y)[4 * x + k].bits, to_half(around.colour.row<float>(y)[4 * x + k]).bits);
       }
     }
   }
@@ -308,7 +311,8 @@ TEST(RainyGlassTile, HasNoEdge) {
   std::vector<Droplet> other = droplets;
   std::vector<Trail> others = trails;
   for (const auto& [dx, dy] : {std::pair{5, 11}, std::pair{40, 63}}) {
-    for (std::size_t i = 0; i < droplets.size(); ++i) other[i].x = moved(droplets[i].x, dx, size), other[i].y = moved(droplets[i].y, dy, size);
+    for (std::size_t i = 0; i < droplets.size(); ++i)
+      other[i].x = moved(droplets[i].x, dx, size), other[i].y = moved(droplets[i].y, dy, size);
     for (std::size_t i = 0; i < trails.size(); ++i) others[i].x = moved(trails[i].x, dx, size), others[i].y = moved(trails[i].y, dy, size);
     for (const bool corrected : {false, true}) {
       const BakeRaindropsUniforms u = bake_raindrops_uniforms(s, count);
@@ -322,7 +326,8 @@ TEST(RainyGlassTile, HasNoEdge) {
           ASSERT_EQ(a.b.v, b.b.v);
           ASSERT_EQ(a.a.v, b.a.v);
           const auto c = scalar::bake_rivulets<test::Single>(r, trails.data(), static_cast<int>(trails.size()), lattice.view(), x, y);
-          const auto d = scalar::bake_rivulets<test::Single>(r, others.data(), static_cast<int>(trails.size()), lattice.view(), (x + dx) % size, (y + dy) % size);
+          const auto d = scalar::bake_rivulets<test::Single>(r, others.data(), static_cast<int>(trails.size()), lattice.view(),
+                                                             (x + dx) % size, (y + dy) % size);
           ASSERT_EQ(c.r.v, d.r.v) << x << ' ' << y;
           ASSERT_EQ(c.g.v, d.g.v);
         }
@@ -337,7 +342,9 @@ TEST(RainyGlassTile, FlowHasNoEdge) {
   const int side = lattice.width();
   const BakeRivuletsUniforms u = bake_rivulets_uniforms(s, 0);
   const auto noise = [&](const TextureData& t, int cells, int x, int y) {
-    return scalar::gradient_noise<0>(t.view(), cells, scalar::texel_centre_x<test::Single>(u.inverse_size, x), scalar::texel_centre_y<test::Single>(u.inverse_size, y)).v;
+    return scalar::gradient_noise<0>(t.view(), cells, scalar::texel_centre_x<test::Single>(u.inverse_size, x),
+                                     scalar::texel_centre_y<test::Single>(u.inverse_size, y))
+        .v;
   };
   const TextureData original(lattice, Address::repeat, Address::repeat);
   Image rolled(Format::rgba32f, side, side);
@@ -347,7 +354,8 @@ TEST(RainyGlassTile, FlowHasNoEdge) {
   const TextureData other(rolled, Address::repeat, Address::repeat);
   const int cell = s.map_size / side;
   for (int y = 0; y < s.map_size; ++y) {
-    for (int x = 0; x < s.map_size; ++x) ASSERT_EQ(noise(original, side, x, y), noise(other, side, (x + 3 * cell) % s.map_size, (y + cell) % s.map_size));
+    for (int x = 0; x < s.map_size; ++x)
+      ASSERT_EQ(noise(original, side, x, y), noise(other, side, (x + 3 * cell) % s.map_size, (y + cell) % s.map_size));
   }
 }
 // Droplets do not overlap, not even round the edges, and all lie within what they claim.
@@ -355,7 +363,8 @@ TEST(RainyGlassTile, DropletsKeepApart) {
   const std::vector<Droplet> droplets = make_droplets(settings(Variant::corrected, 8, 8));
   for (std::size_t i = 0; i < droplets.size(); ++i) {
     const Droplet& a = droplets[i];
-    const double trace = a.m00 + a.m11, det = a.m00 * a.m11 - a.m01 * a.m01, least = trace / 2 - std::sqrt(std::max(0.0, trace * trace / 4 - det));
+    const double trace = a.m00 + a.m11, det = a.m00 * a.m11 - a.m01 * a.m01,
+                 least = trace / 2 - std::sqrt(std::max(0.0, trace * trace / 4 - det));
     EXPECT_GE(least * a.radius, 1 - 1e-4);  // the longest half axis is the radius
     for (std::size_t j = 0; j < i; ++j) {
       double dx = std::abs(a.x - droplets[j].x), dy = std::abs(a.y - droplets[j].y);
@@ -384,7 +393,8 @@ TEST(RainyGlassSurface, IsWhereTheRayMeetsTheGlass) {
         if (to_float(n[3]) == 0) continue;
         ++covered;
         const double h = eye.half_height(), w = h * s.width / s.height;
-        const scene::Vector3 at = static_cast<double>(p[2]) * (basis.forward + ((2 * x + 1.0) / s.width - 1) * w * basis.right + ((2 * y + 1.0) / s.height - 1) * h * basis.up);
+        const scene::Vector3 at = static_cast<double>(p[2]) * (basis.forward + ((2 * x + 1.0) / s.width - 1) * w * basis.right +
+                                                               ((2 * y + 1.0) / s.height - 1) * h * basis.up);
         const scene::Vector3 normal(to_float(n[0]), to_float(n[1]), to_float(n[2]));
         EXPECT_NEAR(glm::length(normal), 1, 2e-3);  // halves
         if (shape == Shape::pane) {

@@ -37,7 +37,8 @@ TEST_P(RainyGlassDeterminism, EveryTargetThreadCountOrderAndWidth) {
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
       for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected) << target << ", " << threads << " threads, width " << width;
+        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected)
+            << target << ", " << threads << " threads, width " << width;
       }
     }
   }
@@ -95,13 +96,15 @@ TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
     const TextureData lattice(make_lattice(s), Address::repeat, Address::repeat);
     for (int y = 0; y < s.map_size; ++y) {
       for (int x = 0; x < s.map_size; ++x) {
-        const auto d = scalar::bake_raindrops<Single>(bake_raindrops_uniforms(s, static_cast<int>(droplets.size())), corrected, droplets.data(), static_cast<int>(droplets.size()), x, y);
+        const auto d = scalar::bake_raindrops<Single>(bake_raindrops_uniforms(s, static_cast<int>(droplets.size())), corrected,
+                                                      droplets.data(), static_cast<int>(droplets.size()), x, y);
         const Half* stored = glass.raindrops().row<Half>(y) + 4 * x;
         expect_same(stored[0], d.r, "raindrops.r", x, y);
         expect_same(stored[1], d.g, "raindrops.g", x, y);
         expect_same(stored[2], d.b, "raindrops.b", x, y);
         expect_same(stored[3], d.a, "raindrops.a", x, y);
-        const auto r = scalar::bake_rivulets<Single>(bake_rivulets_uniforms(s, static_cast<int>(trails.size())), trails.data(), static_cast<int>(trails.size()), lattice.view(), x, y);
+        const auto r = scalar::bake_rivulets<Single>(bake_rivulets_uniforms(s, static_cast<int>(trails.size())), trails.data(),
+                                                     static_cast<int>(trails.size()), lattice.view(), x, y);
         stored = glass.rivulets().row<Half>(y) + 4 * x;
         expect_same(stored[0], r.r, "rivulets.r", x, y);
         expect_same(stored[1], r.g, "rivulets.g", x, y);
@@ -110,12 +113,14 @@ TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
       }
     }
 
-    const TextureData raindrops(glass.raindrops(), Address::repeat, Address::repeat), rivulets(glass.rivulets(), Address::repeat, Address::repeat);
+    const TextureData raindrops(glass.raindrops(), Address::repeat, Address::repeat),
+        rivulets(glass.rivulets(), Address::repeat, Address::repeat);
     std::vector<float> halves;
     for (int y = 0; y < s.height; ++y) {
       for (int i = 0; i < 4 * s.width; ++i) halves.push_back(to_float(to_half(around.colour.row<float>(y)[i])));
     }
-    const TextureData scene(halves, 4, s.width, s.height, Address::clamp, Address::clamp), near(near_depth(around.depth), 1, s.width, s.height, Address::clamp, Address::clamp);
+    const TextureData scene(halves, 4, s.width, s.height, Address::clamp, Address::clamp),
+        near(near_depth(around.depth), 1, s.width, s.height, Address::clamp, Address::clamp);
     const scalar::GlassMaps<Texture, Texture, Texture> maps{&raindrops.view(), &rivulets.view(), &scene.view(), &near.view(), nullptr};
     const Code code = code_of(s, s.map_storage);
     const RainOnGlassUniforms u = rain_on_glass_uniforms(s, 8, code, code);
@@ -124,15 +129,22 @@ TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
         const float* place = glass.surface().row<float>(y) + 4 * x;
         const Half* n = glass.orientation().row<Half>(y) + 4 * x;
         const float* own = &halves[4 * (static_cast<std::size_t>(y) * s.width + x)];
-        const scalar::GlassPixel<Single> p{Single(place[0]), Single(place[1]), Single(place[2]), Single::load(n + 3),
-                                           plain::Vec3<Single>(Single::load(n), Single::load(n + 1), Single::load(n + 2)), plain::Vec3<Single>(Single(own[0]), Single(own[1]), Single(own[2])),
+        const scalar::GlassPixel<Single> p{Single(place[0]),
+                                           Single(place[1]),
+                                           Single(place[2]),
+                                           Single::load(n + 3),
+                                           plain::Vec3<Single>(Single::load(n), Single::load(n + 1), Single::load(n + 2)),
+                                           plain::Vec3<Single>(Single(own[0]), Single(own[1]), Single(own[2])),
                                            Single(around.depth.row<float>(y)[x])};
-        const auto c = corrected ? scalar::rain_on_glass_corrected<Single>(u, maps, p, x, y) : scalar::rain_on_glass_as_published<Single>(u, maps, p, x, y);
+        const auto c = corrected ? scalar::rain_on_glass_corrected<Single>(u, maps, p, x, y)
+                                 : scalar::rain_on_glass_as_published<Single>(u, maps, p, x, y);
         const Half* stored = glass.colour().row<Half>(y) + 4 * x;
         expect_same(stored[0], c.x, "colour.r", x, y);
         expect_same(stored[1], c.y, "colour.g", x, y);
         expect_same(stored[2], c.z, "colour.b", x, y);
-        const auto shown = pass::every::display<Single>(pass::display_uniforms(s.exposure), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+        const auto shown =
+            pass::every::display<Single>(pass::display_uniforms(s.exposure),
+                                         plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         const Unorm8* code_value = glass.picture().row<Unorm8>(y) + 4 * x;
         ASSERT_EQ(code_value[0].code, to_unorm8(shown.x.v).code) << target << " " << x << "," << y;
         ASSERT_EQ(code_value[2].code, to_unorm8(shown.z.v).code) << target << " " << x << "," << y;

@@ -23,7 +23,8 @@ TEST(RainyGlassErrors, DepthOfAnotherSize) {
   const Settings s = settings(Variant::corrected, 12, 9);
   Surroundings around = test::surroundings(s);
   around.depth = Image(Format::r32f, 12, 8);
-  EXPECT_THAT(error_with(s, around), AllOf(StartsWith("2 "), HasSubstr("scene.depth_image: expected 12x9 like the picture and scene.image, found 12x8")));
+  EXPECT_THAT(error_with(s, around),
+              AllOf(StartsWith("2 "), HasSubstr("scene.depth_image: expected 12x9 like the picture and scene.image, found 12x8")));
   around.colour = Image(Format::rgba32f, 5, 9);
   EXPECT_THAT(error_with(s, around), HasSubstr("scene.image: expected 12x9"));
 }
@@ -31,7 +32,8 @@ TEST(RainyGlassErrors, DepthOutOfItsRange) {
   const Settings s = settings(Variant::corrected, 12, 9);
   Surroundings around = test::surroundings(s);
   around.depth.row<float>(4)[7] = -2;
-  EXPECT_THAT(error_with(s, around), HasSubstr("scene.depth_image: expected depths of 0 m or more, found -2 at column 7, row 4 from the bottom"));
+  EXPECT_THAT(error_with(s, around),
+              HasSubstr("scene.depth_image: expected depths of 0 m or more, found -2 at column 7, row 4 from the bottom"));
 }
 TEST(RainyGlassErrors, ZeroScales) {
   Settings s = settings(Variant::corrected, 12, 9);
@@ -149,7 +151,9 @@ TEST(RainyGlassMaps, ProbeStandsInForTheScene) {
     for (int frame = 0; frame < 3; ++frame) glass.frame();
     int from_probe = 0;
     for (int y = 0; y < s.height; ++y) {
-      for (int x = 0; x < s.width; ++x) from_probe += std::abs(to_float(glass.colour().row<Half>(y)[4 * x]) - 0.25f) < 1e-3f && std::abs(to_float(glass.colour().row<Half>(y)[4 * x + 2]) - 0.75f) < 1e-3f;
+      for (int x = 0; x < s.width; ++x)
+        from_probe += std::abs(to_float(glass.colour().row<Half>(y)[4 * x]) - 0.25f) < 1e-3f &&
+                      std::abs(to_float(glass.colour().row<Half>(y)[4 * x + 2]) - 0.75f) < 1e-3f;
     }
     if (variant == Variant::as_published) {
       EXPECT_EQ(from_probe, s.width * s.height);

@@ -59,7 +59,8 @@ inline std::vector<GoldenScene> golden_scenes() {
 }
 
 /// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
+                                             const golden::Caller& caller = golden::call_plainly) {
   static std::map<std::string, Surroundings> made;  // once, however often a test takes the scene
   Surroundings& around = made[scene.name];
   if (around.colour.empty()) around = make_backdrop(scene.settings, {0.02, 0.3, 0.03}, executor);

@@ -38,9 +38,12 @@ TEST(RainyGlassOddities, Oddity02_EightBitsHaveNoMiddle) {
     int flat_texels = 0;
     for (std::size_t i = 0; i < map.size(); i += 4) {
       if (map[i + 3] != 0) continue;
-      const float x = map[i], decoded = variant == Variant::corrected ? (x - static_cast<float>(code.neutral)) * static_cast<float>(1 / code.span) : 2 * x - 1;
+      const float x = map[i], decoded = variant == Variant::corrected
+                                            ? (x - static_cast<float>(code.neutral)) * static_cast<float>(1 / code.span)
+                                            : 2 * x - 1;
       // The rim's last codes round to height 0, too; away from it the surface is flat.
-      const double dx = std::abs((static_cast<double>(i / 4 % 64) + 0.5) / 64 - droplets[0].x), dy = std::abs((static_cast<double>(i / 256) + 0.5) / 64 - droplets[0].y);
+      const double dx = std::abs((static_cast<double>(i / 4 % 64) + 0.5) / 64 - droplets[0].x),
+                   dy = std::abs((static_cast<double>(i / 256) + 0.5) / 64 - droplets[0].y);
       if (std::hypot(std::min(dx, 1 - dx), std::min(dy, 1 - dy)) < 0.08) continue;
       ++flat_texels;
       if (variant == Variant::corrected) {
@@ -55,7 +58,9 @@ TEST(RainyGlassOddities, Oddity02_EightBitsHaveNoMiddle) {
 
 TEST(RainyGlassOddities, Oddity03_NearestSeedCutsDroplets) {
   // A large droplet beside a small one: the line halfway between their centres cuts the large one.
-  const auto droplet = [](float x, float radius, float offset) { return Droplet{x, 0.5f, radius, radius / 0.2f, 1 / radius, 0, 1 / radius, offset}; };
+  const auto droplet = [](float x, float radius, float offset) {
+    return Droplet{x, 0.5f, radius, radius / 0.2f, 1 / radius, 0, 1 / radius, offset};
+  };
   const Droplet pair[] = {droplet(0.5f, 0.2f, 0.25f), droplet(0.75f, 0.04f, 0.75f)};
   const Settings s = settings(Variant::corrected, 8, 8);
   const BakeRaindropsUniforms u = bake_raindrops_uniforms(s, 2);
@@ -81,7 +86,8 @@ TEST(RainyGlassOddities, Oddity03_NearestSeedCutsDroplets) {
       for (int x = 0; x < 64; ++x) {
         const auto b = scalar::bake_raindrops<Double>(bake_raindrops_uniforms(s, count), corrected, all.data(), count, x, y);
         if (b.a.v <= 0) continue;
-        const auto own = std::find_if(all.begin(), all.end(), [&](const Droplet& d) { return scalar::bake_raindrops<Double>(u, corrected, &d, 1, x, y).a.v > 0; });
+        const auto own = std::find_if(all.begin(), all.end(),
+                                      [&](const Droplet& d) { return scalar::bake_raindrops<Double>(u, corrected, &d, 1, x, y).a.v > 0; });
         wrong += own->offset != static_cast<float>(b.b.v);
       }
     }
@@ -98,7 +104,9 @@ TEST(RainyGlassOddities, Oddity04_DropletsAppearAtFullSizeAtOnce) {
   s.fps = 1000;
   s.drop_period = 1;
   const auto shown = [&](int millisecond) {
-    return scalar::droplet_shown<Double>(rain_on_glass_uniforms(s, millisecond, {0.5, 0.5}, {0.5, 0.5}), Double(0.3), Double(0.0f), Double(1.0f)).v;
+    return scalar::droplet_shown<Double>(rain_on_glass_uniforms(s, millisecond, {0.5, 0.5}, {0.5, 0.5}), Double(0.3), Double(0.0f),
+                                         Double(1.0f))
+        .v;
   };
   const auto mask = [](double time) {
     Pixel p(Variant::as_published, {1, 0.5f, 0, 0.3f}, {0, 0, 0, 0}, time);

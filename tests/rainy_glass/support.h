@@ -96,20 +96,28 @@ struct Pixel {
   int column = 50, row = 50;
 
   /// Maps of one value each: r g b a. The scene's red is u, its green v, at infinity.
-  Pixel(Variant variant, std::vector<float> drop, std::vector<float> rivulet, double time = 0) : settings(test::settings(variant, 101, 101)) {
+  Pixel(Variant variant, std::vector<float> drop, std::vector<float> rivulet, double time = 0)
+      : settings(test::settings(variant, 101, 101)) {
     raindrops = TextureData(std::move(drop), 4, 1, 1, Address::repeat, Address::repeat);
     rivulets = TextureData(std::move(rivulet), 4, 1, 1, Address::repeat, Address::repeat);
     std::vector<float> ramp;
     for (int y = 0; y < 101; ++y) {
-      for (int x = 0; x < 101; ++x) ramp.insert(ramp.end(), {(static_cast<float>(x) + 0.5f) / 101, (static_cast<float>(y) + 0.5f) / 101, 0, 1});
+      for (int x = 0; x < 101; ++x)
+        ramp.insert(ramp.end(), {(static_cast<float>(x) + 0.5f) / 101, (static_cast<float>(y) + 0.5f) / 101, 0, 1});
     }
     scene = TextureData(ramp, 4, 101, 101, Address::clamp, Address::clamp);
     near = TextureData(std::vector<float>(1, 1e9f), 1, 1, 1, Address::clamp, Address::clamp);
     settings.fps = 1000;
-    uniforms = rain_on_glass_uniforms(settings, static_cast<int>(std::lround(time * 1000)), code_of(settings, settings.map_storage), code_of(settings, settings.map_storage));
+    uniforms = rain_on_glass_uniforms(settings, static_cast<int>(std::lround(time * 1000)), code_of(settings, settings.map_storage),
+                                      code_of(settings, settings.map_storage));
     uniforms.rain_to[0] = 0, uniforms.rain_to[1] = uniforms.rain_to[2] = 1;  // onto glass of normal +z
-    at = {Double(0.0f), Double(0.0f), Double(1.0f), Double(1.0f), plain::Vec3<Double>(Double(0.0f), Double(0.0f), Double(1.0f)),
-          plain::Vec3<Double>(Double(-1.0f), Double(-1.0f), Double(0.0f)), Double(1e9f)};
+    at = {Double(0.0f),
+          Double(0.0f),
+          Double(1.0f),
+          Double(1.0f),
+          plain::Vec3<Double>(Double(0.0f), Double(0.0f), Double(1.0f)),
+          plain::Vec3<Double>(Double(-1.0f), Double(-1.0f), Double(0.0f)),
+          Double(1e9f)};
   }
   void set_normal(double x, double y, double z) { at.normal = plain::Vec3<Double>(Double(x), Double(y), Double(z)); }
   plain::Vec3<Double> colour() const {

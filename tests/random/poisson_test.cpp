@@ -18,8 +18,10 @@ double words_up_to(const PoissonTable& table, int k) {
   std::uint64_t low = 0, high = std::uint64_t{1} << 32;
   while (low < high) {
     const std::uint64_t middle = (low + high) / 2;
-    if (table.count(static_cast<std::uint32_t>(middle)) <= k) low = middle + 1;
-    else high = middle;
+    if (table.count(static_cast<std::uint32_t>(middle)) <= k)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return static_cast<double>(low);
 }
@@ -99,7 +101,8 @@ TEST(PoissonTable, VarianceOverMeanIsOne) {
 }
 
 TEST(PoissonTable, RefusesMeansOutsideItsRange) {
-  for (const double mean : {-1e-300, -1.0, 4000.0001, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double mean :
+       {-1e-300, -1.0, 4000.0001, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     try {
       const PoissonTable table(mean);
       ADD_FAILURE() << mean;

@@ -21,7 +21,9 @@ inline double chi_square(const std::vector<int>& counts) {
 constexpr double chi_square_99_low = 54.9, chi_square_99_high = 160.2;
 
 /// The cell of a point of the unit square in a 10 x 10 grid.
-inline std::size_t cell_of(double x, double y) { return static_cast<std::size_t>(static_cast<int>(y * 10) * 10 + static_cast<int>(x * 10)); }
+inline std::size_t cell_of(double x, double y) {
+  return static_cast<std::size_t>(static_cast<int>(y * 10) * 10 + static_cast<int>(x * 10));
+}
 
 /// Correlation of each number with the next but `lag - 1`; its standard deviation is 1 / sqrt(n).
 inline double lag_correlation(const std::vector<float>& x, std::size_t lag = 1) {

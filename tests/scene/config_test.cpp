@@ -41,8 +41,7 @@ TEST(Config, HasTypedValues) {
   EXPECT_EQ(c.text("puddle.ground"), "tiles \"x\".png");
   EXPECT_EQ(c.real2("puddle.extent"), (Real2{2, 1}));
   EXPECT_EQ(c.real3("camera.position"), (Real3{0.1, 2, -3e-7}));
-  EXPECT_FALSE(
-      parse("effect='puddle'\nvariant='as-published'", "x.toml", {}, example_effects()).boolean("puddle.printed"));
+  EXPECT_FALSE(parse("effect='puddle'\nvariant='as-published'", "x.toml", {}, example_effects()).boolean("puddle.printed"));
 }
 
 TEST(Config, TakesTheDefaultOfItsVariant) {
@@ -69,11 +68,9 @@ TEST(Config, AskingForWhatIsNotThereIsADefect) {
   EXPECT_EQ(error_of([&] { c.real("puddle.dampng"); }), "5 configuration: no parameter 'puddle.dampng' here");
   EXPECT_EQ(error_of([&] { c.boolean("puddle.printed"); }), "5 configuration: no parameter 'puddle.printed' here");
   EXPECT_EQ(error_of([&] { c.given("x"); }), "5 configuration: no parameter 'x' here");
-  EXPECT_EQ(error_of([&] { c.integer("puddle.damping"); }),
-            "5 configuration: 'puddle.damping' is real, asked for as integer");
+  EXPECT_EQ(error_of([&] { c.integer("puddle.damping"); }), "5 configuration: 'puddle.damping' is real, asked for as integer");
   EXPECT_EQ(error_of([&] { c.real("seed"); }), "5 configuration: 'seed' is integer, asked for as real");
-  EXPECT_EQ(error_of([&] { c.real3("puddle.extent"); }),
-            "5 configuration: 'puddle.extent' is real2, asked for as real3");
+  EXPECT_EQ(error_of([&] { c.real3("puddle.extent"); }), "5 configuration: 'puddle.extent' is real2, asked for as real3");
 }
 
 TEST(Config, RefusesEntriesThatItsParametersRefuse) {
@@ -86,9 +83,9 @@ TEST(Config, IteratesInTheOrderOfDeclarationOverWhatTheVariantUses) {
   std::vector<std::string> keys;
   const Config c = example();
   for (const Config::Entry& e : c.entries()) keys.push_back(e.parameter.key);
-  EXPECT_THAT(keys, testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size",
-                                         "puddle.damping", "puddle.drop_count", "puddle.wave_speed", "puddle.blend",
-                                         "puddle.ground", "puddle.extent", "camera.position"));
+  EXPECT_THAT(keys,
+              testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "puddle.damping", "puddle.drop_count",
+                                   "puddle.wave_speed", "puddle.blend", "puddle.ground", "puddle.extent", "camera.position"));
 }
 
 TEST(Config, CanonicalTextListsEveryValue) {

@@ -16,8 +16,7 @@ namespace rainref::scene {
 inline const std::vector<Parameter>& puddle_parameters() {
   constexpr double none = std::numeric_limits<double>::infinity();
   static const std::vector<Parameter> parameters{
-      real("puddle.damping", "1", 0.95, 0.999, 0.99, "Share of the height kept from one step to the next.")
-          .default_for("corrected", 0.995),
+      real("puddle.damping", "1", 0.95, 0.999, 0.99, "Share of the height kept from one step to the next.").default_for("corrected", 0.995),
       integer("puddle.drop_count", "1", 0, 1000, 10, "Drops in flight at once."),
       real("puddle.wave_speed", "m/s", 0, none, 0.25, "Speed of long waves.").only("corrected"),
       boolean("puddle.printed", false, "Whether to keep the misprint.").only("as-published"),
@@ -30,8 +29,7 @@ inline const std::vector<Parameter>& puddle_parameters() {
 }
 
 inline EffectTable example_effects() {
-  return {{{"puddle", {"as-published", "corrected"}, puddle_parameters()},
-           {"windshield", {"as-published", "corrected"}, {}}}};
+  return {{{"puddle", {"as-published", "corrected"}, puddle_parameters()}, {"windshield", {"as-published", "corrected"}, {}}}};
 }
 
 /// The error that `body` throws, as text with its exit code first: "2 x.toml:1:1: …"; "none" when it throws nothing.

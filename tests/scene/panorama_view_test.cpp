@@ -31,7 +31,8 @@ void expect_directions(const Image& view, const Camera& camera, double tolerance
   const double half = camera.half_height();
   for (int y = 0; y < view.height(); ++y) {
     for (int x = 0; x < view.width(); ++x) {
-      const Vector3 way = glm::normalize(b.forward + half * ((2 * x + 1.0) - view.width()) / view.height() * b.right + half * ((2 * y + 1.0) / view.height() - 1) * b.up);
+      const Vector3 way = glm::normalize(b.forward + half * ((2 * x + 1.0) - view.width()) / view.height() * b.right +
+                                         half * ((2 * y + 1.0) / view.height() - 1) * b.up);
       const float* seen = view.row<float>(y) + 4 * x;
       for (int k = 0; k < 3; ++k) ASSERT_NEAR(2 * seen[k] - 1, way[k], tolerance) << x << "," << y << " channel " << k;
       ASSERT_EQ(seen[3], 1);
@@ -46,7 +47,8 @@ TEST(PanoramaView, ShowsWhatLiesInEachPixelsDirection) {
   const Image panorama = directions(columns, rows);
   const double h = pi / rows, tolerance = 2 * h * h / 8 * 1.5 + 1e-6;
   const parallel::Executor executor(2);
-  for (const Vector3& target : {Vector3(1, 0, 0), Vector3(-1, 0.2, 0.001), Vector3(0.1, 0, 1), Vector3(0.3, -0.8, -1), Vector3(-0.2, 1, 0.1)}) {
+  for (const Vector3& target :
+       {Vector3(1, 0, 0), Vector3(-1, 0.2, 0.001), Vector3(0.1, 0, 1), Vector3(0.3, -0.8, -1), Vector3(-0.2, 1, 0.1)}) {
     const Camera camera{{0, 0, 0}, target, {0, 1, 0}, 10};
     expect_directions(panorama_view(panorama, camera, 48, 27, executor), camera, tolerance);
   }
@@ -82,7 +84,9 @@ TEST(PanoramaView, ThreadsAndTargetsGiveTheSameBits) {
   select_simd_target("");
 }
 
-TEST(PanoramaView, OtherChannelsAreRefused) { EXPECT_THROW(panorama_view(Image(Format::r32f, 4, 2), {}, 4, 4, parallel::Executor(1)), Error); }
+TEST(PanoramaView, OtherChannelsAreRefused) {
+  EXPECT_THROW(panorama_view(Image(Format::r32f, 4, 2), {}, 4, 4, parallel::Executor(1)), Error);
+}
 
 }  // namespace
 }  // namespace rainref::scene

@@ -24,8 +24,7 @@ TEST(Parameter, ExpectationSaysTypeRangeAndUnit) {
   EXPECT_EQ(expectation(real("a", "", -infinity, infinity, 0, "s")), "a number");
   EXPECT_EQ(expectation(real3("a", "m", -1, 1, {}, "s")), "3 numbers from -1 to 1 [m]");
   EXPECT_EQ(expectation(real2("a", "m", -infinity, infinity, {}, "s")), "2 numbers [m]");
-  EXPECT_EQ(expectation(integer("a", "", 0, 9223372036854775807.0, 0, "s")),
-            "an integer from 0 to 9223372036854775807");
+  EXPECT_EQ(expectation(integer("a", "", 0, 9223372036854775807.0, 0, "s")), "an integer from 0 to 9223372036854775807");
   EXPECT_EQ(expectation(integer2("a", "texel", 1, 65536, {1, 1}, "s")), "2 integers from 1 to 65536 [texel]");
   EXPECT_EQ(expectation(boolean("a", true, "s")), "true or false");
   EXPECT_EQ(expectation(choice("a", {"add", "max"}, "add", "s")), "one of 'add', 'max'");
@@ -85,13 +84,11 @@ TEST(ValidateParameters, RefusesATableThatContradictsItself) {
   const Parameter good = real("a.b", "1", 0, 1, 0.5, "s");
   EXPECT_EQ(validated({good, good}), "5 parameter 'a.b': declared twice");
   EXPECT_EQ(validated({good, real("a", "1", 0, 1, 0.5, "s")}), "5 parameter 'a': is also the table of 'a.b'");
-  EXPECT_EQ(validated({real("a", "1", 0, 1, 2, "s")}),
-            "5 parameter 'a': default 2.0, expected a number from 0 to 1 [1]");
+  EXPECT_EQ(validated({real("a", "1", 0, 1, 2, "s")}), "5 parameter 'a': default 2.0, expected a number from 0 to 1 [1]");
   EXPECT_EQ(validated({good.default_for("corrected", 2.5)}),
             "5 parameter 'a.b': default 2.5 in 'corrected', expected a number from 0 to 1 [1]");
   EXPECT_EQ(validated({good.default_for("corected", 1)}), "5 parameter 'a.b': default for 'corected'");
-  EXPECT_EQ(validated({good.only("corrected").default_for("as-published", 1)}),
-            "5 parameter 'a.b': default for 'as-published'");
+  EXPECT_EQ(validated({good.only("corrected").default_for("as-published", 1)}), "5 parameter 'a.b': default for 'as-published'");
   EXPECT_EQ(validated({good.only("corected")}), "5 parameter 'a.b': no variant 'corected'");
   EXPECT_EQ(validated({real("a", "1", 1, 0, 0.5, "s")}), "5 parameter 'a': empty range");
   EXPECT_EQ(validated({real("a", "1", nan_value, 1, 0.5, "s")}), "5 parameter 'a': empty range");
@@ -107,9 +104,7 @@ TEST(ValidateParameters, KeysAreLowerCaseWordsJoinedByDots) {
   EXPECT_EQ(validated({boolean("a1.b_2.c", true, "s")}), "none");
 }
 
-TEST(ValidateParameters, ARequiredParameterNeedsNoDefault) {
-  EXPECT_EQ(validated({choice("a", {"x"}, "", "s").required()}), "none");
-}
+TEST(ValidateParameters, ARequiredParameterNeedsNoDefault) { EXPECT_EQ(validated({choice("a", {"x"}, "", "s").required()}), "none"); }
 
 TEST(ValueText, IsTheShortestLiteralThatReadsBack) {
   EXPECT_EQ(value_text(true), "true");
@@ -137,8 +132,7 @@ TEST(EffectTable, SceneParametersBeginWithTheCommonOnes) {
   for (const Parameter& p : scene_parameters(table.find("puddle"), table)) keys.push_back(p.key);
   ASSERT_EQ(keys.size(), 6 + puddle_parameters().size());
   keys.resize(7);
-  EXPECT_THAT(keys,
-              testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "puddle.damping"));
+  EXPECT_THAT(keys, testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "puddle.damping"));
 }
 
 TEST(EffectTable, SceneParametersRefuseAnEffectThatRedeclaresACommonOne) {

@@ -21,8 +21,7 @@ std::string error_in(const std::string& rest) {
 
 TEST(HostileScene, LongValuesAreCutInMessages) {
   const std::string message = error_in("run.frames = '" + std::string(5000, 'x') + "'");
-  EXPECT_EQ(message, "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found \"" +
-                         std::string(59, 'x') + "…");
+  EXPECT_EQ(message, "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found \"" + std::string(59, 'x') + "…");
   std::string umlauts;
   for (int i = 0; i < 500; ++i) umlauts += "ä";
   EXPECT_THAT(error_in("run.frames = '" + umlauts + "'"), testing::EndsWith("ä…"));
@@ -51,9 +50,7 @@ TEST(HostileScene, DeepKeysWithinTheBoundAreUnknown) {
   EXPECT_EQ(error_in("a.b.c.d.e.f.g.h.i.j.k = 1"), "2 x.toml:3:15: a.b.c.d.e.f.g.h: unknown table");
 }
 
-TEST(HostileScene, DotsInACommentAreNotCounted) {
-  EXPECT_EQ(error_in("  # " + std::string(500, '.') + "\nseed = 1"), "none");
-}
+TEST(HostileScene, DotsInACommentAreNotCounted) { EXPECT_EQ(error_in("  # " + std::string(500, '.') + "\nseed = 1"), "none"); }
 
 TEST(HostileScene, AHugeFileIsRefused) {
   EXPECT_EQ(error_in(std::string(2000000, '\n')), "2 x.toml: larger than 1048576 bytes, so not a scene");
@@ -85,19 +82,16 @@ TEST_F(SceneFile, IsReadWithItsFolderAndItsPlaces) {
 
 TEST_F(SceneFile, ThatCannotBeReadIsAnInputError) {
   const std::string missing = (folder_ / "none.toml").string();
-  EXPECT_EQ(error_of([&] { load(missing, {}, example_effects()); }),
-            "4 " + missing + ": cannot be read: No such file or directory");
+  EXPECT_EQ(error_of([&] { load(missing, {}, example_effects()); }), "4 " + missing + ": cannot be read: No such file or directory");
   const std::string inside = (write(head) / "y.toml").string();
-  EXPECT_EQ(error_of([&] { load(inside, {}, example_effects()); }),
-            "4 " + inside + ": cannot be read: Not a directory");
+  EXPECT_EQ(error_of([&] { load(inside, {}, example_effects()); }), "4 " + inside + ": cannot be read: Not a directory");
   EXPECT_EQ(error_of([&] { load(folder_, {}, example_effects()); }),
             "4 " + folder_.string() + ": expected a scene file, found a directory");
 }
 
 TEST_F(SceneFile, LargerThanAnySceneIsRefused) {
   const std::filesystem::path file = write(std::string(3000000, 'x'));
-  EXPECT_EQ(error_of([&] { load(file, {}, example_effects()); }),
-            "2 " + file.string() + ": larger than 1048576 bytes, so not a scene");
+  EXPECT_EQ(error_of([&] { load(file, {}, example_effects()); }), "2 " + file.string() + ": larger than 1048576 bytes, so not a scene");
 }
 
 }  // namespace

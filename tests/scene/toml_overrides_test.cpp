@@ -51,21 +51,15 @@ TEST(Overrides, DoNotHideAProblemInTheFile) {
 }
 
 TEST(Overrides, ErrorsNameTheOption) {
-  const auto error = [](const std::string& o) {
-    return error_of([&] { parse(head, "x.toml", {o}, example_effects()); });
-  };
+  const auto error = [](const std::string& o) { return error_of([&] { parse(head, "x.toml", {o}, example_effects()); }); };
   EXPECT_EQ(error("puddle.dampng=0.99"), "2 --set puddle.dampng: unknown key; did you mean 'puddle.damping'?");
-  EXPECT_EQ(error("puddle.printed=true"),
-            "2 --set puddle.printed: not used by variant 'corrected', only by 'as-published'");
+  EXPECT_EQ(error("puddle.printed=true"), "2 --set puddle.printed: not used by variant 'corrected', only by 'as-published'");
   EXPECT_EQ(error("puddle.damping=2.5"), "2 --set puddle.damping: expected a number from 0.95 to 0.999 [1], found 2.5");
-  EXPECT_EQ(error("puddle.damping=high"),
-            "2 --set puddle.damping: expected a number from 0.95 to 0.999 [1], found \"high\"");
+  EXPECT_EQ(error("puddle.damping=high"), "2 --set puddle.damping: expected a number from 0.95 to 0.999 [1], found \"high\"");
   EXPECT_EQ(error("puddle.damping="), "2 --set puddle.damping: expected a number from 0.95 to 0.999 [1], found \"\"");
-  EXPECT_EQ(error("run.frames=1\nseed=3"),
-            "2 --set run.frames: expected an integer from 1 to 1000000 [frame], found \"1\\nseed=3\"");
+  EXPECT_EQ(error("run.frames=1\nseed=3"), "2 --set run.frames: expected an integer from 1 to 1000000 [frame], found \"1\\nseed=3\"");
   EXPECT_EQ(error("run.size=[64, 0]"), "2 --set run.size: expected 2 integers from 1 to 65536 [texel], found [64, 0]");
-  EXPECT_EQ(error("puddle.blend=mux"),
-            "2 --set puddle.blend: expected one of 'add', 'max', found \"mux\"; did you mean 'max'?");
+  EXPECT_EQ(error("puddle.blend=mux"), "2 --set puddle.blend: expected one of 'add', 'max', found \"mux\"; did you mean 'max'?");
   EXPECT_EQ(error("variant=corected"),
             "2 --set variant: expected one of 'as-published', 'corrected', found \"corected\"; did you mean "
             "'corrected'?");

@@ -24,16 +24,13 @@ TEST(Scene, NeedsAnEffect) {
   EXPECT_EQ(error_of_text(""), "2 x.toml: effect: missing; expected one of 'puddle', 'windshield'");
   EXPECT_EQ(error_of_text("effect = 'pudle'"),
             "2 x.toml:1:10: effect: expected one of 'puddle', 'windshield', found \"pudle\"; did you mean 'puddle'?");
-  EXPECT_EQ(error_of_text("effect = 'rain'"),
-            "2 x.toml:1:10: effect: expected one of 'puddle', 'windshield', found \"rain\"");
+  EXPECT_EQ(error_of_text("effect = 'rain'"), "2 x.toml:1:10: effect: expected one of 'puddle', 'windshield', found \"rain\"");
   EXPECT_EQ(error_of_text("effect = 3"), "2 x.toml:1:10: effect: expected one of 'puddle', 'windshield', found 3");
-  EXPECT_EQ(error_of_text("[effect]\nname = 'puddle'"),
-            "2 x.toml: effect: missing; expected one of 'puddle', 'windshield'");
+  EXPECT_EQ(error_of_text("[effect]\nname = 'puddle'"), "2 x.toml: effect: missing; expected one of 'puddle', 'windshield'");
 }
 
 TEST(Scene, NeedsAVariant) {
-  EXPECT_EQ(error_of_text("effect = 'puddle'"),
-            "2 x.toml: variant: missing; expected one of 'as-published', 'corrected'");
+  EXPECT_EQ(error_of_text("effect = 'puddle'"), "2 x.toml: variant: missing; expected one of 'as-published', 'corrected'");
   EXPECT_EQ(error_of_text("effect = 'puddle'\nvariant = 'corected'"),
             "2 x.toml:2:11: variant: expected one of 'as-published', 'corrected', found \"corected\"; did you mean "
             "'corrected'?");
@@ -54,27 +51,22 @@ TEST(Scene, TablesAndDottedKeysAreTheSame) {
 }
 
 TEST(Scene, AnUnknownKeyNamesTheNearest) {
-  EXPECT_EQ(error_in("[puddle]\n  dampng = 0.99"),
-            "2 x.toml:4:3: puddle.dampng: unknown key; did you mean 'puddle.damping'?");
-  EXPECT_EQ(error_in("[puddl]\ndamping = 0.99"),
-            "2 x.toml:4:1: puddl.damping: unknown key; did you mean 'puddle.damping'?");
+  EXPECT_EQ(error_in("[puddle]\n  dampng = 0.99"), "2 x.toml:4:3: puddle.dampng: unknown key; did you mean 'puddle.damping'?");
+  EXPECT_EQ(error_in("[puddl]\ndamping = 0.99"), "2 x.toml:4:1: puddl.damping: unknown key; did you mean 'puddle.damping'?");
   EXPECT_EQ(error_in("zebra = 1"), "2 x.toml:3:1: zebra: unknown key");
 }
 
 TEST(Scene, AKeyInTheWrongTableNamesTheRightOne) {
   EXPECT_EQ(error_in("frames = 10"), "2 x.toml:3:1: frames: unknown key; did you mean 'run.frames'?");
-  EXPECT_EQ(error_in("[camera]\ndrop_count = 10"),
-            "2 x.toml:4:1: camera.drop_count: unknown key; did you mean 'puddle.drop_count'?");
+  EXPECT_EQ(error_in("[camera]\ndrop_count = 10"), "2 x.toml:4:1: camera.drop_count: unknown key; did you mean 'puddle.drop_count'?");
 }
 
 TEST(Scene, AMisspeltKeyInTheWrongTableNamesTheRightOne) {
-  EXPECT_EQ(error_in("[camera]\ndrop_cuont = 10"),
-            "2 x.toml:4:1: camera.drop_cuont: unknown key; did you mean 'puddle.drop_count'?");
+  EXPECT_EQ(error_in("[camera]\ndrop_cuont = 10"), "2 x.toml:4:1: camera.drop_cuont: unknown key; did you mean 'puddle.drop_count'?");
 }
 
 TEST(Scene, AQuotedKeyIsAnotherKey) {
-  EXPECT_EQ(error_in("\"puddle.damping\" = 0.99"),
-            "2 x.toml:3:1: \"puddle.damping\": unknown key; did you mean 'puddle.damping'?");
+  EXPECT_EQ(error_in("\"puddle.damping\" = 0.99"), "2 x.toml:3:1: \"puddle.damping\": unknown key; did you mean 'puddle.damping'?");
   EXPECT_EQ(error_in("\"a\\nb\" = 1"), "2 x.toml:3:1: \"a\\nb\": unknown key");
 }
 
@@ -82,56 +74,41 @@ TEST(Scene, AnEmptyTableMustBeKnown) {
   EXPECT_EQ(error_in("[puddle]"), "none");
   EXPECT_EQ(error_in("[pudle]"), "2 x.toml:3:2: pudle: unknown table; did you mean 'puddle'?");
   EXPECT_EQ(error_in("[zebra]"), "2 x.toml:3:2: zebra: unknown table");
-  EXPECT_EQ(error_in("[puddle.damping]"),
-            "2 x.toml:3:1: puddle.damping: expected a number from 0.95 to 0.999 [1], found a table");
+  EXPECT_EQ(error_in("[puddle.damping]"), "2 x.toml:3:1: puddle.damping: expected a number from 0.95 to 0.999 [1], found a table");
 }
 
 TEST(Scene, AKeyOfAnotherVariantSaysSo) {
-  EXPECT_EQ(error_in("puddle.printed = true"),
-            "2 x.toml:3:8: puddle.printed: not used by variant 'corrected', only by 'as-published'");
+  EXPECT_EQ(error_in("puddle.printed = true"), "2 x.toml:3:8: puddle.printed: not used by variant 'corrected', only by 'as-published'");
 }
 
-TEST(Scene, AnUnusedKeyIsNotSuggested) {
-  EXPECT_EQ(error_in("puddle.prnted = true"), "2 x.toml:3:8: puddle.prnted: unknown key");
-}
+TEST(Scene, AnUnusedKeyIsNotSuggested) { EXPECT_EQ(error_in("puddle.prnted = true"), "2 x.toml:3:8: puddle.prnted: unknown key"); }
 
 TEST(Scene, AValueOutOfRangeIsRefused) {
-  EXPECT_EQ(error_in("puddle.damping = 2.5"),
-            "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found 2.5");
-  EXPECT_EQ(error_in("puddle.damping = 2"),
-            "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found 2");
-  EXPECT_EQ(error_in("run.frames = 0"),
-            "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found 0");
+  EXPECT_EQ(error_in("puddle.damping = 2.5"), "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found 2.5");
+  EXPECT_EQ(error_in("puddle.damping = 2"), "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found 2");
+  EXPECT_EQ(error_in("run.frames = 0"), "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found 0");
   EXPECT_EQ(error_in("seed = -1"), "2 x.toml:3:8: seed: expected an integer from 0 to 9223372036854775807, found -1");
-  EXPECT_EQ(error_in("run.fps = 1000.5"),
-            "2 x.toml:3:11: run.fps: expected a number from 1 to 1000 [1/s], found 1000.5");
+  EXPECT_EQ(error_in("run.fps = 1000.5"), "2 x.toml:3:11: run.fps: expected a number from 1 to 1000 [1/s], found 1000.5");
 }
 
 TEST(Scene, WhatIsNotFiniteIsRefused) {
-  EXPECT_EQ(error_in("puddle.wave_speed = inf"),
-            "2 x.toml:3:21: puddle.wave_speed: expected a number of at least 0 [m/s], found inf");
-  EXPECT_EQ(error_in("puddle.wave_speed = nan"),
-            "2 x.toml:3:21: puddle.wave_speed: expected a number of at least 0 [m/s], found nan");
-  EXPECT_EQ(error_in("camera.position = [0, -inf, 0]"),
-            "2 x.toml:3:23: camera.position: expected 3 numbers [m], found [0, -inf, 0]");
+  EXPECT_EQ(error_in("puddle.wave_speed = inf"), "2 x.toml:3:21: puddle.wave_speed: expected a number of at least 0 [m/s], found inf");
+  EXPECT_EQ(error_in("puddle.wave_speed = nan"), "2 x.toml:3:21: puddle.wave_speed: expected a number of at least 0 [m/s], found nan");
+  EXPECT_EQ(error_in("camera.position = [0, -inf, 0]"), "2 x.toml:3:23: camera.position: expected 3 numbers [m], found [0, -inf, 0]");
 }
 
 TEST(Scene, AnIntegerIsTakenAsARealNeverTheReverse) {
   EXPECT_EQ(parse(head + "run.fps = 30", "x.toml", {}, example_effects()).real("run.fps"), 30.0);
-  EXPECT_EQ(error_in("run.frames = 3.0"),
-            "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found 3.0");
+  EXPECT_EQ(error_in("run.frames = 3.0"), "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found 3.0");
   EXPECT_EQ(error_in("run.size = [640, 480.0]"),
             "2 x.toml:3:18: run.size: expected 2 integers from 1 to 65536 [texel], found [640, 480.0]");
 }
 
 TEST(Scene, AValueOfAnotherTypeIsRefused) {
-  EXPECT_EQ(error_in("puddle.damping = '0.99'"),
-            "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found \"0.99\"");
-  EXPECT_EQ(error_in("run.frames = true"),
-            "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found true");
+  EXPECT_EQ(error_in("puddle.damping = '0.99'"), "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found \"0.99\"");
+  EXPECT_EQ(error_in("run.frames = true"), "2 x.toml:3:14: run.frames: expected an integer from 1 to 1000000 [frame], found true");
   EXPECT_EQ(error_in("puddle.ground = 3"), "2 x.toml:3:17: puddle.ground: expected text, found 3");
-  EXPECT_EQ(error_in("puddle.ground = 1979-05-27"),
-            "2 x.toml:3:17: puddle.ground: expected text, found a date or time");
+  EXPECT_EQ(error_in("puddle.ground = 1979-05-27"), "2 x.toml:3:17: puddle.ground: expected text, found a date or time");
   EXPECT_EQ(error_of_text("effect = 'puddle'\nvariant = 'as-published'\npuddle.printed = 1"),
             "2 x.toml:3:18: puddle.printed: expected true or false, found 1");
   EXPECT_EQ(error_in("puddle = 3"), "2 x.toml:3:10: puddle: expected a table, found 3");
@@ -141,26 +118,20 @@ TEST(Scene, AValueOfAnotherTypeIsRefused) {
 TEST(Scene, AnArrayOfTheWrongLengthIsRefused) {
   EXPECT_EQ(error_in("run.size = [640, 480, 1]"),
             "2 x.toml:3:12: run.size: expected 2 integers from 1 to 65536 [texel], found [640, 480, 1]");
-  EXPECT_EQ(error_in("run.size = 640"),
-            "2 x.toml:3:12: run.size: expected 2 integers from 1 to 65536 [texel], found 640");
-  EXPECT_EQ(error_in("puddle.damping = [0.99]"),
-            "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found [0.99]");
-  EXPECT_EQ(error_in("camera.position = [\n 1,\n [2],\n 3]"),
-            "2 x.toml:5:2: camera.position: expected 3 numbers [m], found [1, [2], 3]");
+  EXPECT_EQ(error_in("run.size = 640"), "2 x.toml:3:12: run.size: expected 2 integers from 1 to 65536 [texel], found 640");
+  EXPECT_EQ(error_in("puddle.damping = [0.99]"), "2 x.toml:3:18: puddle.damping: expected a number from 0.95 to 0.999 [1], found [0.99]");
+  EXPECT_EQ(error_in("camera.position = [\n 1,\n [2],\n 3]"), "2 x.toml:5:2: camera.position: expected 3 numbers [m], found [1, [2], 3]");
 }
 
 TEST(Scene, AComponentOutOfRangeIsPointedAt) {
-  EXPECT_EQ(error_in("run.size = [640, 0]"),
-            "2 x.toml:3:18: run.size: expected 2 integers from 1 to 65536 [texel], found [640, 0]");
-  EXPECT_EQ(error_in("puddle.extent = [0.05, 1]"),
-            "2 x.toml:3:18: puddle.extent: expected 2 numbers from 0.1 to 100 [m], found [0.05, 1]");
+  EXPECT_EQ(error_in("run.size = [640, 0]"), "2 x.toml:3:18: run.size: expected 2 integers from 1 to 65536 [texel], found [640, 0]");
+  EXPECT_EQ(error_in("puddle.extent = [0.05, 1]"), "2 x.toml:3:18: puddle.extent: expected 2 numbers from 0.1 to 100 [m], found [0.05, 1]");
 }
 
 TEST(Scene, AnUnknownChoiceNamesTheNearest) {
   EXPECT_EQ(error_in("puddle.blend = 'mux'"),
             "2 x.toml:3:16: puddle.blend: expected one of 'add', 'max', found \"mux\"; did you mean 'max'?");
-  EXPECT_EQ(error_in("puddle.blend = 'subtract'"),
-            "2 x.toml:3:16: puddle.blend: expected one of 'add', 'max', found \"subtract\"");
+  EXPECT_EQ(error_in("puddle.blend = 'subtract'"), "2 x.toml:3:16: puddle.blend: expected one of 'add', 'max', found \"subtract\"");
 }
 
 TEST(Scene, NegativeZeroBecomesZero) {

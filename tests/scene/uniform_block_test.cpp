@@ -88,20 +88,15 @@ TEST(UniformBlock, GapsBecomePadding) {
   }
   EXPECT_EQ(end, 48u);
   using Pair = std::pair<std::string, std::size_t>;
-  EXPECT_THAT(got, testing::ElementsAre(Pair("padding_0", 0), Pair("a", 4), Pair("padding_1", 8), Pair("padding_2", 12),
-                                        Pair("b", 16), Pair("padding_3", 28), Pair("c", 32), Pair("padding_4", 40),
-                                        Pair("padding_5", 44)));
+  EXPECT_THAT(got, testing::ElementsAre(Pair("padding_0", 0), Pair("a", 4), Pair("padding_1", 8), Pair("padding_2", 12), Pair("b", 16),
+                                        Pair("padding_3", 28), Pair("c", 32), Pair("padding_4", 40), Pair("padding_5", 44)));
 }
 
-TEST(UniformBlock, WithoutGapsThereIsNoPadding) {
-  EXPECT_EQ(with_padding({"Block", 16, {at(0, 3, "a"), at(12, 1, "b")}}).size(), 2u);
-}
+TEST(UniformBlock, WithoutGapsThereIsNoPadding) { EXPECT_EQ(with_padding({"Block", 16, {at(0, 3, "a"), at(12, 1, "b")}}).size(), 2u); }
 
 TEST(ValidateBlock, RefusesMembersOutOfOrderOrOverlapping) {
-  EXPECT_EQ(broken(16, {at(4, 1, "a"), at(0, 1, "b")}),
-            "5 layout Block: 'b' at 0 begins before the member before it ends, at 8");
-  EXPECT_EQ(broken(16, {at(0, 3, "a"), at(8, 1, "b")}),
-            "5 layout Block: 'b' at 8 begins before the member before it ends, at 12");
+  EXPECT_EQ(broken(16, {at(4, 1, "a"), at(0, 1, "b")}), "5 layout Block: 'b' at 0 begins before the member before it ends, at 8");
+  EXPECT_EQ(broken(16, {at(0, 3, "a"), at(8, 1, "b")}), "5 layout Block: 'b' at 8 begins before the member before it ends, at 12");
 }
 
 TEST(ValidateBlock, RefusesMembersThatStraddleARowOrAreMisaligned) {
@@ -129,8 +124,7 @@ TEST(ValidateBlock, RefusesNamesThatSomeLanguageCannotUse) {
   }
   // one each of C++, GLSL, HLSL, WGSL, and the first and last of the sorted list
   for (const char* name : {"union", "sample", "point", "target", "abstract", "yield", "xor_eq", "float3"}) {
-    EXPECT_EQ(broken(16, {at(0, 1, name)}),
-              std::string("5 layout Block: '") + name + "' is a reserved word of a shading language");
+    EXPECT_EQ(broken(16, {at(0, 1, name)}), std::string("5 layout Block: '") + name + "' is a reserved word of a shading language");
   }
   EXPECT_EQ(broken(16, {at(0, 1, "padding0")}), "5 layout Block: 'padding0': padding is not listed");
   EXPECT_EQ(broken(16, {at(0, 1), at(4, 1)}), "5 layout Block: 'height' is listed twice");
@@ -195,9 +189,7 @@ TEST(ValueFault, EndsAreRoundedAsTheValuesAre) {
 }
 
 TEST(ValidateRecord, NeedsWholeAlignmentsNotWholeRows) {
-  const auto error = [](std::size_t size, const Member& m) {
-    return error_of([&] { validate_record({"Drop", size, {m}}); });
-  };
+  const auto error = [](std::size_t size, const Member& m) { return error_of([&] { validate_record({"Drop", size, {m}}); }); };
   EXPECT_EQ(error(12, at(0, 1)), "none");
   EXPECT_EQ(error(12, at(0, 2)), "5 layout Drop: size 12 is not a multiple of 8");
   EXPECT_EQ(error(24, at(0, 3)), "5 layout Drop: size 24 is not a multiple of 16");

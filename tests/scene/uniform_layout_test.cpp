@@ -37,21 +37,21 @@ struct Uniforms {
 };
 
 UniformBlock uniforms() {
-  return uniform_block<Uniforms>(
-      "WaveStepUniforms", {
-                              member<&Uniforms::camera_position>("camera_position", "m", any_word, "Where the camera is."),
-                              member<&Uniforms::pixel_scale>("pixel_scale", "1", any_word, "Height of a pixel at distance 1."),
-                              member<&Uniforms::drop_count>("drop_count", "1", any_word, "Number of drops."),
-                              member<&Uniforms::texel>("texel", "1", any_word, "One over the size."),
-                              member<&Uniforms::seed_bits>("seed_bits", "1", any_word, "The seed."),
-                              member<&Uniforms::frame_index>("frame_index", "frame", any_word, "The frame."),
-                              member<&Uniforms::cell>("cell", "1", any_word, "The cell."),
-                              member<&Uniforms::tint>("tint", "1", any_word, "The tint."),
-                              member<&Uniforms::wave_size>("wave_size", "texel", any_word, "Size of the wave buffer."),
-                              member<&Uniforms::hash_bits>("hash_bits", "1", any_word, "A hash."),
-                              member<&Uniforms::bounds>("bounds", "texel", any_word, "A rectangle."),
-                              member<&Uniforms::time>("time", "s", any_word, "Time of the frame."),
-                          });
+  return uniform_block<Uniforms>("WaveStepUniforms",
+                                 {
+                                     member<&Uniforms::camera_position>("camera_position", "m", any_word, "Where the camera is."),
+                                     member<&Uniforms::pixel_scale>("pixel_scale", "1", any_word, "Height of a pixel at distance 1."),
+                                     member<&Uniforms::drop_count>("drop_count", "1", any_word, "Number of drops."),
+                                     member<&Uniforms::texel>("texel", "1", any_word, "One over the size."),
+                                     member<&Uniforms::seed_bits>("seed_bits", "1", any_word, "The seed."),
+                                     member<&Uniforms::frame_index>("frame_index", "frame", any_word, "The frame."),
+                                     member<&Uniforms::cell>("cell", "1", any_word, "The cell."),
+                                     member<&Uniforms::tint>("tint", "1", any_word, "The tint."),
+                                     member<&Uniforms::wave_size>("wave_size", "texel", any_word, "Size of the wave buffer."),
+                                     member<&Uniforms::hash_bits>("hash_bits", "1", any_word, "A hash."),
+                                     member<&Uniforms::bounds>("bounds", "texel", any_word, "A rectangle."),
+                                     member<&Uniforms::time>("time", "s", any_word, "Time of the frame."),
+                                 });
 }
 
 struct DropRecord {
@@ -126,8 +126,7 @@ TEST_F(LayoutFile, CompiledCHasTheOffsetsOfTheBlock) {
 TEST_F(LayoutFile, CompiledCudaHasTheOffsetsOfTheBlock) {
   // The alignments of CUDA's vector types, from its programming guide.
   std::string types;
-  for (const auto& [name, of] :
-       {std::pair("float", "float"), std::pair("int", "int"), std::pair("uint", "unsigned int")}) {
+  for (const auto& [name, of] : {std::pair("float", "float"), std::pair("int", "int"), std::pair("uint", "unsigned int")}) {
     types += fmt::format(
         "struct alignas(8) {0}2 {{ {1} x, y; }};\nstruct {0}3 {{ {1} x, y, z; }};\n"
         "struct alignas(16) {0}4 {{ {1} x, y, z, w; }};\n",
@@ -162,8 +161,7 @@ TEST_F(LayoutFile, ShadersDeclareTheBlock) {
   write("a.hlsl", hlsl + hlsl_record +
                       "RWStructuredBuffer<float> result : register(u0);\n"
                       "[numthreads(1, 1, 1)] void main() { result[0] = time + drops[1].strength; }\n");
-  expect_reflected(output("glslangValidator -V -o " + path("a.spv") + " -D -e main" + options + path("a.hlsl")),
-                   uniforms());
+  expect_reflected(output("glslangValidator -V -o " + path("a.spv") + " -D -e main" + options + path("a.hlsl")), uniforms());
 }
 
 // A block of one row for the exact texts.
@@ -234,8 +232,7 @@ TEST(Layout, Wgsl) {
 TEST(Layout, RecordsEndInTheBufferThatHoldsThem) {
   EXPECT_THAT(record_layout(drop(), Language::glsl),
               testing::EndsWith("};\nlayout(std430, binding = 1) readonly buffer DropBuffer { Drop drops[]; };\n"));
-  EXPECT_THAT(record_layout(drop(), Language::hlsl),
-              testing::EndsWith("};\nStructuredBuffer<Drop> drops : register(t0);\n"));
+  EXPECT_THAT(record_layout(drop(), Language::hlsl), testing::EndsWith("};\nStructuredBuffer<Drop> drops : register(t0);\n"));
   EXPECT_THAT(record_layout(drop(), Language::wgsl),
               testing::EndsWith("}\n@group(0) @binding(1) var<storage, read> drops : array<Drop>;\n"));
   EXPECT_THAT(record_layout(drop(), Language::c), testing::HasSubstr("} Drop;\n"));

@@ -19,7 +19,8 @@ TEST(ScreenDropsCorrected, DropsAreRound) {
   const auto covered_to = [&](double dx, double dy) {
     double r = 0;
     int k = 0;
-    for (; p.at(Pixel::middle + static_cast<int>(k * dx), Pixel::middle + static_cast<int>(k * dy)).water.v >= 0.5; ++k) r = std::hypot(static_cast<int>(k * dx), static_cast<int>(k * dy));
+    for (; p.at(Pixel::middle + static_cast<int>(k * dx), Pixel::middle + static_cast<int>(k * dy)).water.v >= 0.5; ++k)
+      r = std::hypot(static_cast<int>(k * dx), static_cast<int>(k * dy));
     return r;
   };
   EXPECT_NEAR(covered_to(1, 0), 300, 1);
@@ -127,7 +128,8 @@ TEST(ScreenDropsCells, RadiiFollowThePowerLaw) {
     const CellLine line(u, y);
     for (int x = 0; x < u.columns[0]; ++x) {
       const CellState c = line.at(x);
-      const double r = scalar::cell_drop<Double>(u, Double(c.size / 65536.0), Double(0.5f), Double(0.5f), Double(s.impact)).radius.v / u.largest;
+      const double r =
+          scalar::cell_drop<Double>(u, Double(c.size / 65536.0), Double(0.5f), Double(0.5f), Double(s.impact)).radius.v / u.largest;
       ++classes[std::min<std::size_t>(9, static_cast<std::size_t>((1 / (r * r) - 1) / 3 * 10))];
       ++count;
     }
@@ -195,7 +197,9 @@ TEST(ScreenDropsCells, KeptDrawsAreFreshDraws) {
     u.tick = tick;
     for (int x = 0; x <= u.columns[0]; ++x) {
       const CellState kept = line.at(x, drawn[static_cast<std::size_t>(x)]), fresh = line.at(x);
-      ASSERT_EQ(std::tie(kept.holds_drop, kept.cycle, kept.phase, kept.size, kept.x, kept.y), std::tie(fresh.holds_drop, fresh.cycle, fresh.phase, fresh.size, fresh.x, fresh.y)) << tick << ", cell " << x;
+      ASSERT_EQ(std::tie(kept.holds_drop, kept.cycle, kept.phase, kept.size, kept.x, kept.y),
+                std::tie(fresh.holds_drop, fresh.cycle, fresh.phase, fresh.size, fresh.x, fresh.y))
+          << tick << ", cell " << x;
       cycles.insert(kept.cycle);
     }
   }

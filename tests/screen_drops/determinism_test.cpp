@@ -37,7 +37,8 @@ TEST_P(ScreenDropsDeterminism, EveryTargetThreadCountOrderAndWidth) {
     for (const std::string& target : simd_targets()) {
       select_simd_target(target);
       for (const int threads : {1, 2, 3, 8}) {
-        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected) << target << ", " << threads << " threads, width " << width;
+        ASSERT_EQ(hash_of_run(s, threads, static_cast<std::uint64_t>(threads + width)), expected)
+            << target << ", " << threads << " threads, width " << width;
       }
     }
   }
@@ -111,14 +112,16 @@ TEST_P(ScreenDropsDeterminism, LanesEqualThePlainReadingWhichIsNearDouble) {
     int wet = 0, far = 0;
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
-        const auto blurred = corrected ? scalar::background_corrected<Single>(b, scene, taps.data(), x, y) : scalar::background_as_published<Single>(b, scene, x, y);
+        const auto blurred = corrected ? scalar::background_corrected<Single>(b, scene, taps.data(), x, y)
+                                       : scalar::background_as_published<Single>(b, scene, x, y);
         const Half* below = window.background().row<Half>(y) + 4 * x;
         expect_same(below[0], blurred.x, "background.r", x, y);
         expect_same(below[2], blurred.z, "background.b", x, y);
         const auto window_of = [&](auto n) {
           using N = decltype(n);
           const plain::Vec3<N> own(N::load(below), N::load(below + 1), N::load(below + 2));
-          return corrected ? scalar::drops_corrected<N>(d, scene, cells.view(), height.view(), own, x, y) : scalar::drops_as_published<N>(p, scene, noise.view(), own, x, y);
+          return corrected ? scalar::drops_corrected<N>(d, scene, cells.view(), height.view(), own, x, y)
+                           : scalar::drops_as_published<N>(p, scene, noise.view(), own, x, y);
         };
         const auto w = window_of(Single());
         const Half* stored = window.colour().row<Half>(y) + 4 * x;
@@ -126,7 +129,9 @@ TEST_P(ScreenDropsDeterminism, LanesEqualThePlainReadingWhichIsNearDouble) {
         expect_same(stored[1], w.colour.y, "colour.g", x, y);
         expect_same(stored[2], w.colour.z, "colour.b", x, y);
         ASSERT_EQ(window.water().row<Unorm8>(y)[x].code, to_unorm8(w.water.v).code) << target << " " << x << "," << y;
-        const auto shown = pass::every::display<Single>(pass::display_uniforms(s.exposure), plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+        const auto shown =
+            pass::every::display<Single>(pass::display_uniforms(s.exposure),
+                                         plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         ASSERT_EQ(window.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code) << target << " " << x << "," << y;
         const auto exact = window_of(Double());
         wet += w.water.v > 0;

@@ -38,7 +38,8 @@ TEST(ScreenDropsErrors, ZeroScalesAndPanes) {
   EXPECT_THAT(error_with(s), HasSubstr("drops.longest_cycle: expected at most 65.535 s, found 70"));
   s = good;
   s.largest_radius = 1e-4;
-  EXPECT_THAT(error_with(s), HasSubstr("drops.largest_radius: expected drops that 16 million cells hold, found 0.0001 mm for a pane 0.02 m high"));
+  EXPECT_THAT(error_with(s),
+              HasSubstr("drops.largest_radius: expected drops that 16 million cells hold, found 0.0001 mm for a pane 0.02 m high"));
   s = good;
   s.contact_angle_deg = 90;
   EXPECT_THAT(error_with(s), HasSubstr("drops.contact_angle"));
@@ -53,7 +54,8 @@ TEST(ScreenDropsErrors, ImagesOfAnotherShape) {
   const Settings s = settings(Variant::as_published, 12, 9);
   const auto error_for = [&](const Inputs& in) { return error_of([&] { ScreenDrops(s, in, test::executor()); }); };
   EXPECT_THAT(error_for({}), HasSubstr("scene.image: expected an image of four channels"));
-  EXPECT_THAT(error_for(test::inputs(settings(Variant::as_published, 12, 8))), HasSubstr("scene.image: expected 12x9 like the picture, found 12x8"));
+  EXPECT_THAT(error_for(test::inputs(settings(Variant::as_published, 12, 8))),
+              HasSubstr("scene.image: expected 12x9 like the picture, found 12x8"));
   Inputs in = test::inputs(s);
   in.noise = Image(Format::rg32f, 8, 8);
   EXPECT_THAT(error_for(in), HasSubstr("noise.image: expected four channels, found 2"));
@@ -73,7 +75,8 @@ TEST(ScreenDropsErrors, ScenesRefuseWhatTheVariantHasNot) {
 }
 TEST(ScreenDropsErrors, SettingsOfAScene) {
   const scene::EffectTable table{{{"screen_drops", {"as-published", "corrected"}, parameters()}}};
-  const scene::Config c = scene::parse("effect = 'screen_drops'\nvariant = 'corrected'\n[glass]\nheight = 0.3\n[run]\nsize = [200, 100]\n", "t.toml", {}, table);
+  const scene::Config c = scene::parse("effect = 'screen_drops'\nvariant = 'corrected'\n[glass]\nheight = 0.3\n[run]\nsize = [200, 100]\n",
+                                       "t.toml", {}, table);
   const Settings s = settings_from(c);
   EXPECT_EQ(s.pane_height, 0.3);
   const auto flow = flow_from(c, s);

@@ -22,7 +22,8 @@ const std::vector<std::string> variants{"as-published", "corrected"};
 FlowSettings settings_of(const std::vector<std::string>& values, const std::string& variant = "corrected") {
   const std::vector<scene::Parameter> all = flow_parameters("flow");
   const scene::EffectTable table{{{"screen_drops", variants, all}}};
-  return flow_settings(scene::parse("effect = 'screen_drops'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), "flow", {0.5, 0.25}, Rounding::rtz);
+  return flow_settings(scene::parse("effect = 'screen_drops'\nvariant = '" + variant + "'\nseed = 5\n", "scene", values, table), "flow",
+                       {0.5, 0.25}, Rounding::rtz);
 }
 std::string refusal(const std::vector<std::string>& values, const std::string& variant = "corrected") {
   try {
@@ -57,8 +58,9 @@ TEST(FlowDeclared, DefaultsAreThoseOfTheSettings) {
 }
 
 TEST(FlowDeclared, ScenesSetEveryKey) {
-  const FlowSettings s = settings_of({"flow.capacity=77", "flow.substeps=4", "flow.warm_up=2.5", "rain.wind=7", "world.gravity=1.62", "flow.height_size=[64, 32]", "flow.kernel=quartic",
-                                      "flow.receding_angle=30", "rain.rate=44", "run.fps=30"});
+  const FlowSettings s =
+      settings_of({"flow.capacity=77", "flow.substeps=4", "flow.warm_up=2.5", "rain.wind=7", "world.gravity=1.62",
+                   "flow.height_size=[64, 32]", "flow.kernel=quartic", "flow.receding_angle=30", "rain.rate=44", "run.fps=30"});
   EXPECT_EQ(s.drops.capacity, 77);
   EXPECT_EQ(s.substeps, 4);
   EXPECT_EQ(s.warm_up, 2.5);
@@ -96,7 +98,8 @@ std::vector<PassCase> captured() {
   s.warm_up = 3;
   const parallel::Executor executor(2);
   std::vector<PassCase> cases;
-  capture::CaptureRecorder recorder(flow_effect(), "corrected", true, [](int, std::string_view) { return true; }, [&](PassCase c) { cases.push_back(std::move(c)); });
+  capture::CaptureRecorder recorder(
+      flow_effect(), "corrected", true, [](int, std::string_view) { return true; }, [&](PassCase c) { cases.push_back(std::move(c)); });
   Flow flow(s, executor);
   for (int n = 0; n < 3; ++n) flow.simulate(&recorder);
   return cases;

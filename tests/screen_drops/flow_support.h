@@ -42,7 +42,9 @@ inline FlowSettings wet_pane() {
 
 inline double volume_of(double mass) { return mass * drops::quantum / drops::water_density; }
 /// Of a drop that had this diameter [m] in the air, in quanta.
-inline float mass_of(double diameter) { return static_cast<float>(std::round(drops::water_density * pi / 6 * diameter * diameter * diameter / drops::quantum)); }
+inline float mass_of(double diameter) {
+  return static_cast<float>(std::round(drops::water_density * pi / 6 * diameter * diameter * diameter / drops::quantum));
+}
 inline Drop drop_at(float u, float v, float mass, std::uint32_t id = 0) { return {{u, v}, {0, 0}, mass, 4096, id, 0}; }
 
 /// A lone drop in the middle of a pane, after some frames.
@@ -56,10 +58,13 @@ inline Drop after(const FlowSettings& settings, float mass, int frames, const pa
 
 inline std::string bytes_of(const Image& image, std::size_t texel) {
   std::string out;
-  for (int y = 0; y < image.height(); ++y) out.append(reinterpret_cast<const char*>(image.row_bytes(y)), texel * static_cast<std::size_t>(image.width()));
+  for (int y = 0; y < image.height(); ++y)
+    out.append(reinterpret_cast<const char*>(image.row_bytes(y)), texel * static_cast<std::size_t>(image.width()));
   return out;
 }
 template <class T>
-std::string bytes_of(const std::vector<T>& all) { return {reinterpret_cast<const char*>(all.data()), all.size() * sizeof(T)}; }
+std::string bytes_of(const std::vector<T>& all) {
+  return {reinterpret_cast<const char*>(all.data()), all.size() * sizeof(T)};
+}
 
 }  // namespace rainref::screen_drops::test

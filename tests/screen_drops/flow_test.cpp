@@ -77,7 +77,8 @@ TEST(Flow, ASlidingDropHasTheExactSpeedAndPlace) {
         // 3 mm; a step adds three to what e^-kt leaves of those before: 1e-5 in all. Each step rounds the place to 2^-25.
         EXPECT_LT(d.velocity[1], 0);
         EXPECT_NEAR(-d.velocity[1] * s.pane[1], speed, 1e-5 * speed) << mm << ' ' << fps << ' ' << substeps;
-        EXPECT_NEAR((0.75 - d.position[1]) * s.pane[1], way, 1e-5 * way + frames * substeps * 0x1p-25 * s.pane[1]) << mm << ' ' << fps << ' ' << substeps;
+        EXPECT_NEAR((0.75 - d.position[1]) * s.pane[1], way, 1e-5 * way + frames * substeps * 0x1p-25 * s.pane[1])
+            << mm << ' ' << fps << ' ' << substeps;
         EXPECT_EQ(d.position[0], 0.5f);
         EXPECT_EQ(d.velocity[0], 0.0f);
         EXPECT_EQ(d.mass, mass);
@@ -167,7 +168,8 @@ TEST(Flow, TrailsStayInTheFilm) {
   EXPECT_EQ(drops::film_water(flow.film()), lost);
   EXPECT_EQ(flow.balance(), 0);
   const double radius = drops::cap_radius_over_root(35 * degree) * std::cbrt(volume_of(d.mass)) / s.pane[1];
-  const int column = flow.film().width() / 2, first = static_cast<int>((d.position[1] + radius) * flow.film().height()), last = static_cast<int>((0.75 + radius) * flow.film().height());
+  const int column = flow.film().width() / 2, first = static_cast<int>((d.position[1] + radius) * flow.film().height()),
+            last = static_cast<int>((0.75 + radius) * flow.film().height());
   EXPECT_GT(last, first + 10);
   for (int y = 0; y < flow.film().height(); ++y) {
     for (int x = 0; x < flow.film().width(); ++x) {
@@ -204,7 +206,8 @@ TEST(Flow, TheHeightTextureHoldsTheWater) {
   EXPECT_NEAR(x_sum / sum, 0.3 * 640, 0.2);
   // A paraboloid over the base of the mean contact angle: V = pi a^2 h / 2. The nearest centre of a texel is up to 0.7 of the
   // radius' seven texels off, 1 % of h, and the film under the drop adds a little.
-  const double base = drops::cap_radius_over_root(35 * degree) * std::cbrt(volume_of(d.mass)), h = 2 * volume_of(d.mass) / (pi * base * base) * 1e3;
+  const double base = drops::cap_radius_over_root(35 * degree) * std::cbrt(volume_of(d.mass)),
+               h = 2 * volume_of(d.mass) / (pi * base * base) * 1e3;
   EXPECT_NEAR(top, h, 0.03 * h);
 }
 

@@ -66,7 +66,8 @@ inline std::vector<GoldenScene> golden_scenes() {
 }
 
 /// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
+                                             const golden::Caller& caller = golden::call_plainly) {
   const Settings& s = scene.settings;
   Inputs in;
   in.colour = night_street::Street({s.seed}).view(scene_camera(s), s.width, s.height, 1000, executor).colour;

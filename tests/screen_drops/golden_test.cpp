@@ -11,7 +11,8 @@ class ScreenDropsGolden : public testing::TestWithParam<GoldenScene> {};
 
 TEST_P(ScreenDropsGolden, HashesAreAsRecorded) { golden::expect_as_recorded(GetParam()); }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ScreenDropsGolden, testing::ValuesIn(golden_scenes()), [](const auto& param) { return golden::test_name(param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, ScreenDropsGolden, testing::ValuesIn(golden_scenes()),
+                         [](const auto& param) { return golden::test_name(param); });
 
 TEST(ScreenDropsGoldenFile, EveryRecordedLineBelongsToAScene) { golden::expect_every_line_has_a_scene("screen_drops", golden_scenes()); }
 

@@ -25,7 +25,7 @@ TEST(ScreenDropsOddities, Oddity01_PrintedDisplacementForgetsTheNoise) {
     return x;
   };
   EXPECT_NEAR(edge(0.62f, 0) - edge(0.68f, 0), 0.12 / 6.28 * 400, 1.5);  // twice the noise, as an angle
-  EXPECT_EQ(edge(0.62f, 1), edge(0.68f, 1));  // (1 - c2) c3 is one number
+  EXPECT_EQ(edge(0.62f, 1), edge(0.68f, 1));                             // (1 - c2) c3 is one number
   EXPECT_LT(edge(0.62f, 1), 400);
 }
 
@@ -39,7 +39,9 @@ TEST(ScreenDropsOddities, Oddity02_DropsAppearLargeAndDwindle) {
   EXPECT_GT(radius(0), radius(0.125f));
   EXPECT_GT(radius(0.125f), radius(0.25f));
   const CellsUniforms c = cells_uniforms(test::settings(Variant::corrected, 64, 64), {}, 0);
-  const auto corrected = [&](double phase) { return scalar::cell_drop<test::Double>(c, test::Double(0.0f), test::Double(0.5f), test::Double(0.5f), test::Double(phase)).radius.v; };
+  const auto corrected = [&](double phase) {
+    return scalar::cell_drop<test::Double>(c, test::Double(0.0f), test::Double(0.5f), test::Double(0.5f), test::Double(phase)).radius.v;
+  };
   EXPECT_EQ(corrected(0), 0);
   EXPECT_NEAR(corrected(c.impact), c.largest, 1e-7);
   EXPECT_NEAR(square(test::Double(corrected(0.5 + 0.5 * c.impact))).v, 0.5 * c.largest * c.largest, 1e-7);  // the area falls evenly
@@ -63,7 +65,8 @@ TEST(ScreenDropsOddities, Oddity04_TheNormalExtrapolates) {
   Published p(4000, 4000, 1.0 / 4000, {0.5f, 0.5f, 0});
   p.u.time = 5;  // phase 0
   const int middle = static_cast<int>(std::lround(1000 * 2 * pi / 6.28 - 0.5)), x = middle + 60;
-  const double angle = 6.28 * (x + 0.5) / 4000, up = 6.28 * (middle + 0.5) / 4000, t = std::sin(angle) + std::sin(up), z = 0.2 + 1.8 * (t - 0.5);
+  const double angle = 6.28 * (x + 0.5) / 4000, up = 6.28 * (middle + 0.5) / 4000, t = std::sin(angle) + std::sin(up),
+               z = 0.2 + 1.8 * (t - 0.5);
   EXPECT_GT(z, 2.85);
   EXPECT_NEAR(p.at(x, middle).u.v - (x + 0.5) / 4000, 0.3 * std::cos(angle) / std::hypot(std::cos(angle), std::cos(up), z), 1e-6);
 }

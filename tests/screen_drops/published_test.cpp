@@ -37,7 +37,8 @@ TEST(ScreenDropsPublished, S1AreaOfADrop) {
 struct Large : Published {
   static constexpr int cell = 4000;
   int middle;
-  explicit Large(double phi = 0) : Published(cell, cell, 1.0 / cell, {0.5f, 0.5f, 0}), middle(static_cast<int>(std::lround(cell / 4.0 * (2 * pi / 6.28) - 0.5))) {
+  explicit Large(double phi = 0)
+      : Published(cell, cell, 1.0 / cell, {0.5f, 0.5f, 0}), middle(static_cast<int>(std::lround(cell / 4.0 * (2 * pi / 6.28) - 0.5))) {
     // The shift of both sides is 0, so the phase comes from the time: fract(t (b + .1) + .5).
     u.time = static_cast<float>((phi + 0.5) * 10);
   }
@@ -106,7 +107,8 @@ TEST(ScreenDropsPublished, S3KeepRatio) {
         // Somewhere in the cell there is a drop at time 0, when all have their full size.
         bool found = false;
         for (int dy = 5; dy < 60 && !found; dy += 5) {
-          for (int dx = 5; dx < 60 && !found; dx += 5) found = scalar::published_drop<test::Double>(u, noise.view(), 80 * i + dx, 80 * j + dy).layer.v == 1;
+          for (int dx = 5; dx < 60 && !found; dx += 5)
+            found = scalar::published_drop<test::Double>(u, noise.view(), 80 * i + dx, 80 * j + dy).layer.v == 1;
         }
         ++cells;
         kept += found;
@@ -127,7 +129,7 @@ TEST(ScreenDropsPublished, S4TheDropLiesInItsCell) {
   // A whole displacement leaves no drop cut: the outline is a closed one, at n = 0 and n = 1.
   for (const float n : {0.0f, 1.0f}) {
     Published p(400, 400, 1.0 / 100, {n, n, 0});
-    p.u.keep = 0.26;  // n = 1 keeps layer 1 alone, n = 0 all of them
+    p.u.keep = 0.26;                           // n = 1 keeps layer 1 alone, n = 0 all of them
     const double cut = 100 * 0.25 + 50 - 0.5;  // half a cell beyond the middle of a cell
     int at_edge = 0;
     for (int y = 0; y < 400; ++y) at_edge += p.at(static_cast<int>(std::lround(cut)), y).layer.v == 1;

@@ -20,7 +20,8 @@ Count ask(int width, int height, int stretch, std::uint32_t seed) {
   Image cells(Format::rgba32f, size[0], size[1]), flow(Format::r16f, width / 2 + 1, height / 3 + 1);
   test::fill_cells(cells_uniforms(s, grids, 7), cells);
   for (int y = 0; y < flow.height(); ++y) {
-    for (int x = 0; x < flow.width(); ++x) flow.row<Half>(y)[x] = to_half((x * 7 + y * 13 + static_cast<int>(seed)) % 61 == 0 ? 3.0f : 0.0f);
+    for (int x = 0; x < flow.width(); ++x)
+      flow.row<Half>(y)[x] = to_half((x * 7 + y * 13 + static_cast<int>(seed)) % 61 == 0 ? 3.0f : 0.0f);
   }
   const DropsUniforms u = drops_uniforms(s, grids, {flow.width(), flow.height()});
   const TextureData cell_texture(cells, Address::clamp, Address::clamp), flow_texture(flow, Address::clamp, Address::clamp);

@@ -59,7 +59,9 @@ inline Inputs inputs(const Settings& s) {
 inline TextureData ramp(int side) {
   std::vector<float> texels;
   for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) texels.insert(texels.end(), {(static_cast<float>(x) + 0.5f) / static_cast<float>(side), (static_cast<float>(y) + 0.5f) / static_cast<float>(side), 0, 1});
+    for (int x = 0; x < side; ++x)
+      texels.insert(texels.end(), {(static_cast<float>(x) + 0.5f) / static_cast<float>(side),
+                                   (static_cast<float>(y) + 0.5f) / static_cast<float>(side), 0, 1});
   }
   return {texels, 4, side, side, Address::clamp, Address::clamp};
 }
@@ -69,7 +71,8 @@ class Published {
  public:
   PublishedDropsUniforms u{};
   TextureData noise;
-  Published(int width, int height, double grid, std::array<float, 3> rgb) : noise(std::vector<float>{rgb[0], rgb[1], rgb[2], 1}, 4, 1, 1, Address::repeat, Address::repeat) {
+  Published(int width, int height, double grid, std::array<float, 3> rgb)
+      : noise(std::vector<float>{rgb[0], rgb[1], rgb[2], 1}, 4, 1, 1, Address::repeat, Address::repeat) {
     Settings s = settings(Variant::as_published, width, height);
     s.grid = grid;
     s.keep = 0.13;  // noise of .5 keeps layer 1 alone
@@ -104,7 +107,8 @@ struct Pixel {
       u.offset_x[l] = u.offset_y[l] = 0.5f;  // the middle pixel near the middle of a cell
     }
     const auto size = cells_size(grids);
-    cells = TextureData(std::vector<float>(static_cast<std::size_t>(size[0] * size[1]) * 4), 4, size[0], size[1], Address::clamp, Address::clamp);
+    cells = TextureData(std::vector<float>(static_cast<std::size_t>(size[0] * size[1]) * 4), 4, size[0], size[1], Address::clamp,
+                        Address::clamp);
   }
   /// A drop of this base radius [mm] whose centre lies dx, dy to the right of and above the middle pixel.
   void put_drop(double radius, double dx, double dy, int layer = 0) {
@@ -115,7 +119,9 @@ struct Pixel {
     texel[1] = static_cast<float>(qy - std::floor(qy));
     texel[2] = static_cast<float>(radius * per);
   }
-  scalar::Window<Double> at(int x, int y) const { return scalar::drops_corrected<Double>(u, scene.view(), cells.view(), height.view(), background, x, y); }
+  scalar::Window<Double> at(int x, int y) const {
+    return scalar::drops_corrected<Double>(u, scene.view(), cells.view(), height.view(), background, x, y);
+  }
   /// Angle by which the ray of the middle pixel is bent to the right [rad]. The scene has no blue: what there is, the surface mirrors.
   double bent() const {
     const auto c = at(middle, middle).colour;

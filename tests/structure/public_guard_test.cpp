@@ -22,8 +22,17 @@ std::string text_of(const fs::path& file) {
 }
 
 /// Functions that need no guard: they move, compare and print integers, texts and bytes only.
-const std::set<std::string> computes_nothing{"version", "info", "format_from_name", "nearest_name", "did_you_mean", "Error::Error", "SourceLocation::text",
-                                             "Image::memory_bytes", "BufferView::copy_row", "Executor::for_tiles", "Puddle::wave"};
+const std::set<std::string> computes_nothing{"version",
+                                             "info",
+                                             "format_from_name",
+                                             "nearest_name",
+                                             "did_you_mean",
+                                             "Error::Error",
+                                             "SourceLocation::text",
+                                             "Image::memory_bytes",
+                                             "BufferView::copy_row",
+                                             "Executor::for_tiles",
+                                             "Puddle::wave"};
 
 /// Functions that the public headers declare and do not define: "memory_bytes", "Puddle::render".
 std::set<std::string> declared(const std::string& header) {
@@ -38,7 +47,8 @@ std::set<std::string> declared(const std::string& header) {
     const bool is_defined_here = line.find('{') != std::string::npos;
     if (is_defined_here || line.starts_with("    ") || !std::regex_search(line, match, function)) continue;
     const std::string name = match[1];
-    const bool is_plain = name.starts_with("~") || line.find("&&) noexcept") != std::string::npos || line.find("= delete") != std::string::npos || line.find("= 0") != std::string::npos;
+    const bool is_plain = name.starts_with("~") || line.find("&&) noexcept") != std::string::npos ||
+                          line.find("= delete") != std::string::npos || line.find("= 0") != std::string::npos;
     if (!is_plain) names.insert(owner + name);
   }
   return names;
@@ -69,7 +79,8 @@ TEST(PublicGuard, EveryPublicFunctionBeginsWithIt) {
   std::map<std::string, std::vector<std::string>> sources;  // by room
   for (const char* room : {"base", "image", "parallel", "puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"}) {
     for (const auto& entry : fs::directory_iterator(root / "src" / room)) {
-      if (entry.path().extension() == ".cpp" && !entry.path().filename().string().starts_with("kernels")) sources[room].push_back(text_of(entry.path()));
+      if (entry.path().extension() == ".cpp" && !entry.path().filename().string().starts_with("kernels"))
+        sources[room].push_back(text_of(entry.path()));
     }
   }
   int checked = 0;
@@ -94,10 +105,14 @@ TEST(PublicGuard, EveryPublicFunctionBeginsWithIt) {
 
 // The checker itself: it must see what it is there to see.
 TEST(PublicGuard, TheCheckSeesAFunctionWithout) {
-  const std::string header = "class Puddle {\n public:\n  Puddle(const Settings& settings,\n         int x);\n  void render(Recorder* recorder = nullptr);\n  int frame() const;\n  Puddle(Puddle&&) noexcept;\n};\n"
-                             "double seam(const Image& map);\n";
+  const std::string header =
+      "class Puddle {\n public:\n  Puddle(const Settings& settings,\n         int x);\n  void render(Recorder* recorder = nullptr);\n  int "
+      "frame() const;\n  Puddle(Puddle&&) noexcept;\n};\n"
+      "double seam(const Image& map);\n";
   EXPECT_EQ(declared(header), (std::set<std::string>{"Puddle::Puddle", "Puddle::render", "Puddle::frame", "seam"}));
-  const std::string source = "void Puddle::render(Recorder* recorder) {\n  State& s = *state_;\n}\nint Puddle::frame() const { return state_->frame; }\ndouble seam(const Image& map) {\n  const FloatingPointGuard guard;\n  return 1;\n}\n";
+  const std::string source =
+      "void Puddle::render(Recorder* recorder) {\n  State& s = *state_;\n}\nint Puddle::frame() const { return state_->frame; }\ndouble "
+      "seam(const Image& map) {\n  const FloatingPointGuard guard;\n  return 1;\n}\n";
   ASSERT_EQ(bodies(source, "Puddle::render").size(), 1u);
   EXPECT_FALSE(is_safe(bodies(source, "Puddle::render")[0]));
   ASSERT_EQ(bodies(source, "Puddle::frame").size(), 1u);

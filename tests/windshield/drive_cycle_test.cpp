@@ -64,10 +64,12 @@ TEST(DriveCycle, PeaksAreTheRegulations) {
 // trapezoids of 1 s are then exact. The extra-urban part is published as 6.955 km.
 TEST(DriveCycle, TheNedcIsTheRegulationsOperations) {
   using Operations = std::vector<std::array<double, 2>>;
-  const Operations urban{{0, 0}, {11, 0}, {15, 15}, {23, 15}, {25, 10}, {28, 0}, {49, 0}, {54, 15}, {56, 15}, {61, 32}, {85, 32}, {93, 10}, {96, 0}, {117, 0}, {122, 15}, {124, 15}, {133, 35},
-                         {135, 35}, {143, 50}, {155, 50}, {163, 35}, {176, 35}, {178, 32}, {185, 10}, {188, 0}, {195, 0}};
-  const Operations extra_urban{{0, 0}, {20, 0}, {25, 15}, {27, 15}, {36, 35}, {38, 35}, {46, 50}, {48, 50}, {61, 70}, {111, 70}, {119, 50}, {188, 50}, {201, 70}, {251, 70}, {286, 100},
-                               {316, 100}, {336, 120}, {346, 120}, {362, 80}, {370, 50}, {380, 0}, {400, 0}};
+  const Operations urban{{0, 0},    {11, 0},   {15, 15},  {23, 15},  {25, 10},  {28, 0},   {49, 0},   {54, 15},  {56, 15},
+                         {61, 32},  {85, 32},  {93, 10},  {96, 0},   {117, 0},  {122, 15}, {124, 15}, {133, 35}, {135, 35},
+                         {143, 50}, {155, 50}, {163, 35}, {176, 35}, {178, 32}, {185, 10}, {188, 0},  {195, 0}};
+  const Operations extra_urban{{0, 0},     {20, 0},    {25, 15},  {27, 15},  {36, 35},  {38, 35},  {46, 50},   {48, 50},
+                               {61, 70},   {111, 70},  {119, 50}, {188, 50}, {201, 70}, {251, 70}, {286, 100}, {316, 100},
+                               {336, 120}, {346, 120}, {362, 80}, {370, 50}, {380, 0},  {400, 0}};
   const DriveCycle c = read_drive_cycle(cycles + "nedc.csv");
   constexpr double digits = 5e-6;  // the table has five
   const auto expect_part = [&](const Operations& all, double from) {
@@ -76,7 +78,8 @@ TEST(DriveCycle, TheNedcIsTheRegulationsOperations) {
       const auto [t0, v0] = all[i - 1];
       const auto [t1, v1] = all[i];
       metres += (v0 + v1) / 2 * (t1 - t0) * kmh;
-      for (double t = t0; t <= t1; ++t) EXPECT_NEAR(c.speed.value(from + t), (v0 + (v1 - v0) * (t - t0) / (t1 - t0)) * kmh, 1.01 * digits) << from + t;
+      for (double t = t0; t <= t1; ++t)
+        EXPECT_NEAR(c.speed.value(from + t), (v0 + (v1 - v0) * (t - t0) / (t1 - t0)) * kmh, 1.01 * digits) << from + t;
     }
     const double last = all.back()[0];
     EXPECT_NEAR(c.speed.integral(from, from + last), metres, last * digits);
@@ -129,8 +132,8 @@ TEST(DriveCycle, SlopesAreFritschAndButlands) {
 }
 
 TEST(DriveCycle, CommentsSpacesAndWindowsLineEndsAreAccepted) {
-  const DriveCycle c = parse_drive_cycle(
-      "\xef\xbb\xbf# a comment\r\n\r\nspeed_mps , time_s,yaw_rad_s\r\n 5,0,0\r\n# another\r\n10,2,0.5\r\n", "f.csv");
+  const DriveCycle c =
+      parse_drive_cycle("\xef\xbb\xbf# a comment\r\n\r\nspeed_mps , time_s,yaw_rad_s\r\n 5,0,0\r\n# another\r\n10,2,0.5\r\n", "f.csv");
   EXPECT_EQ(c.speed.value(0), 5);
   EXPECT_EQ(c.speed.value(1), 7.5);
   EXPECT_EQ(c.yaw_rate.value(2), 0.5);
@@ -149,9 +152,8 @@ TEST(DriveCycle, DamageIsNamedWithFileAndLine) {
   EXPECT_EQ(message(head + "1,2,3\n"), "f.csv:3: expected 2 fields, found 3");
   EXPECT_EQ(message("time_s,speed_mps,yaw_rad_s\n0,0,99\n"), "f.csv:2: yaw_rad_s: expected -10 to 10 rad/s, found 99");
   EXPECT_THAT(message(head), HasSubstr("f.csv:3: expected at least two rows, found 1"));
-  EXPECT_THAT(
-      message("time_s,yaw_rad_s\n"),
-      HasSubstr("f.csv:1: expected a header of time_s,speed_mps[,yaw_rad_s], found none of the column 'speed_mps'"));
+  EXPECT_THAT(message("time_s,yaw_rad_s\n"),
+              HasSubstr("f.csv:1: expected a header of time_s,speed_mps[,yaw_rad_s], found none of the column 'speed_mps'"));
   EXPECT_THAT(message("time_s,speed_mp\n"), HasSubstr("found the column 'speed_mp'; did you mean 'speed_mps'?"));
   EXPECT_THAT(message("time_s,time_s\n"), HasSubstr("the column 'time_s' stands twice"));
   EXPECT_THAT(message("0,0\n1,1\n"), HasSubstr("f.csv:1: expected a header"));
@@ -163,11 +165,8 @@ TEST(DriveCycle, KeyFramesAreTheSameTableInline) {
   const DriveCycle c = parse_key_frames("0 0; 10 13.9;20 0;", "vehicle.key_frames");
   EXPECT_EQ(c.speed.value(10), 13.9);
   EXPECT_EQ(c.speed.derivative(10), 0);
-  const auto message = [](const std::string& text) {
-    return usage_error([&] { parse_key_frames(text, "vehicle.key_frames"); });
-  };
-  EXPECT_EQ(message("0 0; 10 13.9; 10 0"),
-            "vehicle.key_frames, key frame 3: time_s: expected more than 10 of the row before, found 10");
+  const auto message = [](const std::string& text) { return usage_error([&] { parse_key_frames(text, "vehicle.key_frames"); }); };
+  EXPECT_EQ(message("0 0; 10 13.9; 10 0"), "vehicle.key_frames, key frame 3: time_s: expected more than 10 of the row before, found 10");
   EXPECT_EQ(message("0 0; 10 -1"), "vehicle.key_frames, key frame 2: speed_mps: expected 0 to 100 m/s, found -1");
   EXPECT_EQ(message("0 0 0; 10 1"),
             "vehicle.key_frames, key frame 2: expected \"time speed\" in every one or \"time speed yaw_rate\" in every "

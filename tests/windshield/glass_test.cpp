@@ -54,17 +54,16 @@ TEST(Glass, ThePlaneKeepsDistancesOnAShearedGlass) {
 }
 
 TEST(Glass, CornersOnALineAreRefused) {
-  for (const std::array<Real3, 3>& corners : {std::array<Real3, 3>{{{1, 2, 3}, {1, 2, 3}, {0, 1, 0}}},
-                                              std::array<Real3, 3>{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}},
-                                              std::array<Real3, 3>{{{0, 0, 0}, {1, 0, 0}, {1, 1e-8, 0}}}}) {
+  for (const std::array<Real3, 3>& corners :
+       {std::array<Real3, 3>{{{1, 2, 3}, {1, 2, 3}, {0, 1, 0}}}, std::array<Real3, 3>{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}},
+        std::array<Real3, 3>{{{0, 0, 0}, {1, 0, 0}, {1, 1e-8, 0}}}}) {
     try {
       make_glass(corners);
       FAIL() << "accepted";
     } catch (const Error& e) {
       EXPECT_EQ(e.code(), ExitCode::usage);
-      EXPECT_THAT(e.what(),
-                  testing::AllOf(testing::HasSubstr("windshield.corner_0"), testing::HasSubstr("windshield.corner_2"),
-                                 testing::HasSubstr("which lie on one line")));
+      EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("windshield.corner_0"), testing::HasSubstr("windshield.corner_2"),
+                                           testing::HasSubstr("which lie on one line")));
     }
   }
   EXPECT_NO_THROW(make_glass({{{0, 0, 0}, {1, 0, 0}, {1, 1e-5, 0}}}));

@@ -28,7 +28,9 @@ inline Surroundings small_surroundings() {
   Surroundings s{Image(Format::rgba16f, 37, 23), Image(Format::r32f, 37, 23)};
   for (int y = 0; y < 23; ++y) {
     for (int x = 0; x < 37; ++x) {
-      for (int c = 0; c < 4; ++c) s.colour.row<Half>(y)[4 * x + c] = Half{static_cast<std::uint16_t>(c == 3 ? 0x3c00 : 0x3000 + 64 * ((7 * x + 13 * y + 5 * c) % 17))};
+      for (int c = 0; c < 4; ++c)
+        s.colour.row<Half>(y)[4 * x + c] =
+            Half{static_cast<std::uint16_t>(c == 3 ? 0x3c00 : 0x3000 + 64 * ((7 * x + 13 * y + 5 * c) % 17))};
       s.depth.row<float>(y)[x] = static_cast<float>(5 + (3 * x + y) % 11);
     }
   }
@@ -54,17 +56,21 @@ inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   for (const std::string variant : {"as-published", "corrected"}) {
     for (const std::string rounding : {"rne", "rtz"}) {
-      const std::string more = "rounding = '" + rounding + "'\n" + (variant == "corrected" ? "[rain]\nrate = 120\nsmallest_drop = 0.8\n" : "spawn_rate = 3000\n");
+      const std::string more = "rounding = '" + rounding + "'\n" +
+                               (variant == "corrected" ? "[rain]\nrate = 120\nsmallest_drop = 0.8\n" : "spawn_rate = 3000\n");
       scenes.push_back({fmt::format("windshield/{}{}", variant, rounding == "rtz" ? "/rtz" : ""), variant, wet_drive + more});
     }
   }
-  scenes.push_back({"windshield/corrected/substeps", "corrected", std::string(wet_drive) + "substeps = 3\nblend = 'max'\n[rain]\nrate = 120\n"});
-  scenes.push_back({"windshield/as-published/float", "as-published", std::string(wet_drive) + "accumulate = 'float'\nkernel = 'quartic'\nblend = 'max'\n"});
+  scenes.push_back(
+      {"windshield/corrected/substeps", "corrected", std::string(wet_drive) + "substeps = 3\nblend = 'max'\n[rain]\nrate = 120\n"});
+  scenes.push_back({"windshield/as-published/float", "as-published",
+                    std::string(wet_drive) + "accumulate = 'float'\nkernel = 'quartic'\nblend = 'max'\n"});
   return scenes;
 }
 
 /// "scene frame pass buffer hash" for frames 0, 1, 2 and 59, as far as there are so many.
-inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60, const golden::Caller& caller = golden::call_plainly) {
+inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
+                                             const golden::Caller& caller = golden::call_plainly) {
   std::optional<Windshield> windshield;
   caller([&] { windshield.emplace(config_of(scene.variant, scene.toml), small_surroundings(), executor); });
   std::vector<std::string> lines;

@@ -25,14 +25,12 @@ motion_scalar::WipedDrop<N> drop_of(const DropArrays& d, std::size_t i) {
   return drop;
 }
 template <class N>
-motion_scalar::WipedDrop<N> wiped(const WipeDropsUniforms& u, bool corrected, const std::vector<Wiper>& w,
-                                  const DropArrays& d, std::size_t i) {
+motion_scalar::WipedDrop<N> wiped(const WipeDropsUniforms& u, bool corrected, const std::vector<Wiper>& w, const DropArrays& d,
+                                  std::size_t i) {
   return corrected ? motion_scalar::wipe_drop_corrected<N>(u, w.data(), drop_of<N>(d, i))
                    : motion_scalar::wipe_drop_as_published<N>(u, w.data(), drop_of<N>(d, i));
 }
-void same_bits(float a, float b) {
-  ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b + 0.0f)) << a << " " << b;
-}
+void same_bits(float a, float b) { ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b + 0.0f)) << a << " " << b; }
 
 struct Step {
   std::vector<Wiper> wipers;
@@ -42,8 +40,7 @@ Step step(bool corrected, int columns, int rows, double t = 0.3, double dt = 0.5
   const Glass glass = make_glass({{{1.9, 0.7, 1.0}, {1.9, -0.7, 1.1}, {1.2, 0.8, 1.4}}});  // sheared
   WiperSettings s = default_wipers(glass);
   Step out{wipers_between(s, corrected ? glass.plane() : glass.axes(), t, t + dt, corrected), {}};
-  out.uniforms =
-      wipe_drops_uniforms(glass, corrected, static_cast<int>(out.wipers.size()), {}, radius_scale, columns, rows);
+  out.uniforms = wipe_drops_uniforms(glass, corrected, static_cast<int>(out.wipers.size()), {}, radius_scale, columns, rows);
   return out;
 }
 Image film_of(int columns, int rows) {
@@ -60,8 +57,7 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
   DropArrays drops = random_drops(count, static_cast<std::uint32_t>(count));
   const DropArrays before = drops;
   Image film = film_of(columns, rows);
-  const std::uint64_t removed =
-      wipe_drops(s.uniforms, corrected, s.wipers, drops.spans(), corrected ? &film : nullptr, executor);
+  const std::uint64_t removed = wipe_drops(s.uniforms, corrected, s.wipers, drops.spans(), corrected ? &film : nullptr, executor);
 
   // The same, one at a time; then the film by record and bin.
   using F = plain::Plain<float>;
@@ -84,8 +80,7 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
     for (std::size_t k = 0; k < quanta.size(); ++k) {
       std::int64_t first = -1;  // ids ascend with slots here
       for (std::size_t i = 0; i < count && first < 0; ++i) {
-        if (expected[i].wiper.v >= 0 &&
-            static_cast<std::size_t>(expected[i].wiper.v * film_bins + expected[i].bin.v) == k)
+        if (expected[i].wiper.v >= 0 && static_cast<std::size_t>(expected[i].wiper.v * film_bins + expected[i].bin.v) == k)
           first = static_cast<std::int64_t>(i);
       }
       if (first >= 0)
@@ -94,8 +89,7 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
       else
         expected_removed += quanta[k];
     }
-    for (std::size_t i = 0; i < count; ++i)
-      expected_removed += expected[i].wiper.v == -2 ? static_cast<std::uint64_t>(before.mass[i]) : 0;
+    for (std::size_t i = 0; i < count; ++i) expected_removed += expected[i].wiper.v == -2 ? static_cast<std::uint64_t>(before.mass[i]) : 0;
   }
   ASSERT_EQ(removed, expected_removed);
   for (std::size_t i = 0; i < count; ++i) {
@@ -116,8 +110,7 @@ TEST(MotionDeterminism, EveryTargetAndThreadCountGivesPlainBits) {
       parallel::Executor executor(threads);
       executor.shuffle_tiles(static_cast<std::uint64_t>(threads));
       for (const bool corrected : {false, true}) {
-        for (int count = 1; count <= 33; ++count)
-          expect_plain_bits(corrected, static_cast<std::size_t>(count), count, 5, executor);
+        for (int count = 1; count <= 33; ++count) expect_plain_bits(corrected, static_cast<std::size_t>(count), count, 5, executor);
         expect_plain_bits(corrected, 5000, 61, 70, executor);
       }
     }
@@ -134,11 +127,10 @@ TEST(MotionDeterminism, TheFrameHasPlainBits) {
     select_simd_target(target);
     for (const bool corrected : {false, true}) {
       for (double t = 0; t < 9; t += 0.7) {
-        const WindshieldFrameUniforms u =
-            windshield_frame_uniforms(default_glass(), car.at(t), {1, 2, -0.5}, 9.8, corrected);
+        const WindshieldFrameUniforms u = windshield_frame_uniforms(default_glass(), car.at(t), {1, 2, -0.5}, 9.8, corrected);
         using F = plain::Plain<float>;
-        const auto expected = corrected ? motion_scalar::windshield_frame_corrected<F>(u)
-                                        : motion_scalar::windshield_frame_as_published<F>(u);
+        const auto expected =
+            corrected ? motion_scalar::windshield_frame_corrected<F>(u) : motion_scalar::windshield_frame_as_published<F>(u);
         const drops::GlassFrame out = windshield_frame(u, corrected);
         for (int k = 0; k < 2; ++k) {
           same_bits(out.gravity[k], expected.gravity[k].v);
@@ -166,8 +158,7 @@ TEST(MotionDeterminism, FloatsAreNearTheDoubleReading) {
       const auto f = wiped<plain::Plain<float>>(s.uniforms, corrected, s.wipers, drops, i);
       const auto d = wiped<plain::Plain<double>>(s.uniforms, corrected, s.wipers, drops, i);
       const bool alike = corrected ? f.wiper.v == d.wiper.v
-                                   : (f.mass.v == drops.mass[i]) == (d.mass.v == drops.mass[i]) &&
-                                         std::abs(f.mass.v - d.mass.v) < 0.03;
+                                   : (f.mass.v == drops.mass[i]) == (d.mass.v == drops.mass[i]) && std::abs(f.mass.v - d.mass.v) < 0.03;
       if (!alike) {
         ++different;
         continue;

@@ -32,14 +32,11 @@ TEST(MotionFilm, WaterIsConservedToTheQuantum) {
       std::uint64_t taken = 0, removed_in_all = 0;
       for (int n = 0; n < 90; ++n) {
         for (int y = 0; y < rows; ++y) {
-          for (int x = 0; x < columns; ++x)
-            film.row<float>(y)[x] = static_cast<float>(random() % 7 == 0 ? 1u << 24 : random() % 3000);
+          for (int x = 0; x < columns; ++x) film.row<float>(y)[x] = static_cast<float>(random() % 7 == 0 ? 1u << 24 : random() % 3000);
         }
         const std::uint64_t film_before = quanta_in(film), drops_before = quanta_in(drops);
-        const std::uint64_t removed =
-            wipe(drops, wipers_between(s, default_glass().plane(), n / 60.0, (n + 1) / 60.0, corrected), film);
-        ASSERT_EQ(film_before + drops_before, quanta_in(film) + quanta_in(drops) + removed)
-            << columns << "x" << rows << " step " << n;
+        const std::uint64_t removed = wipe(drops, wipers_between(s, default_glass().plane(), n / 60.0, (n + 1) / 60.0, corrected), film);
+        ASSERT_EQ(film_before + drops_before, quanta_in(film) + quanta_in(drops) + removed) << columns << "x" << rows << " step " << n;
         for (const float m : drops.mass) ASSERT_LE(m, 0x1p24f);
         taken += quanta_in(drops) > drops_before;
         removed_in_all += removed;
@@ -57,8 +54,8 @@ TEST(MotionFilm, FilmIsClearedWhereItIsSwept) {
   for (const char* arrangement : {"tandem", "opposed"}) {
     for (const double fps : {3.0, 20.0, 60.0}) {
       for (const double t : {0.0, 0.31, 0.66, 1.0}) {
-        const std::vector<Wiper> records = wipers_between(default_wipers(default_glass(), arrangement),
-                                                          default_glass().plane(), t, t + 1 / fps, corrected);
+        const std::vector<Wiper> records =
+            wipers_between(default_wipers(default_glass(), arrangement), default_glass().plane(), t, t + 1 / fps, corrected);
         Image film(Format::r32f, 131, 77);
         for (int y = 0; y < film.height(); ++y) std::fill_n(film.row<float>(y), film.width(), 3.0f);
         DropArrays drops(1);
@@ -82,8 +79,7 @@ TEST(MotionFilm, FilmIsClearedWhereItIsSwept) {
 
 // Where two sweeps overlap, the first record has the texel.
 TEST(MotionFilm, TheFirstRecordTakesATexel) {
-  const std::vector<Wiper> records =
-      wipers_between(default_wipers(default_glass(), "opposed"), default_glass().plane(), 0, 0.5, corrected);
+  const std::vector<Wiper> records = wipers_between(default_wipers(default_glass(), "opposed"), default_glass().plane(), 0, 0.5, corrected);
   const WipeDropsUniforms u = uniforms_of(records, corrected, 140, 80);
   int shared = 0;
   for (int y = 0; y < 80; ++y) {
@@ -126,8 +122,7 @@ TEST(MotionFilm, TheLowestIdTakesTheFilm) {
   // A bin is 1/64 of the blade's length: its share of the swept film is as much of r^2.
   const double near = 0.15 - 0.008, far = 0.6 + 0.008, width = (far - near) / film_bins;
   const double r0 = near + width * std::floor((0.4 - near) / width), r1 = r0 + width;
-  const double turn = wiper_angle(s.blades[0], 60, 0.25 + 1.0 / 60) - wiper_angle(s.blades[0], 60, 0.25),
-               texel = 1.4 / 700 * 0.8 / 400;
+  const double turn = wiper_angle(s.blades[0], 60, 0.25 + 1.0 / 60) - wiper_angle(s.blades[0], 60, 0.25), texel = 1.4 / 700 * 0.8 / 400;
   const double share = ((r1 * r1 - r0 * r0) / 2 * turn + 2 * 0.008 * width) / texel;
   EXPECT_NEAR(drops.mass[1] - 100, share, 0.15 * share);  // some hundred texels: their outline is rough
 }

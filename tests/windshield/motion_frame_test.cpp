@@ -11,8 +11,7 @@ namespace {
 using drops::GlassFrame;
 constexpr double g = 9.80665;
 
-GlassFrame frame_of(const Glass& glass, const VehicleState& car, bool corrected, const Real3& wind = {0, 0, 0},
-                    double gravity = g) {
+GlassFrame frame_of(const Glass& glass, const VehicleState& car, bool corrected, const Real3& wind = {0, 0, 0}, double gravity = g) {
   return windshield_frame(windshield_frame_uniforms(glass, car, wind, gravity, corrected), corrected);
 }
 VehicleState parked() {
@@ -44,8 +43,7 @@ TEST(MotionFrame, ProjectsExactlyOnAShearedGlass) {
     // J a = f - (f . n) n
     const double normal_part = dot(f, glass.normal);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(out.wind[0].v * glass.e_u[k] + out.wind[1].v * glass.e_v[k], f[k] - normal_part * glass.normal[k],
-                  1e-14);
+      EXPECT_NEAR(out.wind[0].v * glass.e_u[k] + out.wind[1].v * glass.e_v[k], f[k] - normal_part * glass.normal[k], 1e-14);
     }
   }
 }
@@ -63,8 +61,7 @@ TEST(MotionFrame, FloatsKeepTheProjectionToOneInAMillion) {
     const GlassFrame out = frame_of(glass, parked(), true, f, 0);
     const double normal_part = dot(f, glass.normal);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(out.wind[0] * glass.e_u[k] + out.wind[1] * glass.e_v[k], f[k] - normal_part * glass.normal[k],
-                  1e-6 * condition);
+      EXPECT_NEAR(out.wind[0] * glass.e_u[k] + out.wind[1] * glass.e_v[k], f[k] - normal_part * glass.normal[k], 1e-6 * condition);
     }
   }
 }
@@ -127,8 +124,7 @@ TEST(MotionFrame, OnlyApparentWindCounts) {
       EXPECT_EQ(after.gravity[k], before.gravity[k]);
       EXPECT_EQ(after.acceleration[k], before.acceleration[k]);
     }
-    const GlassFrame with_wind = frame_of(glass, driving(12.5), corrected, {12.5, 0, 0}),
-                     calm = frame_of(glass, parked(), corrected);
+    const GlassFrame with_wind = frame_of(glass, driving(12.5), corrected, {12.5, 0, 0}), calm = frame_of(glass, parked(), corrected);
     for (int k = 0; k < 2; ++k) {
       EXPECT_EQ(with_wind.wind[k], 0);
       EXPECT_EQ(with_wind.gravity[k], calm.gravity[k]);
@@ -197,8 +193,8 @@ TEST(MotionFrame, AFreeBodyStaysWhereItIs) {
     for (int k = 0; k < 2; ++k) {
       const double velocity[2] = {(after[0] - before[0]) / (2 * h), (after[1] - before[1]) / (2 * h)};
       const double acceleration = (after[k] - 2 * now[k] + before[k]) / (h * h);
-      const double force = out.gravity[k] + out.spin[2 * k] * now[0] + out.spin[2 * k + 1] * now[1] +
-                           out.coriolis[2 * k] * velocity[0] + out.coriolis[2 * k + 1] * velocity[1];
+      const double force = out.gravity[k] + out.spin[2 * k] * now[0] + out.spin[2 * k + 1] * now[1] + out.coriolis[2 * k] * velocity[0] +
+                           out.coriolis[2 * k + 1] * velocity[1];
       // Second differences are off by h^2 / 12 of the fourth derivative, some 100 / s^4 here, and floats by 1e-7 of
       // terms up to 50.
       EXPECT_NEAR(force, acceleration, 1e-3) << t;
@@ -214,8 +210,7 @@ TEST(MotionFrame, FloatsAreNearTheDoubleReading) {
     const WindshieldFrameUniforms u = windshield_frame_uniforms(default_glass(), car, {3, -4, 1}, g, corrected);
     const GlassFrame out = windshield_frame(u, corrected);
     using D = plain::Plain<double>;
-    const auto real = corrected ? motion_scalar::windshield_frame_corrected<D>(u)
-                                : motion_scalar::windshield_frame_as_published<D>(u);
+    const auto real = corrected ? motion_scalar::windshield_frame_corrected<D>(u) : motion_scalar::windshield_frame_as_published<D>(u);
     for (int k = 0; k < 2; ++k) {
       EXPECT_NEAR(out.gravity[k], real.gravity[k].v, 1e-5);
       EXPECT_NEAR(out.wind[k], real.wind[k].v, 4e-5);

@@ -59,12 +59,10 @@ TEST(MotionParameters, TablesOfSpeedAreFoundFromTheScenesFolder) {
 
 TEST(MotionParameters, WhatCannotBeIsNamed) {
   const auto message = [](const std::string& keys) { return usage_error([&] { settings_of(keys); }); };
-  EXPECT_EQ(
-      message("vehicle.key_frames = \"0 0; 1 5\"\nvehicle.speed = 3.0\n"),
-      "scenes/x.toml:4:9: vehicle.speed: expected none beside vehicle.key_frames or vehicle.drive_cycle, found 3");
+  EXPECT_EQ(message("vehicle.key_frames = \"0 0; 1 5\"\nvehicle.speed = 3.0\n"),
+            "scenes/x.toml:4:9: vehicle.speed: expected none beside vehicle.key_frames or vehicle.drive_cycle, found 3");
   EXPECT_THAT(message("windshield.corner_1 = [1.9, 0.7, 1.0]\n"), HasSubstr("windshield.corner_1"));
-  EXPECT_THAT(message("wipers.arrangement = \"custom\"\nwipers.sweep_1 = 0.0\n"),
-              HasSubstr("wipers.sweep_1: expected a turn"));
+  EXPECT_THAT(message("wipers.arrangement = \"custom\"\nwipers.sweep_1 = 0.0\n"), HasSubstr("wipers.sweep_1: expected a turn"));
   EXPECT_THAT(message("wipers.arrangement = \"parallel\"\n"), HasSubstr("tandem"));
   EXPECT_THAT(message("wipers.follow = 0.5\n"), HasSubstr("wipers.follow"));  // published only
   EXPECT_THAT(message("wipers.half_width = 0.1\n"), HasSubstr("wipers.inner_radius_0"));

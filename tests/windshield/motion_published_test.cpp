@@ -59,12 +59,10 @@ TEST(MotionPublished, TakesWhatLiesInQuadOrCapsule) {
     bool taken;
   };
   for (const Case& c :
-       {Case{a0 + turn / 2, 0.3, 1, true}, Case{a1 + 0.015, 0.4, 1, true}, Case{a1 + 0.025, 0.4, 1, false},
-        Case{a0 - 0.01, 0.4, 1, false}, Case{a0 + turn / 2, 0.62, 1, false}, Case{a1, 0.605, 1, true},
-        Case{a0 + turn / 2, 0.3, 0, false}}) {
+       {Case{a0 + turn / 2, 0.3, 1, true}, Case{a1 + 0.015, 0.4, 1, true}, Case{a1 + 0.025, 0.4, 1, false}, Case{a0 - 0.01, 0.4, 1, false},
+        Case{a0 + turn / 2, 0.62, 1, false}, Case{a1, 0.605, 1, true}, Case{a0 + turn / 2, 0.3, 0, false}}) {
     DropArrays drops(1);
-    const Real2 place =
-        glass.axes().to_glass({0.7 + c.radius * std::cos(c.angle), 0.08 + c.radius * std::sin(c.angle)});
+    const Real2 place = glass.axes().to_glass({0.7 + c.radius * std::cos(c.angle), 0.08 + c.radius * std::sin(c.angle)});
     drops.u[0] = static_cast<float>(place[0]);
     drops.v[0] = static_cast<float>(place[1]);
     drops.life[0] = c.life;

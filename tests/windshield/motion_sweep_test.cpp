@@ -18,8 +18,7 @@ Area count(Inside inside, double perimeter) {
   int hits = 0;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
-      const auto p = motion_scalar::to_plane(u.frame, N(static_cast<float>((x + 0.5) / columns)),
-                                             N(static_cast<float>((y + 0.5) / rows)));
+      const auto p = motion_scalar::to_plane(u.frame, N(static_cast<float>((x + 0.5) / columns)), N(static_cast<float>((y + 0.5) / rows)));
       hits += inside(p.x, p.y);
     }
   }
@@ -33,13 +32,12 @@ TEST(MotionSweep, SweptAreasAreThoseOfGeometry) {
   const double length = b.outer_radius - b.inner_radius, middle = 0.5 * (b.outer_radius + b.inner_radius);
   for (const auto& [from, to] : {std::pair{0.2, 0.22}, std::pair{0.2, 0.3}, std::pair{0.8, 0.65}}) {
     // The last one turns back.
-    const std::vector<Wiper> records = wipers_between(s, default_glass().plane(), from < to ? from : 1 - from + 0.5,
-                                                      from < to ? to : 1 - to + 0.5, corrected);
+    const std::vector<Wiper> records =
+        wipers_between(s, default_glass().plane(), from < to ? from : 1 - from + 0.5, from < to ? to : 1 - to + 0.5, corrected);
     ASSERT_EQ(records.size(), 1u);
     const Wiper& record = records[0];
-    const double turn = std::abs(std::remainder(
-        std::atan2(record.axis[1], record.axis[0]) - std::atan2(record.previous_axis[1], record.previous_axis[0]),
-        2 * pi));
+    const double turn = std::abs(
+        std::remainder(std::atan2(record.axis[1], record.axis[0]) - std::atan2(record.previous_axis[1], record.previous_axis[0]), 2 * pi));
     const double perimeter = 2 * length + 2 * (middle + w) * turn + 2 * pi * w;
 
     const Area sweep = count([&](N x, N y) { return motion_scalar::in_sweep(record, x, y); }, perimeter);
@@ -47,11 +45,9 @@ TEST(MotionSweep, SweptAreasAreThoseOfGeometry) {
     const WipeDropsUniforms u = uniforms_of(records, false);
     const Area quad = count([&](N x, N y) { return motion_scalar::in_quad(u, record, x, y); }, perimeter);
     EXPECT_NEAR(quad.value, length * middle * std::sin(turn), quad.error);
-    const Area capsule = count(
-        [&](N x, N y) {
-          return motion_scalar::under_blade(record, record.axis, x - N(record.pivot[0]), y - N(record.pivot[1]));
-        },
-        perimeter);
+    const Area capsule =
+        count([&](N x, N y) { return motion_scalar::under_blade(record, record.axis, x - N(record.pivot[0]), y - N(record.pivot[1])); },
+              perimeter);
     EXPECT_NEAR(capsule.value, 2 * w * length + pi * w * w, capsule.error);
   }
 }
@@ -94,16 +90,13 @@ TEST(MotionSweep, FastWipersLeaveNoGap) {
       const Blade& b = s.blades[0];
       std::vector<Wiper> all;
       for (int n = 0; n < 0.5 * fps * 60 / cycles_per_minute; ++n) {
-        for (const Wiper& w : wipers_between(s, default_glass().plane(), n / fps, (n + 1) / fps, corrected))
-          all.push_back(w);
+        for (const Wiper& w : wipers_between(s, default_glass().plane(), n / fps, (n + 1) / fps, corrected)) all.push_back(w);
       }
       for (int i = 0; i < 2000; ++i) {
         const double angle = b.start_angle + unit(random) * b.sweep,
                      radius = b.inner_radius + unit(random) * (b.outer_radius - b.inner_radius);
-        const N x(static_cast<float>(b.pivot[0] + radius * std::cos(angle))),
-            y(static_cast<float>(b.pivot[1] + radius * std::sin(angle)));
-        EXPECT_TRUE(
-            std::any_of(all.begin(), all.end(), [&](const Wiper& w) { return motion_scalar::in_sweep(w, x, y); }))
+        const N x(static_cast<float>(b.pivot[0] + radius * std::cos(angle))), y(static_cast<float>(b.pivot[1] + radius * std::sin(angle)));
+        EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Wiper& w) { return motion_scalar::in_sweep(w, x, y); }))
             << cycles_per_minute << " " << fps;
       }
     }

@@ -56,15 +56,13 @@ TEST(MotionWipe, NoLiveDropIsLeftInAFreshSweep) {
       std::uniform_real_distribution<float> unit(-0.5f, 0.5f);
       std::uint64_t removed = 0;
       for (int n = 0; n < 100; ++n) {
-        const std::vector<Wiper> records =
-            wipers_between(s, default_glass().plane(), n / 60.0, (n + 1) / 60.0, corrected);
+        const std::vector<Wiper> records = wipers_between(s, default_glass().plane(), n / 60.0, (n + 1) / 60.0, corrected);
         removed += wipe(drops, records, film);
         for (std::size_t i = 0; i < drops.size(); ++i) {
           if (!(drops.life[i] > 0)) continue;
           for (const Wiper& w : records) {
             if (w.direction == 0) continue;
-            ASSERT_GE(sweep_distance(w, in_plane(drops, i)), s.half_width - 2e-7)
-                << arrangement << " " << cycles_per_minute << " " << n;
+            ASSERT_GE(sweep_distance(w, in_plane(drops, i)), s.half_width - 2e-7) << arrangement << " " << cycles_per_minute << " " << n;
           }
           drops.u[i] += 0.02f * unit(random);
           drops.v[i] += 0.02f * unit(random);
@@ -83,8 +81,7 @@ TEST(MotionWipe, NoLiveDropIsLeftInAFreshSweep) {
 // off, and counted.
 TEST(MotionWipe, DropsBetweenBladesThatMeetAreThrownOff) {
   WiperSettings s;
-  s.blades = {{{0.6, -0.06}, 0.16, 0.6, 100 * degree, -40 * degree, 0},
-              {{0.8, -0.06}, 0.16, 0.6, 80 * degree, 40 * degree, 0}};
+  s.blades = {{{0.6, -0.06}, 0.16, 0.6, 100 * degree, -40 * degree, 0}, {{0.8, -0.06}, 0.16, 0.6, 80 * degree, 40 * degree, 0}};
   s.cycles_per_minute = 60;
   const std::vector<Wiper> records = wipers_between(s, default_glass().plane(), 0, 0.5, corrected);
   DropArrays drops = random_drops(5000, 12);
@@ -118,14 +115,12 @@ TEST(MotionWipe, AStrokeLeavesTheUnsweptShare) {
     }
     const DropArrays before = drops;
     Image film(Format::r32f, 4, 4);
-    for (int n = 0; n < fps / 2; ++n)
-      wipe(drops, wipers_between(s, default_glass().plane(), n / fps, (n + 1) / fps, corrected), film);
+    for (int n = 0; n < fps / 2; ++n) wipe(drops, wipers_between(s, default_glass().plane(), n / fps, (n + 1) / fps, corrected), film);
     double still = 0;
     for (std::size_t i = 0; i < drops.size(); ++i) still += drops.u[i] == before.u[i] && drops.v[i] == before.v[i];
     // The widened sector, and behind its end drops that the last edge pushed: those stand beyond it, at most where
     // others stood, and move nothing.
-    const double length = b.outer_radius - b.inner_radius, middle = 0.5 * (b.outer_radius + b.inner_radius),
-                 w = s.half_width;
+    const double length = b.outer_radius - b.inner_radius, middle = 0.5 * (b.outer_radius + b.inner_radius), w = s.half_width;
     const double swept = (length + 2 * w) * middle * b.sweep + 2 * w * length + pi * w * w;
     const double p = 1 - swept / (1.4 * 0.8), n = static_cast<double>(drops.size());
     EXPECT_NEAR(still / n, p, 4 * std::sqrt(p * (1 - p) / n)) << fps;

@@ -31,8 +31,10 @@ Image pattern(Format format, int width, int height, float scale = 1) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width * image.channels(); ++x, ++i) {
       const float value = scale * static_cast<float>((i * 7919 + 31 * (i / 5)) % 257) / 256;
-      if constexpr (std::is_same_v<Stored, Half>) image.row<Half>(y)[x] = to_half(value);
-      else image.row<float>(y)[x] = value;
+      if constexpr (std::is_same_v<Stored, Half>)
+        image.row<Half>(y)[x] = to_half(value);
+      else
+        image.row<float>(y)[x] = value;
     }
   }
   return image;
@@ -47,7 +49,8 @@ struct Pyramid {
   std::optional<blur_pyramid::LevelTexture> stored;
 
   Pyramid(int width, int height) {
-    for (int l = 0; l < 4; ++l) levels.push_back(pattern<Half>(Format::rgba16f, width >> l, height >> l, 1.0f - 0.125f * static_cast<float>(l)));
+    for (int l = 0; l < 4; ++l)
+      levels.push_back(pattern<Half>(Format::rgba16f, width >> l, height >> l, 1.0f - 0.125f * static_cast<float>(l)));
     stored.emplace(levels);
     stored->refresh(parallel::Executor(1), levels);
     const StoredTexture<Half>& view = stored->view();
@@ -72,7 +75,8 @@ constexpr int height = 11;
 
 struct Scene {
   Pyramid pyramid{37, 23};
-  Image depth = pattern<float>(Format::r32f, 37, 23, 60), water = pattern<Half>(Format::r16f, 29, 17), normal = pattern<Half>(Format::rgba16f, 29, 17), mask = pattern<Half>(Format::r16f, 29, 17);
+  Image depth = pattern<float>(Format::r32f, 37, 23, 60), water = pattern<Half>(Format::r16f, 29, 17),
+        normal = pattern<Half>(Format::rgba16f, 29, 17), mask = pattern<Half>(Format::r16f, 29, 17);
   TextureData plain_depth = decoded(depth), plain_water = decoded(water), plain_normal = decoded(normal), plain_mask = decoded(mask);
   Keyframe behind{pattern<Half>(Format::rgba16f, 19, 13), pattern<float>(Format::r32f, 19, 13, 40)},
       ahead{pattern<Half>(Format::rgba16f, 19, 13, 0.5f), pattern<float>(Format::r32f, 19, 13, 50)};
@@ -94,7 +98,9 @@ struct Scene {
   }
   View make() const {
     const int w = settings.width;
-    return {Image(Format::rgba16f, w, height), Image(Format::rgba8, w, height), {Image(Format::rgba16f, w, height), Image(Format::r32f, w, height)}};
+    return {Image(Format::rgba16f, w, height),
+            Image(Format::rgba8, w, height),
+            {Image(Format::rgba16f, w, height), Image(Format::r32f, w, height)}};
   }
   View by_lanes(bool corrected, const parallel::Executor& executor) const {
     View v = make();
@@ -134,7 +140,8 @@ void expect_same(const View& a, const View& b, const std::string& what) {
 }
 
 class PictureDeterminism : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Variants, PictureDeterminism, testing::Bool(), [](const auto& variant) { return variant.param ? "Corrected" : "AsPublished"; });
+INSTANTIATE_TEST_SUITE_P(Variants, PictureDeterminism, testing::Bool(),
+                         [](const auto& variant) { return variant.param ? "Corrected" : "AsPublished"; });
 
 // composite and display have a plain reading; the views of the street are an input, and are compared between targets.
 TEST_P(PictureDeterminism, LanesEqualThePlainReading) {
@@ -144,12 +151,16 @@ TEST_P(PictureDeterminism, LanesEqualThePlainReading) {
     View plain = s.make();
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const plain::Vec3<F> c = GetParam() ? scalar::composite_corrected<F>(s.composite, s.pyramid.plain, s.plain_depth.view(), s.plain_water.view(), s.plain_normal.view(), s.plain_mask.view(), s.lights.data(), x, y)
-                                            : scalar::composite_as_published<F>(s.composite, s.pyramid.plain, s.plain_water.view(), s.plain_normal.view(), s.plain_mask.view(), s.lights.data(), x, y);
+        const plain::Vec3<F> c =
+            GetParam() ? scalar::composite_corrected<F>(s.composite, s.pyramid.plain, s.plain_depth.view(), s.plain_water.view(),
+                                                        s.plain_normal.view(), s.plain_mask.view(), s.lights.data(), x, y)
+                       : scalar::composite_as_published<F>(s.composite, s.pyramid.plain, s.plain_water.view(), s.plain_normal.view(),
+                                                           s.plain_mask.view(), s.lights.data(), x, y);
         Half* colour = plain.colour.row<Half>(y) + 4 * x;
         const float rgba[4] = {c.x.v, c.y.v, c.z.v, 1};
         for (int k = 0; k < 4; ++k) colour[k] = to_half(rgba[k] + 0.0f);
-        const plain::Vec3<F> code = pass::every::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
+        const plain::Vec3<F> code =
+            pass::every::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
         const float codes[4] = {code.x.v, code.y.v, code.z.v, 1};
         for (int k = 0; k < 4; ++k) plain.picture.row<Unorm8>(y)[4 * x + k] = to_unorm8(codes[k], Rounding::rne);
       }

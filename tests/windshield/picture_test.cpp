@@ -29,11 +29,13 @@ TEST(GlassPoint, IsWhereTheRayMeetsTheGlass) {
     const scene::Camera eye = camera(s);
     const auto basis = eye.basis();
     const dvec3 p0(corners[0][0], corners[0][1], corners[0][2]), eu = dvec3(corners[1][0], corners[1][1], corners[1][2]) - p0,
-                ev = dvec3(corners[2][0], corners[2][1], corners[2][2]) - p0, n = glm::cross(eu, ev);
+                                                                 ev = dvec3(corners[2][0], corners[2][1], corners[2][2]) - p0,
+                                                                 n = glm::cross(eu, ev);
     for (int row = 0; row < s.height; row += 7) {
       for (int column = 0; column < s.width; column += 11) {
         const double h = eye.half_height(), w = h * s.width / s.height;
-        const dvec3 d = basis.forward + ((2 * column + 1.0) / s.width - 1) * w * basis.right + ((2 * row + 1.0) / s.height - 1) * h * basis.up;
+        const dvec3 d =
+            basis.forward + ((2 * column + 1.0) / s.width - 1) * w * basis.right + ((2 * row + 1.0) / s.height - 1) * h * basis.up;
         const double t = glm::dot(p0 - eye.position, n) / glm::dot(d, n);
         const dvec3 at = eye.position + t * d - p0;
         const double area = glm::dot(n, n), a = glm::dot(glm::cross(at, ev), n) / area, b = glm::dot(glm::cross(eu, at), n) / area;

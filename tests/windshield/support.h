@@ -31,9 +31,7 @@ inline std::string usage_error(const std::function<void()>& body) {
 
 /// 1.4 m x 0.8 m, `slope` from the horizontal; u to the right, v up.
 inline std::array<Real3, 3> corners_at(double slope, double width = 1.4, double height = 0.8) {
-  return {{{1.9, width / 2, 1.0},
-           {1.9, -width / 2, 1.0},
-           {1.9 - height * std::cos(slope), width / 2, 1.0 + height * std::sin(slope)}}};
+  return {{{1.9, width / 2, 1.0}, {1.9, -width / 2, 1.0}, {1.9 - height * std::cos(slope), width / 2, 1.0 + height * std::sin(slope)}}};
 }
 /// As the declared parameters have them.
 inline std::array<Real3, 3> default_corners() {

@@ -52,7 +52,8 @@ TEST(SurfaceDeclared, PassesNameOnlyBuffersThatTheVariantHas) {
     for (std::size_t i = 0; i < effect.buffers.size(); ++i)
       for (std::size_t k = 0; k < i; ++k) {
         const capture::BufferInfo &a = effect.buffers[i], &b = effect.buffers[k];
-        EXPECT_FALSE(a.name == b.name && (a.variant.empty() || b.variant.empty() || a.variant == b.variant)) << a.name << " is declared twice";
+        EXPECT_FALSE(a.name == b.name && (a.variant.empty() || b.variant.empty() || a.variant == b.variant))
+            << a.name << " is declared twice";
       }
   }
   const std::vector<std::string> published{"height", "mask"}, correct{"height", "mask", "wiped"};

@@ -88,12 +88,14 @@ TEST(SurfaceDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
             for (int x = 0; x < width; ++x) {
               const std::size_t i = static_cast<std::size_t>(y) * width + x;
               const F h = F::load(&heights[i]), m = F::load(&masks[i]);
-              const F c = corrected ? scalar::wipe_coverage_corrected<F>(u, blades.data(), x, y) : scalar::wipe_coverage_as_published<F>(u, blades.data(), x, y);
+              const F c = corrected ? scalar::wipe_coverage_corrected<F>(u, blades.data(), x, y)
+                                    : scalar::wipe_coverage_as_published<F>(u, blades.data(), x, y);
               (c.v > 0 ? covered : uncovered) += 1;
               F height(0), mask(0);
               if (corrected) {
                 const F since = scalar::time_since_wipe(u, F(times[i]), c);
-                ASSERT_EQ(std::bit_cast<std::uint32_t>(glass.wiped.row<float>(y)[x]), std::bit_cast<std::uint32_t>(since.v + 0.0f)) << target;
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(glass.wiped.row<float>(y)[x]), std::bit_cast<std::uint32_t>(since.v + 0.0f))
+                    << target;
                 height = scalar::wiped_height_corrected(h, c);
                 mask = scalar::wiped_mask_corrected(u, since);
               } else {
@@ -140,7 +142,8 @@ TEST(SurfaceDeterminism, FloatsAreWithinRoundingOfDoubles) {
       for (int x = 0; x < s.width; x += 3) {
         const auto coverage = [&](auto one) {
           using N = decltype(one);
-          return corrected ? scalar::wipe_coverage_corrected<N>(u, blades.data(), x, y) : scalar::wipe_coverage_as_published<N>(u, blades.data(), x, y);
+          return corrected ? scalar::wipe_coverage_corrected<N>(u, blades.data(), x, y)
+                           : scalar::wipe_coverage_as_published<N>(u, blades.data(), x, y);
         };
         // Distances of up to 1.6 m after some ten roundings, over an edge of 2.2 mm.
         ASSERT_NEAR(coverage(F(0.0f)).v, coverage(D(0.0f)).v, 10 * 0x1p-23 * 1.6 / 2.1e-3);

@@ -53,7 +53,10 @@ TEST(SurfaceNormals, SphereCapHasTheErrorOfCentralDifferences) {
   // D^2 / 6 h_xxx with h_xxx = -3 rho^2 x / (rho^2 - x^2)^(5/2).
   const SurfaceSettings s = settings_on(true, 2800, 1600);
   const double rho = 0.01, x0 = 0.004, texel = 1.4 / 2800;
-  const Slope got = slope_of(s, [&](int i, int) { const double x = x0 + texel * i; return 1e3 * std::sqrt(rho * rho - x * x); });
+  const Slope got = slope_of(s, [&](int i, int) {
+    const double x = x0 + texel * i;
+    return 1e3 * std::sqrt(rho * rho - x * x);
+  });
   const double left = rho * rho - x0 * x0, error = texel * texel / 6 * 3 * rho * rho * x0 / std::pow(left, 2.5);
   EXPECT_NEAR(got.x + x0 / std::sqrt(left), -error, 0.02 * error) << "the next term is D^2 / x^2 smaller";
 }

@@ -26,7 +26,8 @@ inline Image filled(int width, int height, double value) {
   return image;
 }
 
-inline void run_normals(const parallel::Executor& executor, const SurfaceSettings& s, const Image& height, const Image& mask, Image& normal) {
+inline void run_normals(const parallel::Executor& executor, const SurfaceSettings& s, const Image& height, const Image& mask,
+                        Image& normal) {
   pass::HostIo<NormalsPass> io;
   io.height = height;
   io.mask = mask;
@@ -50,7 +51,7 @@ struct Blade {
 };
 inline Wiper wiper(const SurfaceSettings& s, const Blade& b, double from, double to, double dt = 1.0 / 60) {
   Wiper w{};
-  const auto uv = [&](double r, double angle, float (&out)[2]) {
+  const auto uv = [&](double r, double angle, float(&out)[2]) {
     const double x = b.pivot_x + r * std::cos(angle), y = b.pivot_y + r * std::sin(angle), v = y / s.frame[2];
     out[0] = static_cast<float>((x - s.frame[1] * v) / s.frame[0]);
     out[1] = static_cast<float>(v);

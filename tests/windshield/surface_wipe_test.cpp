@@ -100,7 +100,8 @@ TEST(SurfaceWipe, CoverageIsExactInsideAndNoneOutside) {
           return std::hypot(px - t * std::cos(a), py - t * std::sin(a));
         };
         const double expected = angle <= turn ? std::max({b.inner - r, r - b.outer, 0.0}) : std::min(to_blade(from), to_blade(to));
-        ASSERT_NEAR(scalar::sector_distance(w, D(x), D(y)).v, expected, 3e-7) << "the record's floats; turn " << turn << " at " << px << " " << py;
+        ASSERT_NEAR(scalar::sector_distance(w, D(x), D(y)).v, expected, 3e-7)
+            << "the record's floats; turn " << turn << " at " << px << " " << py;
       }
     }
   }
@@ -222,7 +223,8 @@ TEST(SurfaceMask, FollowsTheBlade) {
     const Blade b;
     glass.wipe({wiper(glass.settings, b, 1.2, 1.25)});
     const auto under = [&](double r, double angle) {
-      return at(glass.mask, static_cast<int>((0.7 + r * std::cos(angle)) / 1.4 * 1024), static_cast<int>((0.05 + r * std::sin(angle)) / 0.8 * 592));
+      return at(glass.mask, static_cast<int>((0.7 + r * std::cos(angle)) / 1.4 * 1024),
+                static_cast<int>((0.05 + r * std::sin(angle)) / 0.8 * 592));
     };
     EXPECT_EQ(under(0.4, 1.25), 1);
     EXPECT_EQ(under(0.4, 1.22), corrected ? 1 : 0) << "swept, but the blade is past";
@@ -233,7 +235,9 @@ TEST(SurfaceMask, FollowsTheBlade) {
 TEST(SurfaceWipe, TexturesThatDoNotFitAreRefused) {
   const SurfaceSettings s = settings_on(true, 8, 8);
   Image height = filled(8, 8, 0), mask = make_mask(s), narrow = filled(7, 8, 0), normal(Format::rgba16f, 8, 8);
-  const auto wipe = [&](bool corrected, const WipedTextures& textures) { pass::Run<WipeTexturePass>(wipe_texture_uniforms(s, 0), corrected, Rounding::rne, wipe_texture_io(corrected, {}, textures)); };
+  const auto wipe = [&](bool corrected, const WipedTextures& textures) {
+    pass::Run<WipeTexturePass>(wipe_texture_uniforms(s, 0), corrected, Rounding::rne, wipe_texture_io(corrected, {}, textures));
+  };
   EXPECT_NO_THROW(wipe(false, {&height, &mask, nullptr}));
   EXPECT_THROW(wipe(true, {&height, &mask, nullptr}), Error);
   EXPECT_THROW(wipe(false, {&height, &narrow, nullptr}), Error);

@@ -21,13 +21,11 @@ inline WiperSettings inner_blade(double cycles_per_minute = 60, double half_widt
 }
 inline WipeDropsUniforms uniforms_of(const std::vector<Wiper>& wipers, bool is_corrected, int columns = 0, int rows = 0,
                                      const Capture& capture = {}) {
-  return wipe_drops_uniforms(default_glass(), is_corrected, static_cast<int>(wipers.size()), capture, radius_scale,
-                             columns, rows);
+  return wipe_drops_uniforms(default_glass(), is_corrected, static_cast<int>(wipers.size()), capture, radius_scale, columns, rows);
 }
 inline std::uint64_t wipe(DropArrays& drops, const std::vector<Wiper>& wipers, Image& film) {
   static const parallel::Executor executor(1);
-  return wipe_drops(uniforms_of(wipers, corrected, film.width(), film.height()), corrected, wipers, drops.spans(),
-                    &film, executor);
+  return wipe_drops(uniforms_of(wipers, corrected, film.width(), film.height()), corrected, wipers, drops.spans(), &film, executor);
 }
 
 // ---- geometry, written again in double with polar angles -----------------------------------------------------------
@@ -40,8 +38,7 @@ inline Point in_plane(const DropArrays& d, std::size_t i) {
 }
 inline double blade_distance(const Wiper& w, double angle, Point p) {
   const double rx = p.x - w.pivot[0], ry = p.y - w.pivot[1];
-  const double along =
-      std::clamp(rx * std::cos(angle) + ry * std::sin(angle), double(w.inner_radius), double(w.outer_radius));
+  const double along = std::clamp(rx * std::cos(angle) + ry * std::sin(angle), double(w.inner_radius), double(w.outer_radius));
   return std::hypot(rx - along * std::cos(angle), ry - along * std::sin(angle));
 }
 // Distance of p from the blade, at its nearest in the sweep: 0 where the blade itself passes.
@@ -51,8 +48,7 @@ inline double sweep_distance(const Wiper& w, Point p) {
   const double to = std::remainder(std::atan2(p.y - w.pivot[1], p.x - w.pivot[0]) - a0, 2 * pi) / turn;
   const double radius = std::hypot(p.x - w.pivot[0], p.y - w.pivot[1]);
   double distance = std::min(blade_distance(w, a0, p), blade_distance(w, a0 + turn, p));
-  if (0 <= to && to <= 1)
-    distance = std::min(distance, std::max({0.0, w.inner_radius - radius, radius - w.outer_radius}));
+  if (0 <= to && to <= 1) distance = std::min(distance, std::max({0.0, w.inner_radius - radius, radius - w.outer_radius}));
   return distance;
 }
 

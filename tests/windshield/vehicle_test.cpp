@@ -30,8 +30,7 @@ TEST(Vehicle, BodyAccelerationIsTheDerivativeOfTheVelocity) {
   const double h = 1e-4;
   for (double t = 0.33; t < 13.9; t += 0.37) {
     const VehicleState now = car.at(t), before = car.at(t - h), after = car.at(t + h);
-    const double ax = (after.velocity[0] - before.velocity[0]) / (2 * h),
-                 ay = (after.velocity[1] - before.velocity[1]) / (2 * h);
+    const double ax = (after.velocity[0] - before.velocity[0]) / (2 * h), ay = (after.velocity[1] - before.velocity[1]) / (2 * h);
     const double c = now.direction[0], s = now.direction[1];
     EXPECT_NEAR(c * ax + s * ay, now.body_acceleration[0], 1e-5) << t;
     EXPECT_NEAR(c * ay - s * ax, now.body_acceleration[1], 1e-5) << t;

@@ -11,7 +11,8 @@ namespace {
 
 class Golden : public testing::TestWithParam<GoldenScene> {};
 TEST_P(Golden, HashesAreAsRecorded) { golden::expect_as_recorded(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Windshield, Golden, testing::ValuesIn(golden_scenes()), [](const auto& param) { return golden::test_name(param); });
+INSTANTIATE_TEST_SUITE_P(Windshield, Golden, testing::ValuesIn(golden_scenes()),
+                         [](const auto& param) { return golden::test_name(param); });
 
 TEST(Golden, EveryRecordedLineBelongsToAScene) { golden::expect_every_line_has_a_scene("windshield", golden_scenes()); }
 
@@ -121,7 +122,8 @@ TEST(BadScene, IsRefusedByKey) {
   EXPECT_NE(refusal("corrected", "[windshield]\ncorner_2 = [1.9, 0.0, 1.0]\n").find("windshield.corner_"), std::string::npos);
   EXPECT_NE(refusal("corrected", "[rain]\nrate = -1\n").find("rain.rate"), std::string::npos);
   EXPECT_NE(refusal("as-published", "[windshield]\nspawn_rate = -1\n").find("windshield.spawn_rate"), std::string::npos);
-  EXPECT_NE(refusal("corrected", "[wipers]\narrangement = 'custom'\nouter_radius_0 = 5.0\n").find("wipers.outer_radius_0"), std::string::npos);
+  EXPECT_NE(refusal("corrected", "[wipers]\narrangement = 'custom'\nouter_radius_0 = 5.0\n").find("wipers.outer_radius_0"),
+            std::string::npos);
   EXPECT_NE(refusal("corrected", "[wipers]\narrangement = 'custom'\nsweep_0 = 0.0\n").find("wipers.sweep_0"), std::string::npos);
   EXPECT_NE(refusal("corrected", "[camera]\nposition = [1.9, 0.0, 1.0]\n").find("camera.position"), std::string::npos);
 }

@@ -9,9 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Blade blade(double start = 10 * degree, double sweep = 100 * degree) {
-  return {{0.7, -0.06}, 0.16, 0.65, start, sweep, 0};
-}
+Blade blade(double start = 10 * degree, double sweep = 100 * degree) { return {{0.7, -0.06}, 0.16, 0.65, start, sweep, 0}; }
 
 TEST(Wipers, TheAngleFollowsTheCosineLaw) {
   const Blade b = blade();
@@ -129,18 +127,15 @@ TEST(Wipers, BadBladesAreNamed) {
   Blade b = blade();
   EXPECT_EQ(message(b), "");
   EXPECT_EQ(message(blade(0, 170 * degree)), "");
-  EXPECT_EQ(message(blade(0, 0)),
-            "wipers.sweep_1: expected a turn of at most 170 deg to either side, not 0, found 0 deg");
+  EXPECT_EQ(message(blade(0, 0)), "wipers.sweep_1: expected a turn of at most 170 deg to either side, not 0, found 0 deg");
   EXPECT_THAT(message(blade(0, -171 * degree)),
               HasSubstr("wipers.sweep_1: expected a turn of at most 170 deg to either side, not 0, found -171 deg"));
   b.outer_radius = 2;
-  EXPECT_EQ(message(b),
-            "wipers.outer_radius_1: expected a blade of at most 1.612 m, the diagonal of the glass, found 1.84 m");
+  EXPECT_EQ(message(b), "wipers.outer_radius_1: expected a blade of at most 1.612 m, the diagonal of the glass, found 1.84 m");
   b.outer_radius = 0.1;
   EXPECT_EQ(message(b), "wipers.outer_radius_1: expected more than wipers.inner_radius_1 = 0.16 m, found 0.1 m");
-  EXPECT_THAT(
-      message(blade(), 0.1),
-      HasSubstr("wipers.inner_radius_0: expected at least 0.21 m, two half widths and the largest drop, found 0.16 m"));
+  EXPECT_THAT(message(blade(), 0.1),
+              HasSubstr("wipers.inner_radius_0: expected at least 0.21 m, two half widths and the largest drop, found 0.16 m"));
 }
 
 // Vision areas after EU 1008/2010, annex III, for a driver on the left, where planes through two eye points V1 and V2
@@ -166,8 +161,7 @@ Real2 seen_at(const Glass& g, const Real3& eye, double left, double up) {
   Real3 p{};
   for (int k = 0; k < 3; ++k) p[k] = eye[k] + distance * ray[k] - g.origin[k];
   const double along_u = dot(p, g.e_u), along_v = dot(p, g.e_v);
-  return {g.inverse_metric[0] * along_u + g.inverse_metric[1] * along_v,
-          g.inverse_metric[1] * along_u + g.inverse_metric[2] * along_v};
+  return {g.inverse_metric[0] * along_u + g.inverse_metric[1] * along_v, g.inverse_metric[1] * along_u + g.inverse_metric[2] * along_v};
 }
 double share_cleared(const Quad& area, const Glass& glass, const WiperSettings& s) {
   WipeDropsUniforms u = wipe_drops_uniforms(glass, true, 0, {}, 0, 1, 1);
@@ -182,8 +176,7 @@ double share_cleared(const Quad& area, const Glass& glass, const WiperSettings& 
       if (!area.holds(gu, gv)) continue;
       ++inside;
       const auto p = motion_scalar::to_plane(u.frame, N(static_cast<float>(gu)), N(static_cast<float>(gv)));
-      cleared += std::any_of(stroke.begin(), stroke.end(),
-                             [&](const Wiper& w) { return motion_scalar::in_sweep(w, p.x, p.y); });
+      cleared += std::any_of(stroke.begin(), stroke.end(), [&](const Wiper& w) { return motion_scalar::in_sweep(w, p.x, p.y); });
     }
   }
   EXPECT_GT(inside, 10000);
@@ -193,8 +186,7 @@ double share_cleared(const Quad& area, const Glass& glass, const WiperSettings& 
 TEST(Wipers, TheArrangementsClearTheVisionAreas) {
   const Glass glass = default_glass();
   const Real3 v1{0.7, 0.36, 1.22}, v2{0.7, 0.36, 1.22 - 0.076};
-  const Quad a{
-      {seen_at(glass, v2, 13, -1), seen_at(glass, v2, -20, -1), seen_at(glass, v1, -20, 3), seen_at(glass, v1, 13, 3)}};
+  const Quad a{{seen_at(glass, v2, 13, -1), seen_at(glass, v2, -20, -1), seen_at(glass, v1, -20, 3), seen_at(glass, v1, 13, 3)}};
   Quad b{{seen_at(glass, v2, 17, -5), {}, {}, seen_at(glass, v1, 17, 7)}};
   b.corner[1] = {1 - b.corner[0][0], b.corner[0][1]};
   b.corner[2] = {1 - b.corner[3][0], b.corner[3][1]};

@@ -109,7 +109,8 @@ OIIO::ImageSpec spec_of(const StoredPicture& picture) {
 }
 
 /// In memory: OpenImageIO would open the final name, and its errors do not tell why a disk refused.
-std::optional<std::vector<std::byte>> encode(const char* format, const std::string& name, const StoredPicture& picture, const std::byte* texels) {
+std::optional<std::vector<std::byte>> encode(const char* format, const std::string& name, const StoredPicture& picture,
+                                             const std::byte* texels) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);  // outlives its writer
   const auto output = OIIO::ImageOutput::create(format);

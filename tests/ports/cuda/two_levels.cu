@@ -2,8 +2,9 @@
 //
 //   nvcc -O2 -std=c++17 tests/ports/cuda/two_levels.cu -o two_levels && ./two_levels
 //
-// One-hot texels give each weight by itself, which must be the model's to the bit. A blend of random texels may be off by a rounding of each of
-// its eight products for floats, by a step between halves for halves. Exit code 0 if all agree; 1 if one does not, or there is no device.
+// One-hot texels give each weight by itself, which must be the model's to the bit. A blend of random texels may be off by a rounding of
+// each of its eight products for floats, by a step between halves for halves. Exit code 0 if all agree; 1 if one does not, or there is no
+// device.
 #include <cuda_fp16.h>
 #include <algorithm>
 #include <array>
@@ -30,7 +31,8 @@ __global__ void look_up(cudaTextureObject_t texture, const float3* at, float4* o
 /// What the texture unit gives at each place (u, v, level of detail), from texels of T. What it allocates lasts as long as the program.
 template <class T>
 std::vector<float4> looked_up(const Levels& levels, const std::vector<float3>& at) {
-  const cudaChannelFormatDesc format = cudaCreateChannelDesc(8 * sizeof(T), 8 * sizeof(T), 8 * sizeof(T), 8 * sizeof(T), cudaChannelFormatKindFloat);
+  const cudaChannelFormatDesc format =
+      cudaCreateChannelDesc(8 * sizeof(T), 8 * sizeof(T), 8 * sizeof(T), 8 * sizeof(T), cudaChannelFormatKindFloat);
   cudaResourceDesc resource{cudaResourceTypeMipmappedArray, {}};
   check(cudaMallocMipmappedArray(&resource.res.mipmap.mipmap, &format, make_cudaExtent(side, side, 0), 2), "cudaMallocMipmappedArray");
   for (int l = 0; l < 2; ++l) {
@@ -59,8 +61,8 @@ std::vector<float4> looked_up(const Levels& levels, const std::vector<float3>& a
   return out;
 }
 
-/// Texels that T holds exactly. Textures 0 and 1 are one-hot: in level 0 or 1 channel i % 2 + 2 (j % 2) of texel (i, j) is 1, so that a lookup gives
-/// its four weights. The others are random, in [-1, 1].
+/// Texels that T holds exactly. Textures 0 and 1 are one-hot: in level 0 or 1 channel i % 2 + 2 (j % 2) of texel (i, j) is 1, so that a
+/// lookup gives its four weights. The others are random, in [-1, 1].
 template <class T>
 Levels levels_of(int texture, std::mt19937& words) {
   const int steps = sizeof(T) == 2 ? 1 << 11 : 1 << 24;
@@ -69,7 +71,9 @@ Levels levels_of(int texture, std::mt19937& words) {
     for (int n = 0; n < (side >> l) * (side >> l); ++n) {
       Texel t{};
       if (texture == l) t[n % 2 + 2 * (n / (side >> l) % 2)] = 1;
-      if (texture > 1) std::generate(t.begin(), t.end(), [&] { return (static_cast<int>(words() % (2 * steps + 1)) - steps) / static_cast<float>(steps); });
+      if (texture > 1)
+        std::generate(t.begin(), t.end(),
+                      [&] { return (static_cast<int>(words() % (2 * steps + 1)) - steps) / static_cast<float>(steps); });
       out[l].push_back(t);
     }
   }
@@ -90,7 +94,11 @@ Part part_of(const Levels& levels, const float3& p, int l) {
   const double right = half_up(s * fx), left = s - right, upper_right = half_up(right * fy), upper_left = std::ceil(left * fy / 256 - 0.5);
   const double both = half_up(fx * fy), mixed = s / 256.0;
   const auto t = levels[l].begin() + at;
-  return {s, fx, fy, {t[0], t[1], t[w], t[w + 1]}, {left - upper_left, right - upper_right, upper_left, upper_right},
+  return {s,
+          fx,
+          fy,
+          {t[0], t[1], t[w], t[w + 1]},
+          {left - upper_left, right - upper_right, upper_left, upper_right},
           {mixed * (256 - fx - fy + both), mixed * (fx - both), mixed * (fy - both), mixed * both}};
 }
 
@@ -119,7 +127,8 @@ bool agrees(const char* format, const std::vector<float3>& at, std::mt19937& wor
         naive += is(alone) || std::abs(got[k] - alone) <= allowed;
         farthest = std::max(farthest, off);
         if (is(together) || off <= allowed || results - nearest - rounded >= 5) continue;
-        std::printf("%s, texture %d, u %a v %a lod %a, channel %d: got %.9g, model %.9g, naive %.9g\n", format, texture, at[i].x, at[i].y, at[i].z, k, got[k], together, alone);
+        std::printf("%s, texture %d, u %a v %a lod %a, channel %d: got %.9g, model %.9g, naive %.9g\n", format, texture, at[i].x, at[i].y,
+                    at[i].z, k, got[k], together, alone);
         for (const Part& p : parts) {
           std::printf("  share %d fx %d fy %d; texel, weight, naive weight:", p.share, p.fx, p.fy);
           for (int m = 0; m < 4; ++m) std::printf(" (%.9g %g %g)%s", p.texels[m][k], p.together[m], p.alone[m], m == 3 ? "\n" : "");
@@ -127,8 +136,8 @@ bool agrees(const char* format, const std::vector<float3>& at, std::mt19937& wor
       }
     }
   }
-  std::printf("%s: %d lookups, %d results; model %d (%d to nearest, %d but for roundings; at most %g off); naive model %d\n", format, textures * places, results,
-              nearest + rounded, nearest, rounded, farthest, naive);
+  std::printf("%s: %d lookups, %d results; model %d (%d to nearest, %d but for roundings; at most %g off); naive model %d\n", format,
+              textures * places, results, nearest + rounded, nearest, rounded, farthest, naive);
   return nearest + rounded == results;
 }
 
@@ -139,7 +148,8 @@ int main() try {
   check(cudaGetDeviceProperties(&device, 0), "cudaGetDeviceProperties");
   std::mt19937 words{1};
   std::vector<float3> at(places);  // cells inside both levels; multiples of 2^-20, so that coordinates on a tie occur
-  for (float3& p : at) p = {0.125f + words() % (3 << 18) * 0x1p-20f, 0.125f + words() % (3 << 18) * 0x1p-20f, words() % (1 << 20) * 0x1p-20f};
+  for (float3& p : at)
+    p = {0.125f + words() % (3 << 18) * 0x1p-20f, 0.125f + words() % (3 << 18) * 0x1p-20f, words() % (1 << 20) * 0x1p-20f};
   std::printf("%s\n", device.name);
   const bool floats = agrees<float>("float4", at, words), halves = agrees<__half>("half4", at, words);
   return floats && halves ? 0 : 1;

@@ -91,7 +91,8 @@ const nlohmann::json& named(const nlohmann::json& list, const std::string& name)
 
 void run(const path& pack, const path& out, const nlohmann::json& c) {
   const nlohmann::json &wave = named(c.at("inputs"), "wave"), &drops = named(c.at("inputs"), "drops");
-  if (wave.at("format") != "rg16f" || c.at("inputs").size() != 2) throw Error(c.at("id").get<std::string>() + ": expected a basin in rg16f");
+  if (wave.at("format") != "rg16f" || c.at("inputs").size() != 2)
+    throw Error(c.at("id").get<std::string>() + ": expected a basin in rg16f");
   const std::string rule = wave.at("address_u");
   const Address address = rule == "repeat" ? Address::repeat : rule == "border" ? Address::border : Address::clamp;
   const int2 size = make_int2(wave.at("width"), wave.at("height"));
@@ -128,7 +129,8 @@ int main(int argc, char** argv) try {
     run(pack, out, c);
     ++cases;
   }
-  const nlohmann::ordered_json info{{"api", "CUDA"}, {"device", device.name}, {"half_store", "rne"}, {"origin", "top-left"}, {"precise", false}};
+  const nlohmann::ordered_json info{
+      {"api", "CUDA"}, {"device", device.name}, {"half_store", "rne"}, {"origin", "top-left"}, {"precise", false}};
   port_runner::write_file(out / "port.json", info.dump(2) + "\n");
   std::printf("%d cases on %s, in %s\n", cases, device.name, out.c_str());
   return cases > 0 ? 0 : 1;

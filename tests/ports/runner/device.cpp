@@ -136,7 +136,8 @@ Device::Device(const std::string& choice) {
   vkGetDeviceQueue(device_, family_, 0, &queue_);
 }
 
-void Device::require(VkFormat format, VkFormatFeatureFlags features, std::uint32_t width, std::uint32_t height, const std::string& what) const {
+void Device::require(VkFormat format, VkFormatFeatureFlags features, std::uint32_t width, std::uint32_t height,
+                     const std::string& what) const {
   if (width == 0 || height == 0 || width > largest_side_ || height > largest_side_) {
     throw Error(what + ": " + std::to_string(width) + " x " + std::to_string(height) + " texels; " + name_ + " takes 1 to " +
                 std::to_string(largest_side_));
@@ -173,7 +174,8 @@ HostBuffer Device::host_buffer(std::size_t size, VkBufferUsageFlags usage, Clean
   VkMemoryAllocateInfo allocation{};
   allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   allocation.allocationSize = needs.size;
-  allocation.memoryTypeIndex = memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  allocation.memoryTypeIndex =
+      memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   VkDeviceMemory memory = VK_NULL_HANDLE;
   check(vkAllocateMemory(device_, &allocation, nullptr, &memory), "vkAllocateMemory");
   owner.add([device = device_, memory] { vkFreeMemory(device, memory, nullptr); });

@@ -61,7 +61,8 @@ class Device {
 
   /// Live as long as `owner`.
   HostBuffer host_buffer(std::size_t size, VkBufferUsageFlags usage, Cleanup& owner) const;
-  DeviceImage image(VkFormat format, std::uint32_t width, std::uint32_t height, std::uint32_t levels, VkImageUsageFlags usage, Cleanup& owner) const;
+  DeviceImage image(VkFormat format, std::uint32_t width, std::uint32_t height, std::uint32_t levels, VkImageUsageFlags usage,
+                    Cleanup& owner) const;
 
  private:
   std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;

@@ -38,7 +38,8 @@ VkSamplerAddressMode address_mode(const std::string& address, const std::string&
 // Everything of one dispatch; what it makes lives until it goes.
 class Run {
  public:
-  Run(const Device& device, const Pack& pack, const Case& of, const Program& program) : device_(device), pack_(pack), case_(of), program_(program) {
+  Run(const Device& device, const Pack& pack, const Case& of, const Program& program)
+      : device_(device), pack_(pack), case_(of), program_(program) {
     VkCommandPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.queueFamilyIndex = device.queue_family();
@@ -102,7 +103,8 @@ class Run {
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image;
     barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, levels, 0, 1};
-    vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                         &barrier);
   }
   void sample(const Buffer& b, const std::vector<std::vector<std::uint8_t>>& texels) {
     const auto levels = static_cast<std::uint32_t>(b.levels.size());
@@ -121,7 +123,8 @@ class Run {
       vkCmdCopyBufferToImage(commands_, staging.buffer, image.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
     }
     transition(image.image, levels, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    bindings_.push_back({VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {}, {sampler(b), image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}});
+    bindings_.push_back(
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, {}, {sampler(b), image.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}});
   }
   VkSampler sampler(const Buffer& b) {
     VkSamplerCustomBorderColorCreateInfoEXT custom{};
@@ -182,8 +185,9 @@ class Run {
     const Level& size = b->levels[0];
     device_.require(b->format.vulkan, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_TRANSFER_SRC_BIT, size.width, size.height,
                     case_.id + ", output " + name);
-    const DeviceImage image = device_.image(b->format.vulkan, size.width, size.height, 1,
-                                            VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, cleanup_);
+    const DeviceImage image =
+        device_.image(b->format.vulkan, size.width, size.height, 1,
+                      VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, cleanup_);
     transition(image.image, 1, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
     // A texel that the shader leaves out must not look right by chance.
     const VkClearColorValue blank{};
@@ -285,7 +289,8 @@ class Run {
     std::uint32_t columns = 1, rows = 1;
     const Buffer& first = *outputs_.at(0).buffer;
     if (!program_.one_group) {
-      if (first.is_records) throw Error("bindings.json: " + case_.formula + ": one_group: expected true, because the first output is no image");
+      if (first.is_records)
+        throw Error("bindings.json: " + case_.formula + ": one_group: expected true, because the first output is no image");
       columns = (first.levels[0].width + program_.group[0] - 1) / program_.group[0];
       rows = (first.levels[0].height + program_.group[1] - 1) / program_.group[1];
     }
@@ -323,7 +328,8 @@ class Run {
       std::uint32_t count = 0;
       std::memcpy(&count, from, 4);
       if (count > program_.capacity) {
-        throw Error(case_.id + ": the program counts " + std::to_string(count) + " records, there is room for " + std::to_string(program_.capacity));
+        throw Error(case_.id + ": the program counts " + std::to_string(count) + " records, there is room for " +
+                    std::to_string(program_.capacity));
       }
       from += count_bytes;
       arrays.push_back({b.record_type, {count}, {from, from + count * b.record_bytes}});

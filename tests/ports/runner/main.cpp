@@ -70,8 +70,12 @@ Options parse(int argc, char** argv) {
 
 void write_port_json(const Device& device, const fs::path& out) {
   // Nothing is claimed of the device's stores and arithmetic; who judges must find out.
-  const nlohmann::ordered_json info{{"api", "Vulkan"},       {"device", device.name()}, {"driver", device.driver()},
-                                    {"half_store", "unknown"}, {"origin", "top-left"},    {"precise", false},
+  const nlohmann::ordered_json info{{"api", "Vulkan"},
+                                    {"device", device.name()},
+                                    {"driver", device.driver()},
+                                    {"half_store", "unknown"},
+                                    {"origin", "top-left"},
+                                    {"precise", false},
                                     {"notes", "port_runner; compute shaders compiled by glslang"}};
   write_file(out / "port.json", info.dump(2) + "\n");
 }
@@ -106,7 +110,8 @@ int run(const Options& o) {
     ++ran;
   }
   if (!without.empty()) std::fprintf(stderr, "no program for%s\n", without.c_str());
-  if (ran == 0) throw Error(o.only.empty() ? "no case of this pack has a program" : "--only " + o.only + ": no case of this pass has a program");
+  if (ran == 0)
+    throw Error(o.only.empty() ? "no case of this pack has a program" : "--only " + o.only + ": no case of this pass has a program");
   write_port_json(device, o.out);
   std::printf("%d cases on %s, in %s\n", ran, device.name().c_str(), o.out.c_str());
   return 0;

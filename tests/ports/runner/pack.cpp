@@ -9,14 +9,17 @@ namespace {
 
 using nlohmann::json;
 
-const std::map<std::string, Format> formats{
-    {"r8", {VK_FORMAT_R8_UNORM, "'|u1'", 1, 1}},          {"rg8", {VK_FORMAT_R8G8_UNORM, "'|u1'", 2, 2}},
-    {"rgba8", {VK_FORMAT_R8G8B8A8_UNORM, "'|u1'", 4, 4}}, {"rgba8_srgb", {VK_FORMAT_R8G8B8A8_SRGB, "'|u1'", 4, 4}},
-    {"r16f", {VK_FORMAT_R16_SFLOAT, "'<f2'", 1, 2}},      {"rg16f", {VK_FORMAT_R16G16_SFLOAT, "'<f2'", 2, 4}},
-    {"rgba16f", {VK_FORMAT_R16G16B16A16_SFLOAT, "'<f2'", 4, 8}},
-    {"r32f", {VK_FORMAT_R32_SFLOAT, "'<f4'", 1, 4}},      {"rg32f", {VK_FORMAT_R32G32_SFLOAT, "'<f4'", 2, 8}},
-    {"rgba32f", {VK_FORMAT_R32G32B32A32_SFLOAT, "'<f4'", 4, 16}},
-    {"r32ui", {VK_FORMAT_R32_UINT, "'<u4'", 1, 4}}};
+const std::map<std::string, Format> formats{{"r8", {VK_FORMAT_R8_UNORM, "'|u1'", 1, 1}},
+                                            {"rg8", {VK_FORMAT_R8G8_UNORM, "'|u1'", 2, 2}},
+                                            {"rgba8", {VK_FORMAT_R8G8B8A8_UNORM, "'|u1'", 4, 4}},
+                                            {"rgba8_srgb", {VK_FORMAT_R8G8B8A8_SRGB, "'|u1'", 4, 4}},
+                                            {"r16f", {VK_FORMAT_R16_SFLOAT, "'<f2'", 1, 2}},
+                                            {"rg16f", {VK_FORMAT_R16G16_SFLOAT, "'<f2'", 2, 4}},
+                                            {"rgba16f", {VK_FORMAT_R16G16B16A16_SFLOAT, "'<f2'", 4, 8}},
+                                            {"r32f", {VK_FORMAT_R32_SFLOAT, "'<f4'", 1, 4}},
+                                            {"rg32f", {VK_FORMAT_R32G32_SFLOAT, "'<f4'", 2, 8}},
+                                            {"rgba32f", {VK_FORMAT_R32G32B32A32_SFLOAT, "'<f4'", 4, 16}},
+                                            {"r32ui", {VK_FORMAT_R32_UINT, "'<u4'", 1, 4}}};
 
 json read_json(const fs::path& file) {
   const std::vector<std::uint8_t> bytes = read_file(file);
@@ -39,7 +42,9 @@ std::string record_type(const json& record) {
     gap(member.at("offset"));
     end = member.at("offset").get<std::size_t>() + 4 * member.at("components").get<std::size_t>();
     type += std::string(type.size() > 1 ? ", " : "") + "('" + member.at("name").get<std::string>() + "', " +
-            (scalar == "float" ? "'<f4'" : scalar == "int" ? "'<i4'" : "'<u4'");
+            (scalar == "float" ? "'<f4'"
+             : scalar == "int" ? "'<i4'"
+                               : "'<u4'");
     const int components = member.at("components");
     type += components > 1 ? ", (" + std::to_string(components) + ",))" : ")";
   }
@@ -115,7 +120,8 @@ std::map<std::string, Program> read_programs(const fs::path& folder) {
       p.spirv = folder / from.at("spirv").get<std::string>();
       p.inputs = from.at("inputs").get<std::vector<std::string>>();
       p.outputs = from.at("outputs").get<std::vector<std::string>>();
-      for (const json& fact : from.value("constants", json::array())) p.constants.push_back({fact.at("id"), fact.at("key"), fact.at("input")});
+      for (const json& fact : from.value("constants", json::array()))
+        p.constants.push_back({fact.at("id"), fact.at("key"), fact.at("input")});
       p.one_group = from.value("one_group", false);
       p.capacity = from.value("capacity", 0u);
       programs.emplace(formula, std::move(p));

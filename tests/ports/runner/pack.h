@@ -67,9 +67,9 @@ struct Program {
   fs::path spirv;
   std::vector<std::string> inputs, outputs;
   std::vector<Fact> constants;
-  bool one_group = false;        ///< one workgroup; otherwise one invocation for each texel of the first output
+  bool one_group = false;  ///< one workgroup; otherwise one invocation for each texel of the first output
   std::uint32_t group[2] = {8, 8};
-  std::uint32_t capacity = 0;    ///< room for records in an output of them
+  std::uint32_t capacity = 0;  ///< room for records in an output of them
 };
 /// DIR/bindings.json: formula with revision, as in the manifest, to program. Throws Error naming the key.
 std::map<std::string, Program> read_programs(const fs::path& folder);

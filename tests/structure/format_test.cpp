@@ -1,0 +1,30 @@
+// The sources are as clang-format leaves them (.clang-format). Another version formats otherwise, so that of Debian 12 says.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace {
+
+/// What a command prints, its errors with it, and its exit status.
+std::pair<std::string, int> output_of(const std::string& command) {
+  std::string text;
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return {"cannot be run", -1};
+  std::array<char, 4096> part;
+  while (const std::size_t n = std::fread(part.data(), 1, part.size(), pipe)) text.append(part.data(), n);
+  return {text, ::pclose(pipe)};
+}
+
+TEST(Format, EveryFileIsFormatted) {
+  const std::string version = output_of("clang-format --version").first;
+  if (version.find("version 14.") == std::string::npos) GTEST_SKIP() << "needs clang-format 14: " << version;
+  const auto [text, status] =
+      output_of("cd '" RAINREF_SOURCE_DIR
+                "' && find src include tests bench -name '*.h' -o -name '*.cpp' -o -name '*.cu' | xargs clang-format "
+                "--dry-run -Werror --ferror-limit=1");
+  EXPECT_EQ(status, 0) << "clang-format -i FILE mends it\n" << text;
+}
+
+}  // namespace
