@@ -12,15 +12,16 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
+#include "rainref/variant.h"
 
 namespace rainref::edge_splash {
-
-enum class Variant : std::uint8_t { as_published, corrected };
 
 /// What a stored depth d in [0, 1] means: 1 / z is affine in d, with z along the view axis.
 struct DepthRange {
   double near_plane = 0.3, far_plane = 1000;  ///< [m]
   bool reversed = true;                       ///< 1 at the near plane and 0 at the far one; else 0 and 1
+
+  bool operator==(const DepthRange&) const = default;
 };
 /// The distance [m] of a device depth, and back; in double.
 double distance_of(const DepthRange& range, double depth);
@@ -29,15 +30,15 @@ double depth_of(const DepthRange& range, double distance);
 /// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe edge_splash`.
 struct Settings {
   Variant variant = Variant::corrected;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 0;
   double fps = 60;
   int width = 1280, height = 720;
 
   DepthRange depth;
-  std::array<double, 3> drop_color{1, 1, 1};
-  double drop_alpha = 1, rain_drop_scale = 0.5;
+  std::array<double, 3> drop_color{0.34, 0.40, 0.43};
+  double drop_alpha = 0.85, rain_drop_scale = 0.52;
   Rounding rounding = Rounding::rne;
-  double exposure = 0;  ///< [EV]
+  double exposure = 1.2;  ///< [EV]
 
   // as-published
   int thickness = 3;  ///< [texel]
@@ -54,9 +55,13 @@ struct Settings {
   double noise_size = 0.3;                                ///< of the tile [picture heights]
   std::array<double, 2> drop_velocity{0.25, -1.0};        ///< [picture heights/s]
 
-  std::array<double, 3> camera_position{0, 0, 0}, camera_target{0, 0, -1}, camera_up{0, 1, 0};
-  double vertical_fov_deg = 60;
+  std::array<double, 3> camera_position{0.15, 1.25, 1.2}, camera_target{-0.35, 0.75, -6}, camera_up{0, 1, 0};
+  double vertical_fov_deg = 50;
+
+  bool operator==(const Settings&) const = default;
 };
+/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+Settings default_settings(Variant variant);
 
 /// The images that splash takes. Row 0 is the bottom.
 struct Inputs {

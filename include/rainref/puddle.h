@@ -11,10 +11,10 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
+#include "rainref/variant.h"
 
 namespace rainref::puddle {
 
-enum class Variant : std::uint8_t { as_published, corrected };
 enum class Boundary : std::uint8_t {
   reflecting,  ///< edge texels repeat outside (clamp): waves reflect upright
   periodic,    ///< opposite edges join (repeat)
@@ -28,16 +28,16 @@ enum class Shape : std::uint8_t {
 /// Everything that a puddle depends on besides its images. Names, units and ranges: `rainref describe puddle`.
 struct Settings {
   Variant variant = Variant::corrected;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 0;
   double fps = 60;
   int width = 1280, height = 720;  ///< of the picture; as-published also of the wave buffer
 
   // The thirteen published parameters.
   int drop_count = 5;
-  double drop_intensity = 1, rain_speed = 1, damping = 0.98, reflectivity = 1, vignette = 0, fog_depth = 0, env_rotation = 0;
+  double drop_intensity = 1, rain_speed = 1.5, damping = 0.96, reflectivity = 1, vignette = 0.2, fog_depth = 0.02, env_rotation = 0;
   bool use_checkerboard = false;
-  double ground_scale = 1, water_turbidity = 1, puddle_depth = 0.05;
-  std::array<double, 3> tint{0, 0, 0};
+  double ground_scale = 1.6, water_turbidity = 6, puddle_depth = 0.03;
+  std::array<double, 3> tint{0.05, 0.045, 0.04};
 
   Format storage = Format::rg16f;  ///< rg16f, rg32f or rgba8
   Rounding rounding = Rounding::rne;
@@ -49,14 +49,18 @@ struct Settings {
 
   // corrected
   std::array<int, 2> grid{768, 512};
-  double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, shore_width = 0.002, exposure = 0;
+  double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, shore_width = 0.004, exposure = 0.7;
   Shape shape = Shape::natural;
   bool exact_fresnel = true;
-  double rain_rate = 10, smallest_drop = 0.5;
+  double rain_rate = 5, smallest_drop = 1.6;
 
-  std::array<double, 3> camera_position{0.25, 0.36, 1.8}, camera_target{0, 0, 0.1}, camera_up{0, 1, 0};  ///< world, y up [m]
-  double vertical_fov_deg = 45;
+  std::array<double, 3> camera_position{0.25, 0.36, 1.8}, camera_target{0.0, 0.0, 0.1}, camera_up{0, 1, 0};  ///< world, y up [m]
+  double vertical_fov_deg = 36;
+
+  bool operator==(const Settings&) const = default;
 };
+/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+Settings default_settings(Variant variant);
 
 /// The images that shade takes. Row 0 is v = 0.
 struct Surroundings {

@@ -10,10 +10,10 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
+#include "rainref/variant.h"
 
 namespace rainref::rainy_glass {
 
-enum class Variant : std::uint8_t { as_published, corrected };
 enum class Shape : std::uint8_t {
   pane,    ///< an upright plane across the view
   sphere,  ///< a ball of glass
@@ -23,7 +23,7 @@ enum class Shape : std::uint8_t {
 /// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe rainy_glass`.
 struct Settings {
   Variant variant = Variant::corrected;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 0;
   double fps = 60;
   int width = 1280, height = 720;
 
@@ -31,24 +31,24 @@ struct Settings {
   int map_size = 512;                    ///< texels a side
   Format map_storage = Format::rgba16f;  ///< rgba8 or rgba16f
   Rounding rounding = Rounding::rne;
-  int droplet_count = 700, trail_count = 26;
-  double largest_droplet = 0.016, smallest_droplet = 0.003;  ///< radius [tile]
-  double trail_half_width = 0.008;                           ///< of the widest head [tile]
-  double contact_angle_deg = 40;
+  int droplet_count = 2200, trail_count = 22;
+  double largest_droplet = 0.028, smallest_droplet = 0.0035;  ///< radius [tile]
+  double trail_half_width = 0.011;                            ///< of the widest head [tile]
+  double contact_angle_deg = 45;
   int flow_cells = 8;
   double flow_gain = 1.2;
 
   // The glass.
   Shape shape = Shape::pane;
-  double distance = 0.5;                       ///< of the pane, or the centre of the sphere, along the horizontal view [m]
-  double yaw_deg = 0;                          ///< turn of the pane about the vertical
-  double radius = 0.2;                         ///< of the sphere [m]
-  double drop_tile = 0.4, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
+  double distance = 0.5;                        ///< of the pane, or the centre of the sphere, along the horizontal view [m]
+  double yaw_deg = 0;                           ///< turn of the pane about the vertical
+  double radius = 0.2;                          ///< of the sphere [m]
+  double drop_tile = 0.36, rivulet_tile = 0.4;  ///< side of a map on the glass [m]
 
   // The rain.
-  double rain_amount = 0.8;
-  double drop_period = 6, flow_period = 3;  ///< [s]
-  double flow_strength = 0.02;              ///< way of a rivulet in a cycle at full flow [tile]
+  double rain_amount = 0.9;
+  double drop_period = 9, flow_period = 3;  ///< [s]
+  double flow_strength = 0.015;             ///< way of a rivulet in a cycle at full flow [tile]
   bool use_probe = false;
   double probe_level = 1;
 
@@ -60,11 +60,15 @@ struct Settings {
   double rivulet_amount = 1, impact = 0.04, rim = 0.06, water_ior = 1.333;
   double wind = 6, fall_speed = 6;  ///< of the rain, toward the glass and down [m/s]
 
-  double exposure = 0;  ///< [EV]
+  double exposure = 1;  ///< [EV]
 
-  std::array<double, 3> camera_position{0, 1.6, 0}, camera_target{0, 1.6, -1}, camera_up{0, 1, 0};  ///< world, y up [m]
+  std::array<double, 3> camera_position{2.2, 1.7, 12}, camera_target{0.6, 1.9, -20}, camera_up{0, 1, 0};  ///< world, y up [m]
   double vertical_fov_deg = 40;
+
+  bool operator==(const Settings&) const = default;
 };
+/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+Settings default_settings(Variant variant);
 
 /// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
 struct Surroundings {

@@ -10,22 +10,21 @@
 #include "rainref/image.h"
 #include "rainref/recorder.h"
 #include "rainref/scene_text.h"
+#include "rainref/variant.h"
 
 namespace rainref::screen_drops {
-
-enum class Variant : std::uint8_t { as_published, corrected };
 
 /// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe screen_drops`.
 struct Settings {
   Variant variant = Variant::corrected;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 0;
   double fps = 60;
   int width = 1280, height = 720;
   Rounding rounding = Rounding::rne;
-  double exposure = 0;  ///< [EV]
+  double exposure = 0.5;  ///< [EV]
 
-  std::array<double, 3> camera_position{0, 1.6, 0}, camera_target{0, 1.6, -1}, camera_up{0, 1, 0};  ///< world, y up [m]
-  double vertical_fov_deg = 40;
+  std::array<double, 3> camera_position{2.2, 1.7, 12}, camera_target{0.6, 1.9, -20}, camera_up{0, 1, 0};  ///< world, y up [m]
+  double vertical_fov_deg = 30;
 
   // as-published
   double grid = 0.015;            ///< cells of the coarsest layer in a pixel
@@ -45,7 +44,11 @@ struct Settings {
   double water_ior = 1.333, inner = 0.3;
   double defocus = 0.02;      ///< radius of a far point's disc [picture heights]
   double scene_margin = 2.2;  ///< field of view of the scene's picture over the picture's, as tangents
+
+  bool operator==(const Settings&) const = default;
 };
+/// What a scene of this variant that says nothing gives: `rainref describe`. Settings{} are those of corrected.
+Settings default_settings(Variant variant);
 
 /// The images of the scene. Row 0 is v = 0, the bottom; colours are linear radiance.
 struct Inputs {

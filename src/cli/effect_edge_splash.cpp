@@ -71,8 +71,7 @@ class EdgeSplashSimulation : public Simulation {
       }
     }
     if (!config.text("scene.noise_image").empty()) in.noise = stored(config, "scene.noise_image", files);
-    if (s.variant == edge_splash::Variant::corrected && !config.text("scene.layer_image").empty())
-      in.layer = stored(config, "scene.layer_image", files);
+    if (s.variant == Variant::corrected && !config.text("scene.layer_image").empty()) in.layer = stored(config, "scene.layer_image", files);
     return in;
   }
   static Image stored(const scene::Config& config, const std::string& key, std::vector<InputFile>& files) {

@@ -89,7 +89,7 @@ class PuddleSimulation : public Simulation {
     const Image colour = flipped(puddle_.colour()), normal = flipped(puddle_.normal()), hit = flipped(puddle_.hit());
     image_io::write_exr(path, {{"", {"R", "G", "B"}, &colour}, {"normal", {"X", "Y", "Z"}, &normal}, {"position", {"X", "Y", "Z"}, &hit}});
   }
-  bool has_truth() const override { return settings_.variant == puddle::Variant::corrected; }
+  bool has_truth() const override { return settings_.variant == Variant::corrected; }
   nlohmann::ordered_json compare_truth(const std::filesystem::path& stem) override { return tracing().compare(puddle_, executor_, stem); }
 
  private:

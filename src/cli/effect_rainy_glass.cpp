@@ -19,7 +19,7 @@ using rainy_glass::Settings, rainy_glass::Surroundings;
 
 Surroundings surroundings(const scene::Config& config, const Settings& settings, const parallel::Executor& executor,
                           std::vector<InputFile>& inputs) {
-  const bool corrected = settings.variant == rainy_glass::Variant::corrected;
+  const bool corrected = settings.variant == Variant::corrected;
   const bool own_scene = !config.text("scene.image").empty();
   if (!own_scene && corrected && !config.text("scene.depth_image").empty())
     throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
@@ -63,8 +63,8 @@ class RainyGlassSimulation : public Simulation {
         surroundings_(surroundings(config, settings_, executor, inputs)),
         glass_(settings_, surroundings_, executor) {
     const compositor::Choice choice = compositor::choice_from(config);
-    const bool can = settings_.variant == rainy_glass::Variant::corrected && settings_.shape == rainy_glass::Shape::pane &&
-                     !settings_.use_probe && config.text("scene.image").empty() && config.text("scene.panorama").empty();
+    const bool can = settings_.variant == Variant::corrected && settings_.shape == rainy_glass::Shape::pane && !settings_.use_probe &&
+                     config.text("scene.image").empty() && config.text("scene.panorama").empty();
     if (!can && choice.is_traced) {
       throw Error(ExitCode::usage,
                   "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here "

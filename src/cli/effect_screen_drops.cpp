@@ -34,7 +34,7 @@ screen_drops::Inputs images(const scene::Config& config, const Settings& setting
   } else {
     in.colour = read_linear(config, "scene.image", files);
   }
-  if (settings.variant == screen_drops::Variant::as_published && !config.text("noise.image").empty())
+  if (settings.variant == Variant::as_published && !config.text("noise.image").empty())
     in.noise = read_tile(config, "noise.image", false, files);
   return in;
 }
@@ -48,7 +48,7 @@ class ScreenDropsSimulation : public Simulation {
         inputs_(images(config, settings_, executor, files)),
         flow_(screen_drops::flow_from(config, settings_)),
         effect_(settings_, inputs_, executor, flow_ ? &*flow_ : nullptr) {
-    if (settings_.variant != screen_drops::Variant::corrected) return;
+    if (settings_.variant != Variant::corrected) return;
     tracing_.emplace(compositor::choice_from(config), executor, [this, config, &executor](const compositor::TracerOptions& tracer) {
       return compositor::ScreenDropsView(settings_, inputs_.colour, config.real("compositor.glass_thickness"), tracer, executor);
     });

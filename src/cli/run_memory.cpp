@@ -46,7 +46,7 @@ void add_captures(RunMemory& m) { m.peak.pass(m.peak.held()); }
 
 RunMemory puddle_memory(const scene::Config& config) {
   const puddle::Settings s = puddle::settings_from(config);
-  const bool corrected = s.variant == puddle::Variant::corrected;
+  const bool corrected = s.variant == Variant::corrected;
   const std::array<int, 2> grid = corrected ? s.grid : std::array{s.width, s.height};
   RunMemory m = run_of(fmt::format("run.size {}x{} with a wave of {}x{}", s.width, s.height, grid[0], grid[1]), s.width, s.height,
                        8 + 8 + 16, 6 + 6 + 12);

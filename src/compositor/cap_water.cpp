@@ -5,6 +5,7 @@
 
 #include "compositor/face_patch.h"
 #include "compositor/packet.h"
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 #include "scene/camera.h"
@@ -34,7 +35,7 @@ CapWater::CapWater(const Pane& pane, std::vector<CapBase> caps, double contact_a
       length_(root(dot(pane.shape().e_v, pane.shape().e_v))) {
   if (!pane.is_flat() || !(std::abs(dot(pane.shape().e_u, pane.shape().e_v)) <= 1e-9 * width_ * length_))
     throw Error(ExitCode::usage, "caps of water: expected a flat pane with perpendicular edges");
-  const Real64 angle(contact_angle_deg * (0x1.921fb54442d18p+1 / 180));
+  const Real64 angle(contact_angle_deg * degree);
   sine_ = sin_real(angle).v;
   cosine_ = cos_real(angle).v;
   if (caps_.empty()) {

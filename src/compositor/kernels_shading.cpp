@@ -56,8 +56,7 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
     if (u.use_checkerboard != 0) {
       const N sum = floor(s) + floor(t);
       const auto even = sum - N(2.0) * floor(sum * N(0.5)) <= zero;
-      const double light[3] = {0.15, 0.12, 0.10}, dark[3] = {0.25, 0.22, 0.20};  // shade's checkerboard
-      for (int k = 0; k < 3; ++k) albedo[k] = select(even, N(light[k]), N(dark[k]));
+      for (int k = 0; k < 3; ++k) albedo[k] = select(even, N(puddle::checkerboard_dark[k]), N(puddle::checkerboard_light[k]));
     } else {
       const auto texel = sample_mip<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(*look.ground), s, t, lod);
       for (int k = 0; k < 3; ++k) albedo[k] = texel[k];

@@ -7,6 +7,7 @@
 #include "compositor/heightfield.h"
 #include "compositor/plates.h"
 #include "compositor/puddle_ground.h"
+#include "math/constants.h"
 #include "puddle/environment.h"
 #include "puddle/ground.h"
 #include "puddle/host.h"
@@ -15,7 +16,7 @@
 namespace rainref::compositor {
 namespace {
 
-constexpr double water_ior = 1.333;  // as shade's
+constexpr double water_ior = water_refractive_index;
 constexpr double everywhere = 1000;  // half a side of the level ground around the rectangle [m]
 constexpr double in_street = 6;      // the same where the street's own road goes on
 
@@ -170,7 +171,7 @@ struct PuddleScene::State {
 
 PuddleScene::PuddleScene(const puddle::Settings& settings, const puddle::Surroundings& surroundings, const Options& options,
                          const parallel::Executor& executor) {
-  if (settings.variant != puddle::Variant::corrected)
+  if (settings.variant != Variant::corrected)
     throw Error(ExitCode::usage, "compositor: the as-published puddle has no water in metres to trace; use variant = \"corrected\"");
   state_ = std::make_unique<State>(settings, surroundings, options, executor);
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "compositor/interface.h"
+#include "math/constants.h"
 #include "math/real64.h"
 #include "pass/run.h"
 #include "puddle/display.pass.h"
@@ -13,7 +14,7 @@
 namespace rainref::compositor {
 namespace {
 
-constexpr double water_ior = 1.333;
+constexpr double water_ior = water_refractive_index;
 constexpr double degrees_per_radian = 57.29577951308232;
 
 double sign_of_largest(const double (&d)[3]) {
@@ -35,7 +36,7 @@ Image display(const puddle::Settings& settings, const Image& radiance, const par
   pass::HostIo<puddle::DisplayPass> io;
   io.colour = radiance;
   io.picture = picture;
-  pass::Run<puddle::DisplayPass>(puddle::display_uniforms(settings), settings.variant == puddle::Variant::corrected, settings.rounding, io)
+  pass::Run<puddle::DisplayPass>(puddle::display_uniforms(settings), settings.variant == Variant::corrected, settings.rounding, io)
       .tiles(executor, 8);
   return picture;
 }
@@ -50,7 +51,7 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
   const TextureData bed = puddle::make_bed(settings);
   const puddle::ShadeUniforms shade_uniforms = puddle::shade_uniforms(settings);
   const PrimaryRays primary(traced.camera(), width, height);
-  const float f0 = ((1.0f - 1.333f) / (1.0f + 1.333f)) * ((1.0f - 1.333f) / (1.0f + 1.333f));
+  const float f0 = reflectance_straight_on(static_cast<float>(water_refractive_index));
 
   PuddleTruth out;
   out.pixels = static_cast<std::size_t>(width) * height;

@@ -20,7 +20,7 @@ using rainy_glass::Settings;
 
 /// The camera, where settings are such as can be traced.
 scene::Camera checked(const Settings& s, double thickness) {
-  if (s.variant != rainy_glass::Variant::corrected || s.shape != rainy_glass::Shape::pane || s.use_probe) {
+  if (s.variant != Variant::corrected || s.shape != rainy_glass::Shape::pane || s.use_probe) {
     throw Error(ExitCode::usage, "a traced pane: expected the corrected variant, glass.shape = \"pane\" and glass.background = \"grab\"");
   }
   const double distance = s.distance * dot(rainy_glass::level_forward(s), rainy_glass::facing(s));

@@ -12,6 +12,7 @@
 
 #include "compositor/surface.h"
 #include "compositor/tracer.h"
+#include "math/constants.h"
 
 namespace rainref::compositor {
 
@@ -23,7 +24,7 @@ struct Medium {
   bool is_film = false;     ///< its paths count as `film`
 };
 inline Medium air() { return {}; }
-inline Medium water(double ior = 1.333) { return {ior, {0, 0, 0}, {0, 0, 0}, true}; }
+inline Medium water(double ior = water_refractive_index) { return {ior, {0, 0, 0}, {0, 0, 0}, true}; }
 inline Medium glass(double ior = 1.52) { return {ior, {0, 0, 0}, {0, 0, 0}, false}; }
 
 /// A place where a ray met a surface.

@@ -57,8 +57,7 @@ ScreenDropsView::ScreenDropsView(const screen_drops::Settings& s, const Image& c
       camera_(at_origin(s)),
       basis_(camera_.basis()),
       pane_(shape_of(s, basis_, border_, thickness)) {
-  if (s.variant != screen_drops::Variant::corrected)
-    throw Error(ExitCode::usage, "a traced window: expected the corrected variant, found as-published");
+  if (s.variant != Variant::corrected) throw Error(ExitCode::usage, "a traced window: expected the corrected variant, found as-published");
   const double half_height = camera_.half_height(), half_width = half_height * s.width / s.height;
   scale_[0] = 0.5 / (half_width * s.scene_margin);
   scale_[1] = 0.5 / (half_height * s.scene_margin);

@@ -8,6 +8,7 @@
 
 #include "compositor/surface.h"
 #include "compositor/truth.h"
+#include "math/constants.h"
 #include "math/half.h"
 #include "math/real64.h"
 #include "math/unorm.h"
@@ -24,7 +25,7 @@ struct PaneTruth {
 
 inline double degrees_between(const Vec& a, const Vec& b) {
   const Vec c = cross(a, b);
-  return atan2_real(Real64(__builtin_sqrt(dot(c, c))), Real64(dot(a, b))).v * (180 / 0x1.921fb54442d18p+1);
+  return atan2_real(Real64(__builtin_sqrt(dot(c, c))), Real64(dot(a, b))).v * (180 / pi);
 }
 
 /// The signed difference of the channel that differs most.

@@ -154,11 +154,8 @@ void add_output_slips(std::vector<Deviation>& out, const PassCase& c, const Pass
           [first, last](Array& a) { each_texel(a, [first, last](std::byte* t) { std::fill(t + first, t + last, std::byte{0}); }); }, true);
     }
     if (f.kind == FormatInfo::unorm8 && f.channels >= 3) {
-      one("sRGB encoded twice", "the display encoding is applied a second time", [slot](Array& a) {
-        change_values(a, slot, [](float v) {
-          return v <= 0.0031308f ? v * 12.92f : static_cast<float>(1.055 * pow_real(Real64(v), Real64(1 / 2.4)).v - 0.055);
-        });
-      });
+      one("sRGB encoded twice", "the display encoding is applied a second time",
+          [slot](Array& a) { change_values(a, slot, [](float v) { return static_cast<float>(encode_srgb(v)); }); });
       one("not encoded", "the display encoding is undone: an sRGB view was read back",
           [slot](Array& a) { change_values(a, slot, [](float v) { return static_cast<float>(decode_srgb(v)); }); });
     }

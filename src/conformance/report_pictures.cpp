@@ -12,6 +12,7 @@
 #include "conformance/report_figures.h"
 #include "conformance/slots.h"
 #include "image/code_range.h"
+#include "image/colour.h"
 #include "image_io/write.h"
 #include "math/real64.h"
 
@@ -67,8 +68,6 @@ struct Display {
 };
 
 std::uint8_t eight_bits(double x) { return !(x > 0) ? 0 : x >= 1 ? 255 : static_cast<std::uint8_t>(255 * x + 0.5); }
-/// IEC 61966-2-1.
-double srgb_code(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow_real(Real64(x), Real64(1 / 2.4)).v - 0.055; }
 
 /// What lies below this share of a channel's finite values, 0 where none is finite.
 std::vector<double> quantiles(const Texels& t, const Array& a, int channel, std::initializer_list<double> shares) {
@@ -98,7 +97,7 @@ Display colour_display(const Array& expected) {
   for (; brightest > 0 && brightest * factor <= 0.25 && stops < 32; ++stops) factor *= 2;
   return {"colour", fmt::format("exposure {:+d} stops, sRGB-encoded", stops), {0, 1, 2}, [factor](const Texels& t, int x, int y, int c) {
             const double v = t.value(x, y, c) * factor;
-            return v >= 1 ? std::uint8_t{255} : v > 0 ? eight_bits(srgb_code(v)) : std::uint8_t{0};
+            return v >= 1 ? std::uint8_t{255} : v > 0 ? eight_bits(encode_srgb(v)) : std::uint8_t{0};
           }};
 }
 

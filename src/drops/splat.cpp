@@ -7,52 +7,60 @@
 #include "drops/drops.h"
 #include "math/real64.h"
 #include "rainref/error.h"
+#include "scene/member_parameter.h"
 
 namespace rainref::drops {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double water_density = 998.2;  // at 20 degrees C [kg/m^3]
-constexpr const char *published = "as-published", *correct = "corrected";
-const std::vector<std::string> kernel_names{"paraboloid", "quartic", "smoothstep", "hemisphere", "disc"};
 
-}  // namespace
+using namespace rainref::scene;
 
-std::vector<scene::Parameter> splat_parameters(const std::string& prefix) {
+std::vector<MemberParameter<SplatKeys>> members(const std::string& prefix) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
-      scene::integer2(key("height_size"), "texel", 1, 16384, {1024, 592}, "Columns and rows of the height texture."),
-      scene::choice(key("kernel"), kernel_names, "paraboloid", "How the height of a drop falls from its centre to its rim."),
-      scene::choice(key("blend"), {"add", "max"}, "add", "How drops join in a texel."),
-      scene::choice(key("accumulate"), {"half", "float"}, "half",
-                    "half: the sum is rounded after each drop, as a blending unit does with an r16f target; float: once.")
+      {integer2(key("height_size"), "texel", 1, 16384, {}, "Columns and rows of the height texture."),
+       [](SplatKeys& k, const Value& v) {
+         k.width = static_cast<int>(std::get<Integer2>(v)[0]);
+         k.height = static_cast<int>(std::get<Integer2>(v)[1]);
+       },
+       [](const SplatKeys& k) {
+         return Value(Integer2{k.width, k.height});
+       }},
+      choice<&SplatKeys::kernel>(key("kernel"),
+                                 {{"paraboloid", SplatKernel::paraboloid},
+                                  {"quartic", SplatKernel::quartic},
+                                  {"smoothstep", SplatKernel::smoothstep},
+                                  {"hemisphere", SplatKernel::hemisphere},
+                                  {"disc", SplatKernel::disc}},
+                                 "How the height of a drop falls from its centre to its rim."),
+      choice<&SplatKeys::blend>(key("blend"), {{"add", SplatBlend::add}, {"max", SplatBlend::max}}, "How drops join in a texel."),
+      choice<&SplatKeys::half_accumulation>(
+          key("accumulate"), {{"half", true}, {"float", false}},
+          "half: the sum is rounded after each drop, as a blending unit does with an r16f target; float: once.")
           .only(published),
-      scene::choice(key("rounding"), {"rne", "rtz"}, "rne", "How results are stored: to nearest even, or toward zero as many GPUs do."),
-      scene::real(key("drop_radius"), "m", 1e-5, 1, 4e-3, "Radius of a drop of mass 1.").only(published),
-      scene::real(key("drop_height"), "mm", 0, 100, 0.8, "Height of a drop of mass 1.").only(published),
-      scene::real(key("smallest_radius"), "texel", 0, 16, 1.5,
-                  "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.")
+      choice<&SplatKeys::rounding>(key("rounding"), {{"rne", Rounding::rne}, {"rtz", Rounding::rtz}},
+                                   "How results are stored: to nearest even, or toward zero as many GPUs do."),
+      real<&SplatKeys::drop_radius>(key("drop_radius"), "m", 1e-5, 1, "Radius of a drop of mass 1.").only(published),
+      real<&SplatKeys::drop_height>(key("drop_height"), "mm", 0, 100, "Height of a drop of mass 1.").only(published),
+      real<&SplatKeys::smallest_radius>(key("smallest_radius"), "texel", 0, 16,
+                                        "A smaller drop is drawn this wide and as much lower, so that no drop falls between texels.")
           .only(correct),
   };
 }
 
+}  // namespace
+
+std::vector<scene::Parameter> splat_parameters(const std::string& prefix) { return parameters_of(members(prefix)); }
+
 SplatKeys splat_keys(const scene::Config& config, const std::string& prefix, std::optional<Rounding> rounding) {
-  const auto key = [&](const char* name) { return prefix + "." + name; };
   SplatKeys k;
-  k.width = static_cast<int>(config.integer2(key("height_size"))[0]);
-  k.height = static_cast<int>(config.integer2(key("height_size"))[1]);
-  const auto kernel = std::find(kernel_names.begin(), kernel_names.end(), config.text(key("kernel")));
-  k.kernel = static_cast<SplatKernel>(kernel - kernel_names.begin());
-  k.blend = config.text(key("blend")) == "max" ? SplatBlend::max : SplatBlend::add;
-  k.rounding = rounding ? *rounding : config.text(key("rounding")) == "rtz" ? Rounding::rtz : Rounding::rne;
-  if (config.variant() == correct) {
-    k.half_accumulation = false;
-    k.smallest_radius = config.real(key("smallest_radius"));
-  } else {
-    k.half_accumulation = config.text(key("accumulate")) == "half";
-    k.drop_radius = config.real(key("drop_radius"));
-    k.drop_height = config.real(key("drop_height"));
-  }
+  std::vector<MemberParameter<SplatKeys>> table = members(prefix);
+  if (rounding) std::erase_if(table, [&](const auto& m) { return m.parameter.key == prefix + ".rounding"; });
+  apply(table, config, k);
+  if (rounding) k.rounding = *rounding;
+  if (config.variant() == correct) k.half_accumulation = false;
   return k;
 }
 

@@ -8,6 +8,7 @@
 #include "base/floating_point.h"
 #include "base/memory.h"
 #include "image/colour.h"
+#include "math/constants.h"
 #include "math/half.h"
 #include "math/real64.h"
 #include "math/unorm.h"
@@ -15,8 +16,6 @@
 
 namespace rainref::edge_splash {
 namespace {
-
-constexpr double pi = 3.141592653589793;
 
 void put_color(const Settings& s, float* out) {
   for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(s.drop_color[static_cast<std::size_t>(k)]);

@@ -66,8 +66,6 @@ CodeRange unorm_range(const Enclosure& v, const StoreRules& rules) {
   return out;
 }
 
-double encode_srgb(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * pow_real(Real64(x), Real64(1 / 2.4)).v - 0.055; }
-
 CodeRange srgb_range(const Enclosure& v, const StoreRules& rules) {
   const double low = 255 * encode_srgb(held(v.lo)), high = 255 * encode_srgb(held(v.hi));
   const auto nearest = [](double s) { return static_cast<std::int64_t>((s + 0x1p52) - 0x1p52); };

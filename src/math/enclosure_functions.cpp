@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/constants.h"
 #include "math/enclosure.h"
 
 namespace rainref::enclosed {
 namespace {
 
 using Single = plain::Plain<float>;
-
-constexpr double pi = 0x1.921fb54442d18p+1;
 
 Enclosure point(Single x) { return Enclosure::checked(x.v, x.v); }
 // Whether the reference itself answers.

@@ -1,3 +1,4 @@
+#include "math/constants.h"
 #include "night_street/city.h"
 
 namespace rainref::night_street {
@@ -59,7 +60,6 @@ void City::add_convex(const std::vector<Plane>& sides, const Box& bounds, int ma
 }
 
 void City::add_lamp(const Vec& centre, double radius, const Vec& radiance, const Vec& axis, double gain, int focus) {
-  constexpr double pi = 3.141592653589793;
   Solid solid;
   solid.shape = Solid::sphere;
   solid.a = centre;

@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "math/constants.h"
 #include "math/real64.h"
 #include "night_street/antialias.h"
 #include "night_street/city.h"
@@ -7,8 +8,6 @@
 namespace rainref::night_street {
 
 namespace {
-
-constexpr double pi = 3.141592653589793;
 
 /// Sine and cosine of `count` angles: the centres of equal parts of [first, first + span].
 struct Angles {

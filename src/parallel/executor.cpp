@@ -5,39 +5,24 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/partitioner.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "base/floating_point.h"
+#include "parallel/pool.h"
 #include "rainref/error.h"
 
 namespace rainref::parallel {
-
-struct Executor::Pool {
-  mutable oneapi::tbb::task_arena arena;
-  explicit Pool(int threads) : arena(threads) {
-    // The scheduler starts no more workers than the machine has processors unless told to, and a proof over 8 threads on
-    // 2 processors needs 8. One limit for the process: of several, the smallest would hold for every pool.
-    static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, max_threads);
-    arena.initialize();
-  }
-};
 
 Executor::Executor(int threads) {
   const FloatingPointGuard guard;
   if (threads < 0 || threads > max_threads) {
     throw Error(ExitCode::usage, fmt::format("threads: expected a number from 1 to {}, found {}", max_threads, threads));
   }
-  pool_ = std::make_unique<Pool>(threads == 0 ? oneapi::tbb::info::default_concurrency() : threads);
+  pool_ = std::make_unique<Pool>(threads);
 }
 
 Executor::~Executor() = default;
 
-int Executor::threads() const { return pool_->arena.max_concurrency(); }
+int Executor::threads() const { return pool_->threads(); }
 
 void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t, std::int64_t)>& body) const {
   if (count <= 0) return;
@@ -53,18 +38,10 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::func
       std::swap(order[i - 1], order[(state >> 33) % i]);
     }
   }
-  const auto run = [&](std::int64_t i) {
+  pool_->run(chunks, [&](std::int64_t i) {
     const std::int64_t index = order.empty() ? i : order[static_cast<std::size_t>(i)];
-    FloatingPointGuard guard;
+    const FloatingPointGuard guard;
     body(index * chunk, std::min(count, (index + 1) * chunk));
-  };
-  pool_->arena.execute([&] {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::int64_t>(0, chunks, 1),
-        [&](const oneapi::tbb::blocked_range<std::int64_t>& range) {
-          for (std::int64_t i = range.begin(); i != range.end(); ++i) run(i);
-        },
-        oneapi::tbb::simple_partitioner());
   });
 }
 

@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 
 #include "image/colour.h"
+#include "math/constants.h"
 #include "rainref/error.h"
 
 namespace rainref::puddle {
 namespace {
-
-constexpr double pi = 0x1.921fb54442d18p+1;
 
 // 4-channel floats of an image in the code that this variant's pass expects.
 std::vector<float> recode(const Image& image, bool is_encoded, Variant variant) {

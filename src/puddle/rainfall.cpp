@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "math/constants.h"
 #include "rain/rain.h"
 #include "rainref/error.h"
 #include "random/counter.h"
@@ -12,7 +13,6 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr double gravity = 9.80665;                              // m/s^2, CGPM 1901
 constexpr double energy_share = 0.01;                            // of the impact that goes into the wave; the rest splashes and stirs
 constexpr double crater_per_diameter = 7;                        // crater radius over drop diameter
 constexpr std::int32_t reflecting = 0, periodic = 1, fixed = 2;  // RainfallUniforms::boundary
@@ -40,7 +40,7 @@ void add_with_images(const Drop& drop, const RainfallUniforms& u, std::vector<Dr
 }  // namespace
 
 double crater_depth(double diameter, double speed, double radius) {
-  return __builtin_sqrt(energy_share * diameter * diameter * diameter * speed * speed * 35 / (18 * gravity * radius * radius));
+  return __builtin_sqrt(energy_share * diameter * diameter * diameter * speed * speed * 35 / (18 * standard_gravity * radius * radius));
 }
 
 Rainfall::Rainfall(const Settings& s, double stored_per_metre)

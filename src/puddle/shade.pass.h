@@ -2,10 +2,14 @@
 #ifndef RAINREF_FN
 #ifndef RAINREF_PUDDLE_SHADE_PASS_H_
 #define RAINREF_PUDDLE_SHADE_PASS_H_
+#include "math/constants.h"
 #include "pass/definition.h"
 #include "puddle/camera_members.h"
 
 namespace rainref::puddle {
+
+/// Tiles of the checkerboard, linear RGB.
+constexpr double checkerboard_dark[3] = {0.15, 0.12, 0.10}, checkerboard_light[3] = {0.25, 0.22, 0.20};
 
 /// The sine hash as published, which no GPU reproduces.
 struct GroundNoisePass {
@@ -79,7 +83,7 @@ struct ShadePass {
 #endif
 #else
 
-constexpr float water_ior = 1.333f;
+constexpr float water_ior = static_cast<float>(water_refractive_index);
 
 /// Hit and normal of a pixel as shade takes them from their stored buffers.
 template <class N>
@@ -140,8 +144,10 @@ RAINREF_FN Vec3<N> checkerboard(N x, N z, float scale) {
   const N parity = floor(x * N(scale)) + floor(z * N(scale));
   // Times 1/2, not over 2: a GPU's quotient need not be exact, and floor would tell.
   const N odd = parity - N(2.0f) * floor(parity * N(0.5f));
-  const Vec3<N> dark(N(0.15f), N(0.12f), N(0.10f)), light(N(0.25f), N(0.22f), N(0.20f));
-  return mix(dark, light, odd);
+  const auto tile = [](const double* c) RAINREF_LAMBDA {
+    return Vec3<N>(N(static_cast<float>(c[0])), N(static_cast<float>(c[1])), N(static_cast<float>(c[2])));
+  };
+  return mix(tile(checkerboard_dark), tile(checkerboard_light), odd);
 }
 
 template <class N>
@@ -149,7 +155,7 @@ RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& env
                                       N noise, int px, int py) {
   const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N zero(0.0f), one(1.0f);
-  const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));
+  const float f0 = reflectance_straight_on(water_ior);
   const N f = fresnel_schlick(min(abs(dot(view, s.normal)), one), f0);
   const auto hit = s.flag > N(0.5f);
   const Vec3<N> reflected = environment_as_published(u, environment, select(hit, reflect(view, s.normal), view));
@@ -209,7 +215,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   }
 
   const N cosine = clamp(-dot(view, normal), N(1e-3f), one);
-  const float f0 = ((1.0f - water_ior) / (1.0f + water_ior)) * ((1.0f - water_ior) / (1.0f + water_ior));
+  const float f0 = reflectance_straight_on(water_ior);
   const N fresnel = (u.exact_fresnel != 0 ? fresnel_dielectric(cosine, water_ior) : fresnel_schlick(cosine, f0)) *
                     (N(u.reflectivity) * mix(N(u.wetness), one, water));
   const Vec3<N> mirrored = reflect(view, normal);

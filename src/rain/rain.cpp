@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
@@ -58,7 +59,7 @@ double DropSizes::water_mm_per_h() const {
   double volume = 0;  // mm^3 / m^2 / s
   for (int i = 0; i < cells; ++i) {
     const double d = smallest_ + (i + 0.5) * h;
-    volume += density(d) * h * (0x1.921fb54442d18p+1 / 6 * d * d * d);
+    volume += density(d) * h * (pi / 6 * d * d * d);
   }
   return volume * 1e-6 * 3600;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
@@ -86,7 +87,7 @@ BakeRaindropsUniforms bake_raindrops_uniforms(const Settings& s, int droplet_cou
   u.inverse_size[0] = u.inverse_size[1] = static_cast<float>(1.0 / s.map_size);
   u.droplet_count = droplet_count;
   // A cap of radius r and height h = r / largest has slope 2 h / r at its rim; this makes it the tangent of the contact angle.
-  const Real64 angle(s.contact_angle_deg * (0x1.921fb54442d18p+1 / 180));
+  const Real64 angle(s.contact_angle_deg * degree);
   u.normal_scale = static_cast<float>(0.5 * s.largest_droplet * (sin_real(angle) / cos_real(angle)).v);
   const Code c = code_of(s, s.map_storage);
   u.neutral = static_cast<float>(c.neutral);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainy_glass/host.h"
 #include "random/counter.h"
@@ -9,7 +10,7 @@
 namespace rainref::rainy_glass {
 namespace {
 
-constexpr double turn = 0x1.921fb54442d18p+2;
+constexpr double turn = 2 * pi;
 
 double unit(std::uint32_t word) { return static_cast<double>(word >> 8) * 0x1p-24; }
 /// A place in the tile with 16 bits.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/constants.h"
 #include "math/half.h"
 #include "math/real64.h"
 #include "rainy_glass/host.h"
@@ -50,7 +51,7 @@ scene::Vector3 level_forward(const Settings& s) {
 scene::Vector3 facing(const Settings& s) {
   const Vector3 level = level_forward(s);
   if (s.shape != Shape::pane) return -level;
-  const Real64 angle(s.yaw_deg * (0x1.921fb54442d18p+1 / 180));
+  const Real64 angle(s.yaw_deg * degree);
   const double c = cos_real(angle).v, k = sin_real(angle).v;
   return {c * level.x + k * level.z, 0, c * level.z - k * level.x};
 }

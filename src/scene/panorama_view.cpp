@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "image/texture.h"
+#include "math/constants.h"
 #include "math/plain.h"
 #include "math/real64.h"
 #include "rainref/error.h"
@@ -25,7 +26,6 @@ using namespace rainref::plain;
 
 Image panorama_view(const Image& panorama, const Camera& camera, int width, int height, const parallel::Executor& executor) {
   using N = plain::Plain<float>;
-  constexpr double pi = 0x1.921fb54442d18p+1;
   constexpr int tile_rows = 8;
   if (panorama.channels() != 4) throw Error(ExitCode::usage, fmt::format("a panorama has four channels, found {}", panorama.channels()));
   TextureData data(panorama, Address::repeat, Address::clamp);

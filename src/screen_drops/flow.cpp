@@ -1,11 +1,11 @@
+#include "math/constants.h"
 #include "screen_drops/flow.h"
 
 namespace rainref::screen_drops {
 namespace {
 
 drops::SplatSettings splat_of(const FlowSettings& s) {
-  drops::SplatSettings splat{
-      true, s.splat, {s.pane[0], 0, s.pane[1]}, 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * (0x1.921fb54442d18p+1 / 180)};
+  drops::SplatSettings splat{true, s.splat, {s.pane[0], 0, s.pane[1]}, 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * degree};
   splat.keys.half_accumulation = false;
   return splat;
 }

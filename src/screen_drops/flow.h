@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drops/wet_glass.h"
+#include "math/constants.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/recorder.h"
@@ -22,7 +23,7 @@ struct FlowSettings {
   double fps = 60;
   int substeps = 1;                        ///< steps of the drops in a frame
   std::array<double, 2> pane{0.64, 0.36};  ///< width and height [m]: u runs to the right, v straight up
-  double gravity = 9.80665;                ///< [m/s^2]
+  double gravity = standard_gravity;       ///< [m/s^2]
   double wind = 2;                         ///< onto the pane [m/s]: all that brings rain to upright glass
   double warm_up = 0;                      ///< time that it has rained before frame 0 [s]
   drops::Settings drops;                   ///< of corrected; wind along the pane there is none

@@ -6,6 +6,7 @@
 #include "drops/readings.h"
 #include "drops/settings.h"
 #include "drops/splat.h"
+#include "math/constants.h"
 #include "screen_drops/flow.h"
 
 namespace rainref::screen_drops {
@@ -35,7 +36,7 @@ std::vector<Parameter> flow_parameters(const std::string& prefix) {
                real("rain.wind", "m/s", 0, 100, 2,
                     "Wind that drives the rain onto the pane; rain that falls straight misses upright glass. 2 m/s is a light breeze.")
                    .only(correct),
-               real("world.gravity", "m/s^2", 0, 100, 9.80665, "Acceleration of gravity.").only(correct)});
+               real("world.gravity", "m/s^2", 0, 100, standard_gravity, "Acceleration of gravity.").only(correct)});
   return all;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "image/texture.h"
+#include "math/constants.h"
 #include "math/half.h"
 #include "math/real64.h"
 #include "math/unorm.h"
@@ -18,7 +19,6 @@ namespace {
 
 using scene::Vector3;
 
-constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr int tap_count = 24;
 constexpr int most_cells = 1 << 24, most_side = 65535;    // a cell's place has 16 bits a side
 constexpr double visible_from = 0.02, visible_to = 0.12;  // height of flowing water [mm]

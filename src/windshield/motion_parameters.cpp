@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "math/constants.h"
 #include "rainref/error.h"
 
 namespace rainref::windshield {
@@ -10,7 +11,6 @@ namespace {
 using namespace rainref::scene;
 
 constexpr const char *published = "as-published", *correct = "corrected";
-constexpr double degree = 3.14159265358979323846 / 180;
 constexpr int most_wipers = 2;
 // The tandem arrangement, as its keys would say it.
 constexpr double pivot[most_wipers][2] = {{0.12, -0.06}, {0.71, -0.06}}, inner[most_wipers] = {0.18, 0.14},
@@ -30,7 +30,7 @@ std::vector<scene::Parameter> motion_parameters() {
       real3("windshield.corner_1", "m", -100, 100, {1.9, -0.7, 1.0}, "Corner (1, 0) of the glass; lower right."),
       real3("windshield.corner_2", "m", -100, 100, {1.18719478064930573, 0.7, 1.36319239979163742},
             "Corner (0, 1) of the glass; upper left."),
-      real("world.gravity", "m/s^2", 0, 100, 9.80665, "Acceleration of gravity."),
+      real("world.gravity", "m/s^2", 0, 100, standard_gravity, "Acceleration of gravity."),
       real3("world.wind", "m/s", -100, 100, {0, 0, 0},
             "Velocity of the wind in world axes: x is the car's forward direction at heading 0, z up."),
       real("vehicle.speed", "m/s", 0, largest_speed, 13.9,

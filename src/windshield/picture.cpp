@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
@@ -27,7 +28,7 @@ scene::Camera camera(const PictureSettings& s) {
 
 double widened_fov(const PictureSettings& s) {
   const Real64 tangent(camera(s).half_height() * s.scene_margin);
-  return 2 * atan2_real(tangent, Real64(1)).v * 180 / 0x1.921fb54442d18p+1;
+  return 2 * atan2_real(tangent, Real64(1)).v * 180 / pi;
 }
 
 // A ray d = right x + up y + forward from the eye E meets the plane of P0, e_u, e_v with normal n at E + t d,

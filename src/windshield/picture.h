@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "math/constants.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "rainref/storage.h"
@@ -25,7 +26,7 @@ struct PictureSettings {
   double vertical_fov_deg = 22;
   double scene_margin = 1.15;  ///< picture of the scene over the picture, in view
   double blur_lod = 3, wetness = 0.5, visible_from = 0.02, visible_to = 0.2, refraction = 0.08, shininess = 80, glint_strength = 0.6;
-  double water_ior = 1.333, inner = 0.3, exposure = 0;
+  double water_ior = water_refractive_index, inner = 0.3, exposure = 0;
   std::array<double, 3> cabin{0.004, 0.004, 0.005};
   std::vector<Light> lights;
 };

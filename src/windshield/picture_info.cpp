@@ -1,5 +1,6 @@
 #include "windshield/picture_info.h"
 
+#include "math/constants.h"
 #include "pass/display.h"
 #include "pass/info.h"
 #include "windshield/composite.pass.h"
@@ -41,7 +42,7 @@ std::vector<Parameter> picture_parameters() {
       real("composite.visible_to", "mm", 1e-3, 10, 0.2, "Height from which it shows fully."),
       real("composite.refraction", "1", -1, 1, 0.08, "Offset of the sharp picture, in pictures per unit of the normal's x and y.")
           .only(published),
-      real("composite.water_ior", "1", 1, 2, 1.333, "Refractive index of water.").only(correct),
+      real("composite.water_ior", "1", 1, 2, water_refractive_index, "Refractive index of water.").only(correct),
       real("composite.inner", "1", 0, 1, 0.3, "Share of the blurred scene that the water's surface mirrors.").only(correct),
       real("composite.shininess", "1", 1, 4096, 80, "Power of the highlights."),
       real("composite.glint_strength", "1", 0, 10, 0.5, "Weight of the highlights."),

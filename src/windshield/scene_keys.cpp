@@ -1,5 +1,6 @@
 #include "windshield/scene_keys.h"
 
+#include "math/constants.h"
 #include "rainref/error.h"
 #include "windshield/motion_parameters.h"
 #include "windshield/picture_info.h"
@@ -62,7 +63,7 @@ Settings settings_from(const Config& config) {
   s.splat.corrected = s.corrected;
   s.splat.keys = drops::splat_keys(config, "windshield");
   s.splat.frame = plane.frame;
-  if (s.corrected) s.splat.contact_angle = 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * (0x1.921fb54442d18p+1 / 180);
+  if (s.corrected) s.splat.contact_angle = 0.5 * (s.drops.advancing_deg + s.drops.receding_deg) * degree;
   s.surface.corrected = s.corrected;
   s.surface.width = s.splat.keys.width;
   s.surface.height = s.splat.keys.height;

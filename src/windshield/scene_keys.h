@@ -6,6 +6,7 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/settings.h"
 #include "drops/splat.h"
+#include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
 #include "windshield/motion_host.h"
@@ -23,7 +24,7 @@ struct Settings {
   int substeps = 1;
   Corners corners;
   Real3 wind{0, 0, 0};  ///< world axes [m/s]
-  double gravity = 9.80665;
+  double gravity = standard_gravity;
   VehicleSettings vehicle;
   WiperSettings wipers;
   Capture capture;

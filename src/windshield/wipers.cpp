@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
 namespace rainref::windshield {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
 constexpr double largest_sweep = 170;   // [deg] below a half turn, so that the sector is what two half planes share
 constexpr double largest_drop = 0.010;  // [m] base radius of the heaviest drop, 2^24 quanta: 8 mm
 

@@ -1,12 +1,17 @@
-// Every effect runs with what its public header says by default: nobody needs a setting to begin.
+// Every effect runs with what its public header says by default, and that is what a scene gives that says nothing.
 #include <gtest/gtest.h>
 
+#include "edge_splash/parameters.h"
+#include "puddle/parameters.h"
 #include "rainref/edge_splash.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
 #include "rainref/rainy_glass.h"
 #include "rainref/screen_drops.h"
 #include "rainref/windshield.h"
+#include "rainy_glass/parameters.h"
+#include "scene/toml.h"
+#include "screen_drops/parameters.h"
 
 namespace rainref {
 namespace {
@@ -81,6 +86,26 @@ TEST_F(Defaults, Windshield) {
   windshield.render();
   expect_lit(windshield.picture());
   EXPECT_EQ(windshield.ledger().balance(), 0);
+}
+
+/// The settings of a scene that names effect and variant and nothing else.
+template <class Read>
+auto silent_scene(const char* effect, Variant variant, std::span<const scene::Parameter> parameters, Read read) {
+  const scene::EffectTable table{{{effect, {"as-published", "corrected"}, parameters}}};
+  return read(scene::parse(std::string("effect = '") + effect + "'\nvariant = '" + name(variant) + "'\n", "silent", {}, table));
+}
+TEST_F(Defaults, AreThoseOfAScene) {
+  for (const Variant v : {Variant::as_published, Variant::corrected}) {
+    EXPECT_EQ(silent_scene("puddle", v, puddle::parameters(), puddle::settings_from), puddle::default_settings(v));
+    EXPECT_EQ(silent_scene("edge_splash", v, edge_splash::parameters(), edge_splash::settings_from), edge_splash::default_settings(v));
+    EXPECT_EQ(silent_scene("rainy_glass", v, rainy_glass::parameters(), rainy_glass::settings_from), rainy_glass::default_settings(v));
+    EXPECT_EQ(silent_scene("screen_drops", v, screen_drops::parameters(), screen_drops::settings_from), screen_drops::default_settings(v));
+  }
+  EXPECT_EQ(puddle::Settings{}, puddle::default_settings(Variant::corrected));
+  EXPECT_EQ(edge_splash::Settings{}, edge_splash::default_settings(Variant::corrected));
+  EXPECT_EQ(rainy_glass::Settings{}, rainy_glass::default_settings(Variant::corrected));
+  EXPECT_EQ(screen_drops::Settings{}, screen_drops::default_settings(Variant::corrected));
+  EXPECT_NE(puddle::default_settings(Variant::as_published).camera_position, puddle::Settings{}.camera_position);
 }
 
 }  // namespace

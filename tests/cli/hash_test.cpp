@@ -1,6 +1,7 @@
 // `rainref hash`.
 #include "cli/support.h"
 #include "math/simd_target.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
@@ -91,7 +92,8 @@ TEST_F(HashVerb, AFileOfTheSceneLiesBesideItOneOfTheCommandLineWhereTheUserStand
 
 // Without a picture the surroundings are made here; the one test that pays for them.
 TEST_F(HashVerb, ASceneNeedsNoAsset) {
-  const std::vector<std::string> lines = hash({RAINREF_SOURCE_DIR "/scenes/puddle/default.toml", "--frames", "1", "--size", "24x16"});
+  const std::vector<std::string> lines =
+      hash({rainref::test::source_folder() + "/scenes/puddle/default.toml", "--frames", "1", "--size", "24x16"});
   EXPECT_EQ(lines.size(), 7u);
 }
 

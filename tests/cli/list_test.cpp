@@ -3,6 +3,7 @@
 
 #include "cli/support.h"
 #include "math/simd_target.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
@@ -23,7 +24,7 @@ TEST_F(List, SaysWhatThereIs) {
 }
 
 TEST_F(List, ScenesOfTheCurrentFolderComeFirst) {
-  EXPECT_THAT(rainref({"list"}).out, HasSubstr(RAINREF_SOURCE_DIR "/scenes/puddle/default.toml\n"));
+  EXPECT_THAT(rainref({"list"}).out, HasSubstr(rainref::test::source_folder() + "/scenes/puddle/default.toml\n"));
   std::filesystem::create_directories(folder / "scenes/deep");
   put(folder / "scenes/deep/mine.toml", "");
   put(folder / "scenes/notes.txt", "");

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/support.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
@@ -32,9 +33,11 @@ TEST_P(StatedMemory, IsWithinATenthOfThePeak) {
   const Case& c = GetParam();
   const TemporaryFolder folder;
   put_sky(folder / "sky.npy");
-  std::vector<std::string> command{
-      "run", fmt::format("{}/scenes/{}", RAINREF_SOURCE_DIR, c.scene), "--threads", "2", "--frames", "2", "--image", c.pictures, "-o",
-      "out"};
+  std::vector<std::string> command{"run",       fmt::format("{}/scenes/{}", rainref::test::source_folder(), c.scene),
+                                   "--threads", "2",
+                                   "--frames",  "2",
+                                   "--image",   c.pictures,
+                                   "-o",        "out"};
   for (const std::string& s : c.set) command.insert(command.end(), {"--set", s});
   const Outcome o = run_rainref(folder.path(), command);
   ASSERT_EQ(o.code, 0) << o.err;

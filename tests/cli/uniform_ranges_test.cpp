@@ -16,6 +16,7 @@
 #include "conformance/support.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
@@ -93,7 +94,7 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
                                                  {"windshield.substeps", "2"},
                                                  {"flow.substeps", "2"},
                                                  {"flow.warm_up", "0.1"}};
-  const std::string packs = RAINREF_SOURCE_DIR "/tests/packs/", scene = packs + name + "-" + variant + ".toml";
+  const std::string packs = rainref::test::source_folder() + "/tests/packs/", scene = packs + name + "-" + variant + ".toml";
   // The street would take seconds to make.
   std::vector<std::string> always{"run.frames=2"};
   if (name == "windshield") always.insert(always.end(), {fmt::format("scene.image='{}sky.png'", packs), "vehicle.key_frames=''"});

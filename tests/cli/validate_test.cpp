@@ -1,6 +1,7 @@
 // `rainref validate`: exit codes, a port's own command, races, shadows.
 #include "cli/port_command.h"
 #include "cli/running.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
@@ -10,8 +11,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const std::string pack = RAINREF_SOURCE_DIR "/tests/packs/puddle-corrected";
-const std::string published = RAINREF_SOURCE_DIR "/tests/packs/puddle-as-published";
+const std::string pack = rainref::test::source_folder() + "/tests/packs/puddle-corrected";
+const std::string published = rainref::test::source_folder() + "/tests/packs/puddle-as-published";
 
 class Validate : public CommandLine {
  protected:
@@ -264,7 +265,7 @@ TEST_F(Validate, TheReferencesOwnRunPassesAsAShadow) {
 
 // A whole run of each effect: lists of drops, and mip levels that are shared between the runs of a capture.
 TEST_F(Validate, TheReferencesOwnRunOfEachEffectPassesAsAShadow) {
-  const std::filesystem::path scenes = RAINREF_SOURCE_DIR "/tests/packs";
+  const std::filesystem::path scenes = rainref::test::source_folder() + "/tests/packs";
   for (const std::string effect : {"windshield", "screen_drops", "rainy_glass", "edge_splash"}) {
     for (const std::string variant : {"as-published", "corrected"}) {
       const std::string name = effect + "-" + variant, scene = (scenes / (name + ".toml")).string();
@@ -281,7 +282,8 @@ TEST_F(Validate, TheReferencesOwnRunOfEachEffectPassesAsAShadow) {
 }
 
 TEST_F(Validate, ALostDropIsNamed) {
-  const std::string windshield = RAINREF_SOURCE_DIR "/tests/packs/windshield-corrected", list = "windshield.merge/0012.0/out.drops.npy";
+  const std::string windshield = rainref::test::source_folder() + "/tests/packs/windshield-corrected",
+                    list = "windshield.merge/0012.0/out.drops.npy";
   copy_to("port", windshield);
   // The last record of 32 bytes; the header's length of the list stays as long as it is.
   std::string bytes = contents(folder / "port" / list);

@@ -17,6 +17,7 @@
 #include "rainy_glass/golden_scenes.h"
 #include "screen_drops/golden_scenes.h"
 #include "windshield/golden_scenes.h"
+#include "settings.h"
 
 namespace rainref::compositor {
 
@@ -106,7 +107,7 @@ inline GoldenScene golden_glass() {
 }
 
 inline std::vector<GoldenScene> golden_scenes() {
-  puddle::Settings s;
+  puddle::Settings s = test::puddle_settings();
   s.width = 97;
   s.height = 61;
   s.seed = 11;

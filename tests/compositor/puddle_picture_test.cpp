@@ -10,6 +10,7 @@
 #include "math/half.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
+#include "settings.h"
 
 namespace rainref::compositor {
 namespace {
@@ -50,7 +51,7 @@ Image uniform(int width, int height, float value) {
 
 /// Level water of constant depth, clear, over white ground, in white surroundings.
 struct WhiteBasin {
-  puddle::Settings settings;
+  puddle::Settings settings = test::puddle_settings();
   puddle::Surroundings around;
   WhiteBasin() {
     settings.width = 48;
@@ -113,7 +114,7 @@ TEST(TracedPuddle, LevelWaterLiesWhereThePassesSeeIt) {
 
 TEST(TracedPuddle, RefusesWhatHasNoTruth) {
   WhiteBasin white;
-  white.settings.variant = puddle::Variant::as_published;
+  white.settings.variant = Variant::as_published;
   EXPECT_THROW(PuddleScene(white.settings, white.around, {}, parallel::Executor(1)), Error);
 }
 

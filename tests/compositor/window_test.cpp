@@ -13,6 +13,7 @@
 #include "rainy_glass/host.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
+#include "settings.h"
 
 namespace rainref::compositor {
 namespace {
@@ -109,13 +110,13 @@ TEST(TracedWindow, RefusesWhatItCannotTrace) {
   Window w;
   w.fill();
   EXPECT_THROW(ScreenDropsView(w.s, w.in.colour, 0.1, {}, executor()), Error);  // the eye is 0.09 m away
-  w.s.variant = screen_drops::Variant::as_published;
+  w.s.variant = Variant::as_published;
   EXPECT_THROW(ScreenDropsView(w.s, w.in.colour, 1e-3, {}, executor()), Error);
 }
 
 // ---- rainy_glass ----------------------------------------------------------------------------------------------------
 struct Conservatory {
-  rainy_glass::Settings s;
+  rainy_glass::Settings s = test::rainy_glass_settings();
   rainy_glass::Surroundings around, unbarred;
   std::optional<rainy_glass::RainyGlass> glass;
   Conservatory() {

@@ -10,6 +10,7 @@
 #include "base/temporary_folder.h"
 #include "capture/pack_read.h"
 #include "conformance/verdict.h"
+#include "source_folder.h"
 
 namespace rainref::conformance {
 
@@ -100,7 +101,7 @@ inline PortJudgement example_judgement() {
 }
 
 inline std::filesystem::path small_pack(const std::string& name) {
-  return std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/packs" / name;
+  return std::filesystem::path(rainref::test::source_folder()) / "tests/packs" / name;
 }
 
 /// Writes a port's outputs: the pack's own, after `alter` (case, output, array) had its way with each.

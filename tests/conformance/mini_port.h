@@ -19,10 +19,11 @@
 #include "conformance/slots.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
+#include "source_folder.h"
 
 namespace rainref::conformance {
 
-inline const std::filesystem::path small_packs = RAINREF_SOURCE_DIR "/tests/packs";
+inline const std::filesystem::path small_packs = rainref::test::source_folder() + "/tests/packs";
 
 inline const parallel::Executor& test_executor() {
   static const parallel::Executor executor(2);

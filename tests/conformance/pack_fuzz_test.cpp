@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "conformance/support.h"
+#include "source_folder.h"
 
 namespace rainref::fuzz {
 namespace {
@@ -21,7 +22,7 @@ TEST(PackFuzz, UntouchedPacksReachAVerdict) {
 // Each crashed, hung or was judged from memory that is not the program's once.
 TEST(PackFuzz, WhatWasFoundIsRefusedOrJudged) {
   int files = 0;
-  for (const auto& entry : fs::directory_iterator(RAINREF_SOURCE_DIR "/tests/fuzz/seeds/pack")) {
+  for (const auto& entry : fs::directory_iterator(rainref::test::source_folder() + "/tests/fuzz/seeds/pack")) {
     const std::string bytes = contents(entry.path());
     judge_pack(std::as_bytes(std::span(bytes)));
     ++files;

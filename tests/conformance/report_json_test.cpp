@@ -12,6 +12,7 @@
 
 #include "conformance/example_judgement.h"
 #include "conformance/validate.h"
+#include "source_folder.h"
 
 namespace rainref::conformance {
 namespace {
@@ -116,7 +117,7 @@ void add_keys(const Json& j, const std::string& prefix, std::set<std::string>& k
   }
 }
 std::set<std::string> documented_keys() {
-  std::istringstream document(contents(std::filesystem::path(RAINREF_SOURCE_DIR) / "docs/reports.md"));
+  std::istringstream document(contents(std::filesystem::path(rainref::test::source_folder()) / "docs/reports.md"));
   std::set<std::string> keys;
   std::string prefix;
   bool is_json = false;

@@ -10,6 +10,7 @@
 #include "conformance/example_judgement.h"
 #include "conformance/report_figures.h"
 #include "conformance/report_markup.h"
+#include "source_folder.h"
 
 namespace rainref::conformance {
 namespace {
@@ -37,7 +38,7 @@ class ReportJunit : public testing::Test {
     put(folder / "junit.xml", report_junit(j, allow_untested));
     const std::string file = (folder / "junit.xml").string();
     const std::string complaint =
-        output_of(fmt::format("xmllint --noout --schema {}/tests/conformance/junit.xsd {} 2>&1", RAINREF_SOURCE_DIR, file));
+        output_of(fmt::format("xmllint --noout --schema {}/tests/conformance/junit.xsd {} 2>&1", rainref::test::source_folder(), file));
     EXPECT_EQ(complaint, file + " validates\n");
     std::string value = output_of(fmt::format("xmllint --xpath '{}' {}", xpath, file));
     while (value.ends_with('\n')) value.pop_back();

@@ -12,6 +12,7 @@
 #include "conformance/slots.h"
 #include "conformance/validate.h"
 #include "math/deviant.h"
+#include "source_folder.h"
 
 namespace rainref::conformance::test {
 
@@ -29,7 +30,7 @@ inline std::vector<std::string> inexact_profiles() {
 inline bool is_known_loose(const std::string& pass, const std::string& profile) {
   return (pass == "rain_on_glass" || pass == "drops") && (profile == "webgpu" || profile == "metal");
 }
-inline std::filesystem::path pack_folder(const std::string& name) { return RAINREF_SOURCE_DIR "/tests/packs/" + name; }
+inline std::filesystem::path pack_folder(const std::string& name) { return rainref::test::source_folder() + "/tests/packs/" + name; }
 
 /// A case that some envelope judges.
 struct BoundCase {

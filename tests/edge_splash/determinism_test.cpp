@@ -8,6 +8,7 @@
 #include "math/simd_target.h"
 #include "pass/display.h"
 #include "pass/display_every_reading.h"
+#include "settings.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -23,7 +24,7 @@ Inputs scene_of(int width, int height) {
   return in;
 }
 Settings settings(Variant variant) {
-  Settings s;
+  Settings s = test::edge_splash_settings();
   s.variant = variant;
   s.rain_drop_scale = 0.4;
   s.drop_alpha = 0.8;
@@ -94,7 +95,7 @@ TEST_P(Determinism, AnotherSettingGivesOtherBits) {
 
 // What both passes of one variant need, read by plain numbers.
 struct Reading {
-  Settings s;
+  Settings s = test::edge_splash_settings();
   Inputs in;
   Image scene, layer, depth_image, noise_image;
   TextureData depth, noise;

@@ -14,6 +14,7 @@
 #include "golden/caller.h"
 #include "rainref/edge_splash.h"
 #include "rainref/executor.h"
+#include "settings.h"
 
 namespace rainref::edge_splash {
 
@@ -26,7 +27,7 @@ inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
-      Settings s;
+      Settings s = test::edge_splash_settings();
       s.variant = variant;
       s.rounding = rounding;
       s.width = 97;

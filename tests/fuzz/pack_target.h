@@ -24,6 +24,7 @@
 #include "conformance/validate.h"
 #include "fuzz/pack_edits.h"
 #include "rainref/error.h"
+#include "source_folder.h"
 
 namespace rainref::fuzz {
 
@@ -50,7 +51,7 @@ inline const std::vector<Base>& bases() {
     for (const char* name : {"puddle-as-published", "puddle-corrected", "windshield-as-published", "windshield-corrected",
                              "edge_splash-as-published", "edge_splash-corrected", "screen_drops-as-published", "screen_drops-corrected",
                              "rainy_glass-as-published", "rainy_glass-corrected"}) {
-      const capture::Pack pack(fs::path(RAINREF_SOURCE_DIR "/tests/packs") / name);
+      const capture::Pack pack(fs::path(rainref::test::source_folder() + "/tests/packs") / name);
       Base base{name, Json::parse(contents(pack.folder() / capture::manifest_name)), pack.effect, {}};
       base.head["cases"] = Json::array();
       std::vector<std::string> seen;

@@ -12,6 +12,7 @@
 
 #include "base/temporary_folder.h"
 #include "fuzz/targets.h"
+#include "source_folder.h"
 
 namespace {
 // The largest block that was asked for by operator new, of this whole program.
@@ -45,7 +46,7 @@ struct Seed {
 };
 std::vector<Seed> seeds_of(const Target& target) {
   std::vector<Seed> out;
-  const std::filesystem::path folder = std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds" / target.name;
+  const std::filesystem::path folder = std::filesystem::path(rainref::test::source_folder()) / "tests/fuzz/seeds" / target.name;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) out.push_back({entry.path().filename(), contents(entry.path())});
   std::ranges::sort(out, {}, &Seed::name);
   return out;
@@ -139,7 +140,7 @@ TEST_P(Replay, ChangedSeeds) {
 // What fuzzers found in pictures, each refused now. tile_offset: OpenImageIO read before the file's bytes, which a sanitizer sees.
 TEST(ReplayFound, PicturesAreRefused) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(RAINREF_SOURCE_DIR "/tests/fuzz/found")) {
+  for (const auto& entry : std::filesystem::directory_iterator(rainref::test::source_folder() + "/tests/fuzz/found")) {
     const std::string bytes = contents(entry.path());
     EXPECT_FALSE(picture(std::as_bytes(std::span(bytes)))) << entry.path();
     ++files;

@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "rainref/executor.h"
+#include "source_folder.h"
 
 namespace rainref::golden {
 
 /// Lines that begin with this, in the file's order.
 inline std::vector<std::string> recorded(const std::string& start) {
-  std::ifstream file(RAINREF_SOURCE_DIR "/tests/golden/hashes.txt");
+  std::ifstream file(rainref::test::source_folder() + "/tests/golden/hashes.txt");
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) {
     if (line.starts_with(start)) lines.push_back(line);

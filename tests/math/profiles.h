@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/profile.h"
+#include "source_folder.h"
 
 namespace rainref::test {
 
@@ -48,7 +49,7 @@ inline enclosed::Profile read_profile(const std::string& name) {
   const std::map<std::string, StoreOverflow> overflows{
       {"\"inf\"", StoreOverflow::inf}, {"\"max\"", StoreOverflow::max}, {"\"either\"", StoreOverflow::either}};
 
-  const std::string path = std::string(RAINREF_SOURCE_DIR) + "/src/conformance/profiles/" + name + ".toml";
+  const std::string path = rainref::test::source_folder() + "/src/conformance/profiles/" + name + ".toml";
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   const std::regex top("(\\w+) = (\"\\w+\"|true|false)"), entry("(\\w+) = \\{(.*), source = \"[^\"]{4,}\"\\}");

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "math/transcendental_cases.h"
+#include "source_folder.h"
 
 namespace rainref::test {
 namespace {
@@ -358,7 +359,7 @@ TEST(TranscendentalShape, Identities) {
 
 TEST(Coefficients, AreWhatTheScriptWrites) {
   if (std::system("/usr/bin/python3 -c 'import mpmath' > /dev/null 2>&1") != 0) GTEST_SKIP() << "needs python3-mpmath";
-  const std::string root = RAINREF_SOURCE_DIR;
+  const std::string root = rainref::test::source_folder();
   std::string written;
   FILE* pipe = popen(("/usr/bin/python3 '" + root + "/scripts/make_coefficients.py'").c_str(), "r");
   ASSERT_NE(pipe, nullptr);

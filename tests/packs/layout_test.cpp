@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/support.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
@@ -27,7 +28,7 @@ class Layout : public testing::TestWithParam<const char*> {
  protected:
   Layout() {
     for (const char* variant : {"as-published", "corrected"}) {
-      const std::filesystem::path pack = fmt::format(RAINREF_SOURCE_DIR "/tests/packs/{}-{}", GetParam(), variant);
+      const std::filesystem::path pack = fmt::format("{}/tests/packs/{}-{}", rainref::test::source_folder(), GetParam(), variant);
       packs.emplace_back(pack, ordered_json::parse(contents(pack / "manifest.json")));
     }
   }

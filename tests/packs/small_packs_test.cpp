@@ -3,11 +3,12 @@
 
 #include "capture/pack_read.h"
 #include "cli/support.h"
+#include "source_folder.h"
 
 namespace rainref::cli {
 namespace {
 
-const std::filesystem::path here = RAINREF_SOURCE_DIR "/tests/packs";
+const std::filesystem::path here = rainref::test::source_folder() + "/tests/packs";
 
 std::map<std::string, std::string> files_of(const std::filesystem::path& folder) {
   std::map<std::string, std::string> out;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -216,6 +217,20 @@ TEST_P(ExecutorState, OfAHostileTaskThatThrowsDoesNotLeakEither) {
   std::atomic<int> wrong = 0;
   executor.for_range(300, 1, [&](std::int64_t, std::int64_t) { wrong += floating_point_control() != pinned_floating_point_control; });
   EXPECT_EQ(wrong, 0);
+}
+
+// What scripts/full/sanitizers would find, it finds: two tiles write one place.
+TEST(ExecutorDeathTest, TheThreadSanitizerSeesTilesThatWriteOnePlace) {
+#ifndef __SANITIZE_THREAD__
+  GTEST_SKIP() << "built without the thread sanitizer";
+#endif
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto race = [] {
+    int sum = 0;
+    Executor(2).for_range(64, 1, [&](std::int64_t begin, std::int64_t) { sum += static_cast<int>(begin); });
+    std::exit(sum == -1);
+  };
+  EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
 }
 
 }  // namespace

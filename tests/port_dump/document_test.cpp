@@ -2,11 +2,12 @@
 #include <cstdlib>
 
 #include "port_dump/support.h"
+#include "source_folder.h"
 
 namespace rainref::port_dump {
 namespace {
 
-const std::filesystem::path document = std::filesystem::path(RAINREF_SOURCE_DIR) / "docs/dumps.md";
+const std::filesystem::path document = std::filesystem::path(rainref::test::source_folder()) / "docs/dumps.md";
 
 // The first fenced block of this language.
 std::string block(const std::string& language) {

@@ -4,6 +4,7 @@
 #include "image_io/evidence.h"
 #include "image_io/write.h"
 #include "port_dump/support.h"
+#include "source_folder.h"
 
 namespace rainref::port_dump {
 namespace {
@@ -106,7 +107,7 @@ TEST(ExrDump, EveryLosslessCompression) {
     for (int i = 0; i < 20; ++i) expected.push_back(static_cast<std::uint16_t>(0x3c01 + 100 * y + i / 4 + i % 4));
   }
   for (const std::string name : {"none", "rle", "zips", "zip", "piz", "tiled"}) {
-    const std::string file = contents(std::filesystem::path(RAINREF_SOURCE_DIR) / "tests/fuzz/seeds/exr" / (name + ".exr"));
+    const std::string file = contents(std::filesystem::path(rainref::test::source_folder()) / "tests/fuzz/seeds/exr" / (name + ".exr"));
     ASSERT_NE(file, "");
     EXPECT_EQ(read("exr", file, image(Format::rgba16f, 5, 3)), values(expected)) << name;
   }

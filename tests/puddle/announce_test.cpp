@@ -11,6 +11,7 @@
 #include "puddle/info.h"
 #include "puddle/uniforms.h"
 #include "random/counter.h"
+#include "source_folder.h"
 
 namespace rainref::puddle {
 namespace {
@@ -218,7 +219,7 @@ TEST(AnnounceRain, HoldsAllThatTheDropsDependOn) {
 }
 
 TEST(EffectInfo, TheDocumentListsEveryFormula) {
-  std::ifstream file(RAINREF_SOURCE_DIR "/docs/effects/puddle.md");
+  std::ifstream file(rainref::test::source_folder() + "/docs/effects/puddle.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const capture::PassInfo& pass : effect_info().passes) {
     for (const capture::PassVariant& v : pass.variants) {

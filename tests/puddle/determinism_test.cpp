@@ -14,6 +14,7 @@
 #include "puddle/kernels.h"
 #include "puddle/plain.h"
 #include "rainref/puddle.h"
+#include "settings.h"
 
 namespace rainref::puddle {
 namespace {
@@ -38,7 +39,7 @@ Surroundings surroundings() {
 }
 
 Settings settings(Variant variant, int width, Format storage = Format::rg16f) {
-  Settings s;
+  Settings s = test::puddle_settings();
   s.variant = variant;
   s.storage = storage;
   s.width = width;

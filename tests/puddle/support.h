@@ -19,6 +19,7 @@
 #include "puddle/oracle.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
+#include "settings.h"
 
 namespace rainref::puddle {
 
@@ -38,7 +39,7 @@ inline Surroundings tiny_surroundings() {
 }
 
 inline Settings no_rain(Variant variant, int width, int height) {
-  Settings s;
+  Settings s = test::puddle_settings();
   s.variant = variant;
   s.width = variant == Variant::as_published ? width : 8;
   s.height = variant == Variant::as_published ? height : 6;

@@ -15,6 +15,7 @@
 #include "rainy_glass/host.h"
 #include "rainy_glass/kernels.h"
 #include "rainy_glass/plain.h"
+#include "settings.h"
 
 namespace rainref::rainy_glass::test {
 
@@ -29,7 +30,7 @@ inline const parallel::Executor& executor() {
 }
 
 inline Settings settings(Variant variant, int width, int height) {
-  Settings s;
+  Settings s = test::rainy_glass_settings();
   s.variant = variant;
   s.width = width;
   s.height = height;
@@ -89,7 +90,7 @@ inline std::vector<float> texels(const Image& map) {
 
 /// One pixel of corrected or published glass before chosen maps, in double, from the middle of a picture of 101 x 101.
 struct Pixel {
-  Settings settings;
+  Settings settings = test::rainy_glass_settings();
   TextureData raindrops, rivulets, scene, near;
   RainOnGlassUniforms uniforms{};
   scalar::GlassPixel<Double> at{};

@@ -13,6 +13,7 @@
 #include "rainref/executor.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
+#include "settings.h"
 
 namespace rainref::screen_drops {
 
@@ -26,7 +27,7 @@ inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     const auto add = [&](Rounding rounding, bool other, const std::string& what) {
-      Settings s;
+      Settings s = test::screen_drops_settings();
       s.variant = variant;
       s.rounding = rounding;
       s.width = 97;

@@ -25,6 +25,7 @@ std::string text_of(const fs::path& file) {
 const std::set<std::string> computes_nothing{"version",
                                              "info",
                                              "format_from_name",
+                                             "default_settings",
                                              "nearest_name",
                                              "did_you_mean",
                                              "Error::Error",

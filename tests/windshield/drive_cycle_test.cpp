@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "windshield/support.h"
+#include "source_folder.h"
 
 namespace rainref::windshield {
 namespace {
 
-const std::string cycles = RAINREF_SOURCE_DIR "/scenes/windshield/cycles/";
+const std::string cycles = rainref::test::source_folder() + "/scenes/windshield/cycles/";
 using testing::HasSubstr;
 
 /// What is published of a cycle, to the digits that were; of the NEDC the distances of its parts, which its own operations pass by 6 m.

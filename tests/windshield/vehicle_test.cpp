@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "windshield/support.h"
+#include "source_folder.h"
 
 namespace rainref::windshield {
 namespace {
@@ -63,7 +64,7 @@ TEST(Vehicle, TwoTablesAreRefused) {
 
 TEST(Vehicle, ADriveCycleDrives) {
   VehicleSettings settings;
-  settings.drive_cycle = RAINREF_SOURCE_DIR "/scenes/windshield/cycles/us06.csv";
+  settings.drive_cycle = rainref::test::source_folder() + "/scenes/windshield/cycles/us06.csv";
   const Vehicle car(settings);
   EXPECT_NEAR(car.at(600).distance, 12887.6, 0.05);
   double most = 0, least = 0;

@@ -1,0 +1,40 @@
+#include "parallel/pool.h"
+
+#ifndef RAINREF_PLAIN_THREADS
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace rainref::parallel {
+
+struct Executor::Pool::Threads {
+  oneapi::tbb::task_arena arena;
+};
+
+Executor::Pool::Pool(int threads)
+    : threads_(new Threads{oneapi::tbb::task_arena(threads == 0 ? oneapi::tbb::info::default_concurrency() : threads)}) {
+  // The scheduler starts no more workers than the machine has processors unless told to, and a proof over 8 threads on
+  // 2 processors needs 8. One limit for the process: of several, the smallest would hold for every pool.
+  static const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, max_threads);
+  threads_->arena.initialize();
+}
+Executor::Pool::~Pool() = default;
+
+int Executor::Pool::threads() const { return threads_->arena.max_concurrency(); }
+
+void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body) const {
+  threads_->arena.execute([&] {
+    oneapi::tbb::parallel_for(
+        oneapi::tbb::blocked_range<std::int64_t>(0, count, 1),
+        [&](const oneapi::tbb::blocked_range<std::int64_t>& range) {
+          for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
+        },
+        oneapi::tbb::simple_partitioner());
+  });
+}
+
+}  // namespace rainref::parallel
+#endif
