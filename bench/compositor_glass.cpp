@@ -44,20 +44,20 @@ void picture(benchmark::State& state, double radius, const std::string& embree_c
     const PrimaryRays primary(view.camera(), width, height);
     const double street = bench::seconds_of([&] {
       executor.for_tiles(width, height, 64, 16, [&](const parallel::Tile& tile) {
-        Columns<7> sights;
+        Columns<7> escaped_rays;
         const auto count = static_cast<std::size_t>(tile.x1 - tile.x0) * static_cast<std::size_t>(tile.y1 - tile.y0);
-        sights.make_room(count);
+        escaped_rays.make_room(count);
         std::size_t filled = 0;
         for (int y = tile.y0; y < tile.y1; ++y) {
           for (int x = tile.x0; x < tile.x1; ++x, ++filled) {
             const Ray ray = primary.through(x + 0.5, y + 0.5);
             const double length = __builtin_sqrt(dot(ray.direction, ray.direction));
-            sights.vectors(0).put(filled, view.camera().position + 2.0 * ray.direction);
-            sights.vectors(3).put(filled, ray.direction / length);
+            escaped_rays.vectors(0).put(filled, view.camera().position + 2.0 * ray.direction);
+            escaped_rays.vectors(3).put(filled, ray.direction / length);
           }
         }
         std::vector<Vec> radiance(count);
-        scene->environment().radiance({count, sights.vectors(0), sights.vectors(3), sights[6]}, radiance);
+        scene->environment().radiance({count, escaped_rays.vectors(0), escaped_rays.vectors(3), escaped_rays[6]}, radiance);
         benchmark::DoNotOptimize(radiance.data());
       });
     });

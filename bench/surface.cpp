@@ -49,7 +49,7 @@ std::vector<drops::Drop> drops_of(std::int64_t count, double mass) {
   }
   return all;
 }
-/// One drop after another, one texel after another, by the plain reading.
+/// One drop after another, one texel after another, by the scalar evaluation.
 void naive(const drops::SplatUniforms& u, std::span<const drops::Drop> all, Image& height) {
   using F = drops::scalar::Plain<float>;
   for (int y = 0; y < side; ++y) std::fill_n(height.row<Half>(y), side, Half{0});
@@ -99,7 +99,7 @@ void splat(benchmark::State& state, bool corrected, std::int64_t count, int thre
   // In one band, which is the loop over all drops, or cut as the pass is, whichever is the faster.
   const auto one_thread_in = [&](drops::Bands bands) { return best_of(goes, [&] { serial(u, half, bands, all, other, own); }); };
   const double one_thread = std::min(one_thread_in({side, 1}), one_thread_in(drops::splat_bands(side)));
-  // The plain reading is the definition, and what a straightforward program does.
+  // The scalar evaluation is the definition, and what a straightforward program does.
   const double plain = half ? best_of(count > 100000 ? 1 : 3, [&] { naive(u, all, other); }) : 0;
   double best = 1e9;
   for (auto _ : state) {
@@ -111,7 +111,7 @@ void splat(benchmark::State& state, bool corrected, std::int64_t count, int thre
   state.counters["x_serial"] = one_thread / best;
   if (half) state.counters["x_naive"] = plain / best;
   state.SetLabel(hash(height));
-  if (half && hash(height) != hash(other)) state.SkipWithError("the plain reading gives other bits");
+  if (half && hash(height) != hash(other)) state.SkipWithError("the scalar evaluation gives other bits");
 }
 
 // ---- passes over whole textures --------------------------------------------------------------------------------------------

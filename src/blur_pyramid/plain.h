@@ -1,4 +1,4 @@
-// The scalar readings of blur_pyramid, in a namespace of their own, so that argument types of this room do not pull them
+// The scalar evaluations of blur_pyramid, in a namespace of their own, so that argument types of this room do not pull them
 // into the lanes.
 #pragma once
 

@@ -26,7 +26,7 @@ struct FieldRange {
   double low, high;
 };
 
-/// Groups of records that share decisions: a drop that another one captures is in the group of its captor, so that the
+/// Groups of records that share decisions: a drop that another one captures is in the group of its absorber, so that the
 /// two agree on what happened. Most groups hold one id. Evaluation is thread-safe.
 class KeyedModel {
  public:
@@ -34,13 +34,13 @@ class KeyedModel {
   virtual int groups() const = 0;
   /// Of every float member: what the widths of its envelopes are compared with.
   virtual const std::vector<FieldRange>& ranges() const = 0;
-  /// Appends a record for every id that the group may give, under the profile and replay in force; the same ids in
+  /// Appends a record for every id that the group may give, under the profile and the enumeration in force; the same ids in
   /// every alternative. No id is in two groups.
   virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;
-  /// The bytes of the whole list, in any order: what the reference gives, and what Deviants give under the behaviour in
-  /// force (deviant.h). Nothing where the model cannot say.
+  /// The bytes of the whole list, in any order: what the reference gives, and what Perturbeds give under the behaviour in
+  /// force (perturbed.h). Nothing where the model cannot say.
   virtual std::optional<std::vector<std::byte>> reference() const { return std::nullopt; }
-  virtual std::optional<std::vector<std::byte>> deviant() const { return std::nullopt; }
+  virtual std::optional<std::vector<std::byte>> perturbed() const { return std::nullopt; }
 };
 
 }  // namespace rainref::capture

@@ -10,7 +10,7 @@
 
 #include "capture/keyed_model.h"
 #include "capture/pass_case.h"
-#include "math/deviant.h"
+#include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
 
@@ -28,8 +28,8 @@ class PassModel {
 
   virtual void evaluate(int x, int y, plain::Plain<float>* out) const = 0;
   virtual void evaluate(int x, int y, plain::Plain<double>* out) const = 0;
-  virtual void evaluate(int x, int y, deviant::Deviant* out) const = 0;
-  /// Under the profile and replay in force. `port` holds the values that the port stored for this invocation: a pass
+  virtual void evaluate(int x, int y, perturbed::Perturbed* out) const = 0;
+  /// Under the profile and the enumeration in force. `port` holds the values that the port stored for this invocation: a pass
   /// whose result is judged by what it must satisfy (a march by the gap at its end) may take them, others do not.
   virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
   /// Whether enclose() depends on `port`.
@@ -55,7 +55,7 @@ class ModelOf : public PassModel {
   explicit ModelOf(Pass pass) : PassModel(pass.width, pass.height, pass.values), pass_(std::move(pass)) {}
   void evaluate(int x, int y, plain::Plain<float>* out) const override { pass_(x, y, out); }
   void evaluate(int x, int y, plain::Plain<double>* out) const override { pass_(x, y, out); }
-  void evaluate(int x, int y, deviant::Deviant* out) const override { pass_(x, y, out); }
+  void evaluate(int x, int y, perturbed::Perturbed* out) const override { pass_(x, y, out); }
   void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { pass_(x, y, out); }
 
  protected:
@@ -75,7 +75,7 @@ class ListPass : public PassModel {
   ListPass(std::string output, std::unique_ptr<KeyedModel> list) : PassModel(0, 0, 0), output_(std::move(output)), list_(std::move(list)) {}
   void evaluate(int, int, plain::Plain<float>*) const override {}
   void evaluate(int, int, plain::Plain<double>*) const override {}
-  void evaluate(int, int, deviant::Deviant*) const override {}
+  void evaluate(int, int, perturbed::Perturbed*) const override {}
   void enclose(int, int, const float*, enclosed::Enclosure*) const override {}
   const KeyedModel* keyed(std::string_view output) const override { return output == output_ ? list_.get() : nullptr; }
 
@@ -85,7 +85,7 @@ class ListPass : public PassModel {
 };
 
 /// How an effect offers its passes to be judged.
-struct PassReadings {
+struct PassEvaluations {
   std::string pass;
   /// Null where no output is judged by envelope.
   /// Throws Error(port_files) when the case lacks an input or has one of another shape.

@@ -13,7 +13,9 @@ Rotation::Rotation(double angle) : cosine(cos_real(Real64(angle)).v), sine(sin_r
 PictureEnvironment::PictureEnvironment(const Texture& texture, bool is_cube, const Rotation& rotation)
     : texture_(&texture), is_cube_(is_cube), rotation_(rotation) {}
 
-void PictureEnvironment::radiance(const Sights& sights, std::span<Vec> out) const { look_up(*texture_, is_cube_, rotation_, sights, out); }
+void PictureEnvironment::radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const {
+  look_up(*texture_, is_cube_, rotation_, escaped_rays, out);
+}
 
 StreetEnvironment::StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama,
                                      const Rotation& rotation)
@@ -26,27 +28,27 @@ Vec above_road(const Vec& p) { return {p.x, p.y < 0.001 ? 0.001 : p.y, p.z}; }
 
 }  // namespace
 
-void StreetEnvironment::radiance(const Sights& sights, std::span<Vec> out) const {
+void StreetEnvironment::radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const {
   // Room for the blurred ones, kept by each thread for its next call.
   static thread_local Columns<7> blurred;
   static thread_local std::vector<std::size_t> which;
   static thread_local std::vector<Vec> seen;
   which.clear();
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    const Sight sight = sights[i];
-    if (sight.blur > 0)
+  for (std::size_t i = 0; i < escaped_rays.size(); ++i) {
+    const EscapedRay escaped_ray = escaped_rays[i];
+    if (escaped_ray.blur > 0)
       which.push_back(i);
     else
-      out[i] = street_->radiance(above_road(rotation_.apply(sight.origin) + offset_), rotation_.apply(sight.direction));
+      out[i] = street_->radiance(above_road(rotation_.apply(escaped_ray.origin) + offset_), rotation_.apply(escaped_ray.direction));
   }
   if (which.empty()) return;
   const std::size_t count = which.size(), whole = whole_lanes(count);
   blurred.make_room(whole);
   for (std::size_t k = 0; k < whole; ++k) {
-    const Sight sight = sights[which[std::min(k, count - 1)]];
-    blurred.vectors(0).put(k, sight.origin);
-    blurred.vectors(3).put(k, rotation_.apply(sight.direction));
-    blurred[6][k] = sight.blur;
+    const EscapedRay escaped_ray = escaped_rays[which[std::min(k, count - 1)]];
+    blurred.vectors(0).put(k, escaped_ray.origin);
+    blurred.vectors(3).put(k, rotation_.apply(escaped_ray.direction));
+    blurred[6][k] = escaped_ray.blur;
   }
   seen.resize(count);
   panorama_.radiance({count, blurred.vectors(0), blurred.vectors(3), blurred[6]}, seen);

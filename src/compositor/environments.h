@@ -19,7 +19,7 @@ class PictureEnvironment : public Environment {
  public:
   /// The texture must outlive this.
   PictureEnvironment(const Texture& texture, bool is_cube, const Rotation& rotation = Rotation());
-  void radiance(const Sights& sights, std::span<Vec> radiance) const override;
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> radiance) const override;
 
  private:
   const Texture* texture_;
@@ -27,13 +27,13 @@ class PictureEnvironment : public Environment {
   Rotation rotation_;
 };
 
-/// The street at night: a sharp sight is a ray of its own from where it begins, `offset` [m] being the place of the
+/// The street at night: a sharp escaped_ray is a ray of its own from where it begins, `offset` [m] being the place of the
 /// scene's origin in the street; a blurred one is looked up in the panorama.
 class StreetEnvironment : public Environment {
  public:
   /// Street and panorama (latitude/longitude with mips, linear) must outlive this.
   StreetEnvironment(const night_street::Street& street, const Vec& offset, const Texture& panorama, const Rotation& rotation = Rotation());
-  void radiance(const Sights& sights, std::span<Vec> radiance) const override;
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> radiance) const override;
 
  private:
   const night_street::Street* street_;

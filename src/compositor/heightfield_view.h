@@ -28,7 +28,7 @@ struct HeightfieldTile {
 /// Meets the tile with the lanes' rays, as Surface::meet_packet says. Parts are 2 cell + (1 on the side of the fourth
 /// vertex).
 std::uint32_t meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, std::uint32_t lanes, Packet& packet);
-/// The same for one ray, by the plain reading.
+/// The same for one ray, by the scalar evaluation.
 void meet_tile(const HeightfieldView& field, const HeightfieldTile& tile, std::uint32_t self, const Ray& ray, Hit& first);
 
 /// Writes `highest` of the tile, and its low and high. bounds: x0, x1, y0, y1 given.

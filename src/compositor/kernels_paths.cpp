@@ -153,7 +153,7 @@ RAINREF_EXPORT(CrossInterfaces);
 RAINREF_EXPORT(LeaveFinishes);
 
 void measure(std::size_t count, const VecArrays& vectors, double* lengths) { RAINREF_DISPATCH(Measure)(count, vectors, lengths); }
-void gaze(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur) {
+void collect_escaped(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur) {
   RAINREF_DISPATCH(Gaze)(list, origin, direction, blur);
 }
 void arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalColumns& arrivals, const VecArraysOut& added) {

@@ -1,4 +1,4 @@
-// The double reading of the optics that every pass uses: the same text, no second formula.
+// The double evaluation of the optics that every pass uses: the same text, no second formula.
 #pragma once
 
 #include "compositor/surface.h"

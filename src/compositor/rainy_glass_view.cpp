@@ -109,10 +109,11 @@ class Foreground {
 class Outside : public Environment {
  public:
   explicit Outside(const RainyGlassView& view) : view_(view), outward_(view.pane().normal(0)) {}
-  void radiance(const Sights& sights, std::span<Vec> out) const override {
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
     // The room is dark.
-    for (std::size_t i = 0; i < sights.size(); ++i)
-      out[i] = dot(sights[i].direction, outward_) > 0 ? view_.met(sights[i].origin, sights[i].direction).radiance : Vec(0, 0, 0);
+    for (std::size_t i = 0; i < escaped_rays.size(); ++i)
+      out[i] = dot(escaped_rays[i].direction, outward_) > 0 ? view_.met(escaped_rays[i].origin, escaped_rays[i].direction).radiance
+                                                            : Vec(0, 0, 0);
   }
 
  private:

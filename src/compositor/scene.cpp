@@ -20,13 +20,13 @@ class OpaqueFunction : public Opaque {
 
 class EnvironmentFunction : public Environment {
  public:
-  explicit EnvironmentFunction(std::function<Vec(const Sight&)> radiance) : radiance_(std::move(radiance)) {}
-  void radiance(const Sights& sights, std::span<Vec> out) const override {
-    for (std::size_t i = 0; i < sights.size(); ++i) out[i] = radiance_(sights[i]);
+  explicit EnvironmentFunction(std::function<Vec(const EscapedRay&)> radiance) : radiance_(std::move(radiance)) {}
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
+    for (std::size_t i = 0; i < escaped_rays.size(); ++i) out[i] = radiance_(escaped_rays[i]);
   }
 
  private:
-  std::function<Vec(const Sight&)> radiance_;
+  std::function<Vec(const EscapedRay&)> radiance_;
 };
 
 }  // namespace
@@ -63,7 +63,7 @@ std::shared_ptr<const Opaque> emitter(const Vec& radiance) {
   });
 }
 
-std::shared_ptr<const Environment> environment_of(std::function<Vec(const Sight&)> radiance) {
+std::shared_ptr<const Environment> environment_of(std::function<Vec(const EscapedRay&)> radiance) {
   return std::make_shared<EnvironmentFunction>(std::move(radiance));
 }
 

@@ -109,26 +109,26 @@ std::shared_ptr<const Opaque> diffuse(const Vec& albedo, const Vec& light);
 std::shared_ptr<const Opaque> emitter(const Vec& radiance);
 
 /// A ray that left everything behind.
-struct Sight {
+struct EscapedRay {
   Vec origin, direction;  ///< direction unit
   double blur = 0;        ///< mip level: 0 sharp, each level twice as wide
 };
-/// Sights component by component. Arrays go on to whole lanes, repeating the last one.
-struct Sights {
+/// EscapedRays component by component. Arrays go on to whole lanes, repeating the last one.
+struct EscapedRays {
   std::size_t count;
   VecArrays origin, direction;
   const double* blur;
   std::size_t size() const { return count; }
-  Sight operator[](std::size_t i) const { return {origin[i], direction[i], blur[i]}; }
+  EscapedRay operator[](std::size_t i) const { return {origin[i], direction[i], blur[i]}; }
 };
 class Environment {
  public:
   virtual ~Environment() = default;
-  /// radiance[i] is what arrives along sights[i]. From several threads at once; a pure function of each sight.
-  virtual void radiance(const Sights& sights, std::span<Vec> radiance) const = 0;
+  /// radiance[i] is what arrives along escaped_rays[i]. From several threads at once; a pure function of each escaped_ray.
+  virtual void radiance(const EscapedRays& escaped_rays, std::span<Vec> radiance) const = 0;
 };
-/// Surroundings by a function of one sight.
-std::shared_ptr<const Environment> environment_of(std::function<Vec(const Sight&)> radiance);
+/// Surroundings by a function of one escaped_ray.
+std::shared_ptr<const Environment> environment_of(std::function<Vec(const EscapedRay&)> radiance);
 
 /// Surfaces with their materials, within surroundings.
 class Scene {

@@ -38,8 +38,8 @@ PaneShape shape_of(const screen_drops::Settings& s, const scene::Camera::Basis& 
 class Outside : public Environment {
  public:
   explicit Outside(const ScreenDropsView& view) : view_(view) {}
-  void radiance(const Sights& sights, std::span<Vec> out) const override {
-    for (std::size_t i = 0; i < sights.size(); ++i) out[i] = view_.radiance(sights[i].direction);
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
+    for (std::size_t i = 0; i < escaped_rays.size(); ++i) out[i] = view_.radiance(escaped_rays[i].direction);
   }
 
  private:

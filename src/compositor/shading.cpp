@@ -57,7 +57,7 @@ class Generations {
       next_->columns.make_room(2 * n);
       make_room(next_->paths, 2 * n);
       next_->count = 0;
-      room_.sights.make_room(3 * n);
+      room_.escaped_rays.make_room(3 * n);
       room_.terms.make_room(room_.batches.slots());
       room_.children.assign(room_.batches.slots(), {nowhere, nowhere});
       for (const PathBatches::Batch& batch : room_.batches.batches()) {
@@ -131,10 +131,10 @@ class Generations {
     }
   }
 
-  /// The first of all batches: a ray's sight has the number of its slot.
+  /// The first of all batches: a ray's escaped_ray has the number of its slot.
   void leave_for_surroundings(const PathBatches::Batch& batch) {
-    gaze(list_of(batch), room_.sights.vectors(0), room_.sights.vectors(3), room_.sights[6]);
-    room_.sight_count = batch.count;
+    collect_escaped(list_of(batch), room_.escaped_rays.vectors(0), room_.escaped_rays.vectors(3), room_.escaped_rays[6]);
+    room_.escaped_count = batch.count;
     room_.cut_share.clear();
   }
 
@@ -197,10 +197,10 @@ class Generations {
       const double share = std::max(weight.component[0][k], std::max(weight.component[1][k], weight.component[2][k]));
       if (!(share > 0)) continue;
       if (depth_ >= options_.depth || share < options_.least_weight) {
-        children[k][which] = is_sight | static_cast<std::uint32_t>(room_.sight_count);
-        room_.sights.vectors(0).put(room_.sight_count, from.origin()[begin + k]);
-        room_.sights.vectors(3).put(room_.sight_count, from.direction()[begin + k]);
-        room_.sights[6][room_.sight_count++] = from.blur()[begin + k];
+        children[k][which] = has_escaped | static_cast<std::uint32_t>(room_.escaped_count);
+        room_.escaped_rays.vectors(0).put(room_.escaped_count, from.origin()[begin + k]);
+        room_.escaped_rays.vectors(3).put(room_.escaped_count, from.direction()[begin + k]);
+        room_.escaped_rays[6][room_.escaped_count++] = from.blur()[begin + k];
         room_.cut_share.push_back(weight[k]);
         continue;
       }
@@ -226,13 +226,13 @@ class Generations {
   }
 
   void look_around() {
-    const std::size_t n = room_.sight_count;
+    const std::size_t n = room_.escaped_count;
     make_room(room_.arrived, n);
     if (n == 0) return;
     for (std::size_t k = n; k < whole_lanes(n); ++k) {
-      for (int c = 0; c < 7; ++c) room_.sights[c][k] = room_.sights[c][n - 1];
+      for (int c = 0; c < 7; ++c) room_.escaped_rays[c][k] = room_.escaped_rays[c][n - 1];
     }
-    scene_.environment().radiance({n, room_.sights.vectors(0), room_.sights.vectors(3), room_.sights[6]},
+    scene_.environment().radiance({n, room_.escaped_rays.vectors(0), room_.escaped_rays.vectors(3), room_.escaped_rays[6]},
                                   std::span(room_.arrived).first(n));
   }
 
@@ -254,8 +254,8 @@ class Generations {
         sum += sent[slot];
         for (const std::uint32_t child : room_.children[slot]) {
           if (child == nowhere) continue;
-          if (child & is_sight)
-            sum += cut_share[(child ^ is_sight) - escaped] * arrived[child ^ is_sight];
+          if (child & has_escaped)
+            sum += cut_share[(child ^ has_escaped) - escaped] * arrived[child ^ has_escaped];
           else
             *next++ = child;
         }

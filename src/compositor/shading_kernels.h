@@ -11,7 +11,7 @@
 namespace rainref::compositor {
 
 /// PictureEnvironment::radiance.
-void look_up(const Texture& texture, bool is_cube, const Rotation& rotation, const Sights& sights, std::span<Vec> radiance);
+void look_up(const Texture& texture, bool is_cube, const Rotation& rotation, const EscapedRays& escaped_rays, std::span<Vec> radiance);
 
 /// PuddleGround::finish. `slopes` are the normals of the ground under the places; null where it is level.
 void finish_ground(const GroundLook& look, const Places& places, const VecArrays* slopes, const Finishes& finishes);
@@ -26,8 +26,8 @@ struct RayList {
 
 /// The lengths of vectors.
 void measure(std::size_t count, const VecArrays& vectors, double* lengths);
-/// The rays as sights.
-void gaze(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur);
+/// The rays as escaped_rays.
+void collect_escaped(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur);
 /// Where the rays met a surface, arrivals.normal() being known, and through `medium`: what is left of their weights, and what it added to
 /// their pixels.
 void arrive(const RayList& list, const Hit* hits, const Medium& medium, ArrivalColumns& arrivals, const VecArraysOut& added);

@@ -9,8 +9,8 @@
 
 namespace rainref::compositor {
 
-/// Where a ray leads: nowhere, to a sight, or to a ray of the next generation.
-inline constexpr std::uint32_t nowhere = ~std::uint32_t{0}, is_sight = std::uint32_t{1} << 31;
+/// Where a ray leads: nowhere, to a escaped_ray, or to a ray of the next generation.
+inline constexpr std::uint32_t nowhere = ~std::uint32_t{0}, has_escaped = std::uint32_t{1} << 31;
 
 struct Rays {
   RayColumns columns;
@@ -37,8 +37,8 @@ struct ShadingRoom {
   RayColumns refracted;
   std::vector<std::uint32_t> kept;
   // Of a generation: what met nothing, and then what was cut off, with its share in the pixel.
-  Columns<7> sights;
-  std::size_t sight_count = 0;
+  Columns<7> escaped_rays;
+  std::size_t escaped_count = 0;
   std::vector<Vec> cut_share, arrived;
 };
 

@@ -23,19 +23,19 @@ class Outside : public Environment {
   Outside(const WindshieldView& view, double distance)
       : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)), outward_(view.pane().normal(0.5)) {}
 
-  void radiance(const Sights& sights, std::span<Vec> out) const override {
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
     const windshield::Settings& s = view_.settings();
     const Vec cabin = vec(s.picture.cabin), fog = vec(s.blur.fog_colour);
-    for (std::size_t i = 0; i < sights.size(); ++i) {
-      const Sight sight = sights[i];
+    for (std::size_t i = 0; i < escaped_rays.size(); ++i) {
+      const EscapedRay escaped_ray = escaped_rays[i];
       // A ray that was cut off at the inner face looks out as if nothing followed.
-      const bool is_inside = view_.pane().coordinates(sight.origin).lift < -1.001 * view_.pane().shape().thickness;
-      if (is_inside || dot(sight.direction, outward_) <= 0) {
+      const bool is_inside = view_.pane().coordinates(escaped_ray.origin).lift < -1.001 * view_.pane().shape().thickness;
+      if (is_inside || dot(escaped_ray.direction, outward_) <= 0) {
         out[i] = cabin;
         continue;
       }
       const night_street::Street::Sight seen =
-          view_.street().look(place_ + windshield::in_street(sight.origin), windshield::in_street(sight.direction));
+          view_.street().look(place_ + windshield::in_street(escaped_ray.origin), windshield::in_street(escaped_ray.direction));
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
       out[i] = (1 - clear) * fog + clear * seen.radiance;

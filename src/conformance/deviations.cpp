@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "conformance/list_slips.h"
-#include "conformance/output_slips.h"
+#include "conformance/list_faults.h"
+#include "conformance/output_faults.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -19,20 +19,20 @@ using capture::CaseInput;
 using capture::PassCase;
 
 /// What a GPU may do without being wrong: still the best explanation of a difference.
-bool is_legal(deviant::Slip s) {
-  using deviant::Slip;
-  return s == Slip::fused || s == Slip::reciprocal_division || s == Slip::root_by_inverse || s == Slip::flushed ||
-         s == Slip::mix_by_difference || s == Slip::sum_backwards || s == Slip::sum_otherwise_paired || s == Slip::division_by_estimate ||
-         s == Slip::weights_of_8_bits;
+bool is_legal(perturbed::Fault s) {
+  using perturbed::Fault;
+  return s == Fault::fused || s == Fault::reciprocal_division || s == Fault::root_by_inverse || s == Fault::flushed ||
+         s == Fault::mix_by_difference || s == Fault::sum_backwards || s == Fault::sum_otherwise_paired ||
+         s == Fault::division_by_estimate || s == Fault::weights_of_8_bits;
 }
 
-void add_slips(std::vector<Deviation>& out) {
-  for (const deviant::SlipInfo& s : deviant::slips()) {
+void add_faults(std::vector<Deviation>& out) {
+  for (const perturbed::FaultInfo& s : perturbed::faults()) {
     Deviation d;
     d.name = s.name;
     d.sentence = s.sentence;
-    d.behaviour.slip = s.slip;
-    d.legal = is_legal(s.slip);
+    d.behaviour.fault = s.fault;
+    d.legal = is_legal(s.fault);
     out.push_back(std::move(d));
   }
 }
@@ -59,10 +59,10 @@ void add_constants(std::vector<Deviation>& out, const PassCase& c, const capture
   std::vector<float> met;
   constexpr int probes = 8;
   if (model.width() > 0) {
-    deviant::Behaviour collecting;
+    perturbed::Behaviour collecting;
     collecting.constants = &met;
-    const deviant::Scope scope(collecting);
-    std::vector<deviant::Deviant> unused(static_cast<std::size_t>(model.values()));
+    const perturbed::Scope scope(collecting);
+    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
     for (int j = 0; j < probes; ++j)
       for (int i = 0; i < probes; ++i) {
         model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
@@ -77,7 +77,7 @@ void add_constants(std::vector<Deviation>& out, const PassCase& c, const capture
       Deviation d;
       d.name = fmt::format("constant {} {}", value, what);
       d.sentence = fmt::format("a literal or uniform of value {} is {}", value, replacement);
-      d.behaviour.slip = deviant::Slip::constant;
+      d.behaviour.fault = perturbed::Fault::constant;
       d.behaviour.constant = value;
       d.behaviour.replacement = replacement;
       d.for_diagnosis = for_diagnosis;
@@ -228,10 +228,10 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
 std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model,
                                      const PassCase* before) {
   std::vector<Deviation> all;
-  add_output_slips(all, c, before);
-  add_list_slips(all, c, before);
+  add_output_faults(all, c, before);
+  add_list_faults(all, c, before);
   add_stores(all, c);
-  add_slips(all);
+  add_faults(all);
   add_inputs(all, c, before);
   add_uniforms(all, pass, before);
   add_constants(all, c, model);
@@ -260,8 +260,8 @@ void DeviatedPass::store(Texel at, std::vector<Array>& out) const {
     }
     return;
   }
-  const deviant::Scope scope(deviation_.behaviour);
-  std::vector<deviant::Deviant> values(slots_.size());
+  const perturbed::Scope scope(deviation_.behaviour);
+  std::vector<perturbed::Perturbed> values(slots_.size());
   (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];

@@ -1,4 +1,4 @@
-// The named deviations: realistic mistakes of a port, made on the reference reading rather than in copies of a pass.
+// The named deviations: realistic mistakes of a port, made on the reference evaluation rather than in copies of a pass.
 // `mutate` asks which of them a pack would catch; the diagnosis asks which of them gives a port's failing bits.
 #pragma once
 
@@ -28,7 +28,7 @@ struct ListEdit {
 
 struct Deviation {
   std::string name, sentence;
-  deviant::Behaviour behaviour;                        ///< what the arithmetic does
+  perturbed::Behaviour behaviour;                      ///< what the arithmetic does
   std::function<void(capture::PassCase&)> alter_case;  ///< what the pass takes; null: as captured
   std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)>
       alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated

@@ -1,4 +1,4 @@
-// Hypothesis replay: which single deviation stores the bits that a port stored where it fails.
+// Hypotheses tried: which single deviation stores the bits that a port stored where it fails.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -6,7 +6,7 @@
 #include "conformance/judge.h"
 #include "conformance/validate.h"
 #include "image/code_range.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -75,8 +75,8 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
     for (std::size_t v = 0; v < slots.size(); ++v)
       stored[v] = stored_value(slots[v], slots[v].at(reference[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
     std::vector<double>& widths = out.values.emplace_back(slots.size(), 0.0);
-    enclosed::Replay replay;
-    replay.for_each_alternative([&] {
+    enclosed::PathEnumeration paths;
+    paths.for_each_alternative([&] {
       model.enclose(t.x, t.y, stored.data(), values.data());
       // A bound that is hardly one would let everything count as near.
       for (std::size_t v = 0; v < slots.size(); ++v)

@@ -1,4 +1,4 @@
-// Hypothesis replay for lists matched by id: which single mistake gives the records that a port stored.
+// Hypotheses tried for lists matched by id: which single mistake gives the records that a port stored.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -7,9 +7,9 @@
 #include <set>
 
 #include "conformance/keyed.h"
-#include "conformance/list_slips.h"
+#include "conformance/list_faults.h"
 #include "conformance/validate.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -67,9 +67,9 @@ void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, cons
   const std::vector<double> extents = extents_of(record, *model);
   const enclosed::ProfileScope scope(profile);
   for (int group = 0; group < model->groups(); ++group) {
-    enclosed::Replay replay;
+    enclosed::PathEnumeration paths;
     std::vector<capture::KeyedRecord> records;
-    replay.for_each_alternative([&] {
+    paths.for_each_alternative([&] {
       records.clear();
       model->enclose(group, records);
       for (const capture::KeyedRecord& r : records)
@@ -108,8 +108,8 @@ Match compare(const Records& guess, const Records& got, const std::vector<Word>&
 std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
                                   const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
                                   const parallel::Executor& executor) {
-  const capture::PassReadings* readings = readings_of(c.effect, c.pass);
-  if (!readings) return {};
+  const capture::PassEvaluations* evaluations = evaluations_of(c.effect, c.pass);
+  if (!evaluations) return {};
   const capture::ListPass no_model("", nullptr);
   if (!model) model = &no_model;
   std::vector<Cause> found;
@@ -136,7 +136,7 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
         Cause& cause = causes[static_cast<std::size_t>(k)];
         cause = {d.name, d.sentence, 0, static_cast<std::int64_t>(at.size()), 0, true};
         try {
-          const std::optional<Array> list = deviated_list(d, c, o, *readings, model, reference, at, &stored);
+          const std::optional<Array> list = deviated_list(d, c, o, *evaluations, model, reference, at, &stored);
           if (!list) continue;
           const ById guess = by_id(*list);
           for (const std::uint32_t id : at) {

@@ -10,7 +10,7 @@
 #include "conformance/keyed.h"
 #include "conformance/slots.h"
 #include "conformance/widths.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -43,7 +43,7 @@ enclosed::Profile narrowed(const enclosed::Profile& profile, HalfMode mode) {
 
 /// Every alternative of an invocation.
 struct Alternatives {
-  std::array<std::vector<Enclosure>, enclosed::Replay::max_runs> values;
+  std::array<std::vector<Enclosure>, enclosed::PathEnumeration::max_runs> values;
   int count = 0;
   bool gave_up = false;
 
@@ -56,9 +56,9 @@ struct Alternatives {
   }
   void run(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
     const enclosed::ProfileScope scope(profile);
-    enclosed::Replay replay;
+    enclosed::PathEnumeration paths;
     count = 0;
-    gave_up = !replay.for_each_alternative([&] {
+    gave_up = !paths.for_each_alternative([&] {
       std::vector<Enclosure>& out = values[static_cast<std::size_t>(count++)];
       out.assign(static_cast<std::size_t>(model.values()), Enclosure());
       model.enclose(x, y, port, out.data());
@@ -449,7 +449,7 @@ ModeJudgements judge_case(const PassCase& c, const PassModel* model, const std::
     result.modes = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
 
   const bool enveloped = !slots_of(c).empty();
-  if (enveloped && !model) throw Error(ExitCode::internal, fmt::format("{}: no reading of this pass", c.pass));
+  if (enveloped && !model) throw Error(ExitCode::internal, fmt::format("{}: no evaluation of this pass", c.pass));
   if (enveloped)
     result.judgements = CaseJudge(c, *model, port, options, result.modes).run();
   else

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "conformance/half_votes.h"
-#include "conformance/list_slips.h"
+#include "conformance/list_faults.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
 
@@ -117,7 +117,7 @@ bool is_enveloped(const capture::PassCase& c) {
 }
 
 std::unique_ptr<PassModel> bound(const std::string& pass, Bind bind, const capture::PassCase& c) {
-  if (!bind && is_enveloped(c)) throw Error(ExitCode::internal, fmt::format("no reading of pass {}", pass));
+  if (!bind && is_enveloped(c)) throw Error(ExitCode::internal, fmt::format("no evaluation of pass {}", pass));
   const auto has_model = [](const capture::CaseOutput& o) {
     return o.judge == capture::Judge::envelope || o.judge == capture::Judge::keyed;
   };

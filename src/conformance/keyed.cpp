@@ -10,7 +10,7 @@
 #include "conformance/keyed_fields.h"
 #include "conformance/slots.h"
 #include "image/code_range.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -183,8 +183,8 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
   const enclosed::ProfileScope scope(profile);
   for (int group = 0; group < model->groups(); ++group) {
     std::vector<std::vector<KeyedRecord>> alternatives;
-    enclosed::Replay replay;
-    const bool whole = replay.for_each_alternative([&] { model->enclose(group, alternatives.emplace_back()); });
+    enclosed::PathEnumeration paths;
+    const bool whole = paths.for_each_alternative([&] { model->enclose(group, alternatives.emplace_back()); });
     ++j.groups;
     j.gave_up += !whole;
     j.ambiguous += whole && alternatives.size() > 1;

@@ -7,19 +7,19 @@
 
 #include "edge_splash/info.h"
 #include "edge_splash/parameters.h"
-#include "edge_splash/readings.h"
+#include "edge_splash/evaluations.h"
 #include "puddle/info.h"
 #include "puddle/parameters.h"
-#include "puddle/readings.h"
+#include "puddle/evaluations.h"
 #include "rainref/error.h"
 #include "rainy_glass/info.h"
 #include "rainy_glass/parameters.h"
-#include "rainy_glass/readings.h"
+#include "rainy_glass/evaluations.h"
 #include "screen_drops/info.h"
 #include "screen_drops/parameters.h"
-#include "screen_drops/readings.h"
+#include "screen_drops/evaluations.h"
 #include "windshield/info.h"
-#include "windshield/readings.h"
+#include "windshield/evaluations.h"
 #include "windshield/scene_keys.h"
 
 namespace rainref::conformance {
@@ -27,11 +27,11 @@ namespace {
 
 const std::map<std::string, KnownEffect, std::less<>>& all() {
   static const std::map<std::string, KnownEffect, std::less<>> effects{
-      {"puddle", {&puddle::effect_info(), puddle::parameters(), &puddle::readings()}},
-      {"windshield", {&windshield::effect_info(), windshield::parameters(), &windshield::readings()}},
-      {"edge_splash", {&edge_splash::effect_info(), edge_splash::parameters(), &edge_splash::readings()}},
-      {"screen_drops", {&screen_drops::effect_info(), screen_drops::parameters(), &screen_drops::readings()}},
-      {"rainy_glass", {&rainy_glass::effect_info(), rainy_glass::parameters(), &rainy_glass::readings()}}};
+      {"puddle", {&puddle::effect_info(), puddle::parameters(), &puddle::evaluations()}},
+      {"windshield", {&windshield::effect_info(), windshield::parameters(), &windshield::evaluations()}},
+      {"edge_splash", {&edge_splash::effect_info(), edge_splash::parameters(), &edge_splash::evaluations()}},
+      {"screen_drops", {&screen_drops::effect_info(), screen_drops::parameters(), &screen_drops::evaluations()}},
+      {"rainy_glass", {&rainy_glass::effect_info(), rainy_glass::parameters(), &rainy_glass::evaluations()}}};
   return effects;
 }
 

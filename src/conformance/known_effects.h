@@ -16,7 +16,7 @@ namespace rainref::conformance {
 struct KnownEffect {
   const capture::EffectInfo* info;
   std::span<const scene::Parameter> parameters;
-  const std::vector<capture::PassReadings>* readings;
+  const std::vector<capture::PassEvaluations>* evaluations;
 };
 
 /// Null for a name that this build does not know.

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "conformance/keyed.h"
-#include "conformance/list_slips.h"
+#include "conformance/list_faults.h"
 
 namespace rainref::conformance {
 
@@ -52,10 +52,10 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const Pas
     const capture::KeyedModel* keyed = model.keyed(c.outputs[o].name);
     if (!keyed) continue;
     std::vector<float> met;
-    deviant::Behaviour collecting;
+    perturbed::Behaviour collecting;
     collecting.constants = &met;
-    const deviant::Scope scope(collecting);
-    if (!keyed->deviant()) continue;
+    const perturbed::Scope scope(collecting);
+    if (!keyed->perturbed()) continue;
     std::map<float, int> counts;
     for (const float v : met) ++counts[v];
     for (const auto& [v, count] : counts)
@@ -64,7 +64,7 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const Pas
   return out;
 }
 
-std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::size_t output, const capture::PassReadings& readings,
+std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::size_t output, const capture::PassEvaluations& evaluations,
                                    const capture::PassModel* model, const Array& finished, const std::vector<std::uint32_t>& at,
                                    const Records* port) {
   if (d.alter_list) {
@@ -80,17 +80,17 @@ std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::s
     if (finished.width > most_for_altered_cases) return std::nullopt;
     altered = c;
     d.alter_case(altered);
-    if (!readings.bind) {
-      if (!readings.recompute) return std::nullopt;
-      return readings.recompute(altered)[output];
+    if (!evaluations.bind) {
+      if (!evaluations.recompute) return std::nullopt;
+      return evaluations.recompute(altered)[output];
     }
-    altered_model = readings.bind(altered);
+    altered_model = evaluations.bind(altered);
     model = altered_model.get();
   }
   const capture::KeyedModel* keyed = model ? model->keyed(c.outputs[output].name) : nullptr;
   if (!keyed) return std::nullopt;
-  const deviant::Scope scope(d.behaviour);
-  const auto bytes = keyed->deviant();
+  const perturbed::Scope scope(d.behaviour);
+  const auto bytes = keyed->perturbed();
   if (!bytes) return std::nullopt;
   Array out = finished;
   out.width = static_cast<int>(bytes->size() / finished.record.size);

@@ -9,7 +9,7 @@
 #include "conformance/check_pack.h"
 #include "conformance/judge.h"
 #include "conformance/keyed.h"
-#include "conformance/list_slips.h"
+#include "conformance/list_faults.h"
 #include "conformance/profiles.h"
 #include "conformance/validate.h"
 #include "rainref/error.h"
@@ -87,11 +87,11 @@ std::map<std::uint32_t, Records> by_id(const Array& list) {
   return out;
 }
 /// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
-void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::PassReadings& readings, const capture::PassModel* model,
+void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::PassEvaluations& evaluations, const capture::PassModel* model,
                         const enclosed::Profile& profile, MutantJudgement& out) {
   for (const std::size_t o : keyed_outputs(c)) {
     const capture::CaseOutput& expected = c.outputs[o];
-    const std::optional<Array> stored = deviated_list(d, c, o, readings, model, expected.array);
+    const std::optional<Array> stored = deviated_list(d, c, o, evaluations, model, expected.array);
     if (!stored) continue;
     const auto want = by_id(expected.array), have = by_id(*stored);
     std::set<std::uint32_t> ids, outside;
@@ -121,7 +121,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
   int done = 0;
   for (const capture::PackPass& pass : pack.passes) {
     if (!options.only.empty() && pass.name != options.only) continue;
-    const capture::PassReadings* readings = readings_of(pack.effect, pass.name);
+    const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, pass.name);
     const Bind bind = binder(pack.effect, pass.name);
     std::map<std::string, std::size_t> places;  // of a deviation among the mutants
     std::optional<PassCase> before;
@@ -129,7 +129,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
     for (const capture::PackCase& entry : pack.cases) {
       if (entry.pass != pass.name) continue;
       PassCase c = read_case(pack, entry);
-      if (!readings || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
+      if (!evaluations || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
       judged = true;
       const std::unique_ptr<capture::PassModel> model = bind ? bind(c) : std::make_unique<capture::ListPass>("", nullptr);
       const std::vector<Texel> texels = spread(*model, invocations);
@@ -145,7 +145,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
         for (std::int64_t k = begin; k < end; ++k) {
           const Deviation& d = all[static_cast<std::size_t>(k)];
           try {
-            judge_mutant_lists(d, c, *readings, model.get(), chosen, report.mutants[places[d.name]]);
+            judge_mutant_lists(d, c, *evaluations, model.get(), chosen, report.mutants[places[d.name]]);
             judge_mutant(d, c, bind, *model, texels, chosen, stores, report.mutants[places[d.name]]);
           } catch (const Error&) {
             // the altered case is none that the pass can run: nothing to compare

@@ -292,8 +292,8 @@ class Shadow {
 
   /// What the reference gives for the port's inputs.
   void settle(const capture::PackPass& pass, PortRun& run, const capture::PassModel* model) const {
-    const capture::PassReadings* readings = readings_of(plan_.effect, pass.name);
-    if (run.broken.empty() && readings && readings->doubt) run.broken = readings->doubt(run.c);
+    const capture::PassEvaluations* evaluations = evaluations_of(plan_.effect, pass.name);
+    if (run.broken.empty() && evaluations && evaluations->doubt) run.broken = evaluations->doubt(run.c);
     std::vector<Array> reference;
     if (model) reference = reference_outputs(run.c, *model, *options_.executor);
     std::optional<std::vector<Array>> recomputed;
@@ -305,11 +305,11 @@ class Shadow {
         continue;
       }
       if (output.judge != capture::Judge::bits && !is_keyed) continue;
-      if (!readings || !readings->recompute) {
+      if (!evaluations || !evaluations->recompute) {
         run.untested = fmt::format("this build does not recompute {}", pass.name);
         return;
       }
-      if (!recomputed) recomputed = readings->recompute(run.c);
+      if (!recomputed) recomputed = evaluations->recompute(run.c);
       output.array = (*recomputed)[o];
     }
   }

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/difference.h"
-#include "conformance/output_slips.h"
+#include "conformance/output_faults.h"
 
 namespace rainref::conformance {
 

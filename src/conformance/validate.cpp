@@ -78,14 +78,14 @@ void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
 
 }  // namespace
 
-const capture::PassReadings* readings_of(const std::string& effect, const std::string& pass) {
-  for (const capture::PassReadings& r : *known_effect(effect).readings)
+const capture::PassEvaluations* evaluations_of(const std::string& effect, const std::string& pass) {
+  for (const capture::PassEvaluations& r : *known_effect(effect).evaluations)
     if (r.pass == pass) return &r;
   return nullptr;
 }
 Bind binder(const std::string& effect, const std::string& pass) {
-  const capture::PassReadings* readings = readings_of(effect, pass);
-  return readings ? readings->bind : nullptr;
+  const capture::PassEvaluations* evaluations = evaluations_of(effect, pass);
+  return evaluations ? evaluations->bind : nullptr;
 }
 
 void conclude(PortJudgement& j) {

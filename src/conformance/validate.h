@@ -23,8 +23,8 @@ struct ValidateOptions {
   std::function<void(int done, int of)> progress;  ///< after each case; may be null
 };
 
-/// The readings that this build has of a pass, or null; Error(usage) for an effect that it does not know.
-const capture::PassReadings* readings_of(const std::string& effect, const std::string& pass);
+/// The evaluations that this build has of a pass, or null; Error(usage) for an effect that it does not know.
+const capture::PassEvaluations* evaluations_of(const std::string& effect, const std::string& pass);
 /// Its binder; null where no output is judged by envelope.
 Bind binder(const std::string& effect, const std::string& pass);
 

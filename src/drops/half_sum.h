@@ -2,7 +2,7 @@
 #pragma once
 
 #include "image/code_range.h"
-#include "math/deviant.h"
+#include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/half.h"
 #include "math/plain.h"
@@ -24,12 +24,12 @@ inline enclosed::Enclosure half_of(enclosed::Enclosure x, Rounding own) {
   const auto value = [](std::int64_t code) { return static_cast<float>(enclosed::code_value(FormatInfo::float16, code)); };
   return Enclosure::checked(value(codes.lo), value(codes.hi));
 }
-/// As the liberties' profile stores; where it leaves the rounding open, either neighbour at random.
-inline deviant::Deviant half_of(deviant::Deviant x, Rounding own) {
-  deviant::Behaviour& b = deviant::behaviour();
-  const auto stored = [&](Rounding r) { return deviant::Deviant::of(to_float(to_half(x.v, r))); };
-  if (!b.liberties || b.liberties->rules.reference) return stored(own);
-  switch (b.liberties->rules.half_store) {
+/// As the variations' profile stores; where it leaves the rounding open, either neighbour at random.
+inline perturbed::Perturbed half_of(perturbed::Perturbed x, Rounding own) {
+  perturbed::Behaviour& b = perturbed::behaviour();
+  const auto stored = [&](Rounding r) { return perturbed::Perturbed::of(to_float(to_half(x.v, r))); };
+  if (!b.variations || b.variations->rules.reference) return stored(own);
+  switch (b.variations->rules.half_store) {
     case enclosed::StoreRounding::rne:
       return stored(Rounding::rne);
     case enclosed::StoreRounding::rtz:
@@ -37,12 +37,12 @@ inline deviant::Deviant half_of(deviant::Deviant x, Rounding own) {
     default:
       break;
   }
-  const deviant::Deviant cut = stored(Rounding::rtz);
+  const perturbed::Perturbed cut = stored(Rounding::rtz);
   b.random += 0x9e3779b97f4a7c15u;
   const std::uint64_t drawn = b.random * 0xbf58476d1ce4e5b9u;
   if (cut.v == x.v || !(drawn >> 63)) return cut;
   const std::uint16_t bits = to_half(x.v, Rounding::rtz).bits;
-  return deviant::Deviant::of(to_float(Half{static_cast<std::uint16_t>(bits + 1)}));
+  return perturbed::Perturbed::of(to_float(Half{static_cast<std::uint16_t>(bits + 1)}));
 }
 
 }  // namespace rainref::drops

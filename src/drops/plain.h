@@ -1,4 +1,4 @@
-// The scalar readings of this room's passes; a namespace of their own, like puddle::scalar.
+// The scalar evaluations of this room's passes; a namespace of their own, like puddle::scalar.
 #pragma once
 
 #include "drops/records.h"

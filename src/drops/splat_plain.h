@@ -1,4 +1,4 @@
-// The scalar readings of splat, in a namespace of their own, so that argument types of this room do not pull them into the
+// The scalar evaluations of splat, in a namespace of their own, so that argument types of this room do not pull them into the
 // lanes.
 #pragma once
 

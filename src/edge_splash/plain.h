@@ -1,4 +1,4 @@
-// The scalar readings of the passes of edge_splash: for the oracle and the tests.
+// The scalar evaluations of the passes of edge_splash: for the oracle and the tests.
 #pragma once
 
 #include "edge_splash/splash.pass.h"

@@ -206,7 +206,7 @@ Pick pick(const Span& x, const Span& y) {
   candidates(x, p.x0, p.x1);
   candidates(y, p.y0, p.y1);
   const std::int64_t columns = p.x1 - p.x0 + 1, rows = p.y1 - p.y0 + 1;
-  if (columns * rows > Replay::max_runs) return p;
+  if (columns * rows > PathEnumeration::max_runs) return p;
   if (columns > 1) p.x0 += choose(static_cast<int>(columns));
   if (rows > 1) p.y0 += choose(static_cast<int>(rows));
   p.x1 = p.x0;

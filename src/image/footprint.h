@@ -56,7 +56,7 @@ Enclosure filtered(const Texels& t, const Span& x, const Span& y, int channel, J
 Enclosure between_levels(Enclosure fine, const JointRounding& fine_rounding, Enclosure coarse, const JointRounding& coarse_rounding,
                          float low, float high);
 
-/// The texel that an unfiltered lookup takes: decided where the spans leave up to Replay::max_runs open.
+/// The texel that an unfiltered lookup takes: decided where the spans leave up to PathEnumeration::max_runs open.
 struct Pick {
   std::int64_t x0, x1, y0,
       y1;  ///< indices before the address rule; more than one only where there are too many to decide

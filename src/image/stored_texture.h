@@ -1,5 +1,5 @@
 // Textures whose texels stay as they are stored: lanes widen what they fetch, so that an image need not be decoded anew in
-// every frame, and a texel of four halves costs one gather. The same values as those of a Texture; the other readings take that.
+// every frame, and a texel of four halves costs one gather. The same values as those of a Texture; the other evaluations take that.
 #pragma once
 
 #include <cstdint>

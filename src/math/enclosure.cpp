@@ -148,7 +148,7 @@ Enclosure floor(Enclosure a) {
   const plain::Plain<float> low = floor(plain::Plain<float>(a.lo)), high = floor(plain::Plain<float>(a.hi));
   const double count = static_cast<double>(high.v) - low.v + 1;
   if (count == 1) return {low.v, low.v};
-  if (count > Replay::max_runs) return {low.v, high.v};
+  if (count > PathEnumeration::max_runs) return {low.v, high.v};
   const float chosen = low.v + static_cast<float>(choose(static_cast<int>(count)));
   return {chosen, chosen};
 }

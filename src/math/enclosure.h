@@ -1,8 +1,8 @@
-// The enclosure reading of a pass: a number is a closed interval that holds every result which a conforming GPU may
+// The enclosure evaluation of a pass: a number is a closed interval that holds every result which a conforming GPU may
 // give.
 //
-// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), Replay
-// runs what an interval does not settle (replay.h). Where a profile lets a result be either neighbour, operations round
+// It offers the interface that ARCHITECTURE.md lists for a number. Profile says what is allowed (profile.h), PathEnumeration
+// runs what an interval does not settle (paths.h). Where a profile lets a result be either neighbour, operations round
 // outward, which covers fusion too; where it rounds to nearest, a product remembers what it was before its rounding for
 // the addition that fuses it. Exact results stay points. Under the profile `ieee` nothing is widened and a point has the
 // bits of Plain<float>.
@@ -13,7 +13,7 @@
 
 #include "math/directed.h"
 #include "math/plain.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 
 namespace rainref::enclosed {
 
@@ -107,7 +107,7 @@ class Enclosure {
   /// 1 / sqrt(a) as a GPU has it in one instruction. Passes do not name it; normalize and an inherited sqrt do.
   friend Enclosure inverse_sqrt(Enclosure a);
 
-  /// Where the integer is open: one candidate of up to Replay::max_runs, else the interval of all of them.
+  /// Where the integer is open: one candidate of up to PathEnumeration::max_runs, else the interval of all of them.
   friend Enclosure floor(Enclosure a);
   /// a - floor(a) in [0, 1] but for a fused product, of the candidate that floor takes; [0, 1] where there are too many.
   friend Enclosure fract(Enclosure a);

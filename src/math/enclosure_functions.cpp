@@ -164,7 +164,7 @@ Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
 Enclosure nearest_octave(Enclosure x) {
   if (x.is_vacuous()) return {0.0f, 12.0f};
   const double low = octave_of(x.lo), high = octave_of(x.hi), count = high - low + 1;
-  if (count > Replay::max_runs) return {static_cast<float>(low), static_cast<float>(high)};
+  if (count > PathEnumeration::max_runs) return {static_cast<float>(low), static_cast<float>(high)};
   const double level = count == 1 ? low : low + choose(static_cast<int>(count));
   return {static_cast<float>(level), static_cast<float>(level)};
 }

@@ -1,4 +1,4 @@
-// The reference reading: a number is a vector of floats, one lane for each output element.
+// The reference evaluation: a number is a vector of floats, one lane for each output element.
 //
 // No operation crosses lanes, so the bits of an element do not depend on the width. What is missing here is missing on
 // purpose: no fused multiply-add, no reciprocal or square-root estimates, no hn::Min/Max (signed zeros differ between

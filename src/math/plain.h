@@ -1,4 +1,4 @@
-// The scalar readings of a pass: Plain<float> defines the bits, Plain<double> is the oracle.
+// The scalar evaluations of a pass: Plain<float> defines the bits, Plain<double> is the oracle.
 //
 // Both offer exactly the interface that ARCHITECTURE.md lists for a number; lanes-inl.h offers it for SIMD lanes.
 #pragma once

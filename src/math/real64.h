@@ -1,4 +1,4 @@
-// The plain reading of double arithmetic, and with it the transcendental functions of one float.
+// The scalar evaluation of double arithmetic, and with it the transcendental functions of one float.
 //
 // The formulas stand once, in transcendental-inl.h, as text over a number R. Read with Real64 they are scalar C++; read
 // with Real64Lanes (real64_lanes-inl.h) they are SIMD. Both give the same bits, because R has only operations that IEEE

@@ -1,4 +1,4 @@
-// The SIMD reading of double arithmetic, and with it the transcendental functions of a vector of floats.
+// The SIMD evaluation of double arithmetic, and with it the transcendental functions of a vector of floats.
 //
 // No operation crosses lanes, so the bits of an element do not depend on the width of the vector. Not used on purpose:
 // hn::MulAdd, hn::Min/Max, hn::Floor/Round, estimates, sums over lanes; they differ between targets.

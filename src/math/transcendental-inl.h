@@ -4,7 +4,7 @@
 // RAINREF_FN as the specifier of a function, and read R as one double or as SIMD lanes of double.
 //
 // R has + - * /, comparisons, select and integer operations on its bits. Nothing here is fused, estimated or taken from
-// the C library, so every reading gives the same bits.
+// the C library, so every evaluation gives the same bits.
 //
 // Arguments are finite floats. Every result is finite too, outside the domain as well, so that a lane that is not
 // selected in the end does no harm; what is infinite in mathematics saturates.

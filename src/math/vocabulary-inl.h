@@ -1,4 +1,4 @@
-// The named mathematics of passes, written once over a number N and included by every reading.
+// The named mathematics of passes, written once over a number N and included by every evaluation.
 //
 // Text only: no guard, no includes, no namespace. plain.h and lanes-inl.h include it inside theirs, with RAINREF_FN as
 // the linkage of a function and RAINREF_LAMBDA as the attribute of a lambda.

@@ -2,7 +2,7 @@
 #include "pass/display.h"
 
 #include "math/real64.h"
-#include "pass/display_every_reading.h"
+#include "pass/display_every_evaluation.h"
 #include "pass/info.h"
 #include "pass/model.h"
 

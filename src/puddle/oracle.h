@@ -1,4 +1,4 @@
-// Water stepped by the scalar readings of wave_step over whole fields: in double the oracle of the tests, in float the
+// Water stepped by the scalar evaluations of wave_step over whole fields: in double the oracle of the tests, in float the
 // definition of the bits. A shell like kernels_wave.cpp, without lanes, tiles or a choice of drops by place.
 #pragma once
 

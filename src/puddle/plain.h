@@ -1,4 +1,4 @@
-// The scalar readings of the puddle's passes: for the oracle and the tests. A namespace of their own, so that argument
+// The scalar evaluations of the puddle's passes: for the oracle and the tests. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 

@@ -5,11 +5,9 @@
 #include "math/constants.h"
 #include "pass/definition.h"
 #include "puddle/camera_members.h"
+#include "puddle/checkerboard.h"
 
 namespace rainref::puddle {
-
-/// Tiles of the checkerboard, linear RGB.
-constexpr double checkerboard_dark[3] = {0.15, 0.12, 0.10}, checkerboard_light[3] = {0.25, 0.22, 0.20};
 
 /// The sine hash as published, which no GPU reproduces.
 struct GroundNoisePass {

@@ -14,8 +14,8 @@
 
 #include "capture/bound_texture.h"
 #include "math/whole.h"
-#include "puddle/every_reading.h"
-#include "puddle/readings.h"
+#include "puddle/every_evaluation.h"
+#include "puddle/evaluations.h"
 
 namespace rainref::puddle {
 namespace {
@@ -254,7 +254,7 @@ class CorrectedDescent {
     every::DescentState<Enclosure> state{ray.t_plane, zero, zero, zero};
     if (over.enters) {
       const std::vector<Landing> landings = landings_of(ray, over);
-      if (landings.empty() || landings.size() > static_cast<std::size_t>(enclosed::Replay::max_runs)) {
+      if (landings.empty() || landings.size() > static_cast<std::size_t>(enclosed::PathEnumeration::max_runs)) {
         enclosed::give_up();
         return every::SurfaceHit<Enclosure>();
       }
@@ -307,10 +307,10 @@ class CorrectedDescent {
 
   /// Top and slope from every texel of `bounds` that may be read, and from the uniforms where they may hold instead.
   every::WaterBounds<Enclosure> bounds_of(const Texture& bounds, const every::Descent<Enclosure>& ray) const {
-    enclosed::Replay replay;
+    enclosed::PathEnumeration paths;
     every::WaterBounds<Enclosure> all{Enclosure(u_.surface_top), Enclosure(u_.surface_slope)};
     bool first = true;
-    const bool settled = replay.for_each_alternative([&] {
+    const bool settled = paths.for_each_alternative([&] {
       const every::WaterBounds<Enclosure> one = every::water_bounds(u_, bounds, ray);
       all = first ? one : every::WaterBounds<Enclosure>{hull(all.top, one.top), hull(all.slope, one.slope)};
       first = false;
@@ -388,8 +388,8 @@ class CorrectedDescent {
         const Enclosure t = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
         if (gap.lo >= u_.epsilon) continue;
         const every::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
-        enclosed::Replay replay;
-        const bool settled = replay.for_each_alternative([&] {
+        enclosed::PathEnumeration paths;
+        const bool settled = paths.for_each_alternative([&] {
           const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
           if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
           out = found ? hull_of(out, end) : end;

@@ -63,7 +63,7 @@ template <int First, class N>
 RAINREF_FN N gradient_noise(const Texture& lattice, int cells, N u, N v) {
   const N x = u * N(static_cast<float>(cells)), y = v * N(static_cast<float>(cells)), x0 = floor(x), y0 = floor(y), fx = x - x0,
           fy = y - y0;
-  // x0 lies in [0, cells); held there, so that no reading of this text leaves the lattice.
+  // x0 lies in [0, cells); held there, so that no evaluation of this text leaves the lattice.
   const auto columns = N::uniform_int(cells < lattice.width[0] ? cells : lattice.width[0]),
              rows = N::uniform_int(cells < lattice.height[0] ? cells : lattice.height[0]);
   const auto column = clamp_index(to_int(x0), columns), row = clamp_index(to_int(y0), rows);

@@ -1,10 +1,10 @@
-// The scalar readings of the passes of rainy_glass: Plain, Enclosure and Deviant, for the oracle, the tests and the judge. A
+// The scalar evaluations of the passes of rainy_glass: Plain, Enclosure and Perturbed, for the oracle, the tests and the judge. A
 // namespace of their own, so that argument types of this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"
 #include "image/texture.h"
-#include "math/deviant.h"
+#include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
 #include "rainy_glass/rain_on_glass.pass.h"
@@ -16,7 +16,7 @@ using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
-#include "image/sampling_deviant-inl.h"
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
 #include "image/environment-inl.h"

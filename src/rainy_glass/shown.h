@@ -15,7 +15,7 @@ struct Shown {
   double x, y;     ///< the point that it shows, on the image plane at distance 1
 };
 
-/// The double reading of the pass's text, on the buffers of the frame that was rendered last.
+/// The double evaluation of the pass's text, on the buffers of the frame that was rendered last.
 class ShownGlass {
  public:
   /// `surroundings` are those that `rendered` was made with; they and it must outlive this.

@@ -72,7 +72,7 @@ Value checked(const Override& o, const Parameter& p) {
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// A slip of the fingers first; else the right name in the wrong table. A shared table must not make two names near, so
+// A fault of the fingers first; else the right name in the wrong table. A shared table must not make two names near, so
 // only keys whose last part is near are thought of.
 std::string guess(const std::string& wrong, const std::vector<std::string>& valid) {
   if (wrong.size() > longest_guess) return "";

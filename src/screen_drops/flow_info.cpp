@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "drops/info.h"
-#include "drops/readings.h"
+#include "drops/evaluations.h"
 #include "drops/settings.h"
 #include "drops/splat.h"
 #include "math/constants.h"
@@ -68,7 +68,7 @@ std::vector<capture::BufferInfo> flow_buffers() {
 
 std::vector<UniformBlock> flow_records() { return drops::records(); }
 
-std::vector<capture::PassReadings> flow_readings() {
+std::vector<capture::PassEvaluations> flow_evaluations() {
   return {{"spawn", nullptr, drops::recompute_spawn},
           {"integrate", drops::bind_integrate},
           {"merge", drops::bind_merge},

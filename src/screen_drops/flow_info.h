@@ -22,6 +22,6 @@ std::vector<capture::BufferInfo> flow_buffers();
 std::vector<scene::UniformBlock> flow_records();
 
 /// Each of the four passes bound to captured cases.
-std::vector<capture::PassReadings> flow_readings();
+std::vector<capture::PassEvaluations> flow_evaluations();
 
 }  // namespace rainref::screen_drops

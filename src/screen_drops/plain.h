@@ -1,10 +1,10 @@
-// The scalar readings of the passes of screen_drops: Plain, Enclosure and Deviant. A namespace of their own, so that argument
+// The scalar evaluations of the passes of screen_drops: Plain, Enclosure and Perturbed. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 
 #include "image/footprint.h"
 #include "image/texture.h"
-#include "math/deviant.h"
+#include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/in_parts.h"
 #include "math/plain.h"
@@ -18,7 +18,7 @@ using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
-#include "image/sampling_deviant-inl.h"
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
 #include "screen_drops/background.pass.h"

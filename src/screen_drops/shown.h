@@ -30,7 +30,7 @@ struct Shown {
   scene::Vector3 bent;  ///< unit direction along which the water shows the scene: right, up, ahead
   double reflected;     ///< share that the water's surface mirrors; 1 beyond the critical angle
 };
-/// The double reading of the pass's text, on the buffers of the frame that was rendered last.
+/// The double evaluation of the pass's text, on the buffers of the frame that was rendered last.
 class ShownDrops {
  public:
   ShownDrops(const Settings& settings, const ScreenDrops& rendered);

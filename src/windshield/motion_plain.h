@@ -1,4 +1,4 @@
-// The scalar readings of windshield_frame and wipe_drops: for the tests. A namespace of their own, so that argument
+// The scalar evaluations of windshield_frame and wipe_drops: for the tests. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 

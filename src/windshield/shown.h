@@ -14,7 +14,7 @@ struct Shown {
   double x, y;        ///< the point of the scene that a drop shows here, on the image plane at distance 1
 };
 
-/// The double reading of composite's text, on the textures of the frame that was rendered last.
+/// The double evaluation of composite's text, on the textures of the frame that was rendered last.
 class ShownScene {
  public:
   ShownScene(const Settings& settings, const Windshield& rendered);

@@ -1,4 +1,4 @@
-// The scalar readings of wipe_texture and normals, in a namespace of their own, so that argument types of this room do not
+// The scalar evaluations of wipe_texture and normals, in a namespace of their own, so that argument types of this room do not
 // pull them into the lanes.
 #pragma once
 

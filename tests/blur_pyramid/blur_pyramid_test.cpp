@@ -98,7 +98,7 @@ TEST(BlurPyramid, OddSizesKeepTheMeanWhenCorrected) {
   for (const std::array<int, 2> size : {std::array<int, 2>{5, 5}, {7, 4}, {33, 19}, {1, 9}, {255, 127}}) {
     const auto value = [&](int x, int y) { return (x * 7 + y * 13) % 5 + (x == size[0] - 1 ? 8 : 0); };
     const double expected = mean(image_of(size[0], size[1], value));
-    // In real arithmetic, by the double reading.
+    // In real arithmetic, by the double evaluation.
     const BlurUniforms u = blur_uniforms(settings(true), size[0], size[1], 1);
     const auto [width, height] = level_size(size[0], size[1], 1);
     double sum = 0;

@@ -1,4 +1,4 @@
-// The heightfield: closed forms, no cracks, the lanes against the plain reading.
+// The heightfield: closed forms, no cracks, the lanes against the scalar evaluation.
 #include "compositor/heightfield.h"
 
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(Heightfield, AimedRaysNeverPass) {
   }
 }
 
-TEST(Heightfield, LanesGiveThePlainReadingsBits) {
+TEST(Heightfield, LanesGiveThePlainEvaluationsBits) {
   const test::World world;
   std::vector<Ray> rays = test::camera_rays(64, 36);
   for (const Ray& ray : test::aimed_rays(world, 6000)) rays.push_back(ray);

@@ -260,7 +260,7 @@ TEST(Pane, LetsThroughWhatItsMediaSay) {
   options.least_weight = 1e-13;
   for (const WaterShape kind : {WaterShape::displaced, WaterShape::sloped}) {
     const auto scene = scene_of(pane, water, kind);
-    scene->set_environment(environment_of([](const Sight& s) { return s.direction.z > 0 ? Vec(1, 1, 1) : Vec(0, 0, 0); }));
+    scene->set_environment(environment_of([](const EscapedRay& s) { return s.direction.z > 0 ? Vec(1, 1, 1) : Vec(0, 0, 0); }));
     for (const double degrees : {0.0, 20.0, 50.0}) {
       const double a = radians(degrees), s = std::sin(a);
       const auto at_interface = [&](double from, double to) { return testing::fresnel(std::asin(s / from), to / from); };
@@ -292,7 +292,7 @@ TEST(Pane, ShowsACheckerboardWhereThePlateShiftsIt) {
     return p;
   };
   const auto scene = dry(pane, of_index(n));
-  scene->set_environment(environment_of([&](const Sight& s) {
+  scene->set_environment(environment_of([&](const EscapedRay& s) {
     if (!(s.direction.z > 0)) return Vec(0, 0, 0);
     const Vec p = on_board(s.origin, s.direction);
     return Vec(checker(p.x, p.y), 0, 0);

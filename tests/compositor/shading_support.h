@@ -60,10 +60,10 @@ inline std::shared_ptr<const Opaque> tells_place() {
 }
 /// Surroundings that tell the direction of the ray.
 inline std::shared_ptr<const Environment> tells_direction() {
-  return environment_of([](const Sight& s) { return s.direction; });
+  return environment_of([](const EscapedRay& s) { return s.direction; });
 }
 inline std::shared_ptr<const Environment> constant(const Vec& radiance) {
-  return environment_of([radiance](const Sight&) { return radiance; });
+  return environment_of([radiance](const EscapedRay&) { return radiance; });
 }
 
 inline Seen see(const Scene& scene, const Ray& ray, const ShadingOptions& options = {}) {

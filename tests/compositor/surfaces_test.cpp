@@ -140,7 +140,7 @@ TEST(Solids, SphereAndBoxByRaysOfAnyLength) {
 }
 
 // Rays along faces and edges, from inside, from borders, to corners, with limits at the hit, and beside a hit that is as near.
-TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainReadingsBits) {
+TEST(Surfaces, BoxesAndPlatesGiveLanesThePlainEvaluationsBits) {
   night_street::Solid box;
   box.a = {-1, -0.5, 0};
   box.b = {2, 1.5, 0.75};

@@ -10,7 +10,7 @@
 
 #include "conformance/judge.h"
 #include "conformance/support.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 #include "rainref/executor.h"
 
 namespace rainref::conformance::test {
@@ -29,8 +29,8 @@ inline std::string described(const BoundCase& b, int x, int y, const std::vector
   std::vector<float> port;
   for (const Slot& s : b.slots) port.push_back(stored_value(s, s.at(stored[static_cast<std::size_t>(s.output)], x, y)));
   const enclosed::ProfileScope scope(p);
-  enclosed::Replay replay;
-  replay.for_each_alternative([&] {
+  enclosed::PathEnumeration paths;
+  paths.for_each_alternative([&] {
     std::vector<enclosed::Enclosure> e(values.size());
     b.model->enclose(x, y, port.data(), e.data());
     text += "\n alternative";
@@ -54,10 +54,10 @@ inline bool holds_values(const BoundCase& b, int x, int y, const std::vector<Arr
   std::vector<float> port;
   for (const Slot& s : b.slots) port.push_back(stored_value(s, s.at(stored[static_cast<std::size_t>(s.output)], x, y)));
   const enclosed::ProfileScope scope(p);
-  enclosed::Replay replay;
+  enclosed::PathEnumeration paths;
   bool held = false;
   std::vector<enclosed::Enclosure> e(values.size());
-  const bool whole = replay.for_each_alternative([&] {
+  const bool whole = paths.for_each_alternative([&] {
     b.model->enclose(x, y, port.data(), e.data());
     bool all = true;
     for (std::size_t v = 0; v < e.size(); ++v) all &= b.model->is_free(static_cast<int>(v)) || e[v].contains(values[v]);
@@ -70,7 +70,7 @@ inline bool holds_values(const BoundCase& b, int x, int y, const std::vector<Arr
 /// Devices begin ... end - 1 on one case: what `of` allows, judged by `p`.
 inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const enclosed::Profile& p, std::int64_t begin, std::int64_t end,
                           Tally& tally) {
-  deviant::Liberties liberties = deviant::liberties_of(of);
+  perturbed::Variations variations = perturbed::variations_of(of);
   std::vector<Array> stored = b.expected();
   const std::int64_t texels = static_cast<std::int64_t>(b.model->width()) * b.model->height();
   for (std::int64_t i = begin; i < end; ++i) {
@@ -80,11 +80,11 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
     const HalfMode mode = drawn_mode(p, words);
     // A pass that rounds on its way does so as its device stores.
     if (of.half_store == p.half_store) {
-      liberties.rules.half_store = mode == HalfMode::rne   ? enclosed::StoreRounding::rne
-                                   : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz
-                                                           : enclosed::StoreRounding::either;
+      variations.rules.half_store = mode == HalfMode::rne   ? enclosed::StoreRounding::rne
+                                    : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz
+                                                            : enclosed::StoreRounding::either;
     }
-    const std::vector<float> values = conforming_values(*b.model, x, y, liberties, words());
+    const std::vector<float> values = conforming_values(*b.model, x, y, variations, words());
     for (std::size_t v = 0; v < values.size(); ++v) {
       const Slot& s = b.slots[v];
       Array& to = stored[static_cast<std::size_t>(s.output)];
@@ -100,19 +100,19 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
   }
 }
 
-/// Without liberties a deviant is the reference.
+/// Without variations a perturbed is the reference.
 inline void expect_reference(const std::vector<BoundPass>& passes) {
   for (const BoundPass& pass : passes) {
     for (const BoundCase& b : pass.cases) {
       std::vector<plain::Plain<float>> reference(b.slots.size());
-      std::vector<deviant::Deviant> deviant(b.slots.size());
+      std::vector<perturbed::Perturbed> perturbed(b.slots.size());
       int differing = 0;
       for (int y = 0; y < b.model->height(); ++y) {
         for (int x = 0; x < b.model->width(); ++x) {
           b.model->evaluate(x, y, reference.data());
-          b.model->evaluate(x, y, deviant.data());
+          b.model->evaluate(x, y, perturbed.data());
           for (std::size_t v = 0; v < reference.size(); ++v)
-            differing += std::bit_cast<std::uint32_t>(reference[v].v + 0.0f) != std::bit_cast<std::uint32_t>(deviant[v].v + 0.0f);
+            differing += std::bit_cast<std::uint32_t>(reference[v].v + 0.0f) != std::bit_cast<std::uint32_t>(perturbed[v].v + 0.0f);
         }
       }
       EXPECT_EQ(differing, 0) << b.c->folder();

@@ -1,7 +1,7 @@
 // Mistakes that ports make, and whether the likely cause names them. The ports are of a device that fuses products and
 // truncates halves, as the ones that were measured do, so that hardly any bit is the reference's.
 #include "conformance/mini_port.h"
-#include "conformance/output_slips.h"
+#include "conformance/output_faults.h"
 
 #include <cmath>
 #include <cstring>
@@ -13,7 +13,7 @@ namespace {
 
 using capture::Array;
 using capture::PassCase;
-using deviant::Slip;
+using perturbed::Fault;
 using testing::HasSubstr;
 
 struct Mistake {
@@ -50,9 +50,9 @@ void each_case(MiniPort& port, const std::string& pass, std::function<void(PassC
   };
 }
 /// The pass computes like this instead of fusing.
-std::function<void(MiniPort&)> slip(Slip s, const char* pass) {
+std::function<void(MiniPort&)> fault(Fault s, const char* pass) {
   return [s, pass](MiniPort& port) {
-    port.behaviour.slip = s;
+    port.behaviour.fault = s;
     port.only = pass;
   };
 }
@@ -120,11 +120,11 @@ std::vector<Mistake> mistakes() {
              now = *old;
          });
        }},
-      {"HalfTexelMissing", corrected, "surface_hit", "half texel missing", slip(Slip::half_texel_missing, "surface_hit")},
-      {"HalfTexelMissingInShade", published, "shade", "half texel missing", slip(Slip::half_texel_missing, "shade")},
-      {"NearestFilter", published, "shade", "nearest for linear", slip(Slip::nearest_filter, "shade")},
-      {"HalfIntermediates", published, "shade", "half intermediates", slip(Slip::half_intermediates, "shade")},
-      {"ClampForRepeat", published, "shade", "clamp address mode", slip(Slip::address_clamped, "shade")},
+      {"HalfTexelMissing", corrected, "surface_hit", "half texel missing", fault(Fault::half_texel_missing, "surface_hit")},
+      {"HalfTexelMissingInShade", published, "shade", "half texel missing", fault(Fault::half_texel_missing, "shade")},
+      {"NearestFilter", published, "shade", "nearest for linear", fault(Fault::nearest_filter, "shade")},
+      {"HalfIntermediates", published, "shade", "half intermediates", fault(Fault::half_intermediates, "shade")},
+      {"ClampForRepeat", published, "shade", "clamp address mode", fault(Fault::address_clamped, "shade")},
       {"FirstDropMissing", corrected, "wave_step", "input drops without its first record",
        [](MiniPort& p) {
          each_case(p, "wave_step", [](PassCase& c) {
@@ -196,7 +196,7 @@ TEST_P(Diagnosis, NamesTheMistake) {
   const Mistake& m = GetParam();
   MiniPort port(m.pack);
   port.stores = HalfMode::rtz;
-  port.behaviour.slip = Slip::fused;
+  port.behaviour.fault = Fault::fused;
   m.make(port);
   TemporaryFolder folder;
   port.run(folder.path());

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-TEST(Honesty, WithoutLibertiesADeviantIsTheReference) { expect_reference(enveloped_passes()); }
+TEST(Honesty, WithoutVariationsAPerturbedIsTheReference) { expect_reference(enveloped_passes()); }
 
 TEST(Honesty, NoConformingDeviceIsOutside) { expect_honest(enveloped_passes()); }
 

@@ -12,7 +12,7 @@
 #include "conformance/judge.h"
 #include "conformance/keyed.h"
 #include "conformance/support.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
@@ -67,7 +67,7 @@ class Beads : public capture::KeyedModel {
       out.push_back({k == 0 ? first(group).id : second(group).id, m.lives, {m.x, m.speed, m.mass}, {m.is_large ? 1u : 0u}});
     }
   }
-  /// The list that a number gives; under a profile's liberties for a Deviant.
+  /// The list that a number gives; under a profile's variations for a Perturbed.
   template <class N>
   std::vector<Bead> stored() const {
     std::vector<Bead> out;
@@ -157,14 +157,14 @@ TEST_F(Keyed, TheReferencePassesInAnyOrder) {
 
 TEST_F(Keyed, ConformingDevicesPass) {
   for (const std::string& name : inexact_profiles()) {
-    const deviant::Liberties liberties = deviant::liberties_of(profile(name));
+    const perturbed::Variations variations = perturbed::variations_of(profile(name));
     int differing = 0;
     for (int seed = 0; seed < 40; ++seed) {
-      deviant::Behaviour b;
-      b.liberties = &liberties;
+      perturbed::Behaviour b;
+      b.variations = &variations;
       b.random = Words(static_cast<std::uint64_t>(seed))();
-      const deviant::Scope scope(b);
-      port = model->stored<deviant::Deviant>();
+      const perturbed::Scope scope(b);
+      port = model->stored<perturbed::Perturbed>();
       const KeyedJudgement j = judged(name.c_str());
       expect(j, "");
       differing += j.output.differing > 0;

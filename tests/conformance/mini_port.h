@@ -46,7 +46,7 @@ struct MiniPort {
   capture::Pack pack;
   HalfMode stores = HalfMode::either;              ///< how it rounds half stores; either: as the reference does
   std::string stores_only;                         ///< the pass that rounds so, the others as the reference does; "": each
-  deviant::Behaviour behaviour;                    ///< of its arithmetic
+  perturbed::Behaviour behaviour;                  ///< of its arithmetic
   std::string only;                                ///< the pass that behaves so; "": each
   bool free_running = false;                       ///< inputs are the outputs of its own runs before, and are dumped too
   std::function<void(capture::PassCase&)> before;  ///< changes what a pass takes
@@ -57,19 +57,19 @@ struct MiniPort {
   std::vector<capture::Array> outputs(const capture::PassCase& c) const {
     std::vector<capture::Array> out;
     for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
-    const capture::PassReadings* readings = readings_of(pack.effect, c.pass);
+    const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, c.pass);
     const bool has_lists = std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::keyed; });
     if (!is_enveloped(c) && !has_lists) return out;
-    if (!readings->bind) return readings->recompute(c);
-    const std::unique_ptr<capture::PassModel> model = readings->bind(c);
+    if (!evaluations->bind) return evaluations->recompute(c);
+    const std::unique_ptr<capture::PassModel> model = evaluations->bind(c);
     const std::vector<Slot> slots = slots_of(c);
-    const deviant::Scope scope(only.empty() || only == c.pass ? behaviour : deviant::Behaviour());
+    const perturbed::Scope scope(only.empty() || only == c.pass ? behaviour : perturbed::Behaviour());
     for (std::size_t o = 0; o < out.size(); ++o) {
       if (c.outputs[o].judge != capture::Judge::keyed) continue;
-      out[o].levels = {*model->keyed(c.outputs[o].name)->deviant()};
+      out[o].levels = {*model->keyed(c.outputs[o].name)->perturbed()};
       out[o].width = static_cast<int>(out[o].levels[0].size() / out[o].element_bytes());
     }
-    std::vector<deviant::Deviant> values(slots.size());
+    std::vector<perturbed::Perturbed> values(slots.size());
     for (int y = 0; y < model->height(); ++y) {
       for (int x = 0; x < model->width(); ++x) {
         model->evaluate(x, y, values.data());

@@ -2,7 +2,7 @@
 #include "conformance/shadow.h"
 
 #include "conformance/mini_port.h"
-#include "conformance/output_slips.h"
+#include "conformance/output_faults.h"
 
 #include <cstring>
 
@@ -43,7 +43,7 @@ class ShadowTest : public testing::Test {
 // Truncating stores and fused products: after four steps its water is not the reference's, and every step is right.
 TEST_F(ShadowTest, AFreeRunOfAConformingDevicePasses) {
   port.stores = HalfMode::rtz;
-  port.behaviour.slip = deviant::Slip::fused;
+  port.behaviour.fault = perturbed::Fault::fused;
   const PortJudgement j = shadow_of();
   EXPECT_EQ(j.status, Status::pass) << why(j);
   // Against the pack, whose water is the reference's, the same dump fails: that is what the shadow is for.
@@ -288,28 +288,28 @@ void expect_good(const PortJudgement& j) {
 }
 TEST_F(WindshieldShadowTest, AFreeRunOfAConformingDevicePasses) {
   port.stores = HalfMode::rtz;
-  port.behaviour.slip = deviant::Slip::fused;
+  port.behaviour.fault = perturbed::Fault::fused;
   expect_good(shadow_of());
   // Its drops are not the pack's any more.
   EXPECT_EQ(judge(port.pack, folder.path()).status, Status::fail);
 }
 TEST_F(PublishedWindshieldShadowTest, AFreeRunOfAConformingDevicePasses) {
-  port.behaviour.slip = deviant::Slip::fused;
+  port.behaviour.fault = perturbed::Fault::fused;
   expect_good(shadow_of());
 }
 TEST_F(ScreenDropsShadowTest, AFreeRunOfAConformingDevicePasses) {
   port.stores = HalfMode::rtz;
-  port.behaviour.slip = deviant::Slip::fused;
+  port.behaviour.fault = perturbed::Fault::fused;
   expect_good(shadow_of());
 }
 TEST_F(RainyGlassShadowTest, AFreeRunOfAConformingDevicePasses) {
   port.stores = HalfMode::rtz;
-  port.behaviour.slip = deviant::Slip::fused;
+  port.behaviour.fault = perturbed::Fault::fused;
   expect_good(shadow_of());
 }
 TEST_F(EdgeSplashShadowTest, AFreeRunOfAConformingDevicePasses) {
   port.stores = HalfMode::rtz;
-  port.behaviour.slip = deviant::Slip::fused;
+  port.behaviour.fault = perturbed::Fault::fused;
   expect_good(shadow_of());
 }
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "conformance/support.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 
 namespace rainref::conformance::test {
 
@@ -22,7 +22,7 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
   // Where the pass rounds on its way, by devices that round as the reference does.
   enclosed::Profile p = declared;
   if (b.model->rounds_inside()) p.half_store = enclosed::StoreRounding::rne;
-  const deviant::Liberties liberties = deviant::liberties_of(p);
+  const perturbed::Variations variations = perturbed::variations_of(p);
   const std::size_t n = b.slots.size();
   std::vector<plain::Plain<float>> reference(n);
   b.model->evaluate(x, y, reference.data());
@@ -40,16 +40,16 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
   };
   {
     const enclosed::ProfileScope scope(p);
-    enclosed::Replay replay;
+    enclosed::PathEnumeration paths;
     bool found = false;
-    const bool whole = replay.for_each_alternative([&] {
+    const bool whole = paths.for_each_alternative([&] {
       b.model->enclose(x, y, port.data(), one.data());
       if (!found && held(one, low)) {
         e = one;
         found = true;
       }
     });
-    m.ambiguous += replay.runs() != 1;
+    m.ambiguous += paths.runs() != 1;
     if (!whole) {
       ++m.gave_up;
       return;
@@ -58,7 +58,7 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
   }
   for (int k = 0; k < devices; ++k) {
     const std::vector<float> got =
-        conforming_values(*b.model, x, y, liberties, static_cast<std::uint64_t>(k) + 1000u * static_cast<std::uint64_t>(x + 1000 * y));
+        conforming_values(*b.model, x, y, variations, static_cast<std::uint64_t>(k) + 1000u * static_cast<std::uint64_t>(x + 1000 * y));
     if (!held(e, got)) continue;
     for (std::size_t v = 0; v < n; ++v) {
       low[v] = std::min(low[v], got[v]);

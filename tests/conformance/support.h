@@ -11,7 +11,7 @@
 #include "conformance/profiles.h"
 #include "conformance/slots.h"
 #include "conformance/validate.h"
-#include "math/deviant.h"
+#include "math/perturbed.h"
 #include "source_folder.h"
 
 namespace rainref::conformance::test {
@@ -97,17 +97,17 @@ class Words {
 
 /// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere,
 /// or lean to one end throughout.
-inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y, const deviant::Liberties& liberties,
+inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y, const perturbed::Variations& variations,
                                             std::uint64_t seed) {
-  deviant::Behaviour behaviour;
-  behaviour.liberties = &liberties;
+  perturbed::Behaviour behaviour;
+  behaviour.variations = &variations;
   behaviour.random = Words(seed)();
   behaviour.lean = static_cast<int>(seed % 3) - 1;
-  const deviant::Scope scope(behaviour);
-  std::vector<deviant::Deviant> values(static_cast<std::size_t>(model.values()));
+  const perturbed::Scope scope(behaviour);
+  std::vector<perturbed::Perturbed> values(static_cast<std::size_t>(model.values()));
   model.evaluate(x, y, values.data());
   std::vector<float> out;
-  for (const deviant::Deviant& v : values) out.push_back(v.v);
+  for (const perturbed::Perturbed& v : values) out.push_back(v.v);
   return out;
 }
 

@@ -15,11 +15,11 @@
 #include "conformance/judge_pass.h"
 #include "conformance/keyed.h"
 #include "conformance/support.h"
-#include "drops/readings.h"
-#include "math/replay.h"
+#include "drops/evaluations.h"
+#include "math/path_enumeration.h"
 #include "rainref/error.h"
 #include "windshield/motion.h"
-#include "windshield/readings.h"
+#include "windshield/evaluations.h"
 
 namespace rainref::conformance {
 namespace {
@@ -61,13 +61,13 @@ struct ListCase {
   KeyedJudgement judged(const std::vector<std::byte>& bytes, const std::string& under) const {
     return judge_keyed(list, with_records(list.array, bytes), keyed, profile(under));
   }
-  std::vector<std::byte> conforming(const deviant::Liberties& liberties, std::uint64_t seed) const {
-    deviant::Behaviour behaviour;
-    behaviour.liberties = &liberties;
+  std::vector<std::byte> conforming(const perturbed::Variations& variations, std::uint64_t seed) const {
+    perturbed::Behaviour behaviour;
+    behaviour.variations = &variations;
     behaviour.random = Words(seed)();
     behaviour.lean = static_cast<int>(seed % 3) - 1;
-    const deviant::Scope scope(behaviour);
-    return *keyed->deviant();
+    const perturbed::Scope scope(behaviour);
+    return *keyed->perturbed();
   }
 };
 
@@ -115,7 +115,7 @@ std::vector<ListCase> list_cases(const std::string& variant, const std::string& 
   return out;
 }
 
-TEST(WindshieldMotion, TheReferenceIsThePacksAndADeviantWithoutLiberties) {
+TEST(WindshieldMotion, TheReferenceIsThePacksAndAPerturbedWithoutVariations) {
   for (const std::string& variant : variants) {
     for (const std::string& pass : moving) {
       for (PassCase& c : cases_of(variant, pass)) {
@@ -123,7 +123,7 @@ TEST(WindshieldMotion, TheReferenceIsThePacksAndADeviantWithoutLiberties) {
         const Array expected = kept->array;
         const ListCase l(std::move(c));
         EXPECT_TRUE(same_records(l.list.array, expected)) << l.c->folder();
-        EXPECT_EQ(*l.keyed->deviant(), *l.keyed->reference()) << l.c->folder();
+        EXPECT_EQ(*l.keyed->perturbed(), *l.keyed->reference()) << l.c->folder();
         EXPECT_EQ(l.judged(expected.levels[0], "ieee").failing, 0) << l.c->folder();
       }
     }
@@ -139,11 +139,11 @@ TEST(WindshieldMotion, NoConformingDeviceIsOutside) {
     for (const std::string& pass : moving) {
       const std::vector<ListCase> cases = list_cases(variant, pass);
       for (const std::string& name : inexact_profiles()) {
-        const deviant::Liberties liberties = deviant::liberties_of(profile(name));
+        const perturbed::Variations variations = perturbed::variations_of(profile(name));
         std::int64_t lists = 0, differing = 0, groups = 0, ambiguous = 0, other = 0, gave_up = 0;
         for (const ListCase& l : cases) {
           for (std::int64_t k = 0; k < each; ++k, ++lists) {
-            const KeyedJudgement j = l.judged(l.conforming(liberties, static_cast<std::uint64_t>(k + 1)), name);
+            const KeyedJudgement j = l.judged(l.conforming(variations, static_cast<std::uint64_t>(k + 1)), name);
             ASSERT_EQ(j.failing, 0) << l.c->folder() << ' ' << name << ' ' << k << ": " << j.events.text();
             differing += j.output.differing > 0;
             groups += j.groups;
@@ -172,17 +172,17 @@ TEST_P(WindshieldFilm, NoConformingOneIsOutside) {
     const ListCase l(is_wiped ? busy(c, 10, 7) : c);
     for (const std::string& name : inexact_profiles()) {
       const enclosed::Profile& p = profile(name);
-      const deviant::Liberties liberties = deviant::liberties_of(p);
+      const perturbed::Variations variations = perturbed::variations_of(p);
       const enclosed::ProfileScope scope(p);
       int wiped = 0, kept = 0;
       double widest = 0;
       for (int y = 0; y < l.model->height(); ++y) {
         for (int x = 0; x < l.model->width(); ++x) {
-          const float got = conforming_values(*l.model, x, y, liberties, static_cast<std::uint64_t>(y * 100 + x)).front();
+          const float got = conforming_values(*l.model, x, y, variations, static_cast<std::uint64_t>(y * 100 + x)).front();
           (got == 0 ? wiped : kept) += 1;
-          enclosed::Replay replay;
+          enclosed::PathEnumeration paths;
           bool held = false;
-          const bool whole = replay.for_each_alternative([&] {
+          const bool whole = paths.for_each_alternative([&] {
             enclosed::Enclosure e;
             l.model->enclose(x, y, &got, &e);
             held |= e.contains(got);
@@ -202,9 +202,9 @@ TEST_P(WindshieldFilm, NoConformingOneIsOutside) {
 int other_branches(const ListCase& l) {
   int other = 0;
   for (const std::string& name : inexact_profiles()) {
-    const deviant::Liberties liberties = deviant::liberties_of(profile(name));
+    const perturbed::Variations variations = perturbed::variations_of(profile(name));
     for (std::uint64_t k = 1; k <= 60; ++k) {
-      const KeyedJudgement j = l.judged(l.conforming(liberties, k), name);
+      const KeyedJudgement j = l.judged(l.conforming(variations, k), name);
       EXPECT_EQ(j.failing, 0) << name << ' ' << k << ": " << j.events.text();
       other += j.other_branch > 0;
     }
@@ -214,14 +214,14 @@ int other_branches(const ListCase& l) {
 
 // The proof can fail: what vulkan allows lies outside of a profile that rounds to nearest.
 TEST(WindshieldMotion, DevicesOfALooserProfileAreOutside) {
-  const deviant::Liberties liberties = deviant::liberties_of(profile("vulkan"));
+  const perturbed::Variations variations = perturbed::variations_of(profile("vulkan"));
   for (const std::string& variant : variants) {
     for (const std::string& pass : moving) {
       int outside = 0;
       const std::vector<ListCase> cases = list_cases(variant, pass, 1);
       if (cases.empty()) continue;
       for (const ListCase& l : cases)
-        for (std::uint64_t k = 1; k < 5; ++k) outside += l.judged(l.conforming(liberties, k), "cuda").failing > 0;
+        for (std::uint64_t k = 1; k < 5; ++k) outside += l.judged(l.conforming(variations, k), "cuda").failing > 0;
       EXPECT_GT(outside, 0) << variant << ' ' << pass;
     }
   }
@@ -234,7 +234,7 @@ struct Widths {
 };
 Widths widths_of(const ListCase& l, const std::string& under) {
   const enclosed::Profile& p = profile(under);
-  const deviant::Liberties liberties = deviant::liberties_of(p);
+  const perturbed::Variations variations = perturbed::variations_of(p);
   const std::size_t size = l.list.array.element_bytes();
   std::size_t id_at = 0;
   std::vector<std::size_t> floats_at;
@@ -263,15 +263,15 @@ Widths widths_of(const ListCase& l, const std::string& under) {
   for (const auto& [id, fields] : reference)
     for (std::size_t f = 0; f < fields.size(); ++f) largest[f] = std::max(largest[f], std::abs(static_cast<double>(fields[f])));
   std::vector<Fields> devices;
-  for (std::uint64_t k = 1; k <= 128; ++k) devices.push_back(fields_of(l.conforming(liberties, k)));
+  for (std::uint64_t k = 1; k <= 128; ++k) devices.push_back(fields_of(l.conforming(variations, k)));
 
   Widths out;
   const enclosed::ProfileScope scope(p);
   for (int group = 0; group < l.keyed->groups(); ++group) {
     std::vector<KeyedRecord> records;
-    enclosed::Replay replay;
+    enclosed::PathEnumeration paths;
     // One alternative: where there are more, devices spread over all of them.
-    if (!replay.for_each_alternative([&] { records.clear(), l.keyed->enclose(group, records); }) || replay.runs() > 1) continue;
+    if (!paths.for_each_alternative([&] { records.clear(), l.keyed->enclose(group, records); }) || paths.runs() > 1) continue;
     for (const KeyedRecord& r : records) {
       for (std::size_t f = 0; r.lives && f < r.floats.size(); ++f) {
         const double width = static_cast<double>(r.floats[f].hi) - r.floats[f].lo;
@@ -324,12 +324,12 @@ TEST(WindshieldMotion, MistakesAreFound) {
       const ListCase l(std::move(cases.back()));
       int differing = 0, found = 0, by_bits = 0;
       std::string missed;
-      for (const deviant::SlipInfo& s : deviant::slips()) {
-        deviant::Behaviour behaviour;
-        behaviour.slip = s.slip;
+      for (const perturbed::FaultInfo& s : perturbed::faults()) {
+        perturbed::Behaviour behaviour;
+        behaviour.fault = s.fault;
         const std::vector<std::byte> list = [&] {
-          const deviant::Scope scope(behaviour);
-          return *l.keyed->deviant();
+          const perturbed::Scope scope(behaviour);
+          return *l.keyed->perturbed();
         }();
         if (list == *l.keyed->reference()) continue;
         ++differing;
@@ -338,7 +338,7 @@ TEST(WindshieldMotion, MistakesAreFound) {
         found += is_found;
         if (!is_found) missed += fmt::format(" '{}'", s.name);
       }
-      fmt::print("{:<13} {:<17} {:2} slips differ, vulkan finds {:2}; not{}\n", variant, pass, differing, found, missed);
+      fmt::print("{:<13} {:<17} {:2} faults differ, vulkan finds {:2}; not{}\n", variant, pass, differing, found, missed);
       EXPECT_EQ(by_bits, differing) << variant << ' ' << pass;
       EXPECT_GE(found, 1) << variant << ' ' << pass;
     }

@@ -101,7 +101,7 @@ Drop record_of(const scalar::DropState<F>& s, const Drop& from, bool mass) {
           0};
 }
 
-TEST_P(DropsDeterminism, LanesEqualThePlainReading) {
+TEST_P(DropsDeterminism, LanesEqualTheScalarEvaluation) {
   const bool corrected = GetParam();
   const auto start = test::random_drops(1000, 17, 1.6e7f, 1.5f);
   const IntegrateUniforms c = integrate(corrected);

@@ -1,4 +1,4 @@
-// What the tests of splat share: glasses, images as numbers, the plain reading of a whole texture.
+// What the tests of splat share: glasses, images as numbers, the scalar evaluation of a whole texture.
 #pragma once
 
 #include <array>
@@ -79,7 +79,7 @@ std::vector<scalar::Stamp<N>> stamps_of(const SplatUniforms& u, const std::vecto
   for (const Drop& d : drops) stamps.push_back(scalar::splat_stamp(u, N(d.position[0]), N(d.position[1]), N(d.mass), N(d.life)));
   return stamps;
 }
-/// One texel of the finished texture, before it is stored, by a scalar reading.
+/// One texel of the finished texture, before it is stored, by a scalar evaluation.
 template <class N>
 N plain_texel(SplatUniforms u, bool half_accumulation, Rounding rounding, const std::vector<scalar::Stamp<N>>& stamps, const Image* film,
               int x, int y) {

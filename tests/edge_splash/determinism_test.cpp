@@ -7,7 +7,7 @@
 #include "edge_splash/support.h"
 #include "math/simd_target.h"
 #include "pass/display.h"
-#include "pass/display_every_reading.h"
+#include "pass/display_every_evaluation.h"
 #include "settings.h"
 
 namespace rainref::edge_splash {
@@ -94,12 +94,12 @@ TEST_P(Determinism, AnotherSettingGivesOtherBits) {
 }
 
 // What both passes of one variant need, read by plain numbers.
-struct Reading {
+struct Evaluation {
   Settings s = test::edge_splash_settings();
   Inputs in;
   Image scene, layer, depth_image, noise_image;
   TextureData depth, noise;
-  Reading(Variant variant, int width, int height)
+  Evaluation(Variant variant, int width, int height)
       : s(settings(variant)), in(scene_of(width, height)), scene(prepare_scene(in)), layer(prepare_layer(in)) {
     s.width = width;
     s.height = height;
@@ -122,16 +122,16 @@ struct Reading {
   }
 };
 
-TEST_P(Determinism, LanesEqualThePlainReading) {
-  const Reading reading(GetParam(), 37, 29);
+TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
+  const Evaluation evaluation(GetParam(), 37, 29);
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     const parallel::Executor executor(2);
-    EdgeSplash effect(reading.s, reading.in, executor);
+    EdgeSplash effect(evaluation.s, evaluation.in, executor);
     for (int frame = 0; frame < 5; ++frame) effect.render();
     for (int y = 0; y < 29; ++y) {
       for (int x = 0; x < 37; ++x) {
-        const auto s = reading.at<F>(4, x, y);
+        const auto s = evaluation.at<F>(4, x, y);
         ASSERT_EQ(code(effect.edge(), x, y), to_unorm8(s.edge.v).code) << target << " " << x << "," << y;
         ASSERT_EQ(code(effect.angle(), x, y), to_unorm8(s.angle.v).code) << target << " " << x << "," << y;
         ASSERT_EQ(code(effect.noise(), x, y), to_unorm8(s.noise.v).code) << target << " " << x << "," << y;
@@ -141,7 +141,7 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
           ASSERT_EQ(effect.colour().row<Half>(y)[4 * x + k].bits, stored.bits) << target << " " << x << "," << y;
         }
         const Half* colour = effect.colour().row<Half>(y) + 4 * x;
-        const auto shown = pass::every::display<F>(pass::display_uniforms(reading.s.exposure),
+        const auto shown = pass::every::display<F>(pass::display_uniforms(evaluation.s.exposure),
                                                    {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x].code, to_unorm8(shown.x.v).code);
         ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code);
@@ -154,13 +154,13 @@ TEST_P(Determinism, LanesEqualThePlainReading) {
 // Thresholds jump, so as published a few pixels in a hundred may fall on the other side (the flat ones, whose gradient is nothing
 // but rounding); where the masks agree, and everywhere corrected, float stays beside double.
 TEST_P(Determinism, FloatStaysNearDouble) {
-  const Reading reading(GetParam(), 96, 64);
+  const Evaluation evaluation(GetParam(), 96, 64);
   int jumped = 0, checked = 0;
   double worst = 0;
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 96; ++x) {
-      const auto f = reading.at<F>(7, x, y);
-      const auto d = reading.at<D>(7, x, y);
+      const auto f = evaluation.at<F>(7, x, y);
+      const auto d = evaluation.at<D>(7, x, y);
       ++checked;
       if (GetParam() == Variant::as_published &&
           (f.edge.v != d.edge.v || f.noise.v != d.noise.v || (f.edge.v == 1 && f.angle.v != d.angle.v))) {

@@ -107,17 +107,17 @@ inline bool settle(const Base& base, capture::PassCase& c) {
   try {
     capture::check_case(*effect.info, effect.parameters, c);
     if (!capture::uniform_fault(*effect.info, c).empty() || !capture::record_fault(c).empty()) return false;
-    const capture::PassReadings* readings = conformance::readings_of(base.effect, c.pass);
+    const capture::PassEvaluations* evaluations = conformance::evaluations_of(base.effect, c.pass);
     const bool is_data =
         std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; });
-    if (!readings || is_data) return true;
+    if (!evaluations || is_data) return true;
     std::vector<capture::Array> expected;
-    const std::unique_ptr<capture::PassModel> model = conformance::bound(c.pass, readings->bind, c);
+    const std::unique_ptr<capture::PassModel> model = conformance::bound(c.pass, evaluations->bind, c);
     if (model) {
       const parallel::Executor executor(1);
       expected = conformance::reference_outputs(c, *model, executor);
-    } else if (readings->recompute) {
-      expected = readings->recompute(c);
+    } else if (evaluations->recompute) {
+      expected = evaluations->recompute(c);
     }
     for (std::size_t o = 0; o < expected.size(); ++o) c.outputs[o].array = std::move(expected[o]);
     return true;

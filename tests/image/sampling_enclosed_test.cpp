@@ -26,9 +26,9 @@ using namespace rainref::plain;
 namespace {
 
 using enclosed::Enclosure;
+using enclosed::PathEnumeration;
 using enclosed::Profile;
 using enclosed::ProfileScope;
-using enclosed::Replay;
 
 constexpr Address addresses[] = {Address::clamp, Address::repeat, Address::mirror, Address::border};
 
@@ -38,8 +38,8 @@ struct Hulls {
 // The alternatives of a lookup; empty when there are too many.
 std::vector<Hulls> look_up(Lookup lookup, const Texture& t, Enclosure u, Enclosure v, Enclosure w = 0.0f, Enclosure lod = 0.0f) {
   std::vector<Hulls> found;
-  Replay replay;
-  const bool whole = replay.for_each_alternative([&] {
+  PathEnumeration paths;
+  const bool whole = paths.for_each_alternative([&] {
     Hulls h;
     enclosed_reading::look_up<Enclosure>(lookup, t, u, v, w, lod, h.c);
     found.push_back(h);
@@ -61,7 +61,7 @@ struct Random {
   double operator()(double low, double high) { return low + (high - low) * (words() * 0x1p-32); }
 };
 
-TEST(SamplingEnclosed, HasTheBitsOfThePlainReadingUnderIeee) {
+TEST(SamplingEnclosed, HasTheBitsOfTheScalarEvaluationUnderIeee) {
   Random random;
   std::vector<Place> places;
   const float values[] = {0.0f, -0.0f, 0.5f, 1.0f, -1.0f, 0x1p-149f, -0x1p-30f, 1 - 0x1p-24f, 0.25f, 1.0f / 3, -2.75f, 7.0f, 255.5f, 1e6f};
@@ -140,7 +140,7 @@ TEST(SamplingEnclosed, HoldsEverySampleWithinTheSlackAndLiesWithinTheTexels) {
   }
 }
 
-TEST(SamplingEnclosed, HoldsThePlainReading) {
+TEST(SamplingEnclosed, HoldsTheScalarEvaluation) {
   Random random;
   for (const Profile& p : profiles()) {
     const ProfileScope scope(p);
@@ -166,7 +166,7 @@ TEST(SamplingEnclosed, HoldsThePlainReading) {
   }
 }
 
-TEST(SamplingEnclosed, NeighboursHoldThePlainReading) {
+TEST(SamplingEnclosed, NeighboursHoldTheScalarEvaluation) {
   Random random;
   for (const Profile& p : profiles()) {
     const ProfileScope scope(p);
@@ -176,14 +176,14 @@ TEST(SamplingEnclosed, NeighboursHoldThePlainReading) {
         const float u = static_cast<float>(random(-0.5, 1.5)), v = static_cast<float>(random(-0.5, 1.5));
         using Single = plain::Plain<float>;
         const auto near = enclosed_reading::sample_neighbours<0, Single>(data.view(), Single(u), Single(v));
-        Replay replay;
-        ASSERT_TRUE(replay.for_each_alternative([&] {
+        PathEnumeration paths;
+        ASSERT_TRUE(paths.for_each_alternative([&] {
           const auto held = enclosed_reading::sample_neighbours<0, Enclosure>(data.view(), Enclosure(u), Enclosure(v));
           EXPECT_TRUE(held.left.contains(near.left.v) && held.right.contains(near.right.v) && held.down.contains(near.down.v) &&
                       held.up.contains(near.up.v))
               << p.name << ' ' << static_cast<int>(a) << ' ' << u << ' ' << v;
         }));
-        ASSERT_EQ(replay.runs(), 1);
+        ASSERT_EQ(paths.runs(), 1);
       }
     }
   }

@@ -1,4 +1,4 @@
-// Texture lookups by the SIMD target in use and by the plain reading, for comparison.
+// Texture lookups by the SIMD target in use and by the scalar evaluation, for comparison.
 #pragma once
 
 #include <cstddef>

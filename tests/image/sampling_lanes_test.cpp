@@ -1,4 +1,4 @@
-// Lookups by the lanes of every SIMD target against the plain reading, bit for bit.
+// Lookups by the lanes of every SIMD target against the scalar evaluation, bit for bit.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -42,7 +42,7 @@ void check(Lookup lookup, const TextureData& data, const std::vector<Place>& pla
   });
 }
 
-TEST(SamplingLanes, HaveTheBitsOfThePlainReadingUnderEveryAddressRule) {
+TEST(SamplingLanes, HaveTheBitsOfTheScalarEvaluationUnderEveryAddressRule) {
   const std::vector<Place> places = tricky_places();
   for (const Address u : {Address::clamp, Address::repeat, Address::mirror, Address::border}) {
     for (const Address v : {Address::clamp, Address::repeat, Address::mirror, Address::border}) {
@@ -69,7 +69,7 @@ TEST(SamplingLanes, DoNotDependOnWhichLanesNeedASecondLevel) {
   check(Lookup::trilinear, data, places);
 }
 
-TEST(SamplingLanes, HaveTheBitsOfThePlainReadingByDirection) {
+TEST(SamplingLanes, HaveTheBitsOfTheScalarEvaluationByDirection) {
   std::vector<Place> places = tricky_places();
   for (Place& p : places) {  // directions of moderate length, their zeros and signs kept
     for (float* x : {&p.u, &p.v, &p.w}) *x = std::fabs(*x) > 4 ? std::copysign(0.75f, *x) : *x;

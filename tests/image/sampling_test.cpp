@@ -1,4 +1,4 @@
-// Lookups by the plain reading against a straightforward implementation in double.
+// Lookups by the scalar evaluation against a straightforward implementation in double.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -16,9 +16,9 @@ namespace {
 
 using namespace rainref::plain;  // the vocabulary, as a pass sees it
 using enclosed::Enclosure;
+using enclosed::PathEnumeration;
 using enclosed::Profile;
 using enclosed::ProfileScope;
-using enclosed::Replay;
 
 using random_gpu::RandomGpu;
 using random_gpu::toss;
@@ -123,8 +123,8 @@ TEST(EnclosureSoundness, HoldsEveryLegalResultOfEveryOperation) {
       for (int i = 0; i < trials; ++i) {
         const Enclosure a = any_interval(), b = any_interval(), c = any_interval();
         std::vector<Enclosure> alternatives;
-        Replay replay;
-        const bool whole = replay.for_each_alternative([&] { alternatives.push_back(f.enclosed(a, b, c)); });
+        PathEnumeration paths;
+        const bool whole = paths.for_each_alternative([&] { alternatives.push_back(f.enclosed(a, b, c)); });
         if (!whole) continue;
         bounded += !alternatives[0].is_vacuous();
         for (int k = 0; k < 6; ++k) {

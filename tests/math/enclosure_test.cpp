@@ -16,9 +16,9 @@ using namespace rainref::plain;  // the vocabulary, as a pass sees it
 using enclosed::BasicRounding;
 using enclosed::Enclosure;
 using enclosed::Flush;
+using enclosed::PathEnumeration;
 using enclosed::Profile;
 using enclosed::ProfileScope;
-using enclosed::Replay;
 
 using Single = plain::Plain<float>;
 
@@ -230,8 +230,8 @@ TEST(Enclosure, TheArcTangentJumpsAtItsCutOnly) {
   const ProfileScope scope(profile_named("vulkan"));
   const auto alternatives = [](Enclosure y, Enclosure x) {
     std::vector<Enclosure> found;
-    Replay replay;
-    EXPECT_TRUE(replay.for_each_alternative([&] { found.push_back(atan2(y, x)); }));
+    PathEnumeration paths;
+    EXPECT_TRUE(paths.for_each_alternative([&] { found.push_back(atan2(y, x)); }));
     return found;
   };
   const Enclosure left(-1.0f), right(1.0f), across(-1e-3f, 1e-3f);
@@ -249,8 +249,8 @@ TEST(Enclosure, TheArcTangentJumpsAtItsCutOnly) {
 TEST(Enclosure, AnOctaveIsOneDecision) {
   const auto levels = [](Enclosure x) {
     std::vector<float> found;
-    Replay replay;
-    EXPECT_TRUE(replay.for_each_alternative([&] { found.push_back(nearest_octave(x).lo); }));
+    PathEnumeration paths;
+    EXPECT_TRUE(paths.for_each_alternative([&] { found.push_back(nearest_octave(x).lo); }));
     return found;
   };
   EXPECT_EQ(levels(Enclosure(4.0f)), (std::vector<float>{2}));

@@ -1,4 +1,4 @@
-// The number interface by the SIMD target in use, for comparison with the plain reading.
+// The number interface by the SIMD target in use, for comparison with the scalar evaluation.
 #pragma once
 
 #include <cstddef>

@@ -53,7 +53,7 @@
   X(int_times, small, to_number(to_int(a) * -2047))                                                                          \
   X(int_clamped, small, to_number(clamp_index(to_int(a), N::uniform_int(37))))                                               \
   X(int_clamped_each, small, to_number(clamp_index(to_int(a), to_int(abs(b)) + 1)))                                          \
-  /* Out by less than a period, as passes have it: further out only the scalar readings hold an index. */                    \
+  /* Out by less than a period, as passes have it: further out only the scalar evaluations hold an index. */                 \
   X(int_wrapped, small, to_number(wrap_index(clamp_index(to_int(a) + 36, N::uniform_int(110)) + (-36), N::uniform_int(37)))) \
   X(int_larger, small, to_number(max_index(to_int(a), to_int(b))))                                                           \
   X(int_shifted, small, to_number(shift_right(to_int(a), to_int(fract(b) * N(31.9f)))))                                      \

@@ -1,4 +1,4 @@
-// Loads and stores of the lanes of every SIMD target against the plain reading.
+// Loads and stores of the lanes of every SIMD target against the scalar evaluation.
 #include <gtest/gtest.h>
 
 #include <array>

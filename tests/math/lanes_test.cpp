@@ -1,4 +1,4 @@
-// The lanes of every SIMD target against the plain reading: equal bits for finite inputs, the sign of zero included.
+// The lanes of every SIMD target against the scalar evaluation: equal bits for finite inputs, the sign of zero included.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -83,7 +83,7 @@ Inputs inputs_for(Domain domain) {
   return in;
 }
 
-TEST(Lanes, EveryOperationHasTheBitsOfThePlainReading) {
+TEST(Lanes, EveryOperationHasTheBitsOfTheScalarEvaluation) {
   std::array<Inputs, 4> inputs;
   for (const Domain d : {Domain::any, Domain::small, Domain::index, Domain::moved}) inputs[static_cast<std::size_t>(d)] = inputs_for(d);
   for (const OperationInfo& op : operations) {

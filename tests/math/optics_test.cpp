@@ -1,4 +1,4 @@
-// The plain readings of vocabulary and optics against formulas of the textbook, written independently in double.
+// The plain evaluations of vocabulary and optics against formulas of the textbook, written independently in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,14 +6,14 @@
 #include "math/plain.h"
 
 namespace rainref::test {
-namespace readings {
+namespace evaluations {
 using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
-}  // namespace readings
+}  // namespace evaluations
 
 namespace {
 
@@ -32,8 +32,8 @@ double fresnel(double cos_i, double eta) {
 TEST(Fresnel, IsFresnelsFormulaByAngles) {
   for (int k = 1; k < 900; ++k) {
     const double cos_i = std::cos(k * 0.1 * pi / 180);
-    EXPECT_NEAR(readings::fresnel_dielectric(D(cos_i), 1.333f).v, fresnel(cos_i, double{1.333f}), 1e-8) << k * 0.1;
-    EXPECT_NEAR(readings::fresnel_dielectric(F(static_cast<float>(cos_i)), 1.333f).v, fresnel(cos_i, double{1.333f}), 4e-6) << k * 0.1;
+    EXPECT_NEAR(evaluations::fresnel_dielectric(D(cos_i), 1.333f).v, fresnel(cos_i, double{1.333f}), 1e-8) << k * 0.1;
+    EXPECT_NEAR(evaluations::fresnel_dielectric(F(static_cast<float>(cos_i)), 1.333f).v, fresnel(cos_i, double{1.333f}), 4e-6) << k * 0.1;
   }
 }
 
@@ -45,44 +45,44 @@ TEST(Fresnel, KnownValuesOfWater) {
   const float f0 = 0.0203732f;
   for (const auto& row : table) {
     const double cosine = std::cos(row.degrees * pi / 180);
-    EXPECT_NEAR(readings::fresnel_dielectric(D(cosine), 1.333f).v, row.exact, 6e-7) << row.degrees;
-    EXPECT_NEAR(readings::fresnel_schlick(D(cosine), f0).v, row.schlick, 6e-7) << row.degrees;
+    EXPECT_NEAR(evaluations::fresnel_dielectric(D(cosine), 1.333f).v, row.exact, 6e-7) << row.degrees;
+    EXPECT_NEAR(evaluations::fresnel_schlick(D(cosine), f0).v, row.schlick, 6e-7) << row.degrees;
   }
-  EXPECT_NEAR(readings::fresnel_dielectric(D(1.0), 1.333f).v, 0.0203732, 5e-8);
-  EXPECT_NEAR(readings::fresnel_dielectric(D(0.0), 1.333f).v, 1, 1e-15);
+  EXPECT_NEAR(evaluations::fresnel_dielectric(D(1.0), 1.333f).v, 0.0203732, 5e-8);
+  EXPECT_NEAR(evaluations::fresnel_dielectric(D(0.0), 1.333f).v, 1, 1e-15);
 }
 
 TEST(Fresnel, VanishesInParallelLightAtBrewstersAngle) {
   const double cosine = std::cos(std::atan(double{1.333f}));
   // Half of the perpendicular part alone is left: ((1 - eta^2) / (1 + eta^2))^2 / 2.
   const double eta2 = double{1.333f} * double{1.333f};
-  EXPECT_NEAR(readings::fresnel_dielectric(D(cosine), 1.333f).v, 0.5 * std::pow((1 - eta2) / (1 + eta2), 2), 1e-8);
+  EXPECT_NEAR(evaluations::fresnel_dielectric(D(cosine), 1.333f).v, 0.5 * std::pow((1 - eta2) / (1 + eta2), 2), 1e-8);
 }
 
 TEST(Fresnel, OfSchlickHasTheClosedForm) {
   for (int k = 0; k <= 100; ++k) {
     const double cosine = k / 100.0;
-    EXPECT_NEAR(readings::fresnel_schlick(D(cosine), 0.02f).v, 0.02 + 0.98 * std::pow(1 - cosine, 5), 3e-8);
-    EXPECT_NEAR(readings::fresnel_schlick(F(static_cast<float>(cosine)), 0.02f).v, 0.02 + 0.98 * std::pow(1 - cosine, 5), 4e-7);
+    EXPECT_NEAR(evaluations::fresnel_schlick(D(cosine), 0.02f).v, 0.02 + 0.98 * std::pow(1 - cosine, 5), 3e-8);
+    EXPECT_NEAR(evaluations::fresnel_schlick(F(static_cast<float>(cosine)), 0.02f).v, 0.02 + 0.98 * std::pow(1 - cosine, 5), 4e-7);
   }
-  EXPECT_EQ(readings::fresnel_schlick(F(1.0f), 0.02f).v, 0.02f);
-  EXPECT_EQ(readings::fresnel_schlick(F(0.0f), 0.02f).v, 1.0f);
+  EXPECT_EQ(evaluations::fresnel_schlick(F(1.0f), 0.02f).v, 0.02f);
+  EXPECT_EQ(evaluations::fresnel_schlick(F(0.0f), 0.02f).v, 1.0f);
 }
 
 TEST(Beer, IsExponentialAndMultiplies) {
   for (const double a : {0.0, 0.1, 1.0, 7.0}) {
     for (const double d : {0.0, 0.5, 2.0}) {
-      EXPECT_NEAR(readings::transmittance(D(a), D(d)).v, std::exp(-a * d), 1e-14);
-      EXPECT_NEAR(readings::transmittance(F(static_cast<float>(a)), F(static_cast<float>(d))).v, std::exp(-a * d), 1e-6);
-      EXPECT_NEAR(readings::transmittance(D(a), D(d)).v,
-                  readings::transmittance(D(a), D(d / 3)).v * readings::transmittance(D(a), D(2 * d / 3)).v, 1e-14);
+      EXPECT_NEAR(evaluations::transmittance(D(a), D(d)).v, std::exp(-a * d), 1e-14);
+      EXPECT_NEAR(evaluations::transmittance(F(static_cast<float>(a)), F(static_cast<float>(d))).v, std::exp(-a * d), 1e-6);
+      EXPECT_NEAR(evaluations::transmittance(D(a), D(d)).v,
+                  evaluations::transmittance(D(a), D(d / 3)).v * evaluations::transmittance(D(a), D(2 * d / 3)).v, 1e-14);
     }
   }
 }
 
 template <class N>
 auto srgb(N x) {
-  return readings::encode_srgb(readings::Vec3<N>(N(0.5f), x, N(1.0f))).y.v;
+  return evaluations::encode_srgb(evaluations::Vec3<N>(N(0.5f), x, N(1.0f))).y.v;
 }
 
 TEST(Srgb, IsTheCurveOfTheStandard) {

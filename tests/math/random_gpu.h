@@ -7,7 +7,7 @@
 #include <random>
 
 #include "math/plain.h"
-#include "math/replay.h"
+#include "math/path_enumeration.h"
 
 namespace rainref::random_gpu {
 

@@ -20,7 +20,7 @@ namespace every {
 using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
-#include "image/sampling_deviant-inl.h"
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
 #include "pass/frost.pass.h"
@@ -231,14 +231,14 @@ TEST(Definition, TheJudgesEvaluationsAreOfTheSameText) {
       for (int x = 0; x < 9; ++x) {
         plain::Plain<float> f;
         plain::Plain<double> d;
-        deviant::Deviant deviant;
+        perturbed::Perturbed perturbed;
         enclosed::Enclosure e;
         grow->evaluate(x, y, &f);
         grow->evaluate(x, y, &d);
-        grow->evaluate(x, y, &deviant);
+        grow->evaluate(x, y, &perturbed);
         grow->enclose(x, y, nullptr, &e);
         ASSERT_EQ(f.v, p.expected_thickness(corrected, x, y));
-        ASSERT_EQ(deviant.v, f.v);
+        ASSERT_EQ(perturbed.v, f.v);
         ASSERT_NEAR(d.v, f.v, 8 * 0x1p-24) << "six operations on numbers below 2";
         ASSERT_LE(e.lo, f.v);
         ASSERT_GE(e.hi, f.v);

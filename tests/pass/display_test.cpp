@@ -8,7 +8,7 @@
 #include "math/unorm.h"
 #include "rainref/error.h"
 #include "pass/display.h"
-#include "pass/display_every_reading.h"
+#include "pass/display_every_evaluation.h"
 
 namespace rainref::pass {
 namespace {

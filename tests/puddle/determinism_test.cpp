@@ -144,8 +144,8 @@ void expect_same(Half found, F expected, const char* what, int x, int y) {
   ASSERT_EQ(found.bits, stored.bits) << what << " at " << x << "," << y;
 }
 
-// Each picture pass of a run against the plain reading of the same text, from the same stored inputs.
-TEST_P(Determinism, LanesEqualThePlainReading) {
+// Each picture pass of a run against the scalar evaluation of the same text, from the same stored inputs.
+TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
   const bool corrected = GetParam() == Variant::corrected;
   Settings s = settings(GetParam(), 37);
   s.height = 23;

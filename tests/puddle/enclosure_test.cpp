@@ -17,7 +17,7 @@
 #include "puddle/uniforms.h"
 
 namespace rainref::puddle {
-namespace scalar_readings {
+namespace scalar_evaluations {
 using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
@@ -32,15 +32,15 @@ using namespace rainref::plain;
 #include "puddle/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
-}  // namespace scalar_readings
-namespace text = scalar_readings;
+}  // namespace scalar_evaluations
+namespace text = scalar_evaluations;
 
 namespace {
 
 using enclosed::Enclosure;
+using enclosed::PathEnumeration;
 using enclosed::Profile;
 using enclosed::ProfileScope;
-using enclosed::Replay;
 using random_gpu::RandomGpu;
 using Single = plain::Plain<float>;
 template <class N>
@@ -82,8 +82,8 @@ void judge(Account& account, const Pass& pass) {
     Values<Enclosure> v;
   };
   std::vector<Alternative> alternatives;
-  Replay replay;
-  const bool whole = replay.for_each_alternative([&] { alternatives.push_back({pass(Enclosure())}); });
+  PathEnumeration paths;
+  const bool whole = paths.for_each_alternative([&] { alternatives.push_back({pass(Enclosure())}); });
   ++account.elements;
   account.open += alternatives.size() > 1;
   const auto held = [&](const auto& value) {
@@ -267,11 +267,12 @@ TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
 }  // namespace
 
 // The whole texts instantiate.
-template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&,
-                                                                                                     const Texture&, int, int);
-template scalar_readings::SurfaceHit<Enclosure> scalar_readings::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&, const Texture&,
-                                                                                                  const Texture&, int, int);
-template Enclosure scalar_readings::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&, int,
-                                                                         int);
+template scalar_evaluations::SurfaceHit<Enclosure> scalar_evaluations::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&,
+                                                                                                           const Texture&, int, int);
+template scalar_evaluations::SurfaceHit<Enclosure> scalar_evaluations::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&,
+                                                                                                        const Texture&, const Texture&, int,
+                                                                                                        int);
+template Enclosure scalar_evaluations::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&,
+                                                                            int, int);
 
 }  // namespace rainref::puddle

@@ -31,8 +31,8 @@ SurfaceHitUniforms wide_box(double fall) {
 
 template <class N>
 class PuddleMarch : public testing::Test {};
-using Readings = testing::Types<Single, Double>;
-TYPED_TEST_SUITE(PuddleMarch, Readings);
+using Evaluations = testing::Types<Single, Double>;
+TYPED_TEST_SUITE(PuddleMarch, Evaluations);
 
 TYPED_TEST(PuddleMarch, OfAFlatPlaneTakesTheTabulatedNumberOfSteps) {
   const TextureData level = wave_texture({0.5f}, 1, 1, Address::clamp);

@@ -1,7 +1,7 @@
 // Fresnel, Snell and Beer against tables and closed forms (P9, P10).
 //
 // The passes' constants are floats: 1.333 is off by 6e-8, f0 and the ratios of indices by half an ulp. So the double
-// reading agrees with closed forms in double to 2e-7, the float reading to 1e-6; a table adds half of its last digit.
+// evaluation agrees with closed forms in double to 2e-7, the float evaluation to 1e-6; a table adds half of its last digit.
 #include <functional>
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The scalar readings against the reference: every other test of waves rests on them.
+// The scalar evaluations against the reference: every other test of waves rests on them.
 #include <cstring>
 
 #include "math/simd_target.h"
@@ -123,7 +123,7 @@ TEST(WaveOracle, GhostsReachRoundWaterSmallerThanTheOffset) {
   }
 }
 
-// The float reading lies as far from the double reading as rounding alone can carry it.
+// The float evaluation lies as far from the double evaluation as rounding alone can carry it.
 TEST(WaveOracle, FloatsAreWithinRoundingOfDoubles) {
   for (const Variant variant : variants) {
     for (const Boundary boundary : boundaries) {

@@ -6,7 +6,7 @@
 #include "math/simd_target.h"
 #include "rainy_glass/support.h"
 #include "pass/display.h"
-#include "pass/display_every_reading.h"
+#include "pass/display_every_evaluation.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -78,9 +78,9 @@ void expect_same(Half found, Single expected, const char* what, int x, int y) {
   ASSERT_EQ(found.bits, stored.bits) << what << " at " << x << "," << y;
 }
 
-// Each pass of a run against the plain reading of the same text. The bakes are read with every record in the list, so this
+// Each pass of a run against the scalar evaluation of the same text. The bakes are read with every record in the list, so this
 // also proves that what droplets_near and trails_near leave out changes no bit.
-TEST_P(RainyGlassDeterminism, LanesEqualThePlainReading) {
+TEST_P(RainyGlassDeterminism, LanesEqualTheScalarEvaluation) {
   const bool corrected = GetParam() == Variant::corrected;
   Settings s = test::settings(GetParam(), 61, 39);
   s.map_storage = Format::rgba16f;

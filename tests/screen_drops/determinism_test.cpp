@@ -3,7 +3,7 @@
 #include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "pass/display.h"
-#include "pass/display_every_reading.h"
+#include "pass/display_every_evaluation.h"
 #include "screen_drops/support.h"
 
 namespace rainref::screen_drops {
@@ -69,8 +69,8 @@ void expect_same(Half found, Single expected, const char* what, int x, int y) {
   ASSERT_EQ(found.bits, stored.bits) << what << " at " << x << "," << y;
 }
 
-// Each pass of a run against the plain reading of the same text; and that one against doubles where both show the same water.
-TEST_P(ScreenDropsDeterminism, LanesEqualThePlainReadingWhichIsNearDouble) {
+// Each pass of a run against the scalar evaluation of the same text; and that one against doubles where both show the same water.
+TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluationWhichIsNearDouble) {
   const bool corrected = GetParam() == Variant::corrected;
   Settings s = test::settings(GetParam(), 61, 39);
   s.pane_height = 0.05;

@@ -136,18 +136,18 @@ std::string by_id(std::vector<std::byte> bytes) {
   std::sort(all.begin(), all.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
   return bytes_of(all);
 }
-TEST(FlowDeclared, ReadingsGiveWhatThePassesGave) {
+TEST(FlowDeclared, EvaluationsGiveWhatThePassesGave) {
   int lists = 0, images = 0;
   for (const PassCase& c : captured()) {
-    const std::vector<capture::PassReadings> all = flow_readings();
-    const auto reading = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.pass == c.pass; });
-    ASSERT_NE(reading, all.end()) << c.pass;
-    const auto model = reading->bind ? reading->bind(c) : nullptr;
+    const std::vector<capture::PassEvaluations> all = flow_evaluations();
+    const auto evaluation = std::find_if(all.begin(), all.end(), [&](const auto& r) { return r.pass == c.pass; });
+    ASSERT_NE(evaluation, all.end()) << c.pass;
+    const auto model = evaluation->bind ? evaluation->bind(c) : nullptr;
     for (const capture::CaseOutput& o : c.outputs) {
       const auto& stored = o.array.levels.at(0);
       if (o.name == "drops") {
         ASSERT_GT(o.array.width, 50);
-        const std::vector<std::byte> again = model ? *model->keyed("drops")->reference() : reading->recompute(c).at(0).levels.at(0);
+        const std::vector<std::byte> again = model ? *model->keyed("drops")->reference() : evaluation->recompute(c).at(0).levels.at(0);
         EXPECT_EQ(by_id(again), by_id(stored)) << c.folder();
         ++lists;
         continue;

@@ -1,5 +1,5 @@
 // The determinism proof of these passes: every SIMD target, 1, 2, 3 and 8 threads, shuffled tiles, 1 to 33 drops and
-// columns give the bits of one plain float after another; and how far they are from the double reading.
+// columns give the bits of one plain float after another; and how far they are from the double evaluation.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -147,7 +147,7 @@ TEST(MotionDeterminism, TheFrameHasPlainBits) {
   select_simd_target("");
 }
 
-// Where both readings decide alike they differ by the rounding of a few operations on metres: 4 ULP of 1 in place, as
+// Where both evaluations decide alike they differ by the rounding of a few operations on metres: 4 ULP of 1 in place, as
 // much of 3 m/s over 0.8 m in velocity. They decide alike but for drops within 1e-6 m of an outline.
 TEST(MotionDeterminism, FloatsAreNearTheDoubleReading) {
   for (const bool corrected : {false, true}) {

@@ -13,7 +13,7 @@
 #include "math/unorm.h"
 #include "pass/run.h"
 #include "pass/display.h"
-#include "pass/display_every_reading.h"
+#include "pass/display_every_evaluation.h"
 #include "windshield/picture.h"
 #include "windshield/plain.h"
 #include "windshield/street.h"
@@ -23,7 +23,7 @@ namespace {
 
 using F = plain::Plain<float>;
 
-/// Values in [0, 1] with structure, as they are stored and as the plain reading takes them.
+/// Values in [0, 1] with structure, as they are stored and as the scalar evaluation takes them.
 template <class Stored>
 Image pattern(Format format, int width, int height, float scale = 1) {
   Image image(format, width, height);
@@ -143,8 +143,8 @@ class PictureDeterminism : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Variants, PictureDeterminism, testing::Bool(),
                          [](const auto& variant) { return variant.param ? "Corrected" : "AsPublished"; });
 
-// composite and display have a plain reading; the views of the street are an input, and are compared between targets.
-TEST_P(PictureDeterminism, LanesEqualThePlainReading) {
+// composite and display have a scalar evaluation; the views of the street are an input, and are compared between targets.
+TEST_P(PictureDeterminism, LanesEqualTheScalarEvaluation) {
   for (int width = 1; width <= 33; ++width) {
     const Scene s(width);
     const View lanes = s.by_lanes(GetParam(), parallel::Executor(1));

@@ -1,0 +1,351 @@
+// merge bound to captured cases.
+//
+// Drops that may touch, directly or through others, are one group: who merges with whom is decided within it, and each
+// pair whose touching is open gives two alternatives. What trails leave on the film is whole quanta, rounded down: with
+// thousands of them that is open for most drops, so it is no alternative but an interval of the drop's mass, and of the
+// texel's water. That both agree is not judged.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "capture/bound_texture.h"
+#include "drops/every_evaluation.h"
+#include "drops/evaluations.h"
+#include "drops/uniforms.h"
+#include "math/whole.h"
+#include "rainref/error.h"
+
+namespace rainref::drops {
+namespace {
+
+using capture::KeyedRecord;
+using capture::PassCase;
+using enclosed::Enclosure;
+using perturbed::Perturbed;
+using Number = plain::Plain<float>;
+using State = every::DropState<Enclosure>;
+
+template <class N>
+every::DropState<N> state_of(const Drop& d) {
+  every::DropState<N> s;
+  s.u = N::load(&d.position[0]);
+  s.v = N::load(&d.position[1]);
+  s.velocity_u = N::load(&d.velocity[0]);
+  s.velocity_v = N::load(&d.velocity[1]);
+  s.mass = N::load(&d.mass);
+  s.life = N::load(&d.life);
+  return s;
+}
+template <class N>
+double mass_of(const every::DropState<N>& d) {
+  return static_cast<double>(d.mass.v);
+}
+double mass_of(const State& d) { return d.mass.lo; }
+
+bool is_larger(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass > b.mass : a.id < b.id; }
+
+/// Whole numbers between which a whole number lies.
+struct Quanta {
+  std::int64_t least = 0, most = 0;
+};
+struct Deposit {
+  int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels where it may fall, the last ones included
+  Quanta quanta;
+};
+
+class Merging {
+ public:
+  Merging(const MergeUniforms& uniforms, std::vector<Drop> drops, std::vector<float> film)
+      : u_(uniforms), drops_(std::move(drops)), film_(std::move(film)) {
+    std::erase_if(drops_, [](const Drop& d) { return !(d.life > 0); });
+    std::sort(drops_.begin(), drops_.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
+    make_groups();
+    find_texels();
+  }
+  const MergeUniforms& uniforms() const { return u_; }
+  int groups() const { return static_cast<int>(groups_.size()); }
+  /// Groups that may leave water in a texel.
+  const std::vector<int>& groups_over(int texel) const { return over_[static_cast<std::size_t>(texel)]; }
+  const float& film(int texel) const { return film_[static_cast<std::size_t>(texel)]; }
+
+  /// A drop after the merge: `state` without its trail.
+  template <class N>
+  struct Member {
+    const Drop* drop;
+    bool lives = true;
+    every::DropState<N> state;
+  };
+  template <class N>
+  std::vector<Member<N>> merged(int group) const {
+    const Group& g = groups_[static_cast<std::size_t>(group)];
+    const std::size_t n = g.drops.size();
+    std::vector<Member<N>> all;
+    for (const std::size_t i : g.drops) all.push_back({&drops_[i], true, state_of<N>(drops_[i])});
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> to(n, none);
+    for (const auto& [a, b] : g.pairs) {
+      if (!touching(all[a].state, all[b].state)) continue;
+      const auto [small, large] = is_larger(*all[b].drop, *all[a].drop) ? std::pair(a, b) : std::pair(b, a);
+      if (to[small] == none || is_larger(*all[large].drop, *all[to[small]].drop)) to[small] = large;
+    }
+    // In ascending id, as drops_ are.
+    for (std::size_t i = 0; i < n; ++i) {
+      if (to[i] == none) continue;
+      std::size_t root = to[i];
+      while (to[root] != none) root = to[root];
+      Member<N>&into = all[root], &from = all[i];
+      if (mass_of(into.state) + static_cast<double>(from.drop->mass) > most_quanta) continue;
+      into.state = every::absorb(into.state, from.state);
+      from.lives = false;
+    }
+    return all;
+  }
+
+  template <class N>
+  every::Trail<N> trail(const every::DropState<N>& d) const {
+    return every::trail(u_, d);
+  }
+  /// The trail without a decision about its rounding, its mass taken off `d`.
+  Deposit take_trail(State& d) const {
+    const every::Trail<Enclosure> t = every::tail(u_, d);
+    Deposit out;
+    if (t.quanta.is_vacuous() || t.u.is_vacuous() || t.v.is_vacuous()) {
+      enclosed::give_up();
+      return out;
+    }
+    const auto whole = [&](float left) {
+      const double below = left > 0 ? std::floor(std::min(static_cast<double>(left), 0x1p40)) : 0;
+      const double most = static_cast<double>(d.mass.lo) - 1;
+      return most > 0 ? static_cast<std::int64_t>(std::min(most, below)) : 0;
+    };
+    out.quanta = {whole(t.quanta.lo), whole(t.quanta.hi)};
+    if (out.quanta.most == 0) return out;
+    const auto texels = [](Enclosure x, int size, int& from, int& last) {
+      x = x * Enclosure(static_cast<float>(size));
+      from = whole_within(x.lo, 0, size - 1);
+      last = whole_within(x.hi, 0, size - 1);
+    };
+    texels(t.u, u_.film[0], out.x0, out.x1);
+    texels(t.v, u_.film[1], out.y0, out.y1);
+    d.mass = Enclosure(d.mass.lo - static_cast<float>(out.quanta.most), d.mass.lo - static_cast<float>(out.quanta.least));
+    return out;
+  }
+
+ private:
+  struct Group {
+    std::vector<std::size_t> drops;                          ///< ascending
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< that may touch, by place in `drops`
+  };
+
+  template <class N>
+  bool touching(const every::DropState<N>& a, const every::DropState<N>& b) const {
+    return every::touches(every::plane_x(u_, a.u, a.v), every::plane_y(u_, a.v), every::base_radius(u_, a.mass),
+                          every::plane_x(u_, b.u, b.v), every::plane_y(u_, b.v), every::base_radius(u_, b.mass));
+  }
+  bool may_touch(const Drop& a, const Drop& b) const {
+    bool may = false;
+    const State s = state_of<Enclosure>(a), t = state_of<Enclosure>(b);
+    enclosed::PathEnumeration paths;
+    const bool whole = paths.for_each_alternative([&] { may |= touching(s, t); });
+    return may || !whole;
+  }
+
+  void make_groups() {
+    const enclosed::ProfileScope scope(loosest_profile());
+    struct Circle {
+      double x, y, radius;
+      std::size_t drop;
+    };
+    constexpr double slack = 1.01;
+    std::vector<Circle> circles;
+    double largest = 0;
+    for (std::size_t i = 0; i < drops_.size(); ++i) {
+      const auto s = state_of<Number>(drops_[i]);
+      circles.push_back({every::plane_x(u_, s.u, s.v).v, every::plane_y(u_, s.v).v, every::base_radius(u_, s.mass).v * slack, i});
+      largest = std::max(largest, circles.back().radius);
+    }
+    std::sort(circles.begin(), circles.end(), [](const Circle& a, const Circle& b) { return a.x < b.x; });
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t k = 0; k < circles.size(); ++k) {
+      const Circle& a = circles[k];
+      for (std::size_t m = k + 1; m < circles.size() && circles[m].x - a.x < a.radius + largest; ++m) {
+        const Circle& b = circles[m];
+        const double dx = a.x - b.x, dy = a.y - b.y, reach = a.radius + b.radius;
+        if (dx * dx + dy * dy < reach * reach && may_touch(drops_[a.drop], drops_[b.drop])) pairs.emplace_back(a.drop, b.drop);
+      }
+    }
+    std::vector<std::size_t> to(drops_.size());
+    std::iota(to.begin(), to.end(), 0);
+    const auto root = [&](std::size_t i) {
+      while (to[i] != i) i = to[i] = to[to[i]];
+      return i;
+    };
+    for (const auto& [a, b] : pairs) to[root(a)] = root(b);
+    std::map<std::size_t, std::size_t> number;
+    std::vector<std::size_t> place(drops_.size());
+    for (std::size_t i = 0; i < drops_.size(); ++i) {
+      const auto [at, is_new] = number.emplace(root(i), groups_.size());
+      if (is_new) groups_.emplace_back();
+      Group& g = groups_[at->second];
+      place[i] = g.drops.size();
+      g.drops.push_back(i);
+    }
+    for (const auto& [a, b] : pairs) groups_[number.at(root(a))].pairs.emplace_back(place[a], place[b]);
+  }
+
+  // What merges lies between its parts, and its tail within the radius that all of them have together.
+  void find_texels() {
+    over_.resize(film_.size());
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      double u0 = 2, u1 = -1, v0 = 2, v1 = -1, mass = 0;
+      bool moves = false;
+      for (const std::size_t i : groups_[g].drops) {
+        const Drop& d = drops_[i];
+        u0 = std::min<double>(u0, d.position[0]);
+        u1 = std::max<double>(u1, d.position[0]);
+        v0 = std::min<double>(v0, d.position[1]);
+        v1 = std::max<double>(v1, d.position[1]);
+        mass += d.mass;
+        moves |= d.velocity[0] != 0 || d.velocity[1] != 0;
+      }
+      if (!moves) continue;
+      const auto total = static_cast<float>(mass);
+      const double radius = 1.01 * every::base_radius(u_, Number(total)).v, shear = u_.frame[1] / u_.frame[2];
+      const double reach_v = radius / u_.frame[2], reach_u = radius * (1 + (shear < 0 ? -shear : shear)) / u_.frame[0];
+      const auto texel = [](double at, int size) { return whole_within(at * size, 0, size - 1); };
+      // A texel more on each side, for rounding.
+      const int x0 = std::max(0, texel(u0 - reach_u, u_.film[0]) - 1), x1 = std::min(u_.film[0] - 1, texel(u1 + reach_u, u_.film[0]) + 1);
+      const int y0 = std::max(0, texel(v0 - reach_v, u_.film[1]) - 1), y1 = std::min(u_.film[1] - 1, texel(v1 + reach_v, u_.film[1]) + 1);
+      for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x)
+          over_[static_cast<std::size_t>(y) * static_cast<std::size_t>(u_.film[0]) + static_cast<std::size_t>(x)].push_back(
+              static_cast<int>(g));
+    }
+  }
+
+  MergeUniforms u_;
+  std::vector<Drop> drops_;  ///< live ones, in ascending id
+  std::vector<float> film_;
+  std::vector<Group> groups_;
+  std::vector<std::vector<int>> over_;
+};
+
+class MergedDrops : public capture::KeyedModel {
+ public:
+  explicit MergedDrops(const Merging& merging) : m_(merging) {}
+  int groups() const override { return m_.groups(); }
+  const std::vector<capture::FieldRange>& ranges() const override { return drop_ranges(true); }
+  void enclose(int group, std::vector<KeyedRecord>& out) const override {
+    for (Merging::Member<Enclosure>& one : m_.merged<Enclosure>(group)) {
+      if (one.lives) m_.take_trail(one.state);
+      const State& s = one.state;
+      out.push_back(enclosed_record({s.u, s.v, s.velocity_u, s.velocity_v, s.mass, s.life, one.lives}, one.drop->id));
+    }
+  }
+  std::optional<std::vector<std::byte>> reference() const override { return list<Number>(); }
+  std::optional<std::vector<std::byte>> perturbed() const override { return list<Perturbed>(); }
+
+ private:
+  template <class N>
+  std::vector<std::byte> list() const {
+    std::vector<Drop> out;
+    for (int group = 0; group < groups(); ++group) {
+      for (const Merging::Member<N>& one : m_.merged<N>(group)) {
+        if (!one.lives) continue;
+        const every::DropState<N>& s = one.state;
+        out.push_back(stored(ListedDrop<N>{s.u, s.v, s.velocity_u, s.velocity_v, s.mass - m_.trail(s).quanta, s.life, true}, one.drop->id));
+      }
+    }
+    return bytes_of(out);
+  }
+  const Merging& m_;
+};
+
+class MergeModel : public capture::PassModel {
+ public:
+  MergeModel(const MergeUniforms& u, std::vector<Drop> drops, std::vector<float> film)
+      : PassModel(u.film[0], u.film[1], 1), merging_(u, std::move(drops), std::move(film)), drops_(merging_) {}
+  void evaluate(int x, int y, Number* out) const override { value(x, y, out); }
+  void evaluate(int x, int y, plain::Plain<double>* out) const override { value(x, y, out); }
+  void evaluate(int x, int y, Perturbed* out) const override { value(x, y, out); }
+  void enclose(int x, int y, const float*, Enclosure* out) const override {
+    const int texel = y * width() + x;
+    Quanta sum;
+    for (const int group : merging_.groups_over(texel)) {
+      const Quanta more = left_by(group, x, y);
+      sum.least += more.least;
+      sum.most += more.most;
+    }
+    const Enclosure dry = every::dried(merging_.uniforms(), Enclosure::load(&merging_.film(texel)));
+    const auto with = [](float before, std::int64_t added) {
+      return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_quanta)));
+    };
+    out[0] = Enclosure(with(dry.lo, sum.least), with(dry.hi, sum.most));
+  }
+  const capture::KeyedModel* keyed(std::string_view output) const override { return output == "drops" ? &drops_ : nullptr; }
+
+ private:
+  /// Under every alternative of the group.
+  Quanta left_by(int group, int x, int y) const {
+    std::vector<Quanta> all;
+    enclosed::PathEnumeration paths;
+    const bool whole = paths.for_each_alternative([&] {
+      Quanta& sum = all.emplace_back();
+      for (Merging::Member<Enclosure>& one : merging_.merged<Enclosure>(group)) {
+        if (!one.lives) continue;
+        const Deposit d = merging_.take_trail(one.state);
+        if (x < d.x0 || x > d.x1 || y < d.y0 || y > d.y1) continue;
+        if (d.x0 == d.x1 && d.y0 == d.y1) sum.least += d.quanta.least;
+        sum.most += d.quanta.most;
+      }
+    });
+    if (!whole) enclosed::give_up();
+    Quanta out = all.front();
+    for (const Quanta& q : all) out = {std::min(out.least, q.least), std::max(out.most, q.most)};
+    return out;
+  }
+  template <class N>
+  void value(int x, int y, N* out) const {
+    const int texel = y * width() + x;
+    const MergeUniforms& u = merging_.uniforms();
+    double sum = every::dried(u, N::load(&merging_.film(texel))).v;
+    const auto falls_here = [](N at, int size, int here) {
+      return whole_within((at * N(static_cast<float>(size))).v, 0, size - 1) == here;
+    };
+    for (const int group : merging_.groups_over(texel)) {
+      for (const Merging::Member<N>& one : merging_.merged<N>(group)) {
+        if (!one.lives) continue;
+        const every::Trail<N> t = merging_.trail(one.state);
+        if (t.quanta.v > 0 && falls_here(t.u, u.film[0], x) && falls_here(t.v, u.film[1], y)) sum += t.quanta.v;
+      }
+    }
+    const auto water = static_cast<float>(std::min(sum, static_cast<double>(most_quanta)));
+    out[0] = N::load(&water);
+  }
+
+  Merging merging_;
+  MergedDrops drops_;
+};
+
+}  // namespace
+
+std::unique_ptr<capture::PassModel> bind_merge(const PassCase& c) {
+  const auto u = capture::uniforms_of<MergeUniforms>(c);
+  const capture::Array& film = capture::image_input(c, "film").array;
+  if (u.film[0] != film.width || u.film[1] != film.height || !(u.frame[0] > 0) || !(u.frame[2] > 0)) {
+    throw Error(ExitCode::port_files, fmt::format("{}: uniforms film and frame: expected {}x{} and positive scales, found {}x{} and {}, {}",
+                                                  c.folder(), film.width, film.height, u.film[0], u.film[1], u.frame[0], u.frame[2]));
+  }
+  std::vector<Drop> drops = drops_input(c);
+  for (const Drop& d : drops) {
+    for (const float x : {d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life})
+      if (!(x - x == 0))
+        throw Error(ExitCode::port_files, fmt::format("{}/in.drops: expected finite numbers, found {} (id {})", c.folder(), x, d.id));
+  }
+  return std::make_unique<MergeModel>(u, std::move(drops), capture::decoded(film));
+}
+
+}  // namespace rainref::drops

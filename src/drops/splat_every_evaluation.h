@@ -1,0 +1,26 @@
+// The text of splat with every number but lanes: Plain, Enclosure and Perturbed; like puddle::every.
+#pragma once
+
+#include "drops/records.h"
+#include "drops/splat_uniforms.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+
+namespace rainref::drops::every {
+using namespace rainref::plain;
+
+/// The quotient grows with x, and the two x in it are one.
+inline enclosed::Enclosure over_larger(enclosed::Enclosure x, float least) {
+  const enclosed::Enclosure s(least);
+  if (enclosed::profile().reference) return x / max(x, s);
+  x = x.unrounded();
+  const auto at = [&](float end) { return enclosed::Enclosure(end, end) / max(enclosed::Enclosure(end, end), s); };
+  return hull(at(x.lo), at(x.hi));
+}
+
+#define RAINREF_FN inline
+#include "drops/splat.pass.h"
+#undef RAINREF_FN
+
+}  // namespace rainref::drops::every

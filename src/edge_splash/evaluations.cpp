@@ -1,0 +1,77 @@
+#include "edge_splash/evaluations.h"
+
+#include <algorithm>
+#include <array>
+
+#include "edge_splash/every_evaluation.h"
+#include "pass/display.h"
+#include "pass/model.h"
+
+namespace rainref::edge_splash {
+namespace {
+
+using capture::PassCase;
+using capture::PassModel;
+using enclosed::Enclosure;
+
+// ---- splash, as published --------------------------------------------------------------------------------------------
+// Many decisions lead to few masks: where the scroll ends on a whole texel each coordinate of the noise may be one of two
+// texels, and in a flat place the angle is rounding alone. So an enclosure asks for the set of masks that the decisions can
+// give, and decides once, among these.
+template <std::size_t Count>
+class MaskSet {
+ public:
+  /// body() gives masks of 0 and 1, and decides what it must.
+  template <class Body>
+  explicit MaskSet(const Body& body) {
+    enclosed::PathEnumeration paths;
+    const bool is_whole = paths.for_each_alternative([&] {
+      const std::array<Enclosure, Count> masks = body();
+      std::size_t word = 0;
+      for (std::size_t k = 0; k < Count; ++k) word |= static_cast<std::size_t>(masks[k].lo != 0) << k;
+      if (std::find(words_.begin(), words_.end(), word) == words_.end()) words_.push_back(word);
+    });
+    if (!is_whole) enclosed::give_up();
+  }
+  std::array<Enclosure, Count> decide() const {
+    const std::size_t word = words_[words_.size() < 2 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(words_.size())))];
+    std::array<Enclosure, Count> masks;
+    for (std::size_t k = 0; k < Count; ++k) masks[k] = Enclosure(word >> k & 1 ? 1.0f : 0.0f);
+    return masks;
+  }
+
+ private:
+  std::vector<std::size_t> words_;
+};
+using Published = pass::Bound<PublishedSplashPass, every::PublishedSplashPassText>;
+class PublishedModel : public capture::ModelOf<Published> {
+ public:
+  using ModelOf::ModelOf;
+  void enclose(int column, int row, const float*, Enclosure* out) const override {
+    const Published& p = pass();
+    const Texture &depth = p.captured.depth.texture, &noise_map = p.captured.noise_map.texture;
+    const Enclosure x = Enclosure::index(column), y = Enclosure::index(row);
+    const auto edge_and_angle = MaskSet<2>([&] {
+                                  const every::EdgeMasks<Enclosure> m = every::edge_masks(p.uniforms, depth, x, y);
+                                  return std::array{m.edge, m.angle};
+                                }).decide();
+    const auto noise = MaskSet<1>([&] { return std::array{every::noise_mask(p.uniforms, noise_map, x, y)}; }).decide();
+    p.with_cursors(column, row, out, [&](const auto& io) {
+      every::give(io, every::blend_as_published<Enclosure>(p.uniforms, {edge_and_angle[0], edge_and_angle[1]}, noise[0],
+                                                           every::scene_of<Enclosure>(io), x, y));
+    });
+  }
+};
+std::unique_ptr<PassModel> bind_splash(const PassCase& c) {
+  if (c.corrected()) return pass::bind<SplashPass, every::SplashPassText>(c);
+  return std::make_unique<PublishedModel>(pass::bound<PublishedSplashPass, every::PublishedSplashPassText>(c));
+}
+
+}  // namespace
+
+const std::vector<capture::PassEvaluations>& evaluations() {
+  static const std::vector<capture::PassEvaluations> all{{"splash", bind_splash}, {"display", pass::bind_display}};
+  return all;
+}
+
+}  // namespace rainref::edge_splash

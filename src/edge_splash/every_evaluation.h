@@ -1,0 +1,25 @@
+// The texts of the passes of edge_splash with every number but lanes: Plain, Enclosure and Perturbed. A namespace of their
+// own, like edge_splash::scalar.
+#pragma once
+
+#include "edge_splash/splash.pass.h"
+#include "image/footprint.h"
+#include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+
+namespace rainref::edge_splash::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling_perturbed-inl.h"
+#include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
+#include "edge_splash/splash.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::edge_splash::every

@@ -1,0 +1,97 @@
+// The faults and variations of texture lookups. Text only; include it before sampling-inl.h, whose rules it bends.
+
+template <class N>
+RAINREF_FN N texel_coordinate(Address address, N u, N size);
+
+RAINREF_FN Address altered(Address address) {
+  switch (perturbed::behaviour().fault) {
+    case perturbed::Fault::address_clamped:
+      return address == Address::repeat ? Address::clamp : address;
+    case perturbed::Fault::address_repeated:
+      return address == Address::clamp ? Address::repeat : address;
+    case perturbed::Fault::address_mirrored:
+      return Address::mirror;
+    default:
+      return address;
+  }
+}
+RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
+  const perturbed::Sampler sampler;
+  const perturbed::Perturbed x =
+      texel_coordinate<perturbed::Perturbed>(altered(address), perturbed::Perturbed::of(sampler.coordinate(u.v)), size);
+  const auto of = [](float value) { return perturbed::Perturbed::of(value); };
+  const auto floor_of = [](float value) { return floor(plain::Plain<float>(value)).v; };
+  switch (perturbed::behaviour().fault) {
+    case perturbed::Fault::nearest_filter:
+      return of(floor_of(x.v + 0.5f));
+    case perturbed::Fault::weights_of_8_bits:
+      return of(floor_of(x.v * 256.0f + 0.5f) / 256.0f);
+    case perturbed::Fault::half_texel_missing:
+      return of(x.v + 0.5f);
+    case perturbed::Fault::half_texel_twice:
+      return of(x.v - 0.5f);
+    case perturbed::Fault::texel_after:
+      return of(x.v + 1.0f);
+    default:
+      return of(sampler.texel(x.v));
+  }
+}
+template <class N>
+RAINREF_FN N nearest_coordinate(Address address, N u, N size);
+RAINREF_FN perturbed::Perturbed nearest_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
+  const perturbed::Sampler sampler;
+  return perturbed::Perturbed::of(
+      sampler.texel(nearest_coordinate<perturbed::Perturbed>(address, perturbed::Perturbed::of(sampler.coordinate(u.v)), size).v));
+}
+RAINREF_FN perturbed::Perturbed level_of_detail(perturbed::Perturbed lod) {
+  return perturbed::Perturbed::of(perturbed::Sampler().level(lod.v));
+}
+template <class N>
+RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy);
+RAINREF_FN int filtered_bits(TexelPrecision precision) {
+  return precision == TexelPrecision::float32 ? 24 : precision == TexelPrecision::unorm8 ? 0 : 11;
+}
+RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Perturbed a, perturbed::Perturbed b, perturbed::Perturbed c,
+                                      perturbed::Perturbed d, perturbed::Perturbed fx, perturbed::Perturbed fy) {
+  const perturbed::Sampler sampler;
+  if (const perturbed::Share& s = perturbed::share(); s.of_level > 0)
+    return perturbed::Perturbed::of(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, s.of_level, s.x_first));
+  const perturbed::Perturbed in_float = blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
+  return perturbed::Perturbed::of(sampler.blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, filtered_bits(precision)));
+}
+/// Any integer has a texel, whatever a fault has done to it.
+RAINREF_FN plain::Index<perturbed::Perturbed> texel_index(Address address, plain::Index<perturbed::Perturbed> i,
+                                                          plain::Index<perturbed::Perturbed> size) {
+  if (altered(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};
+  return clamp_index(i, size);
+}
+
+template <class N, int Count>
+struct Channels;
+template <class N>
+struct Level;
+template <class N, class T>
+RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted);
+template <int First, int Count, class N, class T>
+RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v);
+
+/// Between two levels a sampler may round all eight weights together.
+template <int First, int Count, class N, class T>
+requires std::same_as<N, perturbed::Perturbed> RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
+  const N last(static_cast<float>(t.levels - 1)), l = clamp(level_of_detail(lod), N(0.0f), last), l0 = floor(l), g = l - l0;
+  // A fault may have made any number of it: level_of holds it within the levels that there are.
+  const auto level = to_int(l0), next = to_int(min(l0 + N(1.0f), last));
+  if (!(g.v > 0)) return sample_level<First, Count, N>(t, level_of<N>(t, level), u, v);
+  const perturbed::Sampler sampler;
+  const bool jointly = sampler.rounds_jointly();
+  perturbed::Share& share = perturbed::share();
+  if (jointly) share = {1 - g.v, sampler.takes_x_first()};
+  const auto fine = sample_level<First, Count, N>(t, level_of<N>(t, level), u, v);
+  if (jointly) share.of_level = g.v;
+  const auto coarse = sample_level<First, Count, N>(t, level_of<N>(t, next), u, v);
+  share = {};
+  Channels<N, Count> out;
+  for (int k = 0; k < Count; ++k)
+    out[k] = jointly ? N::of(sampler.stored(fine[k].v + coarse[k].v, filtered_bits(t.precision))) : mix(fine[k], coarse[k], g);
+  return out;
+}

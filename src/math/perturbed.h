@@ -1,0 +1,222 @@
+// The perturbed evaluation: one float, computed as some other machine or some fault of a porter would compute it.
+//
+// Two uses. A *fault* is one realistic mistake, taken everywhere in a pass: `mutate` asks whether it would be caught,
+// the diagnosis whether it explains what a port did. *Variations* are what a conforming GPU may do, drawn at random: the
+// envelopes are tested with them. Without either, a Perturbed is Plain<float>, bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "math/plain.h"
+#include "math/profile.h"
+
+namespace rainref::perturbed {
+
+/// One mistake or one legal difference, made throughout a pass.
+enum class Fault : std::uint8_t {
+  none,
+  // arithmetic that many GPUs do
+  fused,
+  reciprocal_division,
+  root_by_inverse,
+  flushed,
+  mix_by_difference,
+  sum_backwards,
+  sum_otherwise_paired,
+  division_by_estimate,
+  // precision
+  half_intermediates,
+  half_constants,
+  // decisions
+  strict_for_weak,
+  weak_for_strict,
+  truncated_floor,
+  rounded_floor,
+  fract_by_truncation,
+  minimum_missing,
+  maximum_missing,
+  abs_missing,
+  // named mathematics
+  normalize_missing,
+  smoothstep_linear,
+  root_missing,
+  square_missing,
+  refract_ratio_inverted,
+  reflect_doubled_missing,
+  exp_base_two,
+  exp2_base_e,
+  pow_squared,
+  mix_swapped,
+  atan2_swapped,
+  degrees,
+  // lookups
+  address_clamped,
+  address_repeated,
+  address_mirrored,
+  nearest_filter,
+  weights_of_8_bits,
+  half_texel_missing,
+  half_texel_twice,
+  texel_after,
+  level_above,
+  level_below,
+  // a literal or a uniform of one value has another
+  constant
+};
+
+struct FaultInfo {
+  Fault fault;
+  std::string_view name;      ///< "fused multiply-add"
+  std::string_view sentence;  ///< what to look for in the port
+};
+/// Every fault but none and constant, in the order in which a diagnosis tries them.
+const std::vector<FaultInfo>& faults();
+
+/// What a conforming machine may do, drawn at random at every operation: the accuracies, roundings, fusions and
+/// samplers of a profile, and formulas that a profile does not name because every one of them allows them.
+struct Variations {
+  enclosed::Profile rules;
+  bool reorder = false;        ///< sums in any order and grouping
+  bool mix_either = false;     ///< a + (b - a) t too
+  bool reciprocal = false;     ///< a (1 / b) where that lies within the division's error
+  bool normalize_any = false;  ///< a / |a| and a inversesqrt(a . a) too
+};
+/// Exactly what the profile allows; nothing for one that is the reference.
+Variations variations_of(const enclosed::Profile& profile);
+
+/// What the calling thread's Perturbeds do.
+struct Behaviour {
+  Fault fault = Fault::none;
+  float constant = 0, replacement = 0;  ///< of Fault::constant
+  const Variations* variations = nullptr;
+  std::uint64_t random = 1;                 ///< state of the variations' draws
+  int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
+  std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
+};
+Behaviour& behaviour();
+/// Sets the behaviour for a scope.
+class Scope {
+ public:
+  explicit Scope(const Behaviour& b) : saved_(behaviour()) { behaviour() = b; }
+  ~Scope() { behaviour() = saved_; }
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+
+ private:
+  Behaviour saved_;
+};
+
+class Perturbed {
+ public:
+  using Mask = bool;
+  using Int = plain::Index<Perturbed>;
+  static constexpr int size() { return 1; }
+
+  float v = 0;
+
+  Perturbed() = default;
+  Perturbed(float constant);
+  /// A value that is no literal and no uniform.
+  static Perturbed of(float x) {
+    Perturbed d;
+    d.v = x;
+    return d;
+  }
+  template <class Storage>
+  static Perturbed load(const Storage* p) {
+    if constexpr (std::is_same_v<Storage, Unorm8>)
+      return load_unorm(*p);
+    else
+      return of(plain::to_float(*p));
+  }
+  static Perturbed index(int first) { return of(static_cast<float>(first)); }
+  static Int uniform_int(int value) { return {value}; }
+
+  friend Perturbed operator+(Perturbed a, Perturbed b) { return add(a, b); }
+  friend Perturbed operator-(Perturbed a, Perturbed b) { return add(a, -b); }
+  friend Perturbed operator*(Perturbed a, Perturbed b);
+  friend Perturbed operator/(Perturbed a, Perturbed b);
+  friend Perturbed operator-(Perturbed a) {
+    a.v = -a.v;
+    a.factor_ = -a.factor_;
+    return a;
+  }
+  friend bool operator<(Perturbed a, Perturbed b) { return behaviour().fault == Fault::weak_for_strict ? a.v <= b.v : a.v < b.v; }
+  friend bool operator<=(Perturbed a, Perturbed b) { return behaviour().fault == Fault::strict_for_weak ? a.v < b.v : a.v <= b.v; }
+  friend bool operator>(Perturbed a, Perturbed b) { return b < a; }
+  friend bool operator>=(Perturbed a, Perturbed b) { return b <= a; }
+  friend Perturbed select(bool m, Perturbed a, Perturbed b) { return m ? a : b; }
+  friend Perturbed min(Perturbed a, Perturbed b) { return of(behaviour().fault == Fault::minimum_missing ? a.v : b.v < a.v ? b.v : a.v); }
+  friend Perturbed max(Perturbed a, Perturbed b) { return of(behaviour().fault == Fault::maximum_missing ? a.v : a.v < b.v ? b.v : a.v); }
+  friend Perturbed abs(Perturbed a) { return a.v < 0 && behaviour().fault != Fault::abs_missing ? -a : a; }
+  friend Perturbed sqrt(Perturbed a);
+  friend Perturbed square(Perturbed a) { return behaviour().fault == Fault::square_missing ? a : a * a; }
+  friend Perturbed floor(Perturbed a);
+  friend Perturbed fract(Perturbed a);
+  friend Perturbed mix(Perturbed a, Perturbed b, Perturbed t);
+  /// A number that a fault has made too large for an integer is cut.
+  friend Int to_int(Perturbed a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
+  friend Perturbed to_number(Int a) { return of(static_cast<float>(a.i)); }
+  friend Perturbed fetch(const float* texels, Int offset, Perturbed) { return of(texels[offset.i]); }
+
+  friend Perturbed exp(Perturbed a);
+  friend Perturbed exp2(Perturbed a);
+  friend Perturbed log(Perturbed a);
+  friend Perturbed pow(Perturbed a, Perturbed b);
+  friend Perturbed sin(Perturbed a);
+  friend Perturbed cos(Perturbed a);
+  friend Perturbed atan2(Perturbed y, Perturbed x);
+
+  /// 1 / sqrt(a) in one instruction: passes do not name it, variations do.
+  friend Perturbed inverse_sqrt(Perturbed a);
+
+ private:
+  static Perturbed add(Perturbed a, Perturbed b);
+  static Perturbed load_unorm(Unorm8 code);
+
+  // A product that the next addition may fuse: v = factor_ times other_, rounded.
+  float factor_ = 0, other_ = 0;
+  bool product_ = false;
+};
+
+// Found by argument before the vocabulary's templates.
+Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c);
+Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c, Perturbed d);
+Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbed d);
+Perturbed smoothstep(float edge0, float edge1, Perturbed x);
+plain::Vec3<Perturbed> normalize(const plain::Vec3<Perturbed>& a);
+plain::Vec3<Perturbed> reflect(const plain::Vec3<Perturbed>& v, const plain::Vec3<Perturbed>& n);
+plain::Vec3<Perturbed> refract(const plain::Vec3<Perturbed>& v, const plain::Vec3<Perturbed>& n, float eta);
+Perturbed nearest_octave(Perturbed x);
+Perturbed uniform_quotient(float a, float b, Perturbed);
+
+/// While a lookup between two levels is made whose weights are rounded together: the share of the level at hand.
+struct Share {
+  float of_level = 0;  ///< 0: no such lookup
+  bool x_first = true;
+};
+Share& share();
+
+/// One lookup by a sampler or by arithmetic, as the variations have it: what it takes for a normalized coordinate, for
+/// one in texels, and for a level of detail.
+struct Sampler {
+  Sampler();
+  bool is_used;
+  float coordinate(float u) const;
+  float texel(float x) const;
+  float level(float lod) const;
+  /// The filtered value of texels a, b, c, d, `in_float` by arithmetic: the four weights rounded so that rows and columns
+  /// keep their sums, the result to numbers of so many bits (24: floats, 11: halves, 0: codes of 8 bits).
+  float blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const;
+
+  /// Whether this lookup between two levels rounds all eight weights together, the level's share in them: each level is then
+  /// weighted(), with x or y first, and their sum stored().
+  bool rounds_jointly() const;
+  bool takes_x_first() const;
+  float weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const;
+  float stored(float value, int bits) const;
+};
+
+}  // namespace rainref::perturbed

@@ -1,0 +1,19 @@
+// The text of display with every number but lanes: Plain, Enclosure and Perturbed; like puddle::every.
+#pragma once
+
+#include "math/perturbed.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "pass/display.pass.h"
+
+namespace rainref::pass::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "pass/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::pass::every

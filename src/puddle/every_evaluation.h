@@ -1,0 +1,32 @@
+// The texts of the puddle's passes with every number but lanes: Plain, Enclosure and Perturbed. A namespace of their own,
+// like puddle::scalar.
+#pragma once
+
+#include "image/footprint.h"
+#include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "puddle/display.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/surface_hit.pass.h"
+#include "puddle/uniforms.h"
+
+namespace rainref::puddle::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling_perturbed-inl.h"
+#include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
+#include "image/environment-inl.h"
+#include "puddle/wave_step.pass.h"
+#include "puddle/surface_hit.pass.h"
+#include "puddle/shade.pass.h"
+#include "puddle/display.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::puddle::every

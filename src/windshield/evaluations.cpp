@@ -1,0 +1,26 @@
+#include "windshield/evaluations.h"
+
+#include "drops/evaluations.h"
+#include "pass/display.h"
+#include "pass/model.h"
+#include "windshield/every_evaluation.h"
+#include "windshield/surface_every_evaluation.h"
+
+namespace rainref::windshield {
+
+const std::vector<capture::PassEvaluations>& evaluations() {
+  static const std::vector<capture::PassEvaluations> all{{"windshield_frame", bind_windshield_frame},
+                                                         {"spawn", nullptr, drops::recompute_spawn},
+                                                         {"integrate", drops::bind_integrate},
+                                                         {"wipe_drops", bind_wipe_drops},
+                                                         {"merge", drops::bind_merge},
+                                                         {"splat", drops::bind_splat},
+                                                         {"wipe_texture", pass::bind<WipeTexturePass, every::WipeTexturePassText>},
+                                                         {"normals", pass::bind<NormalsPass, every::NormalsPassText>},
+                                                         {"blur_pyramid", bind_blur_pyramid},
+                                                         {"composite", pass::bind<CompositePass, every::CompositePassText>},
+                                                         {"display", pass::bind_display}};
+  return all;
+}
+
+}  // namespace rainref::windshield

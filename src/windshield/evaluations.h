@@ -1,0 +1,18 @@
+// The windshield's passes as conformance takes them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "capture/pass_model.h"
+
+namespace rainref::windshield {
+
+/// Every pass of both variants that is not taken as data.
+const std::vector<capture::PassEvaluations>& evaluations();
+
+std::unique_ptr<capture::PassModel> bind_windshield_frame(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
+std::unique_ptr<capture::PassModel> bind_blur_pyramid(const capture::PassCase& c);
+
+}  // namespace rainref::windshield

@@ -1,0 +1,25 @@
+// The texts of the windshield's passes with every number but lanes: Plain, Enclosure and Perturbed. A namespace of their own,
+// like windshield::scalar.
+#pragma once
+
+#include "image/footprint.h"
+#include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "windshield/composite.pass.h"
+
+namespace rainref::windshield::every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "math/optics-inl.h"
+#include "image/sampling_perturbed-inl.h"
+#include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
+#include "windshield/composite.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::windshield::every

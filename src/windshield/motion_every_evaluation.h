@@ -1,0 +1,21 @@
+// The texts of windshield_frame and wipe_drops with every number but lanes: Plain, Enclosure and Perturbed. A namespace of
+// their own, like windshield::motion_scalar.
+#pragma once
+
+#include "math/perturbed.h"
+#include "math/enclosure.h"
+#include "math/plain.h"
+#include "windshield/motion.h"
+#include "windshield/uniforms.h"
+
+namespace rainref::windshield::motion_every {
+using namespace rainref::plain;
+
+#define RAINREF_FN inline
+#define RAINREF_LAMBDA
+#include "windshield/windshield_frame.pass.h"
+#include "windshield/wipe_drops.pass.h"
+#undef RAINREF_FN
+#undef RAINREF_LAMBDA
+
+}  // namespace rainref::windshield::motion_every
