@@ -69,7 +69,7 @@ TEST(Port, WaveStepInCudaPasses) {
   EXPECT_EQ(verdict.code, 0) << verdict.text;
 }
 
-// What envelopes of lookups between two levels are made for (docs/validation.md). Another device may weigh otherwise.
+// What envelopes of lookups between two levels are made for (docs/notes/devices.md). Another device may weigh otherwise.
 TEST(Port, AnH100WeighsTwoLevelsTogether) {
   if (!fs::exists(spirv + "/cuda_two_levels")) GTEST_SKIP() << "built without nvcc";
   const Outcome run = call("'" + spirv + "/cuda_two_levels'");
