@@ -42,7 +42,7 @@ DepthOf ledge(double near, double sky) {
   return [=](int, int y) { return y < 20 ? near : sky; };
 }
 
-TEST(EdgeSplashKnownDefects, Oddity01_BottomLeftTapIsTheTopLeftOne) {
+TEST(EdgeSplashKnownDefects, Defect01_BottomLeftTapIsTheTopLeftOne) {
   // T = 16 and d = 1/4 put the taps one texel apart, around the row below the pixel: bottom left is (-1, -2).
   expect_influence(published_influence(16, 0.25, -1, -2), 0, 0);
   expect_influence(published_influence(16, 0.25, -1, 0), -2, 0);  // p0 and p6: -1 - 1 in x, -1 + 1 in y
@@ -50,13 +50,13 @@ TEST(EdgeSplashKnownDefects, Oddity01_BottomLeftTapIsTheTopLeftOne) {
   expect_influence(corrected_influence(1, -1, 1), -1, 1);
 }
 
-TEST(EdgeSplashKnownDefects, Oddity02_OneTapDoesNotShrinkWithDistance) {
+TEST(EdgeSplashKnownDefects, Defect02_OneTapDoesNotShrinkWithDistance) {
   expect_influence(published_influence(16, 0.25, 0, -2), 0, 0);    // where p1 would be
   expect_influence(published_influence(16, 0.25, 0, -17), 0, -2);  // where it is
   for (const int reach : {1, 4}) expect_influence(corrected_influence(reach, 0, -reach), 0, -2);
 }
 
-TEST(EdgeSplashKnownDefects, Oddity03_TheKernelLiesLower) {
+TEST(EdgeSplashKnownDefects, Defect03_TheKernelLiesLower) {
   // No row above the pixel is read.
   for (int dx = -2; dx <= 2; ++dx) {
     for (int dy = 1; dy <= 3; ++dy) expect_influence(published_influence(16, 0.25, dx, dy), 0, 0);
@@ -65,7 +65,7 @@ TEST(EdgeSplashKnownDefects, Oddity03_TheKernelLiesLower) {
   expect_influence(corrected_influence(2, 0, 2), 0, 2);
 }
 
-TEST(EdgeSplashKnownDefects, Oddity04_TruncationMakesLopsidedTaps) {
+TEST(EdgeSplashKnownDefects, Defect04_TruncationMakesLopsidedTaps) {
   // T d^2 < 1 nearly everywhere: the offsets are -1 and 0.
   const Field f(64, 64, Address::border, [](int x, int y) { return speckle(x, y, 0.5); });
   const auto d = [&](int x, int y) { return static_cast<double>(f.view().texels[64 * y + x]); };
@@ -99,7 +99,7 @@ TEST(EdgeSplashKnownDefects, Oddity04_TruncationMakesLopsidedTaps) {
   }
 }
 
-TEST(EdgeSplashKnownDefects, Oddity05_DeviceDepthTurnsTheEffectOver) {
+TEST(EdgeSplashKnownDefects, Defect05_DeviceDepthTurnsTheEffectOver) {
   // The same ledge by the other convention: its lower edge is painted, not its upper one.
   const auto slab = [] { return inputs_of_distance(64, 64, [](int, int y) { return y >= 20 && y < 40 ? 0.6 : 900.0; }); };
   for (const bool is_corrected : {false, true}) {
@@ -121,7 +121,7 @@ TEST(EdgeSplashKnownDefects, Oddity05_DeviceDepthTurnsTheEffectOver) {
   }
 }
 
-TEST(EdgeSplashKnownDefects, Oddity06_ReadsOutsideMakeEdgesAtTheBorder) {
+TEST(EdgeSplashKnownDefects, Defect06_ReadsOutsideMakeEdgesAtTheBorder) {
   // A wall of constant depth has no edge. T = 3 guards three rows; the taps reach 3 + 3 d^2.
   const auto wall = [] { return inputs_of(48, 40, [](int, int) { return 0.75; }); };
   EdgeSplash a(published(), wall(), executor()), c(corrected(), wall(), executor());
@@ -134,7 +134,7 @@ TEST(EdgeSplashKnownDefects, Oddity06_ReadsOutsideMakeEdgesAtTheBorder) {
   EXPECT_EQ(mean(c.edge()), 0);
 }
 
-TEST(EdgeSplashKnownDefects, Oddity07_ThePrintedKernelIsUpsideDown) {
+TEST(EdgeSplashKnownDefects, Defect07_ThePrintedKernelIsUpsideDown) {
   // The text's vertical kernel has (1 2 1) in the row y - 1, its expanded sum and the code -1 there: the code's sign is positive
   // where depth grows with y. By the printed kernel the other half-plane would pass.
   const Field ramp(32, 32, Address::border, [](int, int y) { return 0.25 + 0x1p-8 * y; });
@@ -148,7 +148,7 @@ TEST(EdgeSplashKnownDefects, Oddity07_ThePrintedKernelIsUpsideDown) {
   EXPECT_TRUE(painted(c, 16, 20));
 }
 
-TEST(EdgeSplashKnownDefects, Oddity08_VerticalEdgesOfOneSidePass) {
+TEST(EdgeSplashKnownDefects, Defect08_VerticalEdgesOfOneSidePass) {
   // gy = +0 and gx > 0 is angle 0, inside the closed half-plane; gx < 0 is pi, outside. T = 12 and d = 1/2: taps 3 apart.
   const auto step = [](int sign) {
     const Field f(64, 64, Address::border, [=](int x, int) { return sign * (x - 32) > 0 ? 0.75 : 0.5; });
@@ -175,7 +175,7 @@ TEST(EdgeSplashKnownDefects, Oddity08_VerticalEdgesOfOneSidePass) {
   }
 }
 
-TEST(EdgeSplashKnownDefects, Oddity09_ANegativeSpeedReadsOutsideTheNoise) {
+TEST(EdgeSplashKnownDefects, Defect09_ANegativeSpeedReadsOutsideTheNoise) {
   // float % keeps the sign: the index is negative, the read 0, and the rain stops where x + v t < 0.
   Settings s = published();
   s.rain_drop_scale = 0.5;
@@ -201,7 +201,7 @@ TEST(EdgeSplashKnownDefects, Oddity09_ANegativeSpeedReadsOutsideTheNoise) {
   EXPECT_EQ(mean(f.noise()), 1);
 }
 
-TEST(EdgeSplashKnownDefects, Oddity10_TheTargetClampsLight) {
+TEST(EdgeSplashKnownDefects, Defect10_TheTargetClampsLight) {
   // ARGB32 holds no more than 1. (A target handle never initialised, a null check made twice while the noise is unchecked, a
   // submit inside the pass and a buffer named after another effect have no bits.)
   for (const bool is_corrected : {false, true}) {
@@ -214,7 +214,7 @@ TEST(EdgeSplashKnownDefects, Oddity10_TheTargetClampsLight) {
   }
 }
 
-TEST(EdgeSplashKnownDefects, Oddity11_TheScrollLosesItsPrecision) {
+TEST(EdgeSplashKnownDefects, Defect11_TheScrollLosesItsPrecision) {
   // x + t v in a float: at 2^25 an odd x is no longer there, so that texels come in pairs.
   Settings s = published();
   s.thickness = 0;

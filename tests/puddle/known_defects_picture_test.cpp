@@ -33,7 +33,7 @@ double down_colour(const Settings& s, float radiance, float albedo) {
   return colour_of(p, 0, 0, 0);
 }
 // The height is taken from the green channel, the previous level, and still encoded: level water lies at 5 - 1/2.
-TEST(PuddleKnownDefects, Oddity07_HeightIsPreviousAndEncoded) {
+TEST(PuddleKnownDefects, Defect07_HeightIsPreviousAndEncoded) {
   const Settings s = looking_down(as_published(4, 4), 18);
   const auto height = [&](double newest, double previous) {
     return hit_of(rendered(s, constant(16, newest), constant(16, previous)), 1, 1)[1];
@@ -52,7 +52,7 @@ TEST(PuddleKnownDefects, Oddity07_HeightIsPreviousAndEncoded) {
 }
 
 // A higher value moves the surface down, but the normals are those of a surface that moves up.
-TEST(PuddleKnownDefects, Oddity08_ShadingIsInvertedAgainstGeometry) {
+TEST(PuddleKnownDefects, Defect08_ShadingIsInvertedAgainstGeometry) {
   const auto slopes = [](const Puddle& p, int row) {
     const auto a = hit_of(p, 6, row), b = hit_of(p, 9, row);
     return std::pair{(b[1] - a[1]) / (b[0] - a[0]), -a[4] / a[5]};  // of the hits, of the normal
@@ -70,7 +70,7 @@ TEST(PuddleKnownDefects, Oddity08_ShadingIsInvertedAgainstGeometry) {
 }
 
 // The gain 2.5 is the slope of the surface only where the wave has 420 texels over the box of 84.
-TEST(PuddleKnownDefects, Oddity09_NormalGainFitsOneResolution) {
+TEST(PuddleKnownDefects, Defect09_NormalGainFitsOneResolution) {
   const auto gain = [](int width) {
     SurfaceHitUniforms u = surface_hit_uniforms(as_published(width, 1));
     u.camera = single_ray({0, 18, 0}, {0, -1, 0});
@@ -98,7 +98,7 @@ TEST(PuddleKnownDefects, Oddity09_NormalGainFitsOneResolution) {
 }
 
 // A picture of 16:9 is laid over a square of 84: rings that are round in texels are ellipses in the world.
-TEST(PuddleKnownDefects, Oddity10_RingsAreEllipsesUnlessThePictureIsSquare) {
+TEST(PuddleKnownDefects, Defect10_RingsAreEllipsesUnlessThePictureIsSquare) {
   const auto ring = [](Water w, const Drop& drop, float rest) {
     // Where the first displaced texel lies along x and along y, after 12 steps.
     w.step({drop});
@@ -131,7 +131,7 @@ TEST(PuddleKnownDefects, Oddity10_RingsAreEllipsesUnlessThePictureIsSquare) {
 }
 
 // The ground lies at y = -uPuddleDepth and the water at 4.5: it is 4.5 deeper than the parameter says.
-TEST(PuddleKnownDefects, Oddity11_WaterIsDeeperThanItsDepth) {
+TEST(PuddleKnownDefects, Defect11_WaterIsDeeperThanItsDepth) {
   Settings s = as_published(1, 1);
   s.puddle_depth = 5;
   s.reflectivity = 0;
@@ -154,7 +154,7 @@ TEST(PuddleKnownDefects, Oddity11_WaterIsDeeperThanItsDepth) {
 }
 
 // On a miss the march leaves p at the ray's origin and still takes a normal, of the water under the camera.
-TEST(PuddleKnownDefects, Oddity12_MissLeavesTheHitAtTheCamera) {
+TEST(PuddleKnownDefects, Defect12_MissLeavesTheHitAtTheCamera) {
   const auto looking_up = [](Settings s) {
     s.camera_position = {1, 18, 2};
     s.camera_target = {2, 19, 2};
@@ -178,7 +178,7 @@ TEST(PuddleKnownDefects, Oddity12_MissLeavesTheHitAtTheCamera) {
 }
 
 // "Won't overshoot because d tells us the closest surface": d is the vertical distance to a displaced box.
-TEST(PuddleKnownDefects, Oddity13_PublishedMarchOvershootsCrests) {
+TEST(PuddleKnownDefects, Defect13_PublishedMarchOvershootsCrests) {
   constexpr int width = 840;  // texels of a tenth
   int crossed = 0, rays = 0;
   for (double start = -30; start < -29; start += 0.1) {

@@ -11,7 +11,7 @@ namespace rainref::puddle::test {
 namespace {
 
 // The pulse runs on t + .25977 i, the position on floor(t): five of ten drops jump while they are active.
-TEST(PuddleKnownDefects, Oddity14_DropsJumpInMidPulse) {
+TEST(PuddleKnownDefects, Defect14_DropsJumpInMidPulse) {
   struct Case {
     int drop;
     double before;  // share of the impulse that falls at the old place
@@ -65,7 +65,7 @@ TEST(PuddleKnownDefects, Oddity14_DropsJumpInMidPulse) {
 }
 
 // Impulses are always positive: rain pushes the mean up, against nothing but the damping.
-TEST(PuddleKnownDefects, Oddity19_RainRaisesTheMean) {
+TEST(PuddleKnownDefects, Defect19_RainRaisesTheMean) {
   // Forced by f a step, the mean u' = gamma (2 u - p) + f rests at f / (1 - gamma).
   Settings s = as_published(48, 48);
   s.boundary = Boundary::periodic;
@@ -91,7 +91,7 @@ TEST(PuddleKnownDefects, Oddity19_RainRaisesTheMean) {
 }
 
 // hash12 is called but not printed, and iTime is a float.
-TEST(PuddleKnownDefects, Oddity20_MissingHashAndFloatTime) {
+TEST(PuddleKnownDefects, Defect20_MissingHashAndFloatTime) {
   // Dave Hoskins' hash12. The pass's constants are floats; with them the evaluations agree to the bit (float) and to the
   // rounding of numbers below 2500 (double).
   const auto hash12 = [](auto x, auto y) {
@@ -123,7 +123,7 @@ TEST(PuddleKnownDefects, Oddity20_MissingHashAndFloatTime) {
 }
 
 // The impulse enters the new level only: it sets the water in motion instead of displacing it.
-TEST(PuddleKnownDefects, Oddity22_ImpulseIsAKick) {
+TEST(PuddleKnownDefects, Defect22_ImpulseIsAKick) {
   Water w(published_water(32, 32));
   w.step({published_drop(16, 16, 0.25f)});
   const double kick = w.mean() - 0.5;

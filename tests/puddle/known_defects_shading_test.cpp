@@ -29,7 +29,7 @@ double shaded(const Settings& s, double fall, float radiance, float albedo) {
 }
 
 // The weight of the sky is F (mix(.3, .8, r) - .3) + .3: never below .3, never above .8, and without Fresnel at r = 0.
-TEST(PuddleKnownDefects, Oddity15_ReflectionWeightHasAFloorAndACeiling) {
+TEST(PuddleKnownDefects, Defect15_ReflectionWeightHasAFloorAndACeiling) {
   Settings s = as_published(1, 1), c = corrected(1, 1);
   const double f0 = 0.0203732;
   s.reflectivity = 0;
@@ -49,7 +49,7 @@ TEST(PuddleKnownDefects, Oddity15_ReflectionWeightHasAFloorAndACeiling) {
 }
 
 // Light is attenuated on one way only, and the tint enters three times.
-TEST(PuddleKnownDefects, Oddity16_BeerIsOneWayAndTheTintCountsThreeTimes) {
+TEST(PuddleKnownDefects, Defect16_BeerIsOneWayAndTheTintCountsThreeTimes) {
   Settings s = as_published(1, 1);
   s.puddle_depth = 5;
   s.reflectivity = 0;
@@ -73,7 +73,7 @@ TEST(PuddleKnownDefects, Oddity16_BeerIsOneWayAndTheTintCountsThreeTimes) {
 }
 
 // Above sqrt(2) the vignette is negative in the corners, and the power of a negative number is a NaN on a GPU.
-TEST(PuddleKnownDefects, Oddity18_VignetteBeyondRootTwoIsRefused) {
+TEST(PuddleKnownDefects, Defect18_VignetteBeyondRootTwoIsRefused) {
   Settings s = as_published(1000, 1000);
   s.vignette = 1.5;
   EXPECT_LT(scalar::vignette<Double>(display_uniforms(s), 0, 0).v, 0);
@@ -90,7 +90,7 @@ TEST(PuddleKnownDefects, Oddity18_VignetteBeyondRootTwoIsRefused) {
 }
 
 // fract(sin(dot) * 43758.5453): a ground point that moves by a rounding error gets another number.
-TEST(PuddleKnownDefects, Oddity21_CheckerNoiseIsChaotic) {
+TEST(PuddleKnownDefects, Defect21_CheckerNoiseIsChaotic) {
   GroundNoiseUniforms u = ground_noise_uniforms(as_published(1, 1));
   u.camera = single_ray({0, 18, 0}, {0, -1, 0});
   const auto noise = [&](auto x) {

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 // The comment says "remap from [-0.5, 0.5] to [0, 1]"; the code maps [-1, 1].
-TEST(PuddleKnownDefects, Oddity01_StoredUnitIsTwiceWhatTheCommentSays) {
+TEST(PuddleKnownDefects, Defect01_StoredUnitIsTwiceWhatTheCommentSays) {
   const Encoding published = encoding(as_published(8, 8));
   EXPECT_EQ(published.scale * 0 + published.bias, -1);
   EXPECT_EQ(published.scale * 1 + published.bias, 1);
@@ -27,7 +27,7 @@ TEST(PuddleKnownDefects, Oddity01_StoredUnitIsTwiceWhatTheCommentSays) {
 }
 
 // "Laplacian ... subtracting the center": the published sum has no centre.
-TEST(PuddleKnownDefects, Oddity02_LaplacianHasNoCentre) {
+TEST(PuddleKnownDefects, Defect02_LaplacianHasNoCentre) {
   Water published(published_water(8, 8)), moved(published_water(8, 8));
   std::vector<float> level = published.level(0.5f);
   level[published.at(4, 4)] = 0.9f;
@@ -48,7 +48,7 @@ TEST(PuddleKnownDefects, Oddity02_LaplacianHasNoCentre) {
 
 // The comments call s1 "left" and s2 "down"; -e.zy is down and -e.xz is left. All neighbours weigh the same and the
 // sum of the first two commutes, so nothing but the names is wrong; corrected uses the same stencil.
-TEST(PuddleKnownDefects, Oddity03_SwappedNamesOfNeighboursChangeNothing) {
+TEST(PuddleKnownDefects, Defect03_SwappedNamesOfNeighboursChangeNothing) {
   const auto next = [](Water w, float down, float left, float right, float up) {
     std::vector<float> level = w.level(w.uniforms.rest);
     level[w.at(4, 3)] = down;
@@ -76,7 +76,7 @@ TEST(PuddleKnownDefects, Oddity03_SwappedNamesOfNeighboursChangeNothing) {
 }
 
 // STEP is not defined in the article: a fraction reads between texels, and so diffuses.
-TEST(PuddleKnownDefects, Oddity04_FractionalStepReadsBetweenTexels) {
+TEST(PuddleKnownDefects, Defect04_FractionalStepReadsBetweenTexels) {
   const auto responses = [](double step) {
     Settings s = published_water(16, 16);
     s.step = step;
@@ -98,7 +98,7 @@ TEST(PuddleKnownDefects, Oddity04_FractionalStepReadsBetweenTexels) {
 }
 
 // The storage format is left open: 8 bits clamp and quantise, and cannot even hold level water.
-TEST(PuddleKnownDefects, Oddity05_StorageClampsAndQuantises) {
+TEST(PuddleKnownDefects, Defect05_StorageClampsAndQuantises) {
   const auto after_drop = [](Format storage, float amplitude) {
     Settings s = published_water(16, 16);
     s.storage = storage;
@@ -131,7 +131,7 @@ TEST(PuddleKnownDefects, Oddity05_StorageClampsAndQuantises) {
 }
 
 // smoothstep(4, .5, x) and smoothstep(.35, .2, x) have edge0 >= edge1, which GLSL leaves undefined.
-TEST(PuddleKnownDefects, Oddity06_ReversedSmoothstepIsDefinedHere) {
+TEST(PuddleKnownDefects, Defect06_ReversedSmoothstepIsDefinedHere) {
   const auto rising = [](double a, double b, double x) {
     const double t = std::min(1.0, std::max(0.0, (x - a) / (b - a)));
     return t * t * (3 - 2 * t);
@@ -150,7 +150,7 @@ TEST(PuddleKnownDefects, Oddity06_ReversedSmoothstepIsDefinedHere) {
 }
 
 // No dt anywhere: speed, damping and rain follow the frame rate.
-TEST(PuddleKnownDefects, Oddity17_PublishedWaterDependsOnTheFrameRate) {
+TEST(PuddleKnownDefects, Defect17_PublishedWaterDependsOnTheFrameRate) {
   const auto one_second = [](Settings s, int fps) {
     s.fps = fps;
     auto p = std::make_unique<Puddle>(s, uniform_surroundings(1, 0.5f), executor());
@@ -179,7 +179,7 @@ TEST(PuddleKnownDefects, Oddity17_PublishedWaterDependsOnTheFrameRate) {
 }
 
 // The damping factor acts on the level, not on its change: it pulls the mean to 0 and makes it ring.
-TEST(PuddleKnownDefects, Oddity23_DampingRingsTheMean) {
+TEST(PuddleKnownDefects, Defect23_DampingRingsTheMean) {
   Settings s = as_published(8, 8);
   s.damping = 0.95;
   s.boundary = Boundary::periodic;

@@ -37,7 +37,7 @@ TEST(WaveRate, CorrectedWaterHasTheSameBitsAtEqualTimesForEveryFrameRate) {
       EXPECT_EQ(levels_at_each_thirtieth(rain_at(Variant::corrected, fps, storage)), expected) << fps;
   }
 }
-// Oddity 17: a published step is a frame, so speed, fading and impulse follow the frame rate.
+// Defect 17: a published step is a frame, so speed, fading and impulse follow the frame rate.
 TEST(WaveRate, PublishedWaterDependsOnTheFrameRate) {
   const std::vector<Levels> at_30 = levels_at_each_thirtieth(rain_at(Variant::as_published, 30, Format::rg32f));
   for (const double fps : {60.0, 120.0}) {

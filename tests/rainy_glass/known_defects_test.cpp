@@ -12,7 +12,7 @@ using test::settings;
 
 const std::vector<float> flat{0.5f, 0.5f, 0.5f, 0.5f};
 
-TEST(RainyGlassKnownDefects, Oddity01_MaskBeforeRemapShiftsTheWholePicture) {
+TEST(RainyGlassKnownDefects, Defect01_MaskBeforeRemapShiftsTheWholePicture) {
   // Level glass without droplets: nothing should move.
   Pixel published(Variant::as_published, {0.5f, 0.5f, 0, 0}, flat);
   published.set_normal(0, 1, 0);
@@ -23,7 +23,7 @@ TEST(RainyGlassKnownDefects, Oddity01_MaskBeforeRemapShiftsTheWholePicture) {
   EXPECT_EQ(corrected.colour().x.v, -1);  // the scene's own texel
 }
 
-TEST(RainyGlassKnownDefects, Oddity02_EightBitsHaveNoMiddle) {
+TEST(RainyGlassKnownDefects, Defect02_EightBitsHaveNoMiddle) {
   // A flat surface is stored as code 128 = .50196: 2 s - 1 is not 0.
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     Settings s = settings(variant, 8, 8);
@@ -56,7 +56,7 @@ TEST(RainyGlassKnownDefects, Oddity02_EightBitsHaveNoMiddle) {
   }
 }
 
-TEST(RainyGlassKnownDefects, Oddity03_NearestSeedCutsDroplets) {
+TEST(RainyGlassKnownDefects, Defect03_NearestSeedCutsDroplets) {
   // A large droplet beside a small one: the line halfway between their centres cuts the large one.
   const auto droplet = [](float x, float radius, float offset) {
     return Droplet{x, 0.5f, radius, radius / 0.2f, 1 / radius, 0, 1 / radius, offset};
@@ -99,7 +99,7 @@ TEST(RainyGlassKnownDefects, Oddity03_NearestSeedCutsDroplets) {
   }
 }
 
-TEST(RainyGlassKnownDefects, Oddity04_DropletsAppearAtFullSizeAtOnce) {
+TEST(RainyGlassKnownDefects, Defect04_DropletsAppearAtFullSizeAtOnce) {
   Settings s = settings(Variant::corrected, 8, 8);
   s.fps = 1000;
   s.drop_period = 1;
@@ -121,7 +121,7 @@ TEST(RainyGlassKnownDefects, Oddity04_DropletsAppearAtFullSizeAtOnce) {
   EXPECT_EQ(shown(40), 1);
 }
 
-TEST(RainyGlassKnownDefects, Oddity05_FlowIsUnsignedAndGoesNowhere) {
+TEST(RainyGlassKnownDefects, Defect05_FlowIsUnsignedAndGoesNowhere) {
   // Flow of the whole range moves the lookup to one side only; and on a ramp of the rivulets nothing moves at all (F1).
   EXPECT_EQ(code_of(settings(Variant::as_published, 8, 8), Format::rgba16f).neutral, 0.5);
   std::vector<float> ramp;
@@ -153,7 +153,7 @@ TEST(RainyGlassKnownDefects, Oddity05_FlowIsUnsignedAndGoesNowhere) {
   EXPECT_GT(rain_on_glass_uniforms(moving, 60, {0.5, 0.5}, {0.5, 0.5}).scroll, 0.1f);
 }
 
-TEST(RainyGlassKnownDefects, Oddity06_OffsetsFollowTheAspect) {
+TEST(RainyGlassKnownDefects, Defect06_OffsetsFollowTheAspect) {
   // One normal, pictures of two shapes: as published a share of each side, so more pixels across than along.
   Pixel p(Variant::as_published, {0.9f, 0.9f, 0, 1}, flat);
   p.set_normal(0, 1, 0);
@@ -167,7 +167,7 @@ TEST(RainyGlassKnownDefects, Oddity06_OffsetsFollowTheAspect) {
   }
 }
 
-TEST(RainyGlassKnownDefects, Oddity07_SlopeMaskIsNotTheSineAndHidesUndersides) {
+TEST(RainyGlassKnownDefects, Defect07_SlopeMaskIsNotTheSineAndHidesUndersides) {
   // Glass that hangs over, 45 degrees: the published mask takes it for glass that lies, 1 - .7071 both; and droplets land below.
   const auto published = [](double y) {
     Pixel p(Variant::as_published, {0, 0, 0, 0}, {1, 0.5f, 0, 0});
@@ -188,7 +188,7 @@ TEST(RainyGlassKnownDefects, Oddity07_SlopeMaskIsNotTheSineAndHidesUndersides) {
   EXPECT_TRUE(drop_on(Variant::corrected, 0.5));
 }
 
-TEST(RainyGlassKnownDefects, Oddity08_GrabTakesWhatStandsBeforeTheGlass) {
+TEST(RainyGlassKnownDefects, Defect08_GrabTakesWhatStandsBeforeTheGlass) {
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     Settings s = settings(variant, 96, 64);
     Surroundings around = test::surroundings(s);

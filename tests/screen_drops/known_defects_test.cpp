@@ -15,7 +15,7 @@ int left_edge(const Published& p) {
   return x;
 }
 
-TEST(ScreenDropsKnownDefects, Oddity01_PrintedDisplacementForgetsTheNoise) {
+TEST(ScreenDropsKnownDefects, Defect01_PrintedDisplacementForgetsTheNoise) {
   const auto edge = [](float noise, int misprint) {
     Published p(400, 400, 1.0 / 400, {noise, 0, 0});
     p.u.keep = 0.2;
@@ -30,7 +30,7 @@ TEST(ScreenDropsKnownDefects, Oddity01_PrintedDisplacementForgetsTheNoise) {
 }
 
 // The report says that drops grow, and that they dwindle; the origin lets them dwindle. Corrected they spread, then dry.
-TEST(ScreenDropsKnownDefects, Oddity02_DropsAppearLargeAndDwindle) {
+TEST(ScreenDropsKnownDefects, Defect02_DropsAppearLargeAndDwindle) {
   const auto radius = [](float phase) {
     Published p(400, 400, 1.0 / 400, {0.5f, 0.5f, 0});
     p.u.time = 10 * (phase + 0.5f);
@@ -48,7 +48,7 @@ TEST(ScreenDropsKnownDefects, Oddity02_DropsAppearLargeAndDwindle) {
 }
 
 // .3 is no index of refraction: it moves the lookup whatever the water is. Corrected, an index of 1 bends nothing.
-TEST(ScreenDropsKnownDefects, Oddity03_TheIndexIsAnOffset) {
+TEST(ScreenDropsKnownDefects, Defect03_TheIndexIsAnOffset) {
   Published p(400, 400, 1.0 / 400, {0.5f, 0, 0});
   const double before = p.at(70, 100).u.v;
   p.u.refraction *= 2;
@@ -61,7 +61,7 @@ TEST(ScreenDropsKnownDefects, Oddity03_TheIndexIsAnOffset) {
 }
 
 // mix(.2, 2, t - .5) is asked for up to t = 2: at the apex it gives 2.9, not the 2 that stands there.
-TEST(ScreenDropsKnownDefects, Oddity04_TheNormalExtrapolates) {
+TEST(ScreenDropsKnownDefects, Defect04_TheNormalExtrapolates) {
   Published p(4000, 4000, 1.0 / 4000, {0.5f, 0.5f, 0});
   p.u.time = 5;  // phase 0
   const int middle = static_cast<int>(std::lround(1000 * 2 * pi / 6.28 - 0.5)), x = middle + 60;
@@ -71,7 +71,7 @@ TEST(ScreenDropsKnownDefects, Oddity04_TheNormalExtrapolates) {
   EXPECT_NEAR(p.at(x, middle).u.v - (x + 0.5) / 4000, 0.3 * std::cos(angle) / std::hypot(std::cos(angle), std::cos(up), z), 1e-6);
 }
 
-TEST(ScreenDropsKnownDefects, Oddity05_SixPointTwoEightDriftsOutOfItsCell) {
+TEST(ScreenDropsKnownDefects, Defect05_SixPointTwoEightDriftsOutOfItsCell) {
   // By 5.07e-4 of a cell in each cell: .058 at cell 115.
   const Published p(4000 * 3, 40, 1.0 / 100, {0.5f, 0, 0});
   const auto middle_of = [&](int cell) {
@@ -88,7 +88,7 @@ TEST(ScreenDropsKnownDefects, Oddity05_SixPointTwoEightDriftsOutOfItsCell) {
   EXPECT_NEAR(layers_of[0].cells_per_pixel * 100, 20 / (cell_over_radius * s.largest_radius), 1e-12);
 }
 
-TEST(ScreenDropsKnownDefects, Oddity06_SizeFollowsPixelsAndOffsetsTheAspect) {
+TEST(ScreenDropsKnownDefects, Defect06_SizeFollowsPixelsAndOffsetsTheAspect) {
   // Twice the picture: drops of the same number of pixels. Twice as wide: the offset in pixels doubles in x alone.
   const auto offset = [](int width, int x, int y) {
     Published p(width, 400, 1.0 / 400, {0.5f, 0.5f, 0});
@@ -110,7 +110,7 @@ TEST(ScreenDropsKnownDefects, Oddity06_SizeFollowsPixelsAndOffsetsTheAspect) {
   EXPECT_NEAR(u.pixel[0], u.pixel[1], 1e-9);
 }
 
-TEST(ScreenDropsKnownDefects, Oddity07_DropsComeBackToTheSamePlace) {
+TEST(ScreenDropsKnownDefects, Defect07_DropsComeBackToTheSamePlace) {
   Published p(400, 400, 1.0 / 400, {0.5f, 0.1f, 0.4f});
   p.u.time = 0;
   const int before = left_edge(p);
