@@ -20,9 +20,9 @@ const std::map<std::string, int> floors{{"base", 0},        {"math", 1},        
                                         {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5},  {"compositor", 6}, {"conformance", 6},
                                         {"port_dump", 6},   {"cli", 7}};
 // Public headers, by the floor that implements them.
-const std::map<std::string, int> public_floors{{"version", 0},     {"error", 0},        {"storage", 1},    {"image", 2},  {"texture", 2},
-                                               {"recorder", 2},    {"executor", 3},     {"scene_text", 4}, {"puddle", 5}, {"windshield", 5},
-                                               {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5}};
+const std::map<std::string, int> public_floors{{"version", 0},    {"error", 0},       {"variant", 0},      {"storage", 1},    {"image", 2},
+                                               {"texture", 2},    {"recorder", 2},    {"executor", 3},     {"scene_text", 4}, {"puddle", 5},
+                                               {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5}};
 // A room may include these of its own floor; every other pair of rooms on one floor keeps apart.
 const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"scene"}},
                                                                  {"night_street", {"scene"}},
