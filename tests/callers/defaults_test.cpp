@@ -1,6 +1,8 @@
 // Every effect runs with what its public header says by default, and that is what a scene gives that says nothing.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "edge_splash/parameters.h"
 #include "puddle/parameters.h"
 #include "rainref/edge_splash.h"
@@ -92,7 +94,7 @@ TEST_F(Defaults, Windshield) {
 template <class Read>
 auto silent_scene(const char* effect, Variant variant, std::span<const scene::Parameter> parameters, Read read) {
   const scene::EffectTable table{{{effect, {"as-published", "corrected"}, parameters}}};
-  return read(scene::parse(std::string("effect = '") + effect + "'\nvariant = '" + name(variant) + "'\n", "silent", {}, table));
+  return read(scene::parse(fmt::format("effect = '{}'\nvariant = '{}'\n", effect, name(variant)), "silent", {}, table));
 }
 TEST_F(Defaults, AreThoseOfAScene) {
   for (const Variant v : {Variant::as_published, Variant::corrected}) {

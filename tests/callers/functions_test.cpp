@@ -48,7 +48,7 @@ TEST(AnyCaller, DepthsAndSeams) {
 }
 
 TEST(AnyCaller, PuddlesOfOnesOwnWater) {
-  puddle::Settings settings = test::puddle_settings();
+  puddle::Settings settings = rainref::test::puddle_settings();
   settings.width = 16;
   settings.height = 9;
   settings.grid = {12, 10};
@@ -73,7 +73,7 @@ TEST(AnyCaller, PuddlesOfOnesOwnWater) {
 }
 
 TEST(AnyCaller, AnExceptionPutsTheStateBack) {
-  puddle::Settings settings = test::puddle_settings();
+  puddle::Settings settings = rainref::test::puddle_settings();
   settings.wave_speed = 5;
   puddle::Surroundings around;
   around.environment = Image(Format::rgba32f, 4, 2);

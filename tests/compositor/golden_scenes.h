@@ -107,7 +107,7 @@ inline GoldenScene golden_glass() {
 }
 
 inline std::vector<GoldenScene> golden_scenes() {
-  puddle::Settings s = test::puddle_settings();
+  puddle::Settings s = rainref::test::puddle_settings();
   s.width = 97;
   s.height = 61;
   s.seed = 11;

@@ -51,7 +51,7 @@ Image uniform(int width, int height, float value) {
 
 /// Level water of constant depth, clear, over white ground, in white surroundings.
 struct WhiteBasin {
-  puddle::Settings settings = test::puddle_settings();
+  puddle::Settings settings = rainref::test::puddle_settings();
   puddle::Surroundings around;
   WhiteBasin() {
     settings.width = 48;

@@ -116,7 +116,7 @@ TEST(TracedWindow, RefusesWhatItCannotTrace) {
 
 // ---- rainy_glass ----------------------------------------------------------------------------------------------------
 struct Conservatory {
-  rainy_glass::Settings s = test::rainy_glass_settings();
+  rainy_glass::Settings s = rainref::test::rainy_glass_settings();
   rainy_glass::Surroundings around, unbarred;
   std::optional<rainy_glass::RainyGlass> glass;
   Conservatory() {

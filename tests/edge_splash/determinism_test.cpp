@@ -24,7 +24,7 @@ Inputs scene_of(int width, int height) {
   return in;
 }
 Settings settings(Variant variant) {
-  Settings s = test::edge_splash_settings();
+  Settings s = rainref::test::edge_splash_settings();
   s.variant = variant;
   s.rain_drop_scale = 0.4;
   s.drop_alpha = 0.8;
@@ -95,7 +95,7 @@ TEST_P(Determinism, AnotherSettingGivesOtherBits) {
 
 // What both passes of one variant need, read by plain numbers.
 struct Evaluation {
-  Settings s = test::edge_splash_settings();
+  Settings s = rainref::test::edge_splash_settings();
   Inputs in;
   Image scene, layer, depth_image, noise_image;
   TextureData depth, noise;

@@ -27,7 +27,7 @@ inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
-      Settings s = test::edge_splash_settings();
+      Settings s = rainref::test::edge_splash_settings();
       s.variant = variant;
       s.rounding = rounding;
       s.width = 97;

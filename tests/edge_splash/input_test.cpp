@@ -32,7 +32,7 @@ TEST(EdgeSplashInput, DeviceDepthsAndDistancesAreInverse) {
     for (const double z : {0.3, 0.5, 1.0, 7.3, 100.0, 1000.0}) EXPECT_NEAR(distance_of(r, depth_of(r, z)), z, 1e-9 * z * z);
   }
   // The pass's own: 1 / z = depth_scale d + depth_bias.
-  Settings s = test::edge_splash_settings();
+  Settings s = rainref::test::edge_splash_settings();
   for (const bool reversed : {true, false}) {
     s.depth.reversed = reversed;
     const SplashUniforms u = splash_uniforms(s, 0, 2, 2);

@@ -63,14 +63,14 @@ inline Inputs inputs_of_distance(int width, int height, const DepthOf& distance,
   return in;
 }
 inline Settings published() {
-  Settings s = test::edge_splash_settings();
+  Settings s = rainref::test::edge_splash_settings();
   s.variant = Variant::as_published;
   s.rain_drop_scale = 0;  // every noise passes
   return s;
 }
 /// Every noise passes, thresholds are as sharp as they can be.
 inline Settings corrected() {
-  Settings s = test::edge_splash_settings();
+  Settings s = rainref::test::edge_splash_settings();
   s.variant = Variant::corrected;
   s.rain_drop_scale = 0;
   s.softness = 1e-4;

@@ -23,7 +23,7 @@ TEST(PuddleBounds, HoldForEveryTexelOfTheNineBlocks) {
     select_simd_target(target);
     const parallel::Executor executor(2);
     for (int width = 32; width <= 97; width += 13) {
-      Settings s = test::puddle_settings();
+      Settings s = rainref::test::puddle_settings();
       s.camera_position = {0, 1, 1};
       s.grid = {width, 70};
       std::vector<float> water;

@@ -39,7 +39,7 @@ Surroundings surroundings() {
 }
 
 Settings settings(Variant variant, int width, Format storage = Format::rg16f) {
-  Settings s = test::puddle_settings();
+  Settings s = rainref::test::puddle_settings();
   s.variant = variant;
   s.storage = storage;
   s.width = width;

@@ -11,8 +11,10 @@
 
 #include "image/footprint.h"
 #include "image/random_sampler.h"
+#include "math/constants.h"
 #include "math/profiles.h"
 #include "puddle/captured_scene.h"
+#include "puddle/checkerboard.h"
 #include "puddle/host.h"
 #include "puddle/uniforms.h"
 

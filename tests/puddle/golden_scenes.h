@@ -27,7 +27,7 @@ inline std::vector<GoldenScene> golden_scenes() {
     for (const Format storage : {Format::rg16f, Format::rg32f, Format::rgba8}) {
       for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
         if (rounding == Rounding::rtz && storage != Format::rg16f) continue;
-        Settings s = test::puddle_settings();
+        Settings s = rainref::test::puddle_settings();
         s.variant = variant;
         s.storage = storage;
         s.rounding = rounding;

@@ -39,7 +39,7 @@ inline Surroundings tiny_surroundings() {
 }
 
 inline Settings no_rain(Variant variant, int width, int height) {
-  Settings s = test::puddle_settings();
+  Settings s = rainref::test::puddle_settings();
   s.variant = variant;
   s.width = variant == Variant::as_published ? width : 8;
   s.height = variant == Variant::as_published ? height : 6;

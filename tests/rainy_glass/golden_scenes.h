@@ -26,7 +26,7 @@ inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     const auto add = [&](Format storage, Rounding rounding, Shape shape, bool use_probe, const std::string& what) {
-      Settings s = test::rainy_glass_settings();
+      Settings s = rainref::test::rainy_glass_settings();
       s.variant = variant;
       s.map_storage = storage;
       s.rounding = rounding;

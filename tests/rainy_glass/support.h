@@ -30,7 +30,7 @@ inline const parallel::Executor& executor() {
 }
 
 inline Settings settings(Variant variant, int width, int height) {
-  Settings s = test::rainy_glass_settings();
+  Settings s = rainref::test::rainy_glass_settings();
   s.variant = variant;
   s.width = width;
   s.height = height;
@@ -90,7 +90,7 @@ inline std::vector<float> texels(const Image& map) {
 
 /// One pixel of corrected or published glass before chosen maps, in double, from the middle of a picture of 101 x 101.
 struct Pixel {
-  Settings settings = test::rainy_glass_settings();
+  Settings settings = rainref::test::rainy_glass_settings();
   TextureData raindrops, rivulets, scene, near;
   RainOnGlassUniforms uniforms{};
   scalar::GlassPixel<Double> at{};

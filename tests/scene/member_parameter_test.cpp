@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "rainref/error.h"
 #include "scene/effect_table.h"
 #include "scene/toml.h"
@@ -61,7 +63,7 @@ const std::vector<MemberParameter<Made>>& members() {
 Config config_of(Variant variant, const std::vector<std::string>& overrides) {
   static const std::vector<Parameter> parameters = parameters_of(members());
   const EffectTable table{{{"made", {"as-published", "corrected"}, parameters}}};
-  return parse(std::string("effect = 'made'\nvariant = '") + name(variant) + "'\n", "made", overrides, table);
+  return parse(fmt::format("effect = 'made'\nvariant = '{}'\n", name(variant)), "made", overrides, table);
 }
 
 TEST(MemberParameter, ATableIsSound) {

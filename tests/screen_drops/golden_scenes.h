@@ -27,7 +27,7 @@ inline std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   for (const Variant variant : {Variant::as_published, Variant::corrected}) {
     const auto add = [&](Rounding rounding, bool other, const std::string& what) {
-      Settings s = test::screen_drops_settings();
+      Settings s = rainref::test::screen_drops_settings();
       s.variant = variant;
       s.rounding = rounding;
       s.width = 97;

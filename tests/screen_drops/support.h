@@ -31,7 +31,7 @@ inline const parallel::Executor& executor() {
 }
 
 inline Settings settings(Variant variant, int width, int height) {
-  Settings s = test::screen_drops_settings();
+  Settings s = rainref::test::screen_drops_settings();
   s.variant = variant;
   s.width = width;
   s.height = height;
@@ -92,7 +92,7 @@ inline void fill_cells(const CellsUniforms& u, Image& cells) {
 /// One pixel of the corrected window, in double: a picture of odd size whose middle pixel looks straight ahead, before a ramp.
 struct Pixel {
   static constexpr int side = 2001, middle = side / 2;
-  Settings s = test::screen_drops_settings();
+  Settings s = rainref::test::screen_drops_settings();
   DropsUniforms u{};
   TextureData scene = ramp(64), cells, height{std::vector<float>{0}, 1, 1, 1, Address::clamp, Address::clamp};
   plain::Vec3<Double> background{Double(0.25f), Double(0.5f), Double(0.75f)};
