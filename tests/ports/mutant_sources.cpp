@@ -63,7 +63,7 @@ Compiler::~Compiler() {
   fs::remove_all(folder_, ignored);
 }
 
-fs::path Compiler::compile(const std::string& shader, const std::map<std::string, std::string>& edited, const std::string& name) const {
+fs::path Compiler::compile(const std::string& shader, const Mutant& mutant, const std::string& name) const {
   // An include is looked for beside the file that names it first, so a whole copy of the folder stands around the edited files.
   const fs::path folder = folder_ / name, effect = fs::path(shader).parent_path();
   for (const fs::path& part : {effect, fs::path("common")}) {
@@ -73,7 +73,7 @@ fs::path Compiler::compile(const std::string& shader, const std::map<std::string
     }
   }
   fs::copy_file(ports_ / shader, folder / shader);
-  for (const auto& [file, text] : edited) write_file(folder / file, text);
+  for (const auto& [file, text] : edited_files(mutant, ports_)) write_file(folder / file, text);
   const fs::path spirv = folder / "program.spv", log = folder / "log";
   const std::string command = "'" + glslang_ + "' -V --target-env vulkan1.1 --quiet '-I" + (folder / "common").string() + "' '" +
                               (folder / shader).string() + "' -o '" + spirv.string() + "' >'" + log.string() + "' 2>&1";

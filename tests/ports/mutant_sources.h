@@ -25,7 +25,7 @@ std::vector<Mutant> read_mutants(const fs::path& file);
 /// exactly once.
 std::map<std::string, std::string> edited_files(const Mutant& mutant, const fs::path& ports);
 
-/// Compiles GLSL of the ports, as they are or edited, in a folder of its own that goes with it.
+/// Compiles mutants' shaders in a folder of its own that goes with it.
 class Compiler {
  public:
   /// `glslang`: glslangValidator; `ports`: examples/ports.
@@ -33,9 +33,9 @@ class Compiler {
   Compiler(const Compiler&) = delete;
   Compiler& operator=(const Compiler&) = delete;
   ~Compiler();
-  /// SPIR-V of a shader, "puddle/shade_corrected.comp", with these files in place of the ports'. `name` is its own. Throws Error
-  /// with the compiler's words. May be called by several threads.
-  fs::path compile(const std::string& shader, const std::map<std::string, std::string>& edited, const std::string& name) const;
+  /// SPIR-V of a shader, "puddle/shade_corrected.comp", as the mutant's edits make it; `name` is its own. Throws Error with the
+  /// compiler's words, and as edited_files does. May be called by several threads.
+  fs::path compile(const std::string& shader, const Mutant& mutant, const std::string& name) const;
 
  private:
   std::string glslang_;

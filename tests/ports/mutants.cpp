@@ -16,12 +16,12 @@ namespace port_runner {
 namespace {
 
 constexpr const char* usage =
-    "usage: port_mutants --mutants FILE --ports DIR --packs DIR [--glslang PROGRAM] [--device N|cpu] [--ids ID,ID...]\n"
+    "usage: port_mutants --mutants FILE --ports DIR --spirv DIR --packs DIR [--glslang PROGRAM] [--device N|cpu] [--ids ID,ID...]\n"
     "                    [--rainref PROGRAM --out DIR]\n"
-    "Compiles the shaders of --ports (examples/ports) as they are and with the edits of each mutant. Prints for each mutant how many "
-    "elements it changes and by how many storage codes at most: exit 1 when one that is\n"
-    "expected to be equivalent changes a bit, or one below a storage ULP more than a code. With --rainref each is judged,\n"
-    "too: exit 1 when a verdict is not the expected one.\n";
+    "Edits the shaders of --ports (examples/ports) as each mutant says, and compares what they give with what those of --spirv\n"
+    "give, which are the same without the edits, compiled. Prints for each mutant how many elements it changes and by how many\n"
+    "storage codes at most: exit 1 when one that is expected to be equivalent changes a bit, or one below a storage ULP more\n"
+    "than a code. With --rainref each is judged, too: exit 1 when a verdict is not the expected one.\n";
 
 /// What a mutant changes against the port as it is meant.
 struct Change {
@@ -57,54 +57,41 @@ bool is_true(const std::string& expected, const Change& change) {
   return expected != "below-storage-ulp" || change.largest <= 1;
 }
 
-/// A mutant, the program of its pass as it is meant, and its own SPIR-V.
+/// A mutant, the program of its pass as it is meant, and as the edits make it.
 struct Made {
   Mutant mutant;
-  Program meant;
-  fs::path spirv;
+  Program meant, mutated;
 };
-/// Compiles each shader as it is meant, and each mutant, on all cores. Throws the first Error.
-std::vector<Made> compile(const std::vector<Mutant>& mutants, const Compiler& compiler, const fs::path& ports) {
+/// Compiles each mutant, on all cores. Throws the first Error.
+std::vector<Made> compile(const std::vector<Mutant>& mutants, const Compiler& compiler, const fs::path& spirv) {
   std::vector<Made> all;
-  std::map<std::string, fs::path> meant;
-  std::vector<std::string> shaders;
   for (const Mutant& m : mutants) {
-    const auto programs = read_programs(ports / m.effect);
+    const auto programs = read_programs(spirv / m.effect);
     const std::string formula = m.effect + "." + m.pass + "." + m.variant + "/";
     const auto program = programs.lower_bound(formula);
     if (program == programs.end() || !program->first.starts_with(formula))
       throw Error("mutant " + std::to_string(m.id) + ": no program for " + formula);
-    const fs::path spirv = program->second.spirv.lexically_normal();
-    shaders.push_back((fs::relative(spirv.parent_path(), ports) / spirv.stem()).string() + ".comp");
-    meant[shaders.back()];
-    all.push_back({m, program->second, {}});
+    all.push_back({m, program->second, program->second});
   }
-  std::vector<std::map<std::string, fs::path>::value_type*> as_meant;
-  for (auto& one : meant) as_meant.push_back(&one);
   std::atomic<std::size_t> next{0};
-  std::vector<std::string> failed(all.size() + as_meant.size());
+  std::vector<std::string> failed(all.size());
   const auto work = [&] {
-    for (std::size_t i = next++; i < failed.size(); i = next++) {
+    for (std::size_t i = next++; i < all.size(); i = next++) {
       try {
-        if (i < all.size()) {
-          const Mutant& m = all[i].mutant;
-          all[i].spirv = compiler.compile(shaders[i], edited_files(m, ports), "mutant-" + std::to_string(m.id) + "-" + std::to_string(i));
-        } else {
-          auto& [shader, spirv] = *as_meant[i - all.size()];
-          spirv = compiler.compile(shader, {}, "meant-" + std::to_string(i));
-        }
+        fs::path shader = all[i].meant.spirv.lexically_normal().lexically_relative(spirv.lexically_normal());
+        const std::string name = "mutant-" + std::to_string(all[i].mutant.id) + "-" + std::to_string(i);
+        all[i].mutated.spirv = compiler.compile(shader.replace_extension("comp").string(), all[i].mutant, name);
       } catch (const std::exception& e) {
         failed[i] = e.what();
       }
     }
   };
   std::vector<std::jthread> workers;
-  for (unsigned k = 1; k < std::max(std::thread::hardware_concurrency(), 1u); ++k) workers.emplace_back(work);
+  for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k) workers.emplace_back(work);
   work();
   workers.clear();
   for (const std::string& error : failed)
     if (!error.empty()) throw Error(error);
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].meant.spirv = meant[shaders[i]];
   return all;
 }
 
@@ -145,7 +132,8 @@ bool agrees(const std::string& verdict, const std::string& expected) {
 
 int run(const std::map<std::string, std::string>& options) {
   const auto option = [&](const std::string& key) { return options.contains(key) ? options.at(key) : std::string(); };
-  if (option("--mutants").empty() || option("--packs").empty() || option("--ports").empty()) throw Error(usage);
+  if (option("--mutants").empty() || option("--packs").empty() || option("--ports").empty() || option("--spirv").empty())
+    throw Error(usage);
   std::vector<Mutant> mutants = read_mutants(option("--mutants"));
   const Device device(option("--device"));
   const Judge judge(option("--rainref"), option("--out"));
@@ -157,17 +145,15 @@ int run(const std::map<std::string, std::string>& options) {
     ids.erase(0, comma + 1);
   }
   std::erase_if(mutants, [&](const Mutant& m) { return !wanted.empty() && !wanted.contains(std::to_string(m.id)); });
-  const fs::path folder = fs::absolute(option("--ports"));
-  const Compiler compiler(option("--glslang").empty() ? "glslangValidator" : option("--glslang"), folder);
+  const fs::path spirv = option("--spirv");
+  const Compiler compiler(option("--glslang").empty() ? "glslangValidator" : option("--glslang"), option("--ports"));
 
   std::map<std::string, Port> ports;
   int wrong_verdicts = 0, wrong_labels = 0, small = 0, judged = 0;
   std::printf("%4s %-12s %-13s %9s %9s  %s%s\n", "id", "pass", "variant", "changed", "codes", judge.is_asked() ? "verdict   " : "",
               "expected");
-  for (const Made& made : compile(mutants, compiler, folder)) {
+  for (const Made& made : compile(mutants, compiler, spirv)) {
     const Mutant& m = made.mutant;
-    Program mutated = made.meant;
-    mutated.spirv = made.spirv;
     Port& port = ports.try_emplace(m.variant).first->second;
     if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / (m.effect + "-" + m.variant));
     Change change;
@@ -175,7 +161,7 @@ int run(const std::map<std::string, std::string>& options) {
       if (c.pass != m.pass) continue;
       auto& meant = port.meant[c.id];
       if (meant.empty()) meant = run_case(device, port.pack, c, made.meant, {});
-      const std::vector<Array> outputs = run_case(device, port.pack, c, mutated, {});
+      const std::vector<Array> outputs = run_case(device, port.pack, c, made.mutated, {});
       for (std::size_t i = 0; i < outputs.size(); ++i) {
         compare(meant[i], outputs[i], change);
         if (!judge.is_asked()) continue;
@@ -216,7 +202,7 @@ int run(const std::map<std::string, std::string>& options) {
 
 int main(int argc, char** argv) try {
   std::map<std::string, std::string> options;
-  const std::set<std::string> known{"--mutants", "--ports", "--packs", "--glslang", "--device", "--ids", "--rainref", "--out"};
+  const std::set<std::string> known{"--mutants", "--ports", "--spirv", "--packs", "--glslang", "--device", "--ids", "--rainref", "--out"};
   for (int i = 1; i < argc; i += 2) {
     if (i + 1 == argc || !known.contains(argv[i]))
       throw port_runner::Error(std::string(argv[i]) + ": unknown, or without its value\n" + port_runner::usage);

@@ -28,7 +28,9 @@ struct Place {
   std::string key;
   const json& value;
 
-  [[noreturn]] void refuse(const std::string& expected) const { fail("expected " + expected + ", found " + shown(value)); }
+  [[noreturn]] void refuse(const std::string& expected, const std::string& hint = "") const {
+    fail("expected " + expected + ", found " + shown(value) + hint);
+  }
   [[noreturn]] void fail(const std::string& what) const { throw FileError(file.string() + ": " + (key.empty() ? "" : key + ": ") + what); }
   Place inside(const std::string& name, const json& of) const { return {file, key.empty() ? name : key + " / " + name, of}; }
   const json* find(const std::string& name) const {
@@ -78,10 +80,9 @@ Fact read_fact(const Place& from, const Names& inputs) {
   const auto at = [&](const char* name) { return from.inside(name, *from.find(name)); };
   const Fact fact{at("id").whole(0, 0xffffffffu), at("key").text(), at("input").text()};
   const Names keys{"address_u", "address_v", "present"};
-  if (std::find(keys.begin(), keys.end(), fact.key) == keys.end())
-    at("key").refuse("one of " + joined(keys) + did_you_mean(fact.key, keys));
+  if (std::find(keys.begin(), keys.end(), fact.key) == keys.end()) at("key").refuse("one of " + joined(keys), did_you_mean(fact.key, keys));
   if (std::find(inputs.begin(), inputs.end(), fact.input) == inputs.end())
-    at("input").refuse("one of the program's inputs, " + joined(inputs) + did_you_mean(fact.input, inputs));
+    at("input").refuse("one of the program's inputs, " + joined(inputs), did_you_mean(fact.input, inputs));
   return fact;
 }
 
