@@ -91,6 +91,11 @@ TEST(Bindings, UnknownKeysGetTheNearestOne) {
                      "mean 'one_group'?",
                  [](json& all) { all["programs"][display]["one_gruop"] = true; });
 }
+TEST(Bindings, EachKeyIsDocumented) {
+  const std::string readme = contents(examples + "/README.md");
+  for (const char* key : {"spirv", "inputs", "outputs", "constants", "one_group", "group", "capacity"})
+    EXPECT_THAT(readme, HasSubstr("\n| `" + std::string(key) + "` | "));
+}
 TEST(Bindings, IllTypedValuesAreShown) {
   const auto refused = [](const char* key, const json& value, const std::string& message) {
     expect_refused("programs / " + display + " / " + message, [&](json& all) { all["programs"][display][key] = value; });
