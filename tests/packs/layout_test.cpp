@@ -224,7 +224,8 @@ TEST_P(Layout, Hlsl) {
 // need.
 TEST_P(Layout, OnePassAloneCompilesInEachLanguage) {
   const bool has_glslang = is_there("glslangValidator");
-  std::string glsl, hlsl;
+  std::string glsl;
+  std::vector<std::string> hlsl;
   for (const auto& [path, manifest] : packs) {
     const std::string variant = manifest["variant"];
     for (const ordered_json& pass : manifest["passes"]) {
@@ -258,13 +259,13 @@ TEST_P(Layout, OnePassAloneCompilesInEachLanguage) {
       put(folder / (stem + ".hlsl"), texts["hlsl"] + "[numthreads(1, 1, 1)] void main() {}\n");
       put(folder / (stem + ".c"), texts["c"]);
       glsl += " " + stem + ".comp";
-      hlsl += " " + stem + ".hlsl";
+      hlsl.push_back(stem + ".hlsl");
     }
   }
   output(fmt::format("{} -x c -std=c99 -pedantic -Wall -Wextra -Werror -fsyntax-only *.c", RAINREF_CXX_COMPILER));
   if (!has_glslang) GTEST_SKIP() << "no glslangValidator on this machine (Debian: glslang-tools)";
   output("glslangValidator" + glsl);
-  output("glslangValidator -D -e main -S comp" + hlsl);
+  for (const std::string& file : hlsl) output("glslangValidator -V -o a.spv -D -e main -S comp " + file);
 }
 
 // WGSL by the rules of its specification (alignment and size, "Structure member layout"), applied to the printed text.
@@ -305,7 +306,11 @@ for (const s of new WgslReflect(readFileSync('a.wgsl', 'utf8')).structs) {
   console.log(`${s.name} = ${s.size}`);
 }
 )");
-  put(folder / "a.wgsl", described("wgsl"));
+  const std::string text = described("wgsl");
+  std::string structs;
+  for (const bool records : {false, true})
+    for (const auto& [name, layout] : layouts(records)) structs += section(text, name);
+  put(folder / "a.wgsl", structs);
   expect_printed(output("node a.mjs"));
 }
 
