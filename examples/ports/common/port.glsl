@@ -1,4 +1,4 @@
-// Common to the compute shaders of the port.
+// What the shaders with an invocation for each texel share.
 #extension GL_EXT_shader_image_load_formatted : enable
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,4 +1,4 @@
-// windshield.splat, corrected. The height of the water: every live drop, in slot order; corrected: on the film.
+// windshield.splat, corrected. The height of the water: every live drop, in slot order, on the film.
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #include "port.glsl"

@@ -1,4 +1,4 @@
-// windshield.wipe_drops, corrected. Drops in the swept area ride on the blade; corrected: with the film that it sweeps.
+// windshield.wipe_drops, corrected. Drops in the swept area ride on the blade, with the film that it sweeps.
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_shader_image_load_formatted : enable
