@@ -146,13 +146,15 @@ int parse_and_run(int argc, const char* const* argv) {
   list_verb.footer("Example: rainref list --json");
 
   std::string described;
-  std::optional<std::string> layout;
+  LayoutRequest layout;
   CLI::App& describe_verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
   describe_verb.add_option("EFFECT", described, "Effect")->type_name("NAME")->required();
   describe_verb.add_flag("--json", describe_json, "As JSON");
-  describe_verb.add_option("--layout", layout, "Uniform blocks and structs ready to paste: c, glsl, hlsl, wgsl or cuda")
+  describe_verb.add_option("--layout", layout.language, "Uniform blocks, records and lists ready to paste: c, glsl, hlsl, wgsl or cuda")
       ->type_name("LANGUAGE");
-  describe_verb.footer("Example: rainref describe puddle --layout glsl");
+  describe_verb.add_option("--pass", layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
+  describe_verb.add_option("--variant", layout.variant, "With --layout: in this variant alone")->type_name("NAME");
+  describe_verb.footer("Example: rainref describe puddle --layout glsl --pass wave_step --variant corrected");
 
   SceneFlags run_flags, hash_flags, pack_flags;
   RunOptions run_options;

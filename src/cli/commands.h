@@ -55,8 +55,13 @@ struct MutateRequest {
   int threads = 0;
 };
 
+/// `describe --layout`.
+struct LayoutRequest {
+  std::optional<std::string> language, pass, variant;
+};
+
 int list(bool json);
-int describe(const std::string& effect, bool json, const std::optional<std::string>& layout);
+int describe(const std::string& effect, bool json, const LayoutRequest& layout);
 int run(const RunOptions& options);
 int hash(const SceneOptions& options);
 int pack(const PackOptions& options);

@@ -4,14 +4,15 @@
 
 #include "cli/commands.h"
 #include "cli/json_text.h"
+#include "cli/layout_text.h"
 #include "cli/registry.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "math/simd_target.h"
+#include "rainref/error.h"
 #include "rainref/version.h"
 #include "scene/describe.h"
 #include "scene/json.h"
-#include "scene/uniform_layout.h"
 
 namespace rainref::cli {
 namespace {
@@ -60,17 +61,15 @@ int list(bool json) {
   return 0;
 }
 
-int describe(const std::string& name, bool json, const std::optional<std::string>& layout) {
+int describe(const std::string& name, bool json, const LayoutRequest& layout) {
   const EffectEntry& e = effect(name);
   const std::vector<scene::Parameter> parameters = scene::scene_parameters(effect_table().find(name), effect_table());
-  if (layout) {
-    const scene::Language language = scene::language_from_name(*layout);
-    for (const scene::UniformBlock& record : e.info->records) say("{}\n", scene::record_layout(record, language));
-    for (const capture::PassInfo& pass : e.info->passes) {
-      for (const scene::UniformBlock& block : pass.uniforms) say("// Pass {}\n{}\n", pass.name, scene::layout(block, language));
-    }
+  if (layout.language) {
+    say("{}", layout_text(*e.info, scene::language_from_name(*layout.language), layout.pass, layout.variant));
     return 0;
   }
+  if (layout.pass || layout.variant)
+    throw Error(ExitCode::usage, fmt::format("{}: only beside --layout", layout.pass ? "--pass" : "--variant"));
   if (json) {
     nlohmann::ordered_json out{{"effect", e.name}, {"variants", e.variants}, {"parameters", scene::parameters_json(parameters)}};
     out["passes"] = nlohmann::ordered_json::array();

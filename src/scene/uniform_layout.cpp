@@ -47,6 +47,16 @@ std::string snake_case(const std::string& camel) {
   return out;
 }
 
+// "count_thresholds" -> "CountThresholds"
+std::string camel_case(const std::string& snake) {
+  std::string out;
+  for (std::size_t i = 0; i < snake.size(); ++i) {
+    const bool is_first = i == 0 || snake[i - 1] == '_';
+    if (snake[i] != '_') out += is_first ? static_cast<char>(snake[i] - 'a' + 'A') : snake[i];
+  }
+  return out;
+}
+
 // C has no vectors. They are structs of scalars, guarded because several layouts may be pasted into one file.
 std::string c_vector_types(const UniformBlock& block) {
   std::string out;
@@ -140,20 +150,35 @@ std::string layout(const UniformBlock& block, Language language) {
 
 std::string record_layout(const UniformBlock& record, Language language) {
   validate_record(record);
-  const std::string out = head(record) + struct_text(record, language);
-  const std::string array = snake_case(record.name) + "s";
+  return head(record) + struct_text(record, language);
+}
+
+std::string list_layout(const ListBinding& list, Language language) {
+  const std::string camel = camel_case(list.name);
   switch (language) {
     case Language::c:
     case Language::cuda:
-      return out;
+      return "";
     case Language::glsl:
-      return out + fmt::format("layout(std430, binding = 1) readonly buffer {0}Buffer {{ {0} {1}[]; }};\n", record.name, array);
+      if (!list.is_written) {
+        return fmt::format("layout(std430, binding = {}) readonly buffer {}Buffer {{ {} {}[]; }};\n", list.binding, camel, list.record,
+                           list.name);
+      }
+      return fmt::format(
+          "layout(std430, binding = {0}) buffer {1}Buffer {{\n  uint {3}_count;\n  uint {3}_padding[3];\n  {2} {3}[];\n}};\n", list.binding,
+          camel, list.record, list.name);
     case Language::hlsl:
-      return out + fmt::format("StructuredBuffer<{}> {} : register(t0);\n", record.name, array);
+      return fmt::format("{}StructuredBuffer<{}> {} : register({}{});\n", list.is_written ? "RW" : "", list.record, list.name,
+                         list.is_written ? 'u' : 't', list.slot);
     case Language::wgsl:
-      return out + fmt::format("@group(0) @binding(1) var<storage, read> {} : array<{}>;\n", array, record.name);
+      if (!list.is_written)
+        return fmt::format("@group(0) @binding({}) var<storage, read> {} : array<{}>;\n", list.binding, list.name, list.record);
+      return fmt::format(
+          "struct {1}Buffer {{\n  count : u32,\n  padding_0 : u32,\n  padding_1 : u32,\n  padding_2 : u32,\n  records : array<{2}>,\n}}\n"
+          "@group(0) @binding({0}) var<storage, read_write> {3} : {1}Buffer;\n",
+          list.binding, camel, list.record, list.name);
   }
-  return out;
+  return "";
 }
 
 }  // namespace rainref::scene

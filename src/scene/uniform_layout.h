@@ -18,8 +18,18 @@ const char* name(Language language);
 /// A uniform block: every gap an explicit padding member, every member with its offset, unit and sentence. The bytes
 /// are those of the block in each language (std140, HLSL cbuffer, WGSL uniform, C99, CUDA). Throws as validate does.
 std::string layout(const UniformBlock& block, Language language);
-/// The element struct of a storage buffer, and the buffer (std430, StructuredBuffer, WGSL storage; a struct alone in C
-/// and CUDA). Throws as validate_record does.
+/// The element struct of a list. Throws as validate_record does.
 std::string record_layout(const UniformBlock& record, Language language);
+
+/// A list of records as a pass binds it.
+struct ListBinding {
+  std::string name, record;
+  bool is_written = false;
+  int binding = 1;  ///< in descriptor set or group 0
+  int slot = 0;     ///< HLSL: t of what is read, u of what is written
+};
+/// Declares the list (std430, StructuredBuffer, WGSL storage; nothing in C and CUDA). One that is written begins with its count, in
+/// the first of four words, but in HLSL, where that is the program's own affair.
+std::string list_layout(const ListBinding& list, Language language);
 
 }  // namespace rainref::scene

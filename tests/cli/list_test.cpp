@@ -10,6 +10,8 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 using List = CommandLine;
 using Describe = CommandLine;
@@ -76,6 +78,39 @@ TEST_F(Describe, NamesEveryParameterPassAndBuffer) {
   }
   for (const auto& buffer : json["buffers"]) EXPECT_NE(buffer["format"], "");
   EXPECT_EQ(json["records"][0]["name"], "Drop");
+}
+
+TEST_F(Describe, ListsOfAPassHaveBindingsOfTheirOwn) {
+  const auto layout = [&](const std::string& language) {
+    const Outcome o = rainref({"describe", "puddle", "--layout", language, "--pass", "raindrops", "--variant", "corrected"});
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.out;
+  };
+  const std::string glsl = layout("glsl"), hlsl = layout("hlsl"), wgsl = layout("wgsl"), cuda = layout("cuda");
+  EXPECT_THAT(glsl, StartsWith("// Pass raindrops, corrected. Bindings: 0 RainfallUniforms, 1 craters, 2 count_thresholds, 3 drops.\n"));
+  for (const char* line : {"layout(std430, binding = 1) readonly buffer CratersBuffer { Drop craters[]; };\n",
+                           "layout(std430, binding = 2) readonly buffer CountThresholdsBuffer { CountThreshold count_thresholds[]; };\n",
+                           "layout(std430, binding = 3) buffer DropsBuffer {\n"})
+    EXPECT_THAT(glsl, HasSubstr(line));
+  EXPECT_THAT(
+      hlsl,
+      HasSubstr("StructuredBuffer<CountThreshold> count_thresholds : register(t1);\nRWStructuredBuffer<Drop> drops : register(u0);\n"));
+  EXPECT_THAT(wgsl, HasSubstr("@group(0) @binding(2) var<storage, read> count_thresholds : array<CountThreshold>;\n"));
+  EXPECT_THAT(cuda, StartsWith("// Pass raindrops, corrected. Reads craters, count_thresholds; writes drops.\n"));
+  // One pass alone prints only what it needs; a buffer that is read and written has two names.
+  for (const char* other : {"WaveStepUniforms", "RaindropsUniforms", "ShadeUniforms"}) EXPECT_THAT(glsl, Not(HasSubstr(other)));
+  EXPECT_THAT(rainref({"describe", "puddle", "--layout", "glsl", "--pass", "wave_step", "--variant", "as-published"}).out,
+              StartsWith("// Pass wave_step, as-published. Bindings: 0 WaveStepUniforms, 1 wave (image), 2 drops, 3 wave_out (image).\n"));
+}
+
+TEST_F(Describe, VariantsThatBindTheSameAreOneSection) {
+  const std::string display = rainref({"describe", "puddle", "--layout", "glsl", "--pass", "display"}).out;
+  EXPECT_THAT(display, StartsWith("// Pass display. Bindings: 0 DisplayUniforms, 1 colour (image), 2 picture (image).\n"));
+  EXPECT_EQ(display.find("// Pass", 1), std::string::npos);
+  const std::string wave = rainref({"describe", "puddle", "--layout", "glsl", "--pass", "wave_step"}).out;
+  EXPECT_THAT(wave, HasSubstr("// Pass wave_step, as-published. "));
+  EXPECT_THAT(wave, HasSubstr("// Pass wave_step, corrected. Bindings: 0 WaveStepUniforms, 1 wave (image), 2 drops, 3 shore (image), "));
+  EXPECT_EQ(wave.find("struct Drop {"), wave.rfind("struct Drop {")) << "a record is declared once";
 }
 
 TEST_F(Describe, EveryLayoutIsPrinted) {

@@ -102,6 +102,18 @@ TEST_F(Usage, UnknownEffectOrLayout) {
   expect_refusal({"describe", "puddle", "--layout", ""}, 2, StartsWith("layout: expected one of 'c', "));
 }
 
+TEST_F(Usage, UnknownPassOrVariantOfALayout) {
+  expect_refusal({"describe", "puddle", "--layout", "glsl", "--pass", "shad"}, 2,
+                 "--pass: expected one of raindrops, wave_step, surface_hit, ground_noise, shade, display, found 'shad'; did you mean "
+                 "'shade'?");
+  expect_refusal({"describe", "puddle", "--layout", "glsl", "--variant", "corected"}, 2,
+                 "--variant: expected one of as-published, corrected, found 'corected'; did you mean 'corrected'?");
+  expect_refusal({"describe", "windshield", "--layout", "glsl", "--pass", "merge", "--variant", "as-published"}, 2,
+                 "--variant: expected one of corrected, in which merge runs, found 'as-published'");
+  expect_refusal({"describe", "puddle", "--pass", "shade"}, 2, "--pass: only beside --layout");
+  expect_refusal({"describe", "puddle", "--variant", "corrected"}, 2, "--variant: only beside --layout");
+}
+
 TEST_F(Usage, Size) {
   const std::string range = "--size: expected a whole number from 1 to 65536, found ";
   expect_refusal({"hash", "corrected.toml", "--size", "12"}, 2, "--size: expected WxH such as 1280x720, found '12'");

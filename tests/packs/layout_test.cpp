@@ -33,10 +33,12 @@ class Layout : public testing::TestWithParam<const char*> {
     }
   }
 
-  std::string described(const std::string& language) const {
+  std::string described(const std::string& language, const std::vector<std::string>& more = {}) const {
     Circumstances c;
     c.is_copy = true;
-    const Outcome o = run_rainref(folder.path(), {"describe", GetParam(), "--layout", language}, c);
+    std::vector<std::string> words{"describe", GetParam(), "--layout", language};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome o = run_rainref(folder.path(), words, c);
     EXPECT_EQ(o.code, 0) << o.err;
     return o.out;
   }
@@ -192,12 +194,13 @@ TEST_P(Layout, Glsl) {
   const std::string text = described("glsl");
   for (const bool records : {false, true}) {
     for (const auto& [name, layout] : layouts(records)) {
-      const std::string use = records ? snake(name) + "s[1]" : snake(name);
+      const std::string use = records ? "list[1]" : snake(name);
+      const std::string list = fmt::format("layout(std430, binding = 1) readonly buffer ListBuffer {{ {} list[]; }};\n", name);
       put(folder / "a.comp",
           fmt::format(
-              "#version 450\n{}layout(std430, binding = 9) buffer Out {{ float result; }};\nvoid main() {{ result = float({}.{}); }}\n",
-              section(text, name), use, first_member(layout)));
-      expect_agrees(layout, reflected("a.comp", "", records ? name + "Buffer" : name, records));
+              "#version 450\n{}{}layout(std430, binding = 9) buffer Out {{ float result; }};\nvoid main() {{ result = float({}.{}); }}\n",
+              section(text, name), records ? list : "", use, first_member(layout)));
+      expect_agrees(layout, reflected("a.comp", "", records ? "ListBuffer" : name, records));
     }
   }
 }
@@ -207,14 +210,63 @@ TEST_P(Layout, Hlsl) {
   const std::string text = described("hlsl");
   for (const bool records : {false, true}) {
     for (const auto& [name, layout] : layouts(records)) {
-      const std::string use = records ? fmt::format("{}s[1].{}", snake(name), first_member(layout)) : first_member(layout);
+      const std::string use = records ? fmt::format("list[1].{}", first_member(layout)) : first_member(layout);
+      const std::string list = fmt::format("StructuredBuffer<{}> list : register(t0);\n", name);
       put(folder / "a.hlsl",
           fmt::format(
-              "{}RWStructuredBuffer<float> result : register(u0);\n[numthreads(1, 1, 1)] void main() {{ result[0] = float({}); }}\n",
-              section(text, name), use));
-      expect_agrees(layout, reflected("a.hlsl", "-V -o a.spv -D -e main", records ? snake(name) + "s" : name, records));
+              "{}{}RWStructuredBuffer<float> result : register(u0);\n[numthreads(1, 1, 1)] void main() {{ result[0] = float({}); }}\n",
+              section(text, name), records ? list : "", use));
+      expect_agrees(layout, reflected("a.hlsl", "-V -o a.spv -D -e main", records ? "list" : name, records));
     }
   }
+}
+
+// The text of one pass of one variant can be pasted as it is: each list has a binding of its own, and nothing is there that it does not
+// need.
+TEST_P(Layout, OnePassAloneCompilesInEachLanguage) {
+  const bool has_glslang = is_there("glslangValidator");
+  std::string glsl;
+  std::vector<std::string> hlsl;
+  for (const auto& [path, manifest] : packs) {
+    const std::string variant = manifest["variant"];
+    for (const ordered_json& pass : manifest["passes"]) {
+      const std::string name = pass["name"], block = pass["uniform_block"]["name"];
+      const std::vector<std::string> alone{"--pass", name, "--variant", variant};
+      std::map<std::string, std::string> texts;
+      for (const char* language : {"glsl", "hlsl", "wgsl", "c"}) {
+        const std::string text = texts[language] = described(language, alone);
+        EXPECT_THAT(text, testing::StartsWith(fmt::format("// Pass {}, {}. ", name, variant)));
+        for (const auto& [other, layout] : layouts(false))
+          EXPECT_EQ(text.find(fmt::format("// {}: ", other)) != std::string::npos, other == block) << text;
+      }
+      const std::regex place("binding ?[=(] ?([0-9]+)|register\\(([btu][0-9]+)\\)");
+      std::size_t lists = 0;
+      for (const auto& c : manifest["cases"]) {
+        if (c["pass"] != name) continue;
+        lists = 0;
+        for (const char* side : {"inputs", "outputs"})
+          for (const ordered_json& b : c[side]) lists += b["format"] == "records";
+      }
+      for (const char* language : {"glsl", "hlsl", "wgsl"}) {
+        std::vector<std::string> places;
+        const std::string& text = texts[language];
+        for (std::sregex_iterator m(text.begin(), text.end(), place), end; m != end; ++m) places.push_back((*m)[0]);
+        EXPECT_GE(places.size(), 1 + lists) << text;
+        std::sort(places.begin(), places.end());
+        EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end()) << text;
+      }
+      const std::string stem = name + "_" + variant;
+      put(folder / (stem + ".comp"), "#version 450\n" + texts["glsl"] + "void main() {}\n");
+      put(folder / (stem + ".hlsl"), texts["hlsl"] + "[numthreads(1, 1, 1)] void main() {}\n");
+      put(folder / (stem + ".c"), texts["c"]);
+      glsl += " " + stem + ".comp";
+      hlsl.push_back(stem + ".hlsl");
+    }
+  }
+  output(fmt::format("{} -x c -std=c99 -pedantic -Wall -Wextra -Werror -fsyntax-only *.c", RAINREF_CXX_COMPILER));
+  if (!has_glslang) GTEST_SKIP() << "no glslangValidator on this machine (Debian: glslang-tools)";
+  output("glslangValidator" + glsl);
+  for (const std::string& file : hlsl) output("glslangValidator -V -o a.spv -D -e main -S comp " + file);
 }
 
 // WGSL by the rules of its specification (alignment and size, "Structure member layout"), applied to the printed text.
@@ -255,7 +307,11 @@ for (const s of new WgslReflect(readFileSync('a.wgsl', 'utf8')).structs) {
   console.log(`${s.name} = ${s.size}`);
 }
 )");
-  put(folder / "a.wgsl", described("wgsl"));
+  const std::string text = described("wgsl");
+  std::string structs;
+  for (const bool records : {false, true})
+    for (const auto& [name, layout] : layouts(records)) structs += section(text, name);
+  put(folder / "a.wgsl", structs);
   expect_printed(output("node a.mjs"));
 }
 

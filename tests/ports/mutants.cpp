@@ -1,29 +1,28 @@
-// port_mutants: what the seeded bugs of mutants.json do to the outputs, and what the judge says of each.
+// port_mutants: what the seeded bugs of tests/ports/mutants do to the outputs, and what the judge says of each.
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <map>
 #include <set>
+#include <thread>
 
-#include <nlohmann/json.hpp>
-
+#include "ports/mutant_sources.h"
 #include "ports/runner/dispatch.h"
 
 namespace port_runner {
 namespace {
 
 constexpr const char* usage =
-    "usage: port_mutants --mutants FILE --packs DIR --spirv DIR [--device N|cpu] [--ids ID,ID...] [--rainref PROGRAM --out DIR]\n"
-    "Prints for each mutant how many elements it changes and by how many storage codes at most: exit 1 when one that is\n"
-    "expected to be equivalent changes a bit, or one below a storage ULP more than a code. With --rainref each is judged,\n"
-    "too: exit 1 when a verdict is not the expected one.\n";
+    "usage: port_mutants --mutants FILE --ports DIR --spirv DIR --packs DIR [--glslang PROGRAM] [--device N|cpu] [--ids ID,ID...]\n"
+    "                    [--rainref PROGRAM --out DIR]\n"
+    "Edits the shaders of --ports (examples/ports) as each mutant says, and compares what they give with what those of --spirv\n"
+    "give, which are the same without the edits, compiled. Prints for each mutant how many elements it changes and by how many\n"
+    "storage codes at most: exit 1 when one that is expected to be equivalent changes a bit, or one below a storage ULP more\n"
+    "than a code. With --rainref each is judged, too: exit 1 when a verdict is not the expected one.\n";
 
-struct Mutant {
-  int id;
-  std::string effect, pass, variant, wrong, expected;
-};
 /// What a mutant changes against the port as it is meant.
 struct Change {
   std::size_t elements = 0, changed = 0;
@@ -58,17 +57,42 @@ bool is_true(const std::string& expected, const Change& change) {
   return expected != "below-storage-ulp" || change.largest <= 1;
 }
 
-std::vector<Mutant> read_mutants(const fs::path& file) {
-  std::vector<Mutant> mutants;
-  try {
-    const nlohmann::json all = nlohmann::json::parse(read_file(file));
-    for (const nlohmann::json& m : all.at("mutants")) {
-      mutants.push_back({m.at("id"), all.value("effect", "puddle"), m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected")});
-    }
-  } catch (const nlohmann::json::exception& e) {
-    throw Error(file.string() + ": " + e.what());
+/// A mutant, the program of its pass as it is meant, and as the edits make it.
+struct Made {
+  Mutant mutant;
+  Program meant, mutated;
+};
+/// Compiles each mutant, on all cores. Throws the first Error.
+std::vector<Made> compile(const std::vector<Mutant>& mutants, const Compiler& compiler, const fs::path& spirv) {
+  std::vector<Made> all;
+  for (const Mutant& m : mutants) {
+    const auto programs = read_programs(spirv / m.effect);
+    const std::string formula = m.effect + "." + m.pass + "." + m.variant + "/";
+    const auto program = programs.lower_bound(formula);
+    if (program == programs.end() || !program->first.starts_with(formula))
+      throw Error("mutant " + std::to_string(m.id) + ": no program for " + formula);
+    all.push_back({m, program->second, program->second});
   }
-  return mutants;
+  std::atomic<std::size_t> next{0};
+  std::vector<std::string> failed(all.size());
+  const auto work = [&] {
+    for (std::size_t i = next++; i < all.size(); i = next++) {
+      try {
+        fs::path shader = all[i].meant.spirv.lexically_normal().lexically_relative(spirv.lexically_normal());
+        const std::string name = "mutant-" + std::to_string(all[i].mutant.id) + "-" + std::to_string(i);
+        all[i].mutated.spirv = compiler.compile(shader.replace_extension("comp").string(), all[i].mutant, name);
+      } catch (const std::exception& e) {
+        failed[i] = e.what();
+      }
+    }
+  };
+  std::vector<std::jthread> workers;
+  for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k) workers.emplace_back(work);
+  work();
+  workers.clear();
+  for (const std::string& error : failed)
+    if (!error.empty()) throw Error(error);
+  return all;
 }
 
 struct Port {
@@ -108,9 +132,9 @@ bool agrees(const std::string& verdict, const std::string& expected) {
 
 int run(const std::map<std::string, std::string>& options) {
   const auto option = [&](const std::string& key) { return options.contains(key) ? options.at(key) : std::string(); };
-  if (option("--mutants").empty() || option("--packs").empty() || option("--spirv").empty()) throw Error(usage);
-  const std::vector<Mutant> mutants = read_mutants(option("--mutants"));
-  const auto programs = read_programs(option("--spirv"));
+  if (option("--mutants").empty() || option("--packs").empty() || option("--ports").empty() || option("--spirv").empty())
+    throw Error(usage);
+  std::vector<Mutant> mutants = read_mutants(option("--mutants"));
   const Device device(option("--device"));
   const Judge judge(option("--rainref"), option("--out"));
   if (judge.is_asked() && judge.out().empty()) throw Error("--out: expected a folder, for the judge\n" + std::string(usage));
@@ -120,27 +144,28 @@ int run(const std::map<std::string, std::string>& options) {
     wanted.insert(ids.substr(0, comma));
     ids.erase(0, comma + 1);
   }
+  std::erase_if(mutants, [&](const Mutant& m) { return !wanted.empty() && !wanted.contains(std::to_string(m.id)); });
+  const fs::path spirv = option("--spirv");
+  const Compiler compiler(option("--glslang").empty() ? "glslangValidator" : option("--glslang"), option("--ports"));
 
   std::map<std::string, Port> ports;
   int wrong_verdicts = 0, wrong_labels = 0, small = 0, judged = 0;
   std::printf("%4s %-12s %-13s %9s %9s  %s%s\n", "id", "pass", "variant", "changed", "codes", judge.is_asked() ? "verdict   " : "",
               "expected");
-  for (const Mutant& m : mutants) {
-    if (!wanted.empty() && !wanted.contains(std::to_string(m.id))) continue;
+  for (const Made& made : compile(mutants, compiler, spirv)) {
+    const Mutant& m = made.mutant;
     Port& port = ports.try_emplace(m.variant).first->second;
     if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / (m.effect + "-" + m.variant));
     Change change;
     for (const Case& c : port.pack.cases) {
       if (c.pass != m.pass) continue;
-      const auto program = programs.find(c.formula);
-      if (program == programs.end()) throw Error("mutant " + std::to_string(m.id) + ": no program for " + c.formula);
       auto& meant = port.meant[c.id];
-      if (meant.empty()) meant = run_case(device, port.pack, c, program->second, {});
-      const std::vector<Array> outputs = run_case(device, port.pack, c, program->second, {{0, m.id}});
+      if (meant.empty()) meant = run_case(device, port.pack, c, made.meant, {});
+      const std::vector<Array> outputs = run_case(device, port.pack, c, made.mutated, {});
       for (std::size_t i = 0; i < outputs.size(); ++i) {
         compare(meant[i], outputs[i], change);
         if (!judge.is_asked()) continue;
-        const std::string& name = program->second.outputs[i];
+        const std::string& name = made.meant.outputs[i];
         const auto buffer = std::find_if(c.outputs.begin(), c.outputs.end(), [&](const Buffer& b) { return b.name == name; });
         write_npy(judge.out() / buffer->file, outputs[i]);
       }
@@ -177,7 +202,7 @@ int run(const std::map<std::string, std::string>& options) {
 
 int main(int argc, char** argv) try {
   std::map<std::string, std::string> options;
-  const std::set<std::string> known{"--mutants", "--packs", "--spirv", "--device", "--ids", "--rainref", "--out"};
+  const std::set<std::string> known{"--mutants", "--ports", "--spirv", "--packs", "--glslang", "--device", "--ids", "--rainref", "--out"};
   for (int i = 1; i < argc; i += 2) {
     if (i + 1 == argc || !known.contains(argv[i]))
       throw port_runner::Error(std::string(argv[i]) + ": unknown, or without its value\n" + port_runner::usage);

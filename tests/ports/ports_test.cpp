@@ -1,4 +1,6 @@
 // The ports on a software device: they run, the judge passes them, and it catches bugs seeded in them.
+#include <map>
+
 #include "ports/support.h"
 
 namespace rainref {
@@ -71,8 +73,8 @@ TEST(Port, WaveStepInCudaPasses) {
 
 // What envelopes of lookups between two levels are made for (docs/notes/devices.md). Another device may weigh otherwise.
 TEST(Port, AnH100WeighsTwoLevelsTogether) {
-  if (!fs::exists(spirv + "/cuda_two_levels")) GTEST_SKIP() << "built without nvcc";
-  const Outcome run = call("'" + spirv + "/cuda_two_levels'");
+  if (!fs::exists(RAINREF_TWO_LEVELS)) GTEST_SKIP() << "built without nvcc";
+  const Outcome run = call("'" RAINREF_TWO_LEVELS "'");
   if (run.text.find("cudaGetDeviceProperties") != std::string::npos) GTEST_SKIP() << "no CUDA device: " << run.text;
   if (run.text.find("H100") == std::string::npos) GTEST_SKIP() << "another device: " << run.text;
   EXPECT_EQ(run.code, 0) << run.text;
@@ -80,40 +82,37 @@ TEST(Port, AnH100WeighsTwoLevelsTogether) {
 
 // One or two bugs of each pass; scripts/full/mutants has them all.
 TEST(Port, SeededBugsGetTheirVerdicts) {
-  const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/mutants.json' --packs '" +
-                           source + "/tests/packs' --spirv '" + spirv + "/glsl' --rainref '" RAINREF_PROGRAM "' --out '" +
-                           folder.path().string() + "' --ids 101,106,138,139,203,252,322,334,353,412,456,461,504,507");
+  const Outcome all = judge_mutants("puddle.json", "101,106,138,139,203,252,322,334,353,412,456,461,504,507");
   EXPECT_EQ(all.code, 0) << all.text;
 }
 
 // What a label says of the outputs is held to: 101 changes bits by a code, 139 by three, 113 none.
 TEST(Port, FalseLabelsOfMutantsAreFound) {
-  const auto outcome = [](int id, const std::string& label) {
+  const auto outcome = [](const std::map<int, std::string>& labels) {
     const TemporaryFolder folder;
-    auto all = nlohmann::json::parse(contents(source + "/tests/ports/mutants.json"));
-    for (auto& m : all["mutants"])
-      if (m["id"] == id) m["expected"] = label;
+    auto all = nlohmann::json::parse(contents(source + "/tests/ports/mutants/puddle.json"));
+    std::string ids;
+    for (const auto& [id, label] : labels) {
+      ids += (ids.empty() ? "" : ",") + std::to_string(id);
+      for (auto& m : all["mutants"])
+        if (m["id"] == id) m["expected"] = label;
+    }
     put(folder / "mutants.json", all.dump());
-    return call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + (folder / "mutants.json").string() + "' --packs '" + source +
-                "/tests/packs' --spirv '" + spirv + "/glsl' --ids " + std::to_string(id));
+    return run_mutants(folder / "mutants.json", ids);
   };
-  for (const auto& [id, label] : {std::pair{101, "equivalent"}, {139, "equivalent"}, {139, "below-storage-ulp"}}) {
-    const Outcome run = outcome(id, label);
-    EXPECT_EQ(run.code, 1) << run.text;
-    EXPECT_THAT(run.text, testing::HasSubstr("1 outputs are not what their label says"));
-  }
-  for (const auto& [id, label] : {std::pair{113, "equivalent"}, {101, "below-storage-ulp"}, {139, "inside-envelope"}})
-    EXPECT_EQ(outcome(id, label).code, 0);
+  const Outcome both = outcome({{101, "equivalent"}, {139, "equivalent"}}), one = outcome({{139, "below-storage-ulp"}});
+  EXPECT_EQ(both.code, 1) << both.text;
+  EXPECT_THAT(both.text, HasSubstr("2 outputs are not what their label says"));
+  EXPECT_EQ(one.code, 1) << one.text;
+  EXPECT_THAT(one.text, HasSubstr("1 outputs are not what their label says"));
+  EXPECT_EQ(outcome({{113, "equivalent"}, {101, "below-storage-ulp"}, {139, "inside-envelope"}}).code, 0);
 }
 
-TEST(Port, MutantsAreManyAndNamedOnce) {
-  EXPECT_GE(check_mutants(source + "/tests/ports/mutants.json", source + "/tests/ports/glsl"), 40u);
-}
+TEST(Port, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants("puddle.json"), 40u); }
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(Port, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(check_blocks("puddle", source + "/tests/ports/glsl", {"layout(std140, binding = 0) uniform ", "struct Drop {"}), 8);
+  EXPECT_GE(check_blocks("puddle", {"layout(std140, binding = 0) uniform ", "struct Drop {"}), 8);
 }
 
 // ---- rainy_glass ---------------------------------------------------------------------------------------------------
@@ -127,59 +126,12 @@ TEST_P(Port, OfRainyGlassPasses) {
   EXPECT_THAT(verdict.text, HasSubstr("(4 PASS)"));
 }
 TEST(Port, SeededBugsOfRainyGlassGetTheirVerdicts) {
-  const TemporaryFolder folder;
-  const std::string mutants = source + "/tests/ports/rainy_glass/mutants.json";
-  const Outcome all =
-      call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + mutants + "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
-           "/rainy_glass' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids 702,713,734,762,784,796");
+  const Outcome all = judge_mutants("rainy_glass.json", "702,713,734,762,784,796");
   EXPECT_EQ(all.code, 0) << all.text;
-  std::string shaders;
-  for (const auto& file : fs::directory_iterator(source + "/tests/ports/rainy_glass")) shaders += contents(file.path());
-  const auto listed = nlohmann::json::parse(contents(mutants))["mutants"];
-  EXPECT_GE(listed.size(), 40u);
-  for (const auto& m : listed) {
-    EXPECT_TRUE(std::regex_search(shaders, std::regex("BUG [!=]= " + m["id"].dump() + "\\b"))) << "no shader has bug " << m["id"];
-    EXPECT_EQ(m["expected"] != "FAIL", m.contains("reason")) << m;
-  }
+  EXPECT_GE(check_mutants("rainy_glass.json"), 40u);
 }
 TEST(Port, UniformBlocksOfRainyGlassAreTheDescribedOnes) {
-  const std::string described = call(RAINREF_PROGRAM " describe rainy_glass --layout glsl").text;
-  int blocks = 0;
-  for (const auto& file : fs::directory_iterator(source + "/tests/ports/rainy_glass")) {
-    const std::string text = contents(file.path());
-    for (const char* opening : {"layout(std140, binding = 0) uniform ", "struct Droplet {", "struct Trail {"}) {
-      const std::size_t begin = text.find(opening);
-      if (begin == std::string::npos) continue;
-      EXPECT_THAT(described, HasSubstr(text.substr(begin, text.find("\n}", begin) + 2 - begin))) << file.path();
-      ++blocks;
-    }
-  }
-  EXPECT_EQ(blocks, 6);
-}
-
-// ---- the runner refuses what it cannot run -------------------------------------------------------------------------
-TEST(PortRunner, NamesTheFileAndWhatItExpected) {
-  const TemporaryFolder folder;
-  const fs::path pack = folder / "pack";
-  fs::copy(pack_of("corrected"), pack, fs::copy_options::recursive);
-  const fs::path wave = pack / "puddle.wave_step/0011.0/in.wave.npy";
-  fs::copy_file(pack / "puddle.display/0011.0/out.picture.npy", wave, fs::copy_options::overwrite_existing);
-  EXPECT_THAT(run_port(pack, folder / "out", "--only wave_step").text,
-              HasSubstr("in.wave.npy: expected '<f2' (19, 29, 2), found '|u1' (21, 35, 4)"));
-  fs::remove(wave);
-  EXPECT_THAT(run_port(pack, folder / "out", "--only wave_step").text, HasSubstr("in.wave.npy: cannot be read"));
-  put(pack / "puddle.display/0011.0/uniforms.bin", "short");
-  EXPECT_THAT(run_port(pack, folder / "out", "--only display").text, HasSubstr("uniforms.bin: expected 16 bytes, found 5"));
-  put(pack / "manifest.json", R"({"format": "rainref.pack", "version": 2})");
-  EXPECT_THAT(run_port(pack, folder / "out").text, HasSubstr("this runner knows version 1, the pack has 2"));
-}
-TEST(PortRunner, RefusesUnknownOptionsDevicesAndPasses) {
-  const TemporaryFolder folder;
-  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--sped 0=1").text, HasSubstr("--sped: unknown"));
-  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--spec 0").text, HasSubstr("--spec: expected ID=VALUE, found '0'"));
-  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--device 99").text, HasSubstr("--device 99: expected cpu or a number below"));
-  EXPECT_THAT(run_port(pack_of("corrected"), folder.path(), "--only sheen").text, HasSubstr("no case of this pass has a program"));
-  EXPECT_THAT(call(RAINREF_PORT_RUNNER " --list").text, HasSubstr("llvmpipe"));
+  EXPECT_EQ(check_blocks("rainy_glass", {"layout(std140, binding = 0) uniform ", "struct Droplet {", "struct Trail {"}), 6);
 }
 
 }  // namespace

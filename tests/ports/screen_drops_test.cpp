@@ -7,8 +7,6 @@ namespace {
 
 using namespace ports;
 
-const std::string folder_of_shaders = source + "/tests/ports/screen_drops";
-
 class ScreenDropsPort : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Variants, ScreenDropsPort, testing::Values("as-published", "corrected"),
                          [](const auto& variant) { return variant.param[0] == 'a' ? "AsPublished" : "Corrected"; });
@@ -24,18 +22,15 @@ TEST_P(ScreenDropsPort, PassesUnderTheProfileOfItsApi) {
 
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(ScreenDropsPort, SeededBugsGetTheirVerdicts) {
-  const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + folder_of_shaders + "/mutants.json' --packs '" +
-                           source + "/tests/packs' --spirv '" + spirv + "/screen_drops' --rainref '" RAINREF_PROGRAM "' --out '" +
-                           folder.path().string() + "' --ids 1802,1812,1823,1832,1843,1897");
+  const Outcome all = judge_mutants("screen_drops.json", "1802,1812,1823,1832,1843,1897");
   EXPECT_EQ(all.code, 0) << all.text;
 }
 
-TEST(ScreenDropsPort, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants(folder_of_shaders + "/mutants.json", folder_of_shaders), 15u); }
+TEST(ScreenDropsPort, MutantsAreManyAndNamedOnce) { EXPECT_GE(check_mutants("screen_drops.json"), 15u); }
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(ScreenDropsPort, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(check_blocks("screen_drops", folder_of_shaders, {"layout(std140, binding = 0) uniform ", "struct Tap {"}), 7);
+  EXPECT_GE(check_blocks("screen_drops", {"layout(std140, binding = 0) uniform ", "struct Tap {"}), 7);
 }
 
 }  // namespace

@@ -40,31 +40,22 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
 }
 
 // Some bugs of each pass; scripts/full/mutants has them all.
-void judge_bugs(const std::string& mutants, const std::string& ids) {
-  const TemporaryFolder folder;
-  const Outcome all = call(quiet + RAINREF_PORT_MUTANTS " --device cpu --mutants '" + source + "/tests/ports/windshield/" + mutants +
-                           "' --packs '" + source + "/tests/packs' --spirv '" + spirv +
-                           "/windshield' --rainref '" RAINREF_PROGRAM "' --out '" + folder.path().string() + "' --ids " + ids);
-  EXPECT_EQ(all.code, 0) << all.text;
-}
 TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
-  judge_bugs("mutants_surface.json", "1503,1511,1533,1541,1562,1570,1581,1590,1412,1435,1450");
-  judge_bugs("mutants_motion.json", "1104,1107,1126,1130,1146,1154,1176,1181,1189,1207,1210,1217");
+  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1511,1533,1541,1562,1570,1581,1590,1412,1435,1450");
+  EXPECT_EQ(surface.code, 0) << surface.text;
+  const Outcome motion = judge_mutants("windshield_motion.json", "1104,1107,1126,1130,1146,1154,1176,1181,1189,1207,1210,1217");
+  EXPECT_EQ(motion.code, 0) << motion.text;
 }
 
 TEST(WindshieldPort, MutantsAreManyAndNamedOnce) {
-  std::size_t count = 0;
-  for (const auto& file : fs::directory_iterator(source + "/tests/ports/windshield"))
-    if (file.path().filename().string().starts_with("mutants_")) count += check_mutants(file.path(), source + "/tests/ports/windshield");
-  EXPECT_GE(count, 50u);
+  EXPECT_GE(check_mutants("windshield_surface.json") + check_mutants("windshield_motion.json"), 50u);
 }
 
 // The blocks in the shaders are what describe prints for this version.
 TEST(WindshieldPort, UniformBlocksAreTheDescribedOnes) {
-  EXPECT_GE(
-      check_blocks("windshield", source + "/tests/ports/windshield",
-                   {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {", "struct GlassFrame {"}),
-      9);
+  EXPECT_GE(check_blocks("windshield", {"layout(std140, binding = 0) uniform ", "struct Drop {", "struct Wiper {", "struct Glint {",
+                                        "struct GlassFrame {"}),
+            9);
 }
 
 }  // namespace

@@ -146,8 +146,10 @@ void expect_reflected(const std::string& reflection, const UniformBlock& block) 
 // Also when glslangValidator is on PATH: GLSL and HLSL compile, and reflection finds the same offsets. Elsewhere this
 // test checks the printed text alone.
 TEST_F(LayoutFile, ShadersDeclareTheBlock) {
-  const std::string glsl = layout(uniforms(), Language::glsl), glsl_record = record_layout(drop(), Language::glsl);
-  const std::string hlsl = layout(uniforms(), Language::hlsl), hlsl_record = record_layout(drop(), Language::hlsl);
+  const ListBinding list{"drops", "Drop"};
+  const std::string glsl = layout(uniforms(), Language::glsl), hlsl = layout(uniforms(), Language::hlsl);
+  const std::string glsl_record = record_layout(drop(), Language::glsl) + list_layout(list, Language::glsl);
+  const std::string hlsl_record = record_layout(drop(), Language::hlsl) + list_layout(list, Language::hlsl);
   EXPECT_THAT(glsl, testing::HasSubstr("layout(std140, binding = 0) uniform WaveStepUniforms {"));
   EXPECT_THAT(hlsl, testing::HasSubstr("cbuffer WaveStepUniforms : register(b0) {"));
   if (std::system("command -v glslangValidator > /dev/null 2>&1") != 0) return;
@@ -229,13 +231,30 @@ TEST(Layout, Wgsl) {
 )");
 }
 
-TEST(Layout, RecordsEndInTheBufferThatHoldsThem) {
-  EXPECT_THAT(record_layout(drop(), Language::glsl),
-              testing::EndsWith("};\nlayout(std430, binding = 1) readonly buffer DropBuffer { Drop drops[]; };\n"));
-  EXPECT_THAT(record_layout(drop(), Language::hlsl), testing::EndsWith("};\nStructuredBuffer<Drop> drops : register(t0);\n"));
-  EXPECT_THAT(record_layout(drop(), Language::wgsl),
-              testing::EndsWith("}\n@group(0) @binding(1) var<storage, read> drops : array<Drop>;\n"));
+TEST(Layout, ListsAreBoundWhereThePassHasThem) {
   EXPECT_THAT(record_layout(drop(), Language::c), testing::HasSubstr("} Drop;\n"));
+  const ListBinding read{"count_thresholds", "CountThreshold", false, 2, 1}, written{"drops_out", "Drop", true, 3, 0};
+  EXPECT_EQ(list_layout(read, Language::glsl),
+            "layout(std430, binding = 2) readonly buffer CountThresholdsBuffer { CountThreshold count_thresholds[]; };\n");
+  EXPECT_EQ(list_layout(read, Language::hlsl), "StructuredBuffer<CountThreshold> count_thresholds : register(t1);\n");
+  EXPECT_EQ(list_layout(read, Language::wgsl), "@group(0) @binding(2) var<storage, read> count_thresholds : array<CountThreshold>;\n");
+  EXPECT_EQ(list_layout(written, Language::glsl), R"(layout(std430, binding = 3) buffer DropsOutBuffer {
+  uint drops_out_count;
+  uint drops_out_padding[3];
+  Drop drops_out[];
+};
+)");
+  EXPECT_EQ(list_layout(written, Language::hlsl), "RWStructuredBuffer<Drop> drops_out : register(u0);\n");
+  EXPECT_EQ(list_layout(written, Language::wgsl), R"(struct DropsOutBuffer {
+  count : u32,
+  padding_0 : u32,
+  padding_1 : u32,
+  padding_2 : u32,
+  records : array<Drop>,
+}
+@group(0) @binding(3) var<storage, read_write> drops_out : DropsOutBuffer;
+)");
+  for (const Language language : {Language::c, Language::cuda}) EXPECT_EQ(list_layout(read, language), "");
 }
 
 TEST(Layout, RefusesABlockThatIsNotTheSameEverywhere) {

@@ -22,7 +22,7 @@ TEST(Format, EveryFileIsFormatted) {
   if (version.find("version 14.") == std::string::npos) GTEST_SKIP() << "needs clang-format 14: " << version;
   const auto [text, status] =
       output_of("cd '" RAINREF_SOURCE_DIR
-                "' && find src include tests bench -name '*.h' -o -name '*.cpp' -o -name '*.cu' | xargs clang-format "
+                "' && find src include tests bench examples -name '*.h' -o -name '*.cpp' -o -name '*.cu' | xargs clang-format "
                 "--dry-run -Werror --ferror-limit=1");
   EXPECT_EQ(status, 0) << "clang-format -i FILE mends it\n" << text;
 }

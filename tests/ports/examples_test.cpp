@@ -1,0 +1,59 @@
+// The examples are ports as they are meant: no seeded bug, and no trace of one. Bugs are edits of them, kept with the tests.
+#include "ports/mutant_sources.h"
+#include "ports/support.h"
+
+namespace rainref::ports {
+namespace {
+
+std::vector<fs::path> example_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(source + "/examples"))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  return files;
+}
+std::vector<port_runner::Mutant> all_mutants() {
+  std::vector<port_runner::Mutant> all;
+  for (const auto& file : fs::directory_iterator(source + "/tests/ports/mutants"))
+    for (port_runner::Mutant& m : port_runner::read_mutants(file.path())) all.push_back(std::move(m));
+  return all;
+}
+
+TEST(Examples, HaveNoTraceOfASeededBug) {
+  const std::vector<fs::path> files = example_files();
+  EXPECT_GE(files.size(), 70u);
+  for (const fs::path& file : files) {
+    const std::string text = contents(file);
+    for (const char* word : {"BUG", "eeded bug", "constant_id = 0"}) EXPECT_EQ(text.find(word), std::string::npos) << file << ": " << word;
+  }
+}
+
+// A shader with a mutant's text in it would be a bug: each replacement is absent where its edit applies, or the edit would do nothing.
+TEST(Examples, EachEditOfEachMutantAppliesOnceAndChangesTheFile) {
+  std::size_t edits = 0;
+  for (const port_runner::Mutant& m : all_mutants()) {
+    std::map<std::string, std::string> edited;
+    EXPECT_NO_THROW(edited = port_runner::edited_files(m, examples)) << m.id;  // it throws where a text does not occur exactly once
+    for (const auto& [file, text] : edited) {
+      EXPECT_NE(text, contents(examples + "/" + file)) << m.id;
+      EXPECT_TRUE(file.starts_with(m.effect + "/") || file.starts_with("common/")) << m.id << ' ' << file;
+    }
+    edits += m.edits.size();
+  }
+  EXPECT_GE(edits, 480u);
+}
+TEST(Examples, AnEditThatDoesNotApplyNamesFileIdAndText) {
+  const auto message = [](const std::string& find) -> std::string {
+    const port_runner::Mutant m{7, "puddle", "display", "corrected", "", "FAIL", {{"puddle/display.glsl", find, "x"}}};
+    try {
+      port_runner::edited_files(m, examples);
+    } catch (const port_runner::FileError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(message("no such text"), testing::EndsWith("puddle/display.glsl: mutant 7: expected 'no such text' once, found it 0 times"));
+  EXPECT_THAT(message("binding = "), testing::EndsWith("mutant 7: expected 'binding = ' once, found it 3 times"));
+}
+
+}  // namespace
+}  // namespace rainref::ports

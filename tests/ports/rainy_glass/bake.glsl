@@ -1,9 +1,0 @@
-// What both bakes share.
-vec2 texel_centre(ivec2 texel) { return (vec2(texel) + (BUG == 701 ? 0.0 : 0.5)) * u.inverse_size; }
-// The short way round the tile.
-float around(float difference) { return BUG == 702 ? difference : difference - floor(difference + 0.5); }
-vec2 stored_normal(vec2 gradient) {
-  vec2 slope = u.normal_scale * gradient;
-  float inverse = BUG == 703 ? 1.0 : inversesqrt(1.0 + dot(slope, slope));
-  return u.neutral - (BUG == 704 ? -1.0 : 1.0) * u.span * slope * inverse;
-}
