@@ -151,7 +151,7 @@ ShadeUniforms shade_uniforms(const Settings& s) {
   u.use_checkerboard = s.use_checkerboard;
   u.inverse_size[0] = static_cast<float>(1 / (s.grid[0] * s.cell_size));
   u.inverse_size[1] = static_cast<float>(1 / (s.grid[1] * s.cell_size));
-  u.shore_width = static_cast<float>(s.shore_width);
+  u.shore_width = corrected(s) ? static_cast<float>(s.shore_width) : 0.002f;  // as published unused; what packs have always held
   u.gloss_level = 4.0f;
   u.wetness = 0.45f;
   u.background_level = 0.0f;
@@ -164,7 +164,7 @@ ShadeUniforms shade_uniforms(const Settings& s) {
 DisplayUniforms display_uniforms(const Settings& s) {
   DisplayUniforms u{};
   u.vignette = static_cast<float>(s.vignette);
-  u.exposure = static_cast<float>(exp2_real(Real64(s.exposure)).v);
+  u.exposure = corrected(s) ? static_cast<float>(exp2_real(Real64(s.exposure)).v) : 1.0f;
   u.width = static_cast<float>(s.width);
   u.height = static_cast<float>(s.height);
   return u;
