@@ -1,6 +1,7 @@
 // The traced panes of screen_drops and rainy_glass, and their passes against them, as a user meets them.
 #include "cli/traced_pictures.h"
 #include "image_io/read.h"
+#include "math/simd_target.h"
 
 namespace rainref::cli {
 namespace {
@@ -24,7 +25,9 @@ TEST_F(PaneTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
   for (const std::string effect : {"screen_drops", "rainy_glass"}) {
     const auto first = trace(effect, effect + "_a");
     EXPECT_EQ(first.size(), 6u);
-    EXPECT_EQ(trace(effect, effect + "_b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "3", "--simd", "scalar"}), first);
+    EXPECT_EQ(
+        trace(effect, effect + "_b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "3", "--simd", simd_targets().back()}),
+        first);
     EXPECT_NE(trace(effect, effect + "_c", {"--set", "compositor.glass_thickness=0.02"}), first);
   }
 }

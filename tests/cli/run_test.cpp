@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/support.h"
+#include "math/simd_target.h"
 #include "image_io/read.h"
 
 namespace rainref::cli {
@@ -66,7 +67,7 @@ TEST_F(RunVerb, EveryKthFrame) {
 }
 
 TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
-  run({"corrected.toml", "-o", "o", "--set", "rain.rate=40", "--threads", "2", "--simd", "scalar"});
+  run({"corrected.toml", "-o", "o", "--set", "rain.rate=40", "--threads", "2", "--simd", simd_targets().back()});
   const nlohmann::json s = summary("o");
   EXPECT_EQ(s["config"]["rain.rate"], 40.0);
   EXPECT_EQ(s["config"]["run.size"], (std::vector<int>{24, 16}));

@@ -150,7 +150,8 @@ TEST_F(Usage, NumbersOfFramesThreadsAndPictures) {
 TEST_F(Usage, AnUnknownSimdTargetNamesThoseOfThisMachine) {
   expect_refusal({"hash", "corrected.toml", "--simd", "zebra"}, 2,
                  fmt::format("SIMD target 'zebra': this machine has {}", fmt::join(simd_targets(), ", ")));
-  expect_refusal({"hash", "corrected.toml", "--simd", "scaler"}, 2, EndsWith("did you mean 'scalar'?"));
+  if (simd_targets().back() == "scalar")
+    expect_refusal({"hash", "corrected.toml", "--simd", "scaler"}, 2, EndsWith("did you mean 'scalar'?"));
   const bool has_it = simd_targets().front() == "avx3";
   for (const char* name : {"avx512", "AVX512", "avx-512", "avx512f"}) {
     expect_refusal({"hash", "corrected.toml", "--simd", name}, 2,

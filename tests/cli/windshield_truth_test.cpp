@@ -1,6 +1,7 @@
 // The windshield's traced pictures and its composite against them, as a user meets them.
 #include "cli/traced_pictures.h"
 #include "image_io/read.h"
+#include "math/simd_target.h"
 
 namespace rainref::cli {
 namespace {
@@ -38,7 +39,8 @@ TEST_F(WindshieldTruth, EmbreesConfigurationAndThreadsChangeNoBit) {
   const auto first = trace("corrected", "a");
   EXPECT_EQ(first.size(), 6u);
   EXPECT_EQ(trace("corrected", "b", {"--set", "compositor.embree_config=isa=sse2", "--threads", "1"}), first);
-  EXPECT_EQ(trace("corrected", "c", {"--set", "compositor.embree_config=isa=avx2", "--threads", "3", "--simd", "scalar"}), first);
+  EXPECT_EQ(trace("corrected", "c", {"--set", "compositor.embree_config=isa=avx2", "--threads", "3", "--simd", simd_targets().back()}),
+            first);
   EXPECT_NE(trace("corrected", "d", {"--set", "compositor.glass_radius=3"}), first);
   EXPECT_NE(trace("corrected", "e", {"--set", "compositor.glass_thickness=0.02"}), first);
 }

@@ -36,6 +36,7 @@ TEST(SimdTarget, CanBeSelectedAgainAndAgain) {
 }
 
 TEST(SimdTarget, ARefusalNamesTheOnesThatAreHereAndKeepsTheSelection) {
+  if (simd_targets().back() != "scalar") GTEST_SKIP() << "built for " << simd_targets().back() << " alone";
   select_simd_target("scalar");
   try {
     select_simd_target("scaler");
