@@ -17,6 +17,7 @@ using scene::Language;
 struct Bound {
   std::string name, record;  ///< record: "" of an image
   bool is_written;
+  int slot;  ///< HLSL: of t or of u
   bool operator==(const Bound&) const = default;
 };
 struct Interface {
@@ -26,9 +27,10 @@ struct Interface {
 
 Interface interface_of(const capture::EffectInfo& effect, const capture::PassInfo& pass, const capture::PassVariant& variant) {
   Interface out{variant.name, variant.uniforms, {}};
+  int slots[2] = {0, 0};
   const auto add = [&](const std::string& buffer, const std::string& name, bool is_written) {
     const capture::BufferInfo& info = effect.buffer(buffer, variant.name);
-    out.bound.push_back({name, info.format == "records" ? info.record : "", is_written});
+    out.bound.push_back({name, info.format == "records" ? info.record : "", is_written, slots[is_written]++});
   };
   for (const capture::ReadInfo& r : pass.reads)
     if (r.variant.empty() || r.variant == variant.name) add(r.buffer, r.buffer, false);
@@ -50,10 +52,9 @@ std::string places(const Interface& of, Language language) {
   }
   const bool has_registers = language == Language::hlsl;
   std::string text = fmt::format("{}: {} {}", has_registers ? "Registers" : "Bindings", has_registers ? "b0" : "0", of.block);
-  int slots[2] = {0, 0};
   for (std::size_t i = 0; i < of.bound.size(); ++i) {
     const Bound& b = of.bound[i];
-    const std::string place = has_registers ? fmt::format("{}{}", b.is_written ? 'u' : 't', slots[b.is_written]++) : std::to_string(i + 1);
+    const std::string place = has_registers ? fmt::format("{}{}", b.is_written ? 'u' : 't', b.slot) : std::to_string(i + 1);
     text += fmt::format(", {} {}{}", place, b.name, b.record.empty() ? " (image)" : "");
   }
   return text + ".";
@@ -105,11 +106,9 @@ std::string layout_text(const capture::EffectInfo& effect, Language language, co
       }
       if (printed.insert(of.block).second) text += scene::layout(p->block(of.variant), language) + "\n";
       std::string lists;
-      int slots[2] = {0, 0};
       for (std::size_t i = 0; i < of.bound.size(); ++i) {
         const Bound& b = of.bound[i];
-        const int slot = slots[b.is_written]++;
-        if (!b.record.empty()) lists += scene::list_layout({b.name, b.record, b.is_written, static_cast<int>(i) + 1, slot}, language);
+        if (!b.record.empty()) lists += scene::list_layout({b.name, b.record, b.is_written, static_cast<int>(i) + 1, b.slot}, language);
       }
       if (!lists.empty()) text += lists + "\n";
     }

@@ -27,7 +27,7 @@ class PictureEnvironment : public Environment {
   Rotation rotation_;
 };
 
-/// The street at night: a sharp escaped_ray is a ray of its own from where it begins, `offset` [m] being the place of the
+/// The street at night: a sharp one is a ray of its own from where it begins, `offset` [m] being the place of the
 /// scene's origin in the street; a blurred one is looked up in the panorama.
 class StreetEnvironment : public Environment {
  public:

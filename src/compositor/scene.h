@@ -113,7 +113,7 @@ struct EscapedRay {
   Vec origin, direction;  ///< direction unit
   double blur = 0;        ///< mip level: 0 sharp, each level twice as wide
 };
-/// EscapedRays component by component. Arrays go on to whole lanes, repeating the last one.
+/// Escaped rays component by component. Arrays go on to whole lanes, repeating the last one.
 struct EscapedRays {
   std::size_t count;
   VecArrays origin, direction;
@@ -124,10 +124,10 @@ struct EscapedRays {
 class Environment {
  public:
   virtual ~Environment() = default;
-  /// radiance[i] is what arrives along escaped_rays[i]. From several threads at once; a pure function of each escaped_ray.
+  /// radiance[i] is what arrives along ray i. From several threads at once; a pure function of each ray.
   virtual void radiance(const EscapedRays& escaped_rays, std::span<Vec> radiance) const = 0;
 };
-/// Surroundings by a function of one escaped_ray.
+/// Surroundings by a function of one escaped ray.
 std::shared_ptr<const Environment> environment_of(std::function<Vec(const EscapedRay&)> radiance);
 
 /// Surfaces with their materials, within surroundings.

@@ -131,7 +131,7 @@ class Generations {
     }
   }
 
-  /// The first of all batches: a ray's escaped_ray has the number of its slot.
+  /// The first of all batches: an escaped ray has the number of its slot.
   void leave_for_surroundings(const PathBatches::Batch& batch) {
     collect_escaped(list_of(batch), room_.escaped_rays.vectors(0), room_.escaped_rays.vectors(3), room_.escaped_rays[6]);
     room_.escaped_count = batch.count;

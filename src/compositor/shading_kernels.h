@@ -26,7 +26,7 @@ struct RayList {
 
 /// The lengths of vectors.
 void measure(std::size_t count, const VecArrays& vectors, double* lengths);
-/// The rays as escaped_rays.
+/// The rays of the list, for a lookup of what they see.
 void collect_escaped(const RayList& list, const VecArraysOut& origin, const VecArraysOut& direction, double* blur);
 /// Where the rays met a surface, arrivals.normal() being known, and through `medium`: what is left of their weights, and what it added to
 /// their pixels.

@@ -9,7 +9,7 @@
 
 namespace rainref::compositor {
 
-/// Where a ray leads: nowhere, to a escaped_ray, or to a ray of the next generation.
+/// Where a ray leads: nowhere, out of the scene, or to a ray of the next generation.
 inline constexpr std::uint32_t nowhere = ~std::uint32_t{0}, has_escaped = std::uint32_t{1} << 31;
 
 struct Rays {

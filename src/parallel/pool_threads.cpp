@@ -14,7 +14,9 @@ struct Executor::Pool::Threads {
   int count;
 };
 
-Executor::Pool::Pool(int threads) : threads_(new Threads{threads == 0 ? static_cast<int>(std::thread::hardware_concurrency()) : threads}) {}
+// The library may not know how many processors there are.
+Executor::Pool::Pool(int threads)
+    : threads_(new Threads{threads == 0 ? std::max(1, static_cast<int>(std::thread::hardware_concurrency())) : threads}) {}
 Executor::Pool::~Pool() = default;
 
 int Executor::Pool::threads() const { return threads_->count; }

@@ -92,10 +92,6 @@ template <>
 struct Stored<bool> {
   using Type = bool;
 };
-template <class To, class From>
-To converted(const From& from) {
-  return static_cast<To>(from);
-}
 template <class To, class From, std::size_t n>
 std::array<To, n> converted(const std::array<From, n>& from) {
   std::array<To, n> to;
@@ -198,7 +194,7 @@ S settings_from(const std::vector<MemberParameter<S>>& table, const Config& conf
   apply(table, config, s);
   return s;
 }
-/// What a scene that says nothing gives, but for the sizes and rates of every effect.
+/// What settings_from gives for a scene that names effect and variant and nothing else.
 template <class S>
 S default_settings(const std::vector<MemberParameter<S>>& table, Variant variant) {
   S s;

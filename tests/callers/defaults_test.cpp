@@ -107,7 +107,25 @@ TEST_F(Defaults, AreThoseOfAScene) {
   EXPECT_EQ(edge_splash::Settings{}, edge_splash::default_settings(Variant::corrected));
   EXPECT_EQ(rainy_glass::Settings{}, rainy_glass::default_settings(Variant::corrected));
   EXPECT_EQ(screen_drops::Settings{}, screen_drops::default_settings(Variant::corrected));
-  EXPECT_NE(puddle::default_settings(Variant::as_published).camera_position, puddle::Settings{}.camera_position);
+  // Once more as numbers: table and struct alone would agree on anything.
+  const puddle::Settings puddle, published = puddle::default_settings(Variant::as_published);
+  EXPECT_EQ(puddle.rain_rate, 5);
+  EXPECT_EQ(puddle.smallest_drop, 1.6);
+  EXPECT_EQ(puddle.damping, 0.96);
+  EXPECT_EQ(puddle.ground_scale, 1.6);
+  EXPECT_EQ(puddle.puddle_depth, 0.03);
+  EXPECT_EQ(published.damping, 0.98);
+  EXPECT_EQ(published.ground_scale, 0.15);
+  EXPECT_EQ(published.puddle_depth, 5);
+  EXPECT_EQ(published.camera_position, (std::array<double, 3>{20, 18, 14}));
+  EXPECT_TRUE(published.use_checkerboard);
+  EXPECT_EQ(rainy_glass::Settings{}.droplet_count, 2200);
+  EXPECT_EQ(rainy_glass::Settings{}.map_storage, Format::rgba16f);
+  EXPECT_EQ(rainy_glass::default_settings(Variant::as_published).map_storage, Format::rgba8);
+  EXPECT_EQ(edge_splash::Settings{}.drop_alpha, 0.85);
+  EXPECT_EQ(edge_splash::default_settings(Variant::as_published).drop_alpha, 1);
+  EXPECT_EQ(edge_splash::Settings{}.depth.far_plane, 1000);
+  EXPECT_EQ(screen_drops::Settings{}.exposure, 0.5);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ TEST_F(FlowDeterminism, EveryTargetAndThreadCount) {
   for (const auto& [width, height] : {std::array{1, 1}, std::array{33, 17}, std::array{89, 67}}) {
     for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
       FlowSettings s = wet_pane();
-      s.warm_up = 0.4;
+      s.warm_up = 1;
       s.substeps = rounding == Rounding::rtz ? 3 : 1;
       s.splat.width = width;
       s.splat.height = height;
