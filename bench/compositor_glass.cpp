@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
-#include "compositor/windshield_view.h"
+#include "truth/windshield_view.h"
 #include "scene/toml.h"
 #include "stream.h"
 
-namespace rainref::compositor {
+namespace rainref::truth {
 namespace {
 
 // scenes/windshield/default.toml after 100 frames. `rays` are primary ones; each sees the street at least once, which is most of
@@ -94,4 +94,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
-}  // namespace rainref::compositor
+}  // namespace rainref::truth

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
-#include "compositor/puddle_scene.h"
+#include "truth/puddle_scene.h"
 #include "night_street/night_street.h"
 #include "puddle/parameters.h"
 #include "scene/toml.h"
 #include "stream.h"
 
-namespace rainref::compositor {
+namespace rainref::truth {
 namespace {
 
 // scenes/puddle/default.toml, whose street is made once for all rows.
@@ -73,4 +73,4 @@ const bool registered = [] {
 }();
 
 }  // namespace
-}  // namespace rainref::compositor
+}  // namespace rainref::truth

@@ -24,7 +24,7 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
   in.depth = std::move(view.depth);
   in.depth_is_distance = true;
   EdgeSplash effect(s, in, executor);
-  bench::pass_row(state, executor, s.width, s.height, tile_rows, pass, traffic, [&](Recorder* recorder) { effect.render(recorder); });
+  bench::pass_row(state, executor, s.width, s.height, tile_rows, pass, traffic, [&](Recorder* recorder) { effect.next_frame(recorder); });
 }
 
 const bool registered = [] {

@@ -32,7 +32,8 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
   const parallel::Executor executor(threads);
   const Settings s = settings(variant, shape, height * 16 / 9, height);
   RainyGlass glass(s, surroundings(s), executor);
-  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic, [&](Recorder* recorder) { glass.frame(recorder); });
+  bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic,
+                  [&](Recorder* recorder) { glass.next_frame(recorder); });
 }
 
 const bool registered = [] {

@@ -26,7 +26,7 @@ void picture(benchmark::State& state, const std::string& variant, const std::str
   in.colour = bench::integers(s.width, s.height);
   ScreenDrops window(s, in, executor, flow ? &*flow : nullptr);
   bench::pass_row(state, executor, s.width, s.height, picture_tile_rows, pass, traffic,
-                  [&](Recorder* recorder) { window.render(recorder); });
+                  [&](Recorder* recorder) { window.next_frame(recorder); });
 }
 
 const bool registered = [] {

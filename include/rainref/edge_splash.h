@@ -82,9 +82,17 @@ class EdgeSplash {
   ~EdgeSplash();
   EdgeSplash(EdgeSplash&&) noexcept;
 
-  /// splash and display of the next frame: 0, 1, 2 ... Frame n shows time n / fps.
+  /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps; nothing is computed from one frame to the next.
+  void simulate(Recorder* recorder = nullptr);
+  /// splash and display of the frame that was simulated last.
   void render(Recorder* recorder = nullptr);
-  /// Frames rendered so far.
+  /// Both: one call for each frame of a film.
+  void next_frame(Recorder* recorder = nullptr) {
+    simulate(recorder);
+    render(recorder);
+  }
+
+  /// Frames simulated so far.
   int frame() const;
 
   const Image& edge() const;  ///< r8 masks

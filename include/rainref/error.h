@@ -39,7 +39,7 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// The name in `names` nearest to `wrong` by edit distance, or "" when none is near enough to be a likely fault
+/// The name in `names` nearest to `wrong` by edit distance, or "" when none is near enough to be a likely slip
 /// (distance over a third of the longer length, at least 1). Ties go to the earlier name.
 std::string nearest_name(std::string_view wrong, std::span<const std::string> names);
 

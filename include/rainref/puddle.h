@@ -85,6 +85,11 @@ class Puddle {
   void simulate(Recorder* recorder = nullptr);
   /// surface_hit, shade and display of the present water.
   void render(Recorder* recorder = nullptr);
+  /// Both: one call for each frame of a film.
+  void next_frame(Recorder* recorder = nullptr) {
+    simulate(recorder);
+    render(recorder);
+  }
 
   /// Frames simulated so far.
   int frame() const;

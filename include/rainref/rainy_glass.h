@@ -87,10 +87,18 @@ class RainyGlass {
   ~RainyGlass();
   RainyGlass(RainyGlass&&) noexcept;
 
-  /// Renders time frame / fps; frames are 0, 1, 2 ... in this order. The bakes run before frame 0 and are reported with it.
-  void frame(Recorder* recorder = nullptr);
-  /// Frames rendered so far.
-  int frames() const;
+  /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps; nothing is computed from one frame to the next.
+  void simulate(Recorder* recorder = nullptr);
+  /// rain_on_glass and display of the frame that was simulated last. The maps are baked the first time.
+  void render(Recorder* recorder = nullptr);
+  /// Both: one call for each frame of a film.
+  void next_frame(Recorder* recorder = nullptr) {
+    simulate(recorder);
+    render(recorder);
+  }
+
+  /// Frames simulated so far.
+  int frame() const;
 
   const Image& raindrops() const;    ///< map_storage: normal x, y, time offset, height
   const Image& rivulets() const;     ///< map_storage: normal x, y, flow across, flow along

@@ -70,10 +70,17 @@ class ScreenDrops {
   ~ScreenDrops();
   ScreenDrops(ScreenDrops&&) noexcept;
 
-  /// Renders time frame / fps; frames are 0, 1, 2 ... in this order. The background, which is still, runs before frame 0 and
-  /// is reported with it.
+  /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps. Flowing water, if there is any: spawn to merge.
+  void simulate(Recorder* recorder = nullptr);
+  /// cells, drops and display of the frame that was simulated last. The background, which is still, is made the first time.
   void render(Recorder* recorder = nullptr);
-  /// Frames rendered so far.
+  /// Both: one call for each frame of a film.
+  void next_frame(Recorder* recorder = nullptr) {
+    simulate(recorder);
+    render(recorder);
+  }
+
+  /// Frames simulated so far.
   int frame() const;
 
   const Image& background() const;  ///< rgba16f: the scene out of focus

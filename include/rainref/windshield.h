@@ -54,6 +54,11 @@ class Windshield {
   void simulate(Recorder* recorder = nullptr);
   /// splat to display of the frame that was simulated last. Once for each frame: the wiped textures have a past.
   void render(Recorder* recorder = nullptr);
+  /// Both: one call for each frame of a film.
+  void next_frame(Recorder* recorder = nullptr) {
+    simulate(recorder);
+    render(recorder);
+  }
 
   /// Frames simulated so far.
   int frame() const;

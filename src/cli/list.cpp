@@ -5,14 +5,15 @@
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/layout_text.h"
-#include "cli/registry.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
+#include "registry/registry.h"
 #include "scene/describe.h"
 #include "scene/json.h"
+#include "simulation/opened.h"
 
 namespace rainref::cli {
 namespace {
@@ -36,9 +37,9 @@ int list(bool json) {
   if (json) {
     nlohmann::ordered_json out;
     out["effects"] = nlohmann::ordered_json::array();
-    for (const EffectEntry& e : effects()) {
-      nlohmann::ordered_json effect{{"name", e.name}, {"variants", e.variants}, {"passes", nlohmann::ordered_json::array()}};
-      for (const capture::PassInfo& pass : e.info->passes) effect["passes"].push_back(pass.name);
+    for (const effect::Effect* e : registry::effects()) {
+      nlohmann::ordered_json effect{{"name", e->name}, {"variants", e->variants}, {"passes", nlohmann::ordered_json::array()}};
+      for (const capture::PassInfo& pass : e->info->passes) effect["passes"].push_back(pass.name);
       out["effects"].push_back(effect);
     }
     out["scenes"] = known_scenes();
@@ -48,10 +49,10 @@ int list(bool json) {
     return 0;
   }
   say("rainref {}\n\nEffects\n", version());
-  for (const EffectEntry& e : effects()) {
-    for (const std::string& variant : e.variants) {
-      say("  {:<14} {:<13}", e.name, variant);
-      for (const std::string& pass : e.info->pass_names(variant)) say(" {}", pass);
+  for (const effect::Effect* e : registry::effects()) {
+    for (const std::string& variant : e->variants) {
+      say("  {:<14} {:<13}", e->name, variant);
+      for (const std::string& pass : e->info->pass_names(variant)) say(" {}", pass);
       say("\n");
     }
   }
@@ -62,8 +63,10 @@ int list(bool json) {
 }
 
 int describe(const std::string& name, bool json, const LayoutRequest& layout) {
-  const EffectEntry& e = effect(name);
-  const std::vector<scene::Parameter> parameters = scene::scene_parameters(effect_table().find(name), effect_table());
+  const scene::EffectTable& table = simulation::effect_table();
+  const scene::Effect& declared = table.find(name);
+  const effect::Effect& e = *registry::find(declared.name);
+  const std::vector<scene::Parameter> parameters = scene::scene_parameters(declared, table);
   if (layout.language) {
     say("{}", layout_text(*e.info, scene::language_from_name(*layout.language), layout.pass, layout.variant));
     return 0;

@@ -9,10 +9,11 @@
 #include "capture/pack_write.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
-#include "cli/registry.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "rainref/error.h"
+#include "registry/registry.h"
+#include "simulation/opened.h"
 
 namespace rainref::cli {
 namespace {
@@ -36,17 +37,16 @@ std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const st
 }  // namespace
 
 int pack(const PackOptions& options) {
-  const scene::Config config = config_of_passes(load_scene(options.scene));
-  const EffectEntry& entry = effect(config.effect());
-  const std::vector<std::string> passes = chosen_passes(*entry.info, config.variant(), options.passes);
+  const scene::Config config = simulation::config_of_passes(load_scene(options.scene));
+  const capture::EffectInfo& info = *registry::find(config.effect())->info;
+  const std::vector<std::string> passes = chosen_passes(info, config.variant(), options.passes);
   const parallel::Executor executor(options.scene.threads);
-  capture::PackWriter writer(options.output, *entry.info, config, options.scene.scene.filename().string(), true, passes);
-  RunMemory memory = entry.memory(config);
+  capture::PackWriter writer(options.output, info, config, options.scene.scene.filename().string(), true, passes);
+  effect::RunMemory memory = simulation::memory_of(config);
   add_captures(memory);
   require_memory(memory);
-  std::vector<InputFile> inputs;
-  const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
-  for (const InputFile& input : inputs) {
+  simulation::Opened opened = open_scene(config, executor);
+  for (const effect::InputFile& input : opened.inputs().files) {
     if (input.lossy) {
       throw Error(
           ExitCode::usage,
@@ -58,12 +58,12 @@ int pack(const PackOptions& options) {
     return std::binary_search(options.frames.begin(), options.frames.end(), frame) &&
            std::find(passes.begin(), passes.end(), pass) != passes.end();
   };
-  capture::CaptureRecorder recorder(*entry.info, config.variant(), true, wanted, [&](const capture::PassCase& c) { writer.add(c); });
+  capture::CaptureRecorder recorder(info, config.variant(), true, wanted, [&](const capture::PassCase& c) { writer.add(c); });
   const int frames = options.frames.back() + 1;
   {
     Progress progress(config.effect(), frames);
     for (int frame = 0; frame < frames; ++frame) {
-      simulation->frame(&recorder);
+      opened.next_frame(&recorder);
       progress.advance();
     }
   }

@@ -19,9 +19,8 @@
 #include "capture/pack_write.h"
 #include "cli/commands.h"
 #include "cli/json_text.h"
-#include "cli/pictures.h"
 #include "cli/progress.h"
-#include "cli/registry.h"
+#include "cli/differences.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "image_io/codec.h"
@@ -29,6 +28,7 @@
 #include "rainref/error.h"
 #include "rainref/version.h"
 #include "scene/json.h"
+#include "simulation/opened.h"
 
 namespace rainref::cli {
 namespace {
@@ -79,18 +79,13 @@ struct Capture {
   capture::PackWriter writer;
   capture::CaptureRecorder recorder;
 
-  Capture(const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
-          const std::function<bool(int)>& written)
-      : Capture(*effect(config.effect()).info, options, config, folder, written) {}
-
- private:
   Capture(const capture::EffectInfo& info, const RunOptions& options, const scene::Config& config, const std::filesystem::path& folder,
           const std::function<bool(int)>& written)
-      : writer(folder, info, config_of_passes(config), options.scene.scene.filename().string(), options.capture == RunOptions::all,
-               info.pass_names(config.variant())),
+      : writer(folder, info, simulation::config_of_passes(config), options.scene.scene.filename().string(),
+               options.capture == RunOptions::all, info.pass_names(config.variant())),
         recorder(
             info, config.variant(), options.capture == RunOptions::all,
-            [written](int frame, std::string_view pass) { return pass != traced_pass && written(frame); },
+            [written](int frame, std::string_view pass) { return pass != truth::traced_pass && written(frame); },
             [this](const capture::PassCase& c) { writer.add(c); }) {}
 };
 
@@ -104,15 +99,15 @@ std::size_t most_memory() {
   return 0;
 }
 
-nlohmann::ordered_json summary(const scene::Config& config, const std::vector<InputFile>& inputs, const parallel::Executor& executor,
-                               const capture::HashRecorder& recorder, const std::vector<capture::HashLine>& last, double seconds,
-                               int frames) {
+nlohmann::ordered_json summary(const scene::Config& config, const std::vector<effect::InputFile>& inputs,
+                               const parallel::Executor& executor, const capture::HashRecorder& recorder,
+                               const std::vector<capture::HashLine>& last, double seconds, int frames) {
   nlohmann::ordered_json out{{"rainref", version()},
                              {"golden_generation", golden_generation},
                              {"config", scene::config_json(config)},
                              {"origins", scene::origins_json(config)}};
   out["inputs"] = nlohmann::ordered_json::array();
-  for (const InputFile& f : inputs)
+  for (const effect::InputFile& f : inputs)
     out["inputs"].push_back({{"key", f.key}, {"file", f.path}, {"decoded_hash", f.decoded_hash}, {"lossy", f.lossy}});
   out["simd"] = selected_simd_target();
   out["threads"] = executor.threads();
@@ -137,14 +132,13 @@ int run(const RunOptions& options) {
   OutputFolder made(folder);
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
-  RunMemory memory = effect(config.effect()).memory(config);
+  effect::RunMemory memory = simulation::memory_of(config);
   add_pictures(memory, options.png, options.exr);
   if (options.capture != RunOptions::none) add_captures(memory);
   require_memory(memory);
   const std::size_t stated = memory.peak.peak() + resident_memory();
-  std::vector<InputFile> inputs;
-  const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
-  if (options.compare_truth && !simulation->has_truth()) {
+  simulation::Opened opened = open_scene(config, executor);
+  if (options.compare_truth && !opened.has_truth()) {
     throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle "
                                              "and screen_drops have one, and with the street windshield and corrected panes of rainy_glass",
                                              config.effect(), config.variant()));
@@ -153,7 +147,7 @@ int run(const RunOptions& options) {
   const auto written = [&](int frame) { return options.every > 0 ? frame % options.every == 0 : frame == frames - 1; };
   capture::HashRecorder recorder;
   std::optional<Capture> capture;
-  if (options.capture != RunOptions::none) capture.emplace(options, config, folder / "capture", written);
+  if (options.capture != RunOptions::none) capture.emplace(*opened.effect().info, options, config, folder / "capture", written);
   capture::RecorderList recorders(capture ? std::vector<Recorder*>{&recorder, &capture->recorder} : std::vector<Recorder*>{&recorder});
   std::vector<capture::HashLine> last;
   int pictures = 0;
@@ -163,18 +157,18 @@ int run(const RunOptions& options) {
     Progress progress(config.effect(), frames);
     for (int frame = 0; frame < frames; ++frame) {
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
-      simulation->show(written(frame) || frame == frames - 1);
-      simulation->frame(&recorders);
+      opened.show(written(frame) || frame == frames - 1);
+      opened.next_frame(&recorders);
       last = recorder.take_lines();
       if (written(frame)) {
         if (options.png || options.exr || options.compare_truth) made.forget_older_run();
         const std::string stem = fmt::format("{}.{:04}", config.effect(), frame);
-        if (options.png) write_picture(folder / (stem + ".png"), simulation->picture());
-        if (options.exr) simulation->write_exr(folder / (stem + ".exr"));
+        if (options.png) opened.write_png(folder / (stem + ".png"));
+        if (options.exr) opened.write_exr(folder / (stem + ".exr"), true);
         pictures += options.png + options.exr;
         if (options.compare_truth) {
           nlohmann::ordered_json of_frame{{"frame", frame}};
-          of_frame.update(simulation->compare_truth(folder / (stem + ".truth")));
+          of_frame.update(write_comparison(folder / (stem + ".truth"), opened.compare_truth()));
           truth.push_back(of_frame);
         }
       }
@@ -182,7 +176,7 @@ int run(const RunOptions& options) {
     }
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  nlohmann::ordered_json report = summary(config, inputs, executor, recorder, last, seconds, frames);
+  nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, frames);
   report["memory"] = {{"stated", stated}, {"taken", most_memory()}};
   if (options.compare_truth) report["truth"] = truth;
   made.forget_older_run();
@@ -200,13 +194,12 @@ int run(const RunOptions& options) {
 int hash(const SceneOptions& options) {
   const scene::Config config = load_scene(options);
   const parallel::Executor executor(options.threads);
-  std::vector<InputFile> inputs;
-  const std::unique_ptr<Simulation> simulation = effect(config.effect()).make(config, executor, inputs);
+  simulation::Opened opened = open_scene(config, executor);
   const int frames = static_cast<int>(config.integer("run.frames"));
   capture::HashRecorder recorder;
   Progress progress(config.effect(), frames);
   for (int frame = 0; frame < frames; ++frame) {
-    simulation->frame(&recorder);
+    opened.next_frame(&recorder);
     for (const capture::HashLine& line : recorder.take_lines()) say("{}\n", line.text());
     progress.advance();
   }

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/registry.h"
+#include "cli/terminal.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 
@@ -78,12 +78,18 @@ std::vector<std::string> known_scenes() {
 
 scene::Config load_scene(const SceneOptions& options) {
   try {
-    return scene::load(options.scene, options.overrides, effect_table());
+    return scene::load(options.scene, options.overrides, simulation::effect_table());
   } catch (const Error& e) {
     std::error_code none;
     if (e.code() != ExitCode::io || options.scene.empty() || fs::exists(options.scene, none)) throw;
     throw Error(e.code(), e.what() + guess(options.scene));
   }
+}
+
+simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor) {
+  simulation::Opened opened(config, executor);
+  for (const std::string& warning : opened.inputs().warnings) complain("warning: " + warning);
+  return opened;
 }
 
 }  // namespace rainref::cli

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "scene/config.h"
+#include "simulation/opened.h"
 
 namespace rainref::cli {
 
@@ -14,5 +15,8 @@ std::vector<std::string> known_scenes();
 
 /// scene::load of the options' file and overrides. A file that is not there brings the nearest scene that is into the message.
 scene::Config load_scene(const SceneOptions& options);
+
+/// The scene, ready to run; what is doubtful about its files is said on standard error.
+simulation::Opened open_scene(const scene::Config& config, const parallel::Executor& executor);
 
 }  // namespace rainref::cli

@@ -9,7 +9,6 @@
 #include "base/floating_point.h"
 #include "capture/hashing.h"
 #include "cli/commands.h"
-#include "cli/registry.h"
 #include "cli/selftest_golden.h"
 #include "cli/terminal.h"
 #include "math/half.h"
@@ -19,7 +18,9 @@
 #include "puddle/parameters.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
+#include "registry/registry.h"
 #include "scene/toml.h"
+#include "simulation/opened.h"
 
 namespace rainref::cli {
 namespace {
@@ -83,7 +84,7 @@ std::vector<std::string> overrides_of(const std::string& effect, bool corrected)
 Hash128 scene_hash(const std::string& name, const std::string& variant, int threads, std::uint64_t shuffle) {
   const scene::Config config =
       scene::parse(fmt::format("effect = \"{}\"\nvariant = \"{}\"\n[run]\nframes = 3\nsize = [93, 61]\n", name, variant), "selftest",
-                   overrides_of(name, variant == "corrected"), effect_table());
+                   overrides_of(name, variant == "corrected"), simulation::effect_table());
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   capture::HashRecorder recorder;
@@ -98,14 +99,10 @@ Hash128 scene_hash(const std::string& name, const std::string& variant, int thre
     puddle::Surroundings around;
     around.environment = night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor);  // the default's size costs a second
     puddle::Puddle puddle(puddle::settings_from(config), around, executor);
-    return frames([&] {
-      puddle.simulate(&recorder);
-      puddle.render(&recorder);
-    });
+    return frames([&] { puddle.next_frame(&recorder); });
   }
-  std::vector<InputFile> inputs;
-  const std::unique_ptr<Simulation> simulation = effect(name).make(config, executor, inputs);
-  return frames([&] { simulation->frame(&recorder); });
+  simulation::Opened opened(config, executor);
+  return frames([&] { opened.next_frame(&recorder); });
 }
 
 std::string golden_of(const std::string& effect, const std::string& variant) {
@@ -117,18 +114,18 @@ std::string golden_of(const std::string& effect, const std::string& variant) {
 
 bool scenes() {
   bool good = true;
-  for (const EffectEntry& entry : effects()) {
-    for (const std::string& variant : entry.variants) {
-      const std::string golden = golden_of(entry.name, variant);
+  for (const effect::Effect* entry : registry::effects()) {
+    for (const std::string& variant : entry->variants) {
+      const std::string golden = golden_of(entry->name, variant);
       std::string other;
       for (const std::string& target : simd_targets()) {
         select_simd_target(target);
         for (const int threads : {1, 2, 3}) {
-          const std::string found = scene_hash(entry.name, variant, threads, static_cast<std::uint64_t>(threads - 1)).text();
+          const std::string found = scene_hash(entry->name, variant, threads, static_cast<std::uint64_t>(threads - 1)).text();
           if (found != golden) other = found;
         }
       }
-      good &= report(other.empty(), fmt::format("{} {}: {} on {} with 1, 2 and 3 threads{}", entry.name, variant, golden,
+      good &= report(other.empty(), fmt::format("{} {}: {} on {} with 1, 2 and 3 threads{}", entry->name, variant, golden,
                                                 fmt::join(simd_targets(), " "), other.empty() ? "" : fmt::format("; found {}", other)));
     }
   }

@@ -14,7 +14,7 @@
 #include "cli/commands.h"
 #include "cli/port_command.h"
 #include "cli/progress.h"
-#include "cli/registry.h"
+#include "registry/registry.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
 #include "conformance/profiles.h"
@@ -146,16 +146,15 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
     return manifest();
   }
   const scene::Config config = load_scene(request.scene);
-  const EffectEntry& entry = effect(config.effect());
-  conformance::ShadowPlan plan = conformance::ShadowPlan::of_effect(*entry.info, config.variant(), request.scene.scene.filename().string());
+  const capture::EffectInfo& info = *registry::find(config.effect())->info;
+  conformance::ShadowPlan plan = conformance::ShadowPlan::of_effect(info, config.variant(), request.scene.scene.filename().string());
   std::set<int> frames;
-  for (const conformance::DumpedRun& run : conformance::dumped_runs(request.shadow, plan.effect, entry.info->pass_names(config.variant())))
+  for (const conformance::DumpedRun& run : conformance::dumped_runs(request.shadow, plan.effect, info.pass_names(config.variant())))
     frames.insert(run.frame);
-  std::vector<InputFile> inputs;
-  const std::unique_ptr<Simulation> simulation = entry.make(config, executor, inputs);
+  simulation::Opened opened = open_scene(config, executor);
   capture::CaptureRecorder recorder(
-      *entry.info, config.variant(), true, [&](int frame, std::string_view) { return frames.contains(frame); },
-      [&](const capture::PassCase& c) { plan.add(c, *entry.info); });
+      info, config.variant(), true, [&](int frame, std::string_view) { return frames.contains(frame); },
+      [&](const capture::PassCase& c) { plan.add(c, info); });
   const int last = frames.empty() ? -1 : *frames.rbegin();
   // A folder's name must not have a simulation run for days.
   constexpr std::int64_t unasked = 3600;
@@ -166,7 +165,7 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
   }
   Progress progress(config.effect(), last + 1);
   for (int frame = 0; frame <= last; ++frame) {
-    simulation->frame(&recorder);
+    opened.next_frame(&recorder);
     progress.advance();
   }
   if (has_manifest) plan.take_files(manifest());

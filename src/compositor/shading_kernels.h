@@ -5,16 +5,13 @@
 #include <span>
 
 #include "compositor/environments.h"
-#include "compositor/puddle_ground.h"
 #include "compositor/ray_columns.h"
+#include "compositor/scene.h"
 
 namespace rainref::compositor {
 
 /// PictureEnvironment::radiance.
 void look_up(const Texture& texture, bool is_cube, const Rotation& rotation, const EscapedRays& escaped_rays, std::span<Vec> radiance);
-
-/// PuddleGround::finish. `slopes` are the normals of the ground under the places; null where it is level.
-void finish_ground(const GroundLook& look, const Places& places, const VecArrays* slopes, const Finishes& finishes);
 
 /// Some of the rays, in ascending order; the list goes on to whole lanes, repeating the last one. Beside it what is the same
 /// for all rays.

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include "capture/check_case.h"
-#include "conformance/known_effects.h"
+#include "registry/registry.h"
 #include "rainref/error.h"
 
 namespace rainref::conformance {
 
 void check_pack(const capture::Pack& pack) {
-  const KnownEffect& effect = known_effect(pack.effect);
+  const effect::Effect& effect = registry::effect_of_pack(pack.effect);
   const auto refuse = [&](const std::string& why) {
     throw Error(ExitCode::port_files, fmt::format("{}: {}", pack.folder().string(), why));
   };

@@ -10,7 +10,7 @@
 #include "base/read_file.h"
 #include "capture/check_case.h"
 #include "conformance/judge_pass.h"
-#include "conformance/known_effects.h"
+#include "registry/registry.h"
 #include "conformance/port_files.h"
 #include "conformance/profiles.h"
 #include "conformance/shadow_checks.h"
@@ -236,7 +236,7 @@ class Shadow {
       out.stored.push_back(read_output(run, o));
       out.c.outputs[o].array = out.stored.back();  // until the reference's are there
     }
-    std::string fault = capture::uniform_fault(*known_effect(plan_.effect).info, out.c);
+    std::string fault = capture::uniform_fault(*registry::effect_of_pack(plan_.effect).info, out.c);
     if (fault.empty()) fault = capture::record_fault(out.c);
     if (!fault.empty()) {
       out.broken = out.untested = fault;  // nothing can be computed with it

@@ -7,7 +7,7 @@
 #include "conformance/check_pack.h"
 #include "conformance/judge_pass.h"
 #include "conformance/keyed.h"
-#include "conformance/known_effects.h"
+#include "registry/registry.h"
 #include "conformance/port_files.h"
 #include "conformance/profiles.h"
 #include "port_dump/dump_file.h"
@@ -79,7 +79,7 @@ void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
 }  // namespace
 
 const capture::PassEvaluations* evaluations_of(const std::string& effect, const std::string& pass) {
-  for (const capture::PassEvaluations& r : *known_effect(effect).evaluations)
+  for (const capture::PassEvaluations& r : *registry::effect_of_pack(effect).evaluations)
     if (r.pass == pass) return &r;
   return nullptr;
 }

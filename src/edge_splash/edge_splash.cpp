@@ -1,6 +1,8 @@
 // The order of the passes. No arithmetic.
 #include "rainref/edge_splash.h"
 
+#include <algorithm>
+
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
@@ -61,11 +63,17 @@ EdgeSplash::EdgeSplash(const Settings& settings, const Inputs& inputs, const par
 EdgeSplash::~EdgeSplash() = default;
 EdgeSplash::EdgeSplash(EdgeSplash&&) noexcept = default;
 
+void EdgeSplash::simulate(Recorder*) {
+  const FloatingPointGuard guard;
+  ++state_->frame;
+}
+
 void EdgeSplash::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const Rounding rounding = s.settings.rounding;
-  const pass::Moment now{recorder, s.frame, 0, s.frame / s.settings.fps, 1 / s.settings.fps, rounding};
+  const int frame = std::max(0, s.frame - 1);
+  const pass::Moment now{recorder, frame, 0, frame / s.settings.fps, 1 / s.settings.fps, rounding};
   const auto bound = [&](auto io) {
     io.scene = s.scene;
     io.depth = s.depth.view();
@@ -83,12 +91,11 @@ void EdgeSplash::render(Recorder* recorder) {
   if (s.corrected) {
     auto io = bound(pass::HostIo<SplashPass>());
     io.layer = s.layer;
-    run(pass::Run<SplashPass>(splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), true, rounding, io));
+    run(pass::Run<SplashPass>(splash_uniforms(s.settings, frame, noise_columns, noise_rows), true, rounding, io));
   } else {
-    run(pass::Run<PublishedSplashPass>(published_splash_uniforms(s.settings, s.frame, noise_columns, noise_rows), false, rounding,
+    run(pass::Run<PublishedSplashPass>(published_splash_uniforms(s.settings, frame, noise_columns, noise_rows), false, rounding,
                                        bound(pass::HostIo<PublishedSplashPass>())));
   }
-  ++s.frame;
 }
 
 int EdgeSplash::frame() const { return state_->frame; }

@@ -32,6 +32,7 @@ struct RainyGlass::State {
   const parallel::Executor& executor;
   bool corrected, bakes_raindrops, bakes_rivulets;
   int frame = 0;
+  bool is_baked = false;
   Code drop_code, rivulet_code;
   std::vector<Droplet> droplets;
   std::vector<Trail> trails;
@@ -79,7 +80,10 @@ struct RainyGlass::State {
     display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
-  pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
+  int shown() const { return std::max(0, frame - 1); }
+  pass::Moment moment(Recorder* recorder) const {
+    return {recorder, shown(), 0, shown() / settings.fps, 1 / settings.fps, settings.rounding};
+  }
 
   void bake(const pass::Moment& now) {
     if (bakes_raindrops) {
@@ -118,11 +122,16 @@ RainyGlass::RainyGlass(const Settings& settings, const Surroundings& surrounding
 RainyGlass::~RainyGlass() = default;
 RainyGlass::RainyGlass(RainyGlass&&) noexcept = default;
 
-void RainyGlass::frame(Recorder* recorder) {
+void RainyGlass::simulate(Recorder*) {
+  const FloatingPointGuard guard;
+  ++state_->frame;
+}
+
+void RainyGlass::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const pass::Moment now = s.moment(recorder);
-  if (s.frame == 0) s.bake(now);
+  if (!std::exchange(s.is_baked, true)) s.bake(now);
   const Rounding rounding = s.settings.rounding;
   const BufferView raindrops(s.raindrops), rivulets(s.rivulets);
   pass::HostIo<RainOnGlassPass> io;
@@ -142,12 +151,11 @@ void RainyGlass::frame(Recorder* recorder) {
   }
   if (s.settings.use_probe) io.probe = s.probe.view();
   io.colour = s.colour;
-  pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.frame, s.drop_code, s.rivulet_code), s.corrected, rounding, io);
+  pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.shown(), s.drop_code, s.rivulet_code), s.corrected, rounding, io);
   pass::run_and_display(rain, s.display, s.settings.exposure, s.colour, s.picture, s.executor, picture_tile_rows, now);
-  ++s.frame;
 }
 
-int RainyGlass::frames() const { return state_->frame; }
+int RainyGlass::frame() const { return state_->frame; }
 const Image& RainyGlass::raindrops() const { return state_->raindrops; }
 const Image& RainyGlass::rivulets() const { return state_->rivulets; }
 const Image& RainyGlass::surface() const { return state_->surface; }

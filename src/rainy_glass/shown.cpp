@@ -17,7 +17,7 @@ ShownGlass::ShownGlass(const Settings& settings, const Surroundings& around, con
       width_(settings.width),
       height_(settings.height) {
   const auto code = [&](const Image& map) { return code_of(settings, map.empty() ? settings.map_storage : map.format()); };
-  uniforms_ = rain_on_glass_uniforms(settings, rendered.frames() - 1, code(around.raindrops), code(around.rivulets));
+  uniforms_ = rain_on_glass_uniforms(settings, rendered.frame() - 1, code(around.raindrops), code(around.rivulets));
 }
 
 Shown ShownGlass::at(int column, int row) const {

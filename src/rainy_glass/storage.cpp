@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/floating_point.h"
+#include "image/seam.h"
 #include "image/texture.h"
 #include "math/half.h"
 #include "math/unorm.h"
@@ -47,25 +48,7 @@ Image copy(const Image& image) {
 
 double seam(const Image& map) {
   const FloatingPointGuard guard;
-  const TextureData decoded(map, Address::clamp, Address::clamp);
-  const float* texels = decoded.view().texels;
-  const int width = map.width(), height = map.height(), channels = map.channels();
-  if (width < 3 || height < 3) return 0;
-  const auto at = [&](int x, int y, int c) {
-    return static_cast<double>(texels[(static_cast<std::ptrdiff_t>(y) * width + x) * channels + c]);
-  };
-  // B of a raindrop map jumps from cell to cell everywhere, so jumps are compared with jumps.
-  double edge = 0, inside = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      for (int c = 0; c < channels; ++c) {
-        const double across = std::abs(at(x, y, c) - at((x + 1) % width, y, c)), along = std::abs(at(x, y, c) - at(x, (y + 1) % height, c));
-        (x + 1 == width ? edge : inside) += across / (x + 1 == width ? height : static_cast<double>(width - 1) * height);
-        (y + 1 == height ? edge : inside) += along / (y + 1 == height ? width : static_cast<double>(height - 1) * width);
-      }
-    }
-  }
-  return edge <= 1e-6 ? 0 : edge / std::max(inside, 1e-6);
+  return seam_ratio(map);
 }
 
 }  // namespace rainref::rainy_glass

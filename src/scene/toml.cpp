@@ -72,7 +72,7 @@ Value checked(const Override& o, const Parameter& p) {
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-// A fault of the fingers first; else the right name in the wrong table. A shared table must not make two names near, so
+// A slip of the fingers first; else the right name in the wrong table. A shared table must not make two names near, so
 // only keys whose last part is near are thought of.
 std::string guess(const std::string& wrong, const std::vector<std::string>& valid) {
   if (wrong.size() > longest_guess) return "";
@@ -187,6 +187,10 @@ std::string deciding(const Parameter& p, const std::vector<RawEntry>& entries, c
   refuse({Origin::file, {file.string()}}, p.key, "missing; expected " + expectation(p));
 }
 
+bool says(const std::vector<RawEntry>& entries, std::string_view key) {
+  return std::any_of(entries.begin(), entries.end(), [&](const RawEntry& e) { return e.key == key; });
+}
+
 }  // namespace
 
 Config load(const std::filesystem::path& file, const std::vector<std::string>& overrides, const EffectTable& effects) {
@@ -207,16 +211,22 @@ Config parse(std::string_view toml, const std::filesystem::path& file, const std
   return assembly.finish(file);
 }
 
+Config parse(const SceneText& scene, const EffectTable& effects) {
+  const FloatingPointGuard guard;
+  const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);
+  std::vector<std::string> overrides;
+  if (!says(entries, "variant")) overrides.push_back("variant=corrected");  // before the caller's own, which win
+  overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
+  return parse(scene.toml, scene.file, overrides, effects);
+}
+
 Config parse(const SceneText& scene, const Effect& effect, std::span<const char* const> pictures) {
   const FloatingPointGuard guard;
   std::vector<std::string> overrides;
   const std::vector<RawEntry> entries = read_toml(scene.toml, scene.file);
-  const auto add_unless_said = [&](const std::string& key, const std::string& value) {
-    const bool is_said = std::any_of(entries.begin(), entries.end(), [&](const RawEntry& e) { return e.key == key; });
-    if (!is_said) overrides.push_back(key + "=" + value);  // before the caller's own, which win
-  };
-  add_unless_said("effect", effect.name);
-  add_unless_said("variant", effect.variants.back());
+  // Before the caller's own, which win.
+  if (!says(entries, "effect")) overrides.push_back("effect=" + effect.name);
+  if (!says(entries, "variant")) overrides.push_back("variant=" + effect.variants.back());
   overrides.insert(overrides.end(), scene.set.begin(), scene.set.end());
   const Config config = parse(scene.toml, scene.file, overrides, {{effect}});
   for (const char* key : pictures) {

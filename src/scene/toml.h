@@ -30,4 +30,7 @@ Config parse(std::string_view toml, const std::filesystem::path& file, const std
 /// which name some, must be empty.
 Config parse(const SceneText& scene, const Effect& effect, std::span<const char* const> pictures);
 
+/// The same of any of the effects: the text or `set` says which; "corrected" where no variant is said.
+Config parse(const SceneText& scene, const EffectTable& effects);
+
 }  // namespace rainref::scene

@@ -1,8 +1,10 @@
 // The order of the passes. No arithmetic.
 #include "rainref/screen_drops.h"
 
+#include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -40,6 +42,7 @@ struct ScreenDrops::State {
   const parallel::Executor& executor;
   bool corrected;
   int frame = 0;
+  bool has_background = false;
   std::vector<Image> levels;
   blur_pyramid::LevelTexture scene;
   std::vector<Tap> taps;
@@ -74,7 +77,10 @@ struct ScreenDrops::State {
 
   const Image& height() const { return flow ? flow->height() : no_height; }
 
-  pass::Moment moment(Recorder* recorder) const { return {recorder, frame, 0, frame / settings.fps, 1 / settings.fps, settings.rounding}; }
+  int shown() const { return std::max(0, frame - 1); }
+  pass::Moment moment(Recorder* recorder) const {
+    return {recorder, shown(), 0, shown() / settings.fps, 1 / settings.fps, settings.rounding};
+  }
   void blur(const pass::Moment& now) {
     pass::HostIo<BackgroundPass> io;
     io.scene.set(scene.view(), levels);
@@ -86,7 +92,7 @@ struct ScreenDrops::State {
     run.finish(now);
   }
   void fill_cells(const pass::Moment& now) {
-    const CellsUniforms u = cells_uniforms(settings, grids, frame);
+    const CellsUniforms u = cells_uniforms(settings, grids, shown());
     now.before("cells", u, {});
     const Stopwatch watch;
     executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
@@ -119,12 +125,17 @@ ScreenDrops::ScreenDrops(const Settings& settings, const Inputs& inputs, const p
 ScreenDrops::~ScreenDrops() = default;
 ScreenDrops::ScreenDrops(ScreenDrops&&) noexcept = default;
 
+void ScreenDrops::simulate(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  if (state_->flow) state_->flow->simulate(recorder);
+  ++state_->frame;
+}
+
 void ScreenDrops::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  if (s.flow) s.flow->simulate(recorder);
   const pass::Moment now = s.moment(recorder);
-  if (s.frame == 0) s.blur(now);
+  if (!std::exchange(s.has_background, true)) s.blur(now);
   if (s.corrected) s.fill_cells(now);
   const Rounding rounding = s.settings.rounding;
   const auto bound = [&](auto io) {
@@ -148,9 +159,8 @@ void ScreenDrops::render(Recorder* recorder) {
     auto io = bound(pass::HostIo<PublishedDropsPass>());
     io.noise = s.noise.view();
     io.noise.recorded = &noise;
-    run(pass::Run<PublishedDropsPass>(published_drops_uniforms(s.settings, s.frame), false, rounding, io));
+    run(pass::Run<PublishedDropsPass>(published_drops_uniforms(s.settings, s.shown()), false, rounding, io));
   }
-  ++s.frame;
 }
 
 int ScreenDrops::frame() const { return state_->frame; }

@@ -21,6 +21,9 @@ struct PlaneFrame {
   Real2 to_glass(const Real2& xy) const { return {inverse[0] * xy[0] + inverse[1] * xy[1], inverse[2] * xy[1]}; }
 };
 
+/// Corners of the glass at (u, v) = (0, 0), (1, 0) and (0, 1), car axes [m].
+using Corners = std::array<std::array<double, 3>, 3>;
+
 /// The point at (u, v) is origin + u e_u + v e_v. Car axes: x forward, y left, z up [m].
 struct Glass {
   Real3 origin, e_u, e_v;

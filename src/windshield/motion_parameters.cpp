@@ -2,59 +2,80 @@
 
 #include <fmt/format.h>
 
-#include "math/constants.h"
 #include "rainref/error.h"
+#include "scene/member_parameter.h"
 
 namespace rainref::windshield {
 namespace {
 
 using namespace rainref::scene;
 
-constexpr const char *published = "as-published", *correct = "corrected";
 constexpr int most_wipers = 2;
 // The tandem arrangement, as its keys would say it.
 constexpr double pivot[most_wipers][2] = {{0.12, -0.06}, {0.71, -0.06}}, inner[most_wipers] = {0.18, 0.14},
                  outer[most_wipers] = {0.8, 0.68};
 constexpr double sweep[most_wipers] = {91, 104};
 
+/// A corner of the glass.
+MemberParameter<MotionSettings> corner(std::size_t i, std::string sentence) {
+  return {real3(fmt::format("windshield.corner_{}", i), "m", -100, 100, {}, std::move(sentence)),
+          [i](MotionSettings& s, const Value& v) { s.corners[i] = std::get<Real3>(v); },
+          [i](const MotionSettings& s) { return Value(s.corners[i]); }};
+}
 std::string numbered(const char* key, int i) { return fmt::format("wipers.{}_{}", key, i); }
 
-}  // namespace
-
-std::vector<scene::Parameter> motion_parameters() {
-  std::vector<scene::Parameter> table{
+const std::vector<MemberParameter<MotionSettings>>& members() {
+  using M = MotionSettings;
+  using V = VehicleSettings;
+  static const std::vector<MemberParameter<M>> table{
       // 27 degrees from the horizontal, 1.4 m x 0.8 m, its lower edge 1.9 m ahead of the rear axle and 1 m above the road.
-      real3("windshield.corner_0", "m", -100, 100, {1.9, 0.7, 1.0},
-            "Corner (0, 0) of the glass in the car's axes (x forward, y left, z up, from the middle of the rear axle); seen from inside at "
-            "the lower left."),
-      real3("windshield.corner_1", "m", -100, 100, {1.9, -0.7, 1.0}, "Corner (1, 0) of the glass; lower right."),
-      real3("windshield.corner_2", "m", -100, 100, {1.18719478064930573, 0.7, 1.36319239979163742},
-            "Corner (0, 1) of the glass; upper left."),
-      real("world.gravity", "m/s^2", 0, 100, standard_gravity, "Acceleration of gravity."),
-      real3("world.wind", "m/s", -100, 100, {0, 0, 0},
-            "Velocity of the wind in world axes: x is the car's forward direction at heading 0, z up."),
-      real("vehicle.speed", "m/s", 0, largest_speed, 13.9,
-           "Speed of the car, where neither key frames nor a drive cycle say it; 13.9 m/s are 50 km/h."),
-      real("vehicle.yaw_rate", "rad/s", -largest_yaw_rate, largest_yaw_rate, 0,
-           "Turn rate of the car, positive to the left, where neither key frames nor a drive cycle say it."),
-      real("vehicle.heading", "deg", -360, 360, 0, "Direction of the car at time 0, positive to the left."),
-      real("vehicle.start", "s", -1e6, 1e6, 0, "Time in the key frames or the drive cycle at time 0."),
-      text("vehicle.key_frames", "",
-           "Speed by key frames, smooth between them: \"time speed; time speed; ...\" in s and m/s, or \"time speed yaw_rate\" in rad/s; "
-           "empty: none."),
+      corner(
+          0,
+          "Corner (0, 0) of the glass in the car's axes (x forward, y left, z up, from the middle of the rear axle); seen from inside at "
+          "the lower left."),
+      corner(1, "Corner (1, 0) of the glass; lower right."),
+      corner(2, "Corner (0, 1) of the glass; upper left."),
+      real<&M::gravity>("world.gravity", "m/s^2", 0, 100, "Acceleration of gravity."),
+      real<&M::wind>("world.wind", "m/s", -100, 100,
+                     "Velocity of the wind in world axes: x is the car's forward direction at heading 0, z up."),
+      real<&M::vehicle, &V::speed>("vehicle.speed", "m/s", 0, largest_speed,
+                                   "Speed of the car, where neither key frames nor a drive cycle say it; 13.9 m/s are 50 km/h."),
+      real<&M::vehicle, &V::yaw_rate>("vehicle.yaw_rate", "rad/s", -largest_yaw_rate, largest_yaw_rate,
+                                      "Turn rate of the car, positive to the left, where neither key frames nor a drive cycle say it."),
+      {real("vehicle.heading", "deg", -360, 360, 0, "Direction of the car at time 0, positive to the left."),
+       [](M& s, const Value& v) { s.vehicle.heading = std::get<double>(v) * degree; },
+       [](const M& s) { return Value(s.vehicle.heading / degree); }},
+      real<&M::vehicle, &V::start>("vehicle.start", "s", -1e6, 1e6, "Time in the key frames or the drive cycle at time 0."),
+      {text("vehicle.key_frames", "",
+            "Speed by key frames, smooth between them: \"time speed; time speed; ...\" in s and m/s, or \"time speed yaw_rate\" in rad/s; "
+            "empty: none."),
+       [](M& s, const Value& v) { s.vehicle.key_frames = std::get<std::string>(v); },
+       [](const M& s) { return Value(s.vehicle.key_frames); }},
       text("vehicle.drive_cycle", "", "CSV file with the columns time_s, speed_mps and, optionally, yaw_rad_s; empty: none."),
       integer("wipers.count", "1", 0, most_wipers, most_wipers, "Blades."),
       choice("wipers.arrangement", {"tandem", "opposed", "custom"}, "tandem",
              "Blades that turn the same way, or toward each other, fitted to the glass; custom: as the keys ending in _0 and _1 say."),
-      real("wipers.cycles_per_minute", "1/min", 0, 600, 45,
-           "Strokes forth and back in a minute; EU 1008/2010 asks for at least 45 at the highest speed; 0: at rest."),
+      real<&M::wipers, &WiperSettings::cycles_per_minute>(
+          "wipers.cycles_per_minute", "1/min", 0, 600,
+          "Strokes forth and back in a minute; EU 1008/2010 asks for at least 45 at the highest speed; 0: at rest."),
       // As published a texture is wiped by the blade's present outline alone: 25 mm leave no gap at 60 frames and 45 cycles.
-      real("wipers.half_width", "m", 1e-4, 0.2, 0.025, "Half the width that a blade wipes.").default_for(correct, 0.008),
-      real("wipers.follow", "1", 0, 1, 0.6, "Share of the way to the blade's leading edge that a captured drop makes in a frame.")
+      real<&M::wipers, &WiperSettings::half_width>("wipers.half_width", "m", 1e-4, 0.2, "Half the width that a blade wipes.")
+          .published(0.025),
+      real<&M::capture, &Capture::follow>("wipers.follow", "1", 0, 1,
+                                          "Share of the way to the blade's leading edge that a captured drop makes in a frame.")
           .only(published),
-      real("wipers.inherit", "1", 0, 1, 0.5, "Share of the blade's velocity that a captured drop takes over in a frame.").only(published),
-      real("wipers.gain", "1", 0, 100, 0.02, "Mass that a captured drop gains in a frame.").only(published),
+      real<&M::capture, &Capture::inherit>("wipers.inherit", "1", 0, 1,
+                                           "Share of the blade's velocity that a captured drop takes over in a frame.")
+          .only(published),
+      real<&M::capture, &Capture::gain>("wipers.gain", "1", 0, 100, "Mass that a captured drop gains in a frame.").only(published),
   };
+  return table;
+}
+
+}  // namespace
+
+std::vector<scene::Parameter> motion_parameters() {
+  std::vector<scene::Parameter> table = parameters_of(members());
   for (int i = 0; i < most_wipers; ++i) {
     const std::string blade = fmt::format("Custom arrangement, blade {}: ", i);
     table.push_back(real2(numbered("pivot", i), "m", -100, 100, {pivot[i][0], pivot[i][1]},
@@ -70,14 +91,8 @@ std::vector<scene::Parameter> motion_parameters() {
 
 MotionSettings motion_settings_from(const scene::Config& config) {
   MotionSettings s{};
-  s.glass = make_glass({config.real3("windshield.corner_0"), config.real3("windshield.corner_1"), config.real3("windshield.corner_2")});
-  s.gravity = config.real("world.gravity");
-  s.wind = config.real3("world.wind");
-  s.vehicle.speed = config.real("vehicle.speed");
-  s.vehicle.yaw_rate = config.real("vehicle.yaw_rate");
-  s.vehicle.heading = config.real("vehicle.heading") * degree;
-  s.vehicle.start = config.real("vehicle.start");
-  s.vehicle.key_frames = config.text("vehicle.key_frames");
+  apply(members(), config, s);
+  s.glass = make_glass(s.corners);
   const bool has_table = !s.vehicle.key_frames.empty() || !config.text("vehicle.drive_cycle").empty();
   for (const char* key : {"vehicle.speed", "vehicle.yaw_rate"}) {
     if (has_table && config.given(key)) {
@@ -91,8 +106,6 @@ MotionSettings motion_settings_from(const scene::Config& config) {
     s.vehicle.drive_cycle = config.directory() / s.vehicle.drive_cycle;
 
   const int count = static_cast<int>(config.integer("wipers.count"));
-  s.wipers.cycles_per_minute = config.real("wipers.cycles_per_minute");
-  s.wipers.half_width = config.real("wipers.half_width");
   if (config.text("wipers.arrangement") != "custom") {
     s.wipers.blades = arranged_blades(config.text("wipers.arrangement"), count, s.glass);
   } else {
@@ -103,7 +116,6 @@ MotionSettings motion_settings_from(const scene::Config& config) {
     }
   }
   check(s.wipers, s.glass);
-  if (config.variant() == published) s.capture = {config.real("wipers.follow"), config.real("wipers.inherit"), config.real("wipers.gain")};
   return s;
 }
 

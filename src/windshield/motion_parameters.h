@@ -1,9 +1,9 @@
 // The scene parameters of glass, vehicle and wipers: declared once, for scenes, help, hashing and capture.
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "math/constants.h"
 #include "scene/config.h"
 #include "windshield/motion_host.h"
 
@@ -15,12 +15,13 @@ std::vector<scene::Parameter> motion_parameters();
 /// What these parameters say, checked. With vehicle(), wipers_between() and the uniforms of motion_host.h it is all
 /// that the two passes take.
 struct MotionSettings {
-  Glass glass;
+  Corners corners{{{1.9, 0.7, 1.0}, {1.9, -0.7, 1.0}, {1.18719478064930573, 0.7, 1.36319239979163742}}};
+  Glass glass;  ///< of these corners
   VehicleSettings vehicle;
   WiperSettings wipers;
-  Capture capture;  ///< as-published
-  Real3 wind;       ///< world axes [m/s]
-  double gravity;   ///< [m/s^2]
+  Capture capture;                    ///< as-published
+  Real3 wind{0, 0, 0};                ///< world axes [m/s]
+  double gravity = standard_gravity;  ///< [m/s^2]
 };
 /// Throws Error(usage) as make_glass and check do. The path of a drive cycle that the scene file gives is taken from
 /// the file's folder.

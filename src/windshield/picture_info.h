@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "capture/pass_info.h"
-#include "scene/config.h"
-#include "scene/parameter.h"
+#include "scene/member_parameter.h"
 #include "windshield/picture.h"
 
 namespace rainref::windshield {
@@ -14,8 +13,7 @@ std::vector<capture::PassInfo> picture_passes();
 std::vector<capture::BufferInfo> picture_buffers();
 std::vector<scene::UniformBlock> picture_records();
 
-std::vector<scene::Parameter> picture_parameters();
-/// Size aside: a scene gives it to all effects alike.
-PictureSettings picture_settings(const scene::Config& config);
+/// Size and margin aside, which scenes say elsewhere.
+const std::vector<scene::MemberParameter<PictureSettings>>& picture_parameters();
 
 }  // namespace rainref::windshield

@@ -2,6 +2,7 @@
 
 #include "math/constants.h"
 #include "rainref/error.h"
+#include "scene/member_parameter.h"
 #include "windshield/motion_parameters.h"
 #include "windshield/picture_info.h"
 
@@ -10,30 +11,41 @@ namespace {
 
 using namespace rainref::scene;
 
-constexpr const char* correct = "corrected";
-
 void append(std::vector<Parameter>& all, std::vector<Parameter> more) { all.insert(all.end(), more.begin(), more.end()); }
+
+/// The street before the car.
+const std::vector<MemberParameter<Settings>>& scene_members() {
+  using S = Settings;
+  static const std::vector<MemberParameter<S>> table{
+      text("scene.image", "", "Picture of what lies before the car, EXR, HDR, PNG or NPY; empty: the street at night made here."),
+      text("scene.depth_image", "",
+           "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
+      real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
+      integer<&S::scene_size>("scene.size", "texel", 8, 8192, "Columns and rows of the street's picture."),
+      real<&S::picture, &PictureSettings::scene_margin>("scene.margin", "1", 1, 4, "Width of the scene's picture over that of the view."),
+      real<&S::street_start>("scene.start", "m", 0, 1e6, "Place on the street at time 0."),
+      boolean<&S::scene_moves>("scene.moves", "The street passes as the car drives; false: it stands still."),
+      boolean<&S::clear_lane>("scene.clear_lane", "No car of the street stands in this one's lane: a drive would go through it."),
+      integer<&S::keyframes>("scene.keyframes", "1", 1, 24,
+                             "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by "
+                             "warp, and the longer it takes.")};
+  return table;
+}
+const std::vector<MemberParameter<Settings>>& step_members() {
+  static const std::vector<MemberParameter<Settings>> table{
+      integer<&Settings::substeps>("windshield.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct)};
+  return table;
+}
 
 std::vector<Parameter> make() {
   std::vector<Parameter> all = motion_parameters();
   append(all, drops::parameters("windshield"));
-  all.push_back(integer("windshield.substeps", "1", 1, 64, 1, "Steps of the drops in a frame.").only(correct));
+  append(all, parameters_of(step_members()));
   append(all, drops::splat_parameters("windshield"));
   append(all, surface_parameters("windshield"));
   append(all, blur_pyramid::blur_parameters("blur"));
-  append(all, {text("scene.image", "", "Picture of what lies before the car, EXR, HDR, PNG or NPY; empty: the street at night made here."),
-               text("scene.depth_image", "",
-                    "Its depth along the view axis, of the same size, EXR, 16-bit PNG or NPY; empty: everything is far away."),
-               real("scene.depth_scale", "m", 1e-9, 1e9, 1, "Metres in a unit of the depth image (65.535 for 16-bit millimetres)."),
-               integer2("scene.size", "texel", 8, 8192, {1280, 720}, "Columns and rows of the street's picture."),
-               real("scene.margin", "1", 1, 4, 1.15, "Width of the scene's picture over that of the view."),
-               real("scene.start", "m", 0, 1e6, 0, "Place on the street at time 0."),
-               boolean("scene.moves", true, "The street passes as the car drives; false: it stands still."),
-               boolean("scene.clear_lane", false, "No car of the street stands in this one's lane: a drive would go through it."),
-               integer("scene.keyframes", "1", 1, 24, 1,
-                       "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by warp, "
-                       "and the longer it takes.")});
-  append(all, picture_parameters());
+  append(all, parameters_of(scene_members()));
+  append(all, parameters_of(picture_parameters()));
   return all;
 }
 
@@ -49,9 +61,9 @@ Settings settings_from(const Config& config) {
   s.corrected = config.variant() == correct;
   s.seed = static_cast<std::uint64_t>(config.integer("seed"));
   s.fps = config.real("run.fps");
-  if (s.corrected) s.substeps = static_cast<int>(config.integer("windshield.substeps"));
+  apply(step_members(), config, s);
   const MotionSettings motion = motion_settings_from(config);
-  s.corners = {config.real3("windshield.corner_0"), config.real3("windshield.corner_1"), config.real3("windshield.corner_2")};
+  s.corners = motion.corners;
   s.wind = motion.wind;
   s.gravity = motion.gravity;
   s.vehicle = motion.vehicle;
@@ -74,15 +86,10 @@ Settings settings_from(const Config& config) {
   read_surface(config, "windshield", s.surface);
   s.blur = blur_pyramid::blur_settings(config, "blur", s.surface.rounding);
 
-  s.picture = picture_settings(config);
+  apply(picture_parameters(), config, s.picture);
+  apply(scene_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
-  s.picture.scene_margin = config.real("scene.margin");
-  s.scene_size = {static_cast<int>(config.integer2("scene.size")[0]), static_cast<int>(config.integer2("scene.size")[1])};
-  s.street_start = config.real("scene.start");
-  s.clear_lane = config.boolean("scene.clear_lane");
-  s.keyframes = static_cast<int>(config.integer("scene.keyframes"));
-  s.scene_moves = config.boolean("scene.moves");
   return s;
 }
 

@@ -11,7 +11,7 @@
 namespace rainref::windshield {
 
 /// The car at one time. World axes are the car's, turned about z by the heading. All of it holds at the origin of the
-/// car's axes, which does not fault sideways (the middle of the rear axle).
+/// car's axes, which does not slip sideways (the middle of the rear axle).
 struct VehicleState {
   double speed;             ///< forward [m/s]
   double acceleration;      ///< derivative of speed [m/s^2]

@@ -44,8 +44,7 @@ TEST_F(Defaults, Puddle) {
   puddle::Surroundings around;
   around.environment = filled(Format::rgba32f, 4, 2, 0.5f);
   puddle::Puddle puddle(settings, around, executor);
-  puddle.simulate();
-  puddle.render();
+  puddle.next_frame();
   expect_lit(puddle.picture());
   around.environment = Image();
   EXPECT_THROW(puddle::Puddle(settings, around, executor), Error);
@@ -57,7 +56,7 @@ TEST_F(Defaults, EdgeSplash) {
   in.depth = filled(Format::r32f, settings.width, settings.height, 2);
   in.depth_is_distance = true;
   edge_splash::EdgeSplash effect(settings, in, executor);
-  effect.render();
+  effect.next_frame();
   expect_lit(effect.picture());
 }
 TEST_F(Defaults, RainyGlass) {
@@ -66,7 +65,7 @@ TEST_F(Defaults, RainyGlass) {
   around.colour = filled(Format::rgba32f, settings.width, settings.height, 0.5f);
   around.depth = filled(Format::r32f, settings.width, settings.height, 9);
   rainy_glass::RainyGlass glass(settings, around, executor);
-  glass.frame();
+  glass.next_frame();
   expect_lit(glass.picture());
 }
 TEST_F(Defaults, ScreenDrops) {
@@ -74,18 +73,17 @@ TEST_F(Defaults, ScreenDrops) {
   screen_drops::Inputs in;
   in.colour = filled(Format::rgba32f, settings.width, settings.height, 0.5f);
   screen_drops::ScreenDrops still(settings, in, executor);
-  still.render();
+  still.next_frame();
   expect_lit(still.picture());
   // The whole scene, its flowing water with it.
   screen_drops::ScreenDrops flowing(SceneText{}, in, executor);
-  flowing.render();
+  flowing.next_frame();
   expect_lit(flowing.picture());
   EXPECT_GT(flowing.height().width(), 1);
 }
 TEST_F(Defaults, Windshield) {
   windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {}, executor);
-  windshield.simulate();
-  windshield.render();
+  windshield.next_frame();
   expect_lit(windshield.picture());
   EXPECT_EQ(windshield.ledger().balance(), 0);
 }

@@ -149,6 +149,12 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
                                                    MatchesRegex("edge_splash 32x18 .{8}"), MatchesRegex("screen_drops 32x18 .{8}"),
                                                    MatchesRegex("screen_drops.flow 32x18 .{8}"), MatchesRegex("rainy_glass 32x18 .{8}"),
                                                    "2 mine.toml:2:1: wipers.cuont: unknown key; did you mean 'wipers.count'?"));
+  const std::string simulated = output("outside/simulate");
+  EXPECT_THAT(lines_of(simulated),
+              testing::ElementsAre(HasSubstr("puddle 2: wave=768x512 "), HasSubstr("windshield 2: drops=records "),
+                                   HasSubstr("edge_splash 2: edge=32x18 "), HasSubstr("screen_drops 2: background=32x18 "),
+                                   HasSubstr("rainy_glass 2: raindrops=512x512 "), HasSubstr("did you mean 'puddle'?")));
+  EXPECT_TRUE(std::filesystem::exists(folder / "rainy_glass.png"));
 
   std::string pc;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "moved")) {
@@ -162,10 +168,12 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   };
   EXPECT_EQ(path_of("prefix"), folder / "moved");
   EXPECT_EQ(path_of("includedir"), folder / "moved/include");
-  output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
-                     "/tests/outside/every_effect.cpp -o by_pkg_config $({} --cflags --libs rainref)",
-                     RAINREF_CXX_COMPILER, config));
-  EXPECT_EQ(output("./by_pkg_config"), said);
+  for (const auto& [program, expected] : {std::pair{"every_effect", said}, std::pair{"simulate", simulated}}) {
+    output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
+                       "/tests/outside/{}.cpp -o by_pkg_config $({} --cflags --libs rainref)",
+                       RAINREF_CXX_COMPILER, program, config));
+    EXPECT_EQ(output("./by_pkg_config"), expected);
+  }
 }
 
 // Where a package is put together it is installed below another root than the one where it will lie.

@@ -18,7 +18,7 @@
 
 #include "base/temporary_folder.h"
 #include "cli/cli.h"
-#include "cli/registry.h"
+#include "registry/registry.h"
 #include "image_io/codec.h"
 #include "image_io/tiny_files.h"
 #include "image_io/write.h"
@@ -28,7 +28,7 @@ namespace rainref::cli {
 /// "'puddle', 'windshield'": every effect, as messages list them.
 inline std::string effect_list() {
   std::vector<std::string> names;
-  for (const EffectEntry& e : effects()) names.push_back("'" + e.name + "'");
+  for (const effect::Effect* e : registry::effects()) names.push_back("'" + e->name + "'");
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -12,7 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "capture/pass_info.h"
-#include "cli/registry.h"
+#include "registry/registry.h"
+#include "simulation/opened.h"
 #include "conformance/support.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
@@ -73,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Effects, UniformRanges,
 
 TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
   const auto& [name, variant] = GetParam();
-  const EffectEntry& entry = effect(name);
+  const scene::Effect& entry = simulation::effect_table().find(name);
   const parallel::Executor executor(2);
   // What makes a run large or long, and what has nothing to do with uniforms, stays small.
   const std::map<std::string, std::string> fixed{{"maps.size", "8"},
@@ -145,13 +146,12 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
       }
     }
     try {
-      const scene::Config config = scene::load(scene, overrides, effect_table());
-      std::vector<InputFile> inputs;
-      const std::unique_ptr<Simulation> simulation = entry.make(config_of_passes(config), executor, inputs);
-      Ranges ranges(*entry.info, variant);
+      const scene::Config config = scene::load(scene, overrides, simulation::effect_table());
+      simulation::Opened opened(simulation::config_of_passes(config), executor);
+      Ranges ranges(*opened.effect().info, variant);
       ++built;
-      simulation->frame(&ranges);
-      simulation->frame(&ranges);
+      opened.next_frame(&ranges);
+      opened.next_frame(&ranges);
       passes += ranges.passes;
       faults.insert(ranges.faults.begin(), ranges.faults.end());
     } catch (const Error& e) {

@@ -18,7 +18,7 @@
 namespace rainref::test {}
 namespace rainref::compositor::test {
 
-using namespace rainref::test;  // NOLINT: what the tests of all rooms share
+using namespace rainref::test;  // what the tests of all rooms share
 
 inline constexpr int water_cells = 512;
 inline constexpr double water_half_side = 42;

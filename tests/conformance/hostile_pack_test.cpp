@@ -27,14 +27,14 @@ const PassCase& case_of(const Base& base, const std::string& pass) {
   throw std::runtime_error("no pass " + pass);
 }
 const scene::UniformBlock& block_of(const Base& base, const PassCase& c) {
-  return known_effect(base.effect).info->pass(c.pass).block(c.variant);
+  return registry::effect_of_pack(base.effect).info->pass(c.pass).block(c.variant);
 }
 
 /// A pack of one case, its files and manifest in agreement, and a port that stores what is expected.
 class Hostile {
  public:
   Hostile(const Base& base, const PassCase& c) : base_(base) {
-    const capture::EffectInfo& effect = *known_effect(base.effect).info;
+    const capture::EffectInfo& effect = *registry::effect_of_pack(base.effect).info;
     const fuzz::Folder pack(folder_ / "pack"), port(folder_ / "port");
     const std::string id = c.folder() + "/";
     pack.put(id + "uniforms.bin", c.uniforms);
@@ -108,7 +108,7 @@ TEST(HostilePack, AnInputOfAnotherSizeThanTheOutputsIsRefused) {
   int tried = 0;
   for (const Base& base : fuzz::bases()) {
     for (const PassCase& good : base.cases) {
-      const capture::PassInfo& pass = known_effect(base.effect).info->pass(good.pass);
+      const capture::PassInfo& pass = registry::effect_of_pack(base.effect).info->pass(good.pass);
       for (std::size_t i = 0; i < good.inputs.size(); ++i) {
         const auto read =
             std::find_if(pass.reads.begin(), pass.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == good.inputs[i].name; });
@@ -161,7 +161,7 @@ TEST(HostilePack, UniformsOutOfTheirRangesAreRefused) {
           if (m.scalar != scene::Scalar::float32) continue;
           PassCase c = good;
           std::memcpy(c.uniforms.data() + m.offset, &number, sizeof number);
-          EXPECT_THAT(capture::uniform_fault(*known_effect(base.effect).info, c), HasSubstr("uniform " + m.name)) << number;
+          EXPECT_THAT(capture::uniform_fault(*registry::effect_of_pack(base.effect).info, c), HasSubstr("uniform " + m.name)) << number;
           ++tried;
         }
       }

@@ -38,7 +38,7 @@ std::string hash_of_run(const Settings& s, const Inputs& in, int threads, std::u
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   EdgeSplash effect(s, in, executor);
-  return capture::hash_of_frames(frames, [&](Recorder* recorder) { effect.render(recorder); });
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { effect.next_frame(recorder); });
 }
 
 class Determinism : public testing::TestWithParam<Variant> {
@@ -128,7 +128,7 @@ TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
     select_simd_target(target);
     const parallel::Executor executor(2);
     EdgeSplash effect(evaluation.s, evaluation.in, executor);
-    for (int frame = 0; frame < 5; ++frame) effect.render();
+    for (int frame = 0; frame < 5; ++frame) effect.next_frame();
     for (int y = 0; y < 29; ++y) {
       for (int x = 0; x < 37; ++x) {
         const auto s = evaluation.at<F>(4, x, y);

@@ -146,7 +146,7 @@ TEST(EdgeSplashInput, ColourIsDecodedAndAlphaKept) {
   EXPECT_NEAR(to_float(scene.row<Half>(0)[3]), 64 / 255.0, 1e-3);
   // As published the alpha is blended like a colour; corrected keeps it.
   EdgeSplash e(corrected(), in, executor());
-  e.render();
+  e.next_frame();
   EXPECT_EQ(e.colour().row<Half>(0)[3].bits, scene.row<Half>(0)[3].bits);
 }
 

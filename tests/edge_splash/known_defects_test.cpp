@@ -86,8 +86,8 @@ TEST(EdgeSplashKnownDefects, Defect04_TruncationMakesLopsidedTaps) {
   for (const bool is_corrected : {false, true}) {
     const Settings s = is_corrected ? corrected() : published();
     EdgeSplash a(s, scene(false), executor()), b(s, scene(true), executor());
-    a.render();
-    b.render();
+    a.next_frame();
+    b.next_frame();
     int differing = 0;
     for (int y = 0; y < 48; ++y) {
       for (int x = 0; x < 64; ++x) differing += code(a.edge(), x, y) != code(b.edge(), 63 - x, y);
@@ -107,7 +107,7 @@ TEST(EdgeSplashKnownDefects, Defect05_DeviceDepthTurnsTheEffectOver) {
     for (const bool reversed : {true, false}) {
       s.depth.reversed = reversed;
       EdgeSplash e(s, slab(), executor());
-      e.render();
+      e.next_frame();
       int upper = 0, lower = 0;
       for (int y = 10; y < 50; ++y) (y >= 30 ? upper : lower) += painted(e, 32, y);
       if (is_corrected || reversed) {
@@ -125,8 +125,8 @@ TEST(EdgeSplashKnownDefects, Defect06_ReadsOutsideMakeEdgesAtTheBorder) {
   // A wall of constant depth has no edge. T = 3 guards three rows; the taps reach 3 + 3 d^2.
   const auto wall = [] { return inputs_of(48, 40, [](int, int) { return 0.75; }); };
   EdgeSplash a(published(), wall(), executor()), c(corrected(), wall(), executor());
-  a.render();
-  c.render();
+  a.next_frame();
+  c.next_frame();
   int border = 0, inside = 0;
   for (int y = 3; y < 37; ++y) (y < 6 ? border : inside) += code(a.edge(), 24, y) == 255;
   EXPECT_EQ(border, 2);  // rows 3 and 4: T d^2 = 1.69 moves p1 to row y - 5
@@ -144,7 +144,7 @@ TEST(EdgeSplashKnownDefects, Defect07_ThePrintedKernelIsUpsideDown) {
   const Field inverse(32, 32, Address::clamp, [](int, int y) { return 1 / (2 + 0.1 * y); });
   EXPECT_GT(corrected_gradient<D>(1, inverse, 16, 16).y.v, 0);
   EdgeSplash c(corrected(), inputs_of_distance(32, 40, ledge(2, 9)), executor());
-  c.render();
+  c.next_frame();
   EXPECT_TRUE(painted(c, 16, 20));
 }
 
@@ -169,7 +169,7 @@ TEST(EdgeSplashKnownDefects, Defect08_VerticalEdgesOfOneSidePass) {
   Settings s = corrected();
   for (const int side : {-1, 1}) {
     EdgeSplash e(s, inputs_of_distance(64, 48, [=](int x, int) { return side * (x - 32) > 0 ? 2.0 : 9.0; }), executor());
-    e.render();
+    e.next_frame();
     EXPECT_EQ(code(e.edge(), 32, 24), 255);
     EXPECT_EQ(code(e.angle(), 32, 24), 0);
   }
@@ -184,7 +184,7 @@ TEST(EdgeSplashKnownDefects, Defect09_ANegativeSpeedReadsOutsideTheNoise) {
   Inputs in = inputs_of(64, 64, [](int, int) { return 0.5; });
   in.noise = plane_of(16, 16, [](int, int) { return 1.0; });
   EdgeSplash e(s, in, executor());
-  for (int frame = 0; frame <= 20; ++frame) e.render();
+  for (int frame = 0; frame <= 20; ++frame) e.next_frame();
   for (int y = 0; y < 64; ++y) {
     // A remainder of -0 is texel 0.
     const auto inside = [](int i) { return i >= 20 || (i - 20) % 16 == 0; };
@@ -197,7 +197,7 @@ TEST(EdgeSplashKnownDefects, Defect09_ANegativeSpeedReadsOutsideTheNoise) {
   Inputs corrected_in = inputs_of_distance(64, 64, [](int, int) { return 5.0; });
   corrected_in.noise = plane_of(16, 16, [](int, int) { return 1.0; });
   EdgeSplash f(c, corrected_in, executor());
-  for (int frame = 0; frame <= 20; ++frame) f.render();
+  for (int frame = 0; frame <= 20; ++frame) f.next_frame();
   EXPECT_EQ(mean(f.noise()), 1);
 }
 
@@ -209,7 +209,7 @@ TEST(EdgeSplashKnownDefects, Defect10_TheTargetClampsLight) {
                  inputs_of(
                      32, 32, [](int, int) { return 0.5; }, 3.0f),
                  executor());
-    e.render();
+    e.next_frame();
     EXPECT_EQ(to_float(e.colour().row<Half>(16)[4 * 16]), is_corrected ? 3.0f : 1.0f);
   }
 }
@@ -224,10 +224,10 @@ TEST(EdgeSplashKnownDefects, Defect11_TheScrollLosesItsPrecision) {
   Inputs in = inputs_of(64, 64, [](int, int) { return 0.5; });
   in.noise = uniform_noise(32);
   EdgeSplash e(s, in, executor());
-  e.render();
+  e.next_frame();
   int before = 0, after = 0;
   for (int x = 0; x < 64; x += 4) before += code(e.noise(), x + 1, 5) != code(e.noise(), x, 5);
-  e.render();  // t v = 2^25, a whole number of tiles
+  e.next_frame();  // t v = 2^25, a whole number of tiles
   for (int x = 0; x < 64; x += 4) after += code(e.noise(), x + 1, 5) != code(e.noise(), x, 5);
   EXPECT_GT(before, 3);
   EXPECT_EQ(after, 0);

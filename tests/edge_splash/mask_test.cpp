@@ -12,7 +12,7 @@ const parallel::Executor& executor() {
 // A flat-topped object of depth D1 under an empty sky: T rows above its edge, none inside.
 TEST(EdgeSplashMask, PublishedRowsAboveAnEdge) {
   EdgeSplash e(published(), inputs_of(48, 40, [](int, int y) { return y < 20 ? 0.2 : 0.0; }), executor());
-  e.render();
+  e.next_frame();
   for (int y = 3; y < 37; ++y) {
     for (int x = 3; x < 45; ++x) EXPECT_EQ(painted(e, x, y), y >= 20 && y <= 22) << x << "," << y;
   }
@@ -25,12 +25,12 @@ TEST(EdgeSplashMask, HowFarAwayAnEdgeShows) {
     Settings s = published();
     s.depth.far_plane = 1e6;
     EdgeSplash as_published(s, scene(), executor());
-    as_published.render();
+    as_published.next_frame();
     EXPECT_EQ(painted(as_published, 24, 21), z < 3.614) << z;
     Settings c = corrected();
     c.depth = s.depth;
     EdgeSplash corrected_one(c, scene(), executor());
-    corrected_one.render();
+    corrected_one.next_frame();
     EXPECT_TRUE(painted(corrected_one, 24, 20)) << z;
   }
 }
@@ -65,7 +65,7 @@ TEST(EdgeSplashMask, CorrectedAngleOfALoop) {
   EdgeSplash e(s,
                inputs_of_distance(121, 121, [](int x, int y) { return (x - 60) * (x - 60) + (y - 60) * (y - 60) < 40 * 40 ? 2.0 : 6.0; }),
                executor());
-  e.render();
+  e.next_frame();
   int upper = 0, lower = 0;
   for (int y = 0; y < 121; ++y) {
     for (int x = 0; x < 121; ++x) {
@@ -92,7 +92,7 @@ TEST(EdgeSplashMask, PublishedNoiseCountIsTheHistogram) {
     in.noise = uniform_noise(32);
     EdgeSplash e(s, in, executor());
     for (int frame = 0; frame < 3; ++frame) {
-      e.render();
+      e.next_frame();
       int count = 0, expected = 0;
       for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 128; ++x) count += code(e.noise(), x, y) == 255;
@@ -134,7 +134,7 @@ TEST(EdgeSplashMask, ColourChangesWhereAllMasksAgree) {
   Inputs in = inputs_of(64, 64, [](int, int y) { return y < 20 ? 0.2 : 0.0; });
   in.noise = uniform_noise(32);
   EdgeSplash e(s, in, executor());
-  e.render();
+  e.next_frame();
   int changed = 0;
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
@@ -156,11 +156,11 @@ TEST(EdgeSplashMask, PublishedScrollIsDiagonalAndPeriodic) {
   Inputs in = inputs_of(64, 64, [](int, int) { return 0.5; });
   in.noise = uniform_noise(32);
   EdgeSplash e(s, in, executor());
-  e.render();
+  e.next_frame();
   Image first(Format::r8, 64, 64);
   for (int y = 0; y < 64; ++y) std::copy_n(e.noise().row_bytes(y), 64, first.row_bytes(y));
   for (int n = 1; n <= 32; ++n) {
-    e.render();
+    e.next_frame();
     for (int y = 0; y < 32; ++y) {
       for (int x = 0; x < 32; ++x) ASSERT_EQ(code(e.noise(), x, y), code(first, x + n, y + n)) << n;
     }
@@ -174,12 +174,12 @@ TEST(EdgeSplashMask, CorrectedNoiseMovesWithItsVelocity) {
   s.noise_size = 0.5;
   s.drop_velocity = {0, -60.0 / 64};  // a pixel down in a frame, of 64
   EdgeSplash e(s, inputs_of_distance(64, 64, [](int, int) { return 5.0; }), executor());
-  e.render();
+  e.next_frame();
   Image first(Format::r8, 64, 64);
   for (int y = 0; y < 64; ++y) std::copy_n(e.noise().row_bytes(y), 64, first.row_bytes(y));
   EXPECT_GT(mean(first), 0.1);
   for (int n = 1; n <= 5; ++n) {
-    e.render();
+    e.next_frame();
     for (int y = 0; y < 58; ++y) {
       for (int x = 0; x < 64; ++x) {
         ASSERT_NEAR(code(e.noise(), x, y), code(first, x, y + n), 2) << n;  // offsets round: 2^-24 of a tile, slope below 2^17 codes
@@ -192,7 +192,7 @@ TEST(EdgeSplashMask, ThresholdZeroPaintsEverything) {
   Settings s = published();
   s.edge_threshold = 0;
   EdgeSplash e(s, inputs_of(32, 32, [](int, int) { return 0.375; }), executor());
-  e.render();
+  e.next_frame();
   // step(0, 0) = 1, and atan2(0, 0) = 0 passes the half-plane.
   for (int y = 6; y < 29; ++y) {
     for (int x = 3; x < 29; ++x) EXPECT_TRUE(painted(e, x, y)) << x << "," << y;
@@ -210,7 +210,7 @@ TEST(EdgeSplashMask, CorrectedBandCoversAsMuchOfThePictureAtEveryResolution) {
   for (const int scale : {1, 2, 4}) {
     const int height = 72 * scale;
     EdgeSplash e(s, inputs_of_distance(40 * scale, height, [&](int, int y) { return y < height / 2 ? 1.0 : 9.0; }), executor());
-    e.render();
+    e.next_frame();
     int rows = 0;
     for (int y = 0; y < height; ++y) rows += painted(e, 20 * scale, y);
     EXPECT_EQ(rows, 4 * scale) << "the reach on both sides of the edge";
@@ -228,7 +228,7 @@ TEST(EdgeSplashMask, CorrectedDoesNotDependOnTheDepthConvention) {
   EdgeSplash forward(s, scene(), executor());
   s.depth = {0.1, 200, true};
   EdgeSplash other(s, scene(), executor());
-  for (EdgeSplash* e : {&reversed, &forward, &other}) e->render();
+  for (EdgeSplash* e : {&reversed, &forward, &other}) e->next_frame();
   EXPECT_GT(mean(reversed.edge()), 0.02);
   for (int y = 0; y < 54; ++y) {
     for (int x = 0; x < 96; ++x) {
@@ -259,8 +259,8 @@ TEST(EdgeSplashMask, CorrectedUpIsTheWorlds) {
   EdgeSplash upright(s, inputs_of_distance(64, 48, box), executor());
   s.camera_up = {1, 0, 0};  // the picture's right is now the world's -y
   EdgeSplash lying(s, inputs_of_distance(64, 48, box), executor());
-  upright.render();
-  lying.render();
+  upright.next_frame();
+  lying.next_frame();
   EXPECT_TRUE(painted(upright, 32, 35) && !painted(upright, 32, 13) && !painted(upright, 21, 24) && !painted(upright, 43, 24));
   EXPECT_TRUE(painted(lying, 21, 24) && !painted(lying, 43, 24) && !painted(lying, 32, 35) && !painted(lying, 32, 13));
 }
@@ -283,7 +283,7 @@ TEST(EdgeSplashMask, CorrectedLayerKeepsDropsAway) {
   Inputs in = inputs_of_distance(48, 40, [](int, int y) { return y < 20 ? 2.0 : 9.0; });
   in.layer = plane_of(48, 40, [](int x, int) { return x < 24 ? 1.0 : 0.0; });
   EdgeSplash e(s, in, executor());
-  e.render();
+  e.next_frame();
   EXPECT_TRUE(painted(e, 10, 20) && painted(e, 40, 20));
   EXPECT_NE(to_float(e.colour().row<Half>(20)[4 * 10]), 0.25f);
   EXPECT_EQ(to_float(e.colour().row<Half>(20)[4 * 40]), 0.25f);

@@ -19,7 +19,7 @@
 #include "capture/pack_read.h"
 #include "conformance/judge.h"
 #include "conformance/judge_pass.h"
-#include "conformance/known_effects.h"
+#include "registry/registry.h"
 #include "conformance/shadow.h"
 #include "conformance/validate.h"
 #include "fuzz/pack_edits.h"
@@ -103,7 +103,7 @@ class Folder {
 /// What the reference gives for the case becomes what is expected, so that the judge is reached, not only its door. False where
 /// the case is none that may be evaluated.
 inline bool settle(const Base& base, capture::PassCase& c) {
-  const conformance::KnownEffect& effect = conformance::known_effect(base.effect);
+  const effect::Effect& effect = registry::effect_of_pack(base.effect);
   try {
     capture::check_case(*effect.info, effect.parameters, c);
     if (!capture::uniform_fault(*effect.info, c).empty() || !capture::record_fault(c).empty()) return false;
@@ -145,7 +145,7 @@ inline bool judge_pack(Bytes bytes) {
   const Base& base = p.one_of(bases());
   const std::uint32_t verb = p.below(4);  // validate, mutate, shadow by the manifest, shadow with the port's own uniforms
   capture::PassCase c = p.one_of(base.cases);
-  const capture::EffectInfo& effect = *conformance::known_effect(base.effect).info;
+  const capture::EffectInfo& effect = *registry::effect_of_pack(base.effect).info;
   const scene::UniformBlock& block = effect.pass(c.pass).block(c.variant);
   const capture::PassCase good = c;
   for (std::size_t edits = p.below(4); edits > 0; --edits) edit_case(c, block, p);

@@ -1,7 +1,7 @@
 // Prints every golden line; scripts/accept_golden writes them to tests/golden/hashes.txt.
 #include <fmt/format.h>
 
-#include "compositor/golden_scenes.h"
+#include "truth/golden_scenes.h"
 #include "edge_splash/golden_scenes.h"
 #include "puddle/golden_scenes.h"
 #include "rainy_glass/golden_scenes.h"
@@ -18,5 +18,5 @@ int main() {
   for (const auto& scene : rainref::edge_splash::golden_scenes()) print(rainref::edge_splash::golden_lines(scene, executor));
   for (const auto& scene : rainref::screen_drops::golden_scenes()) print(rainref::screen_drops::golden_lines(scene, executor));
   for (const auto& scene : rainref::rainy_glass::golden_scenes()) print(rainref::rainy_glass::golden_lines(scene, executor));
-  for (const auto& scene : rainref::compositor::golden_scenes()) print(rainref::compositor::golden_lines(scene, executor));
+  for (const auto& scene : rainref::truth::golden_scenes()) print(rainref::truth::golden_lines(scene, executor));
 }

@@ -48,15 +48,13 @@ int main() try {
     puddle::Surroundings around;
     around.environment = ramp(Format::rgba32f, 0.5f);
     puddle::Puddle effect(small<puddle::Settings>(), around, executor);
-    effect.simulate();
-    effect.render();
+    effect.next_frame();
     tell("puddle", effect.picture());
   }
   {
     const SceneText scene{"[run]\nsize = [32, 18]\n[scene]\nsize = [32, 18]\n", {"windshield.height_size=[64, 36]", "vehicle.speed=20"}};
     windshield::Windshield effect(scene, {}, executor);
-    effect.simulate();
-    effect.render();
+    effect.next_frame();
     tell("windshield", effect.picture());
   }
   {
@@ -65,17 +63,17 @@ int main() try {
     in.depth = ramp(Format::r32f, 2);
     in.depth_is_distance = true;
     edge_splash::EdgeSplash effect(small<edge_splash::Settings>(), in, executor);
-    effect.render();
+    effect.next_frame();
     tell("edge_splash", effect.picture());
   }
   {
     screen_drops::Inputs in;
     in.colour = ramp(Format::rgba32f, 0.5f);
     screen_drops::ScreenDrops still(small<screen_drops::Settings>(), in, executor);
-    still.render();
+    still.next_frame();
     tell("screen_drops", still.picture());
     screen_drops::ScreenDrops flowing(SceneText{"", {"run.size=[32, 18]", "flow.height_size=[64, 36]", "flow.warm_up=1"}}, in, executor);
-    flowing.render();
+    flowing.next_frame();
     tell("screen_drops.flow", flowing.picture());
   }
   {
@@ -83,7 +81,7 @@ int main() try {
     around.colour = ramp(Format::rgba32f, 0.5f);
     around.depth = ramp(Format::r32f, 9);
     rainy_glass::RainyGlass effect(small<rainy_glass::Settings>(), around, executor);
-    effect.frame();
+    effect.next_frame();
     tell("rainy_glass", effect.picture());
   }
   windshield::Windshield({"[wipers]\ncuont = 1\n", {}, "mine.toml"}, {}, executor);

@@ -74,7 +74,7 @@ TEST(RainyGlassErosion, CoverageOfTheBakedMapFollowsItsDroplets) {
   s.map_storage = Format::rgba16f;
   s.droplet_count = 100;
   RainyGlass glass(s, test::surroundings(s), test::executor());
-  glass.frame();
+  glass.next_frame();
   const std::vector<float> map = test::texels(glass.raindrops());
   const std::vector<Droplet> droplets = make_droplets(s);
   EXPECT_GT(droplets.size(), 40u);
@@ -244,7 +244,7 @@ TEST(RainyGlassRefraction, NeverReachesBeforeTheGlass) {
     RainyGlass glass(s, around, test::executor());
     int wet = 0;
     for (int frame = 0; frame < 40; ++frame) {
-      glass.frame();
+      glass.next_frame();
       for (int y = 0; y < s.height; ++y) {
         for (int x = 0; x < s.width; ++x) {
           if (around.depth.row<float>(y)[x] < 1) continue;
@@ -285,7 +285,7 @@ TEST(RainyGlassRefraction, DryGlassIsClear) {
     s.map_storage = storage;
     const Surroundings around = test::surroundings(s);
     RainyGlass glass(s, around, test::executor());
-    glass.frame();
+    glass.next_frame();
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
         for (int k = 0; k < 3; ++k)

@@ -17,7 +17,7 @@ std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, i
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
   RainyGlass glass(s, test::surroundings(s), executor);
-  return capture::hash_of_frames(frames, [&](Recorder* recorder) { glass.frame(recorder); });
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { glass.next_frame(recorder); });
 }
 
 class RainyGlassDeterminism : public testing::TestWithParam<Variant> {
@@ -89,7 +89,7 @@ TEST_P(RainyGlassDeterminism, LanesEqualTheScalarEvaluation) {
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     RainyGlass glass(s, around, test::executor());
-    for (int frame = 0; frame < 9; ++frame) glass.frame();
+    for (int frame = 0; frame < 9; ++frame) glass.next_frame();
 
     const std::vector<Droplet> droplets = make_droplets(s);
     const std::vector<Trail> trails = make_trails(s);

@@ -82,7 +82,7 @@ TEST(RainyGlassErrors, ScenesRefuseWhatTheVariantHasNot) {
 TEST(RainyGlassMaps, SeamTellsATileFromAPicture) {
   Settings s = settings(Variant::corrected, 8, 8);
   RainyGlass glass(s, test::surroundings(s), test::executor());
-  glass.frame();
+  glass.next_frame();
   EXPECT_LT(seam(glass.raindrops()), 2);
   EXPECT_LT(seam(glass.rivulets()), 2);
   Image ramp(Format::rgba32f, 32, 32);
@@ -98,7 +98,7 @@ TEST(RainyGlassMaps, FromFilesGiveWhatTheBakeGives) {
     const Settings s = settings(variant, 40, 30);
     Surroundings around = test::surroundings(s), again = test::surroundings(s);
     RainyGlass baked(s, around, test::executor());
-    baked.frame();
+    baked.next_frame();
     const auto copy = [](const Image& map) {
       Image out(map.format(), map.width(), map.height());
       for (int y = 0; y < map.height(); ++y) std::copy_n(map.row_bytes(y), BufferView(map).row_bytes(), out.row_bytes(y));
@@ -107,7 +107,7 @@ TEST(RainyGlassMaps, FromFilesGiveWhatTheBakeGives) {
     again.raindrops = copy(baked.raindrops());
     again.rivulets = copy(baked.rivulets());
     RainyGlass read(s, again, test::executor());
-    read.frame();
+    read.next_frame();
     for (int y = 0; y < s.height; ++y) {
       for (int i = 0; i < 4 * s.width; ++i) ASSERT_EQ(read.colour().row<Half>(y)[i].bits, baked.colour().row<Half>(y)[i].bits);
     }
@@ -126,7 +126,7 @@ TEST(RainyGlassMaps, NormalsFromAnImage) {
   }
   s.shape = Shape::image;
   RainyGlass glass(s, around, test::executor());
-  for (int frame = 0; frame < 5; ++frame) glass.frame();
+  for (int frame = 0; frame < 5; ++frame) glass.next_frame();
   int moved = 0;
   for (int y = 0; y < s.height; ++y) {
     for (int x = 0; x < s.width; ++x) {
@@ -148,7 +148,7 @@ TEST(RainyGlassMaps, ProbeStandsInForTheScene) {
     Surroundings around = test::surroundings(s);
     around.probe = test::uniform_image(Format::rgba32f, 16, 8, 0.25f, 0.5f, 0.75f, 1);
     RainyGlass glass(s, around, test::executor());
-    for (int frame = 0; frame < 3; ++frame) glass.frame();
+    for (int frame = 0; frame < 3; ++frame) glass.next_frame();
     int from_probe = 0;
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x)

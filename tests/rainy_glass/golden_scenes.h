@@ -71,7 +71,7 @@ inline std::vector<std::string> golden_lines(const GoldenScene& scene, const par
   for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    caller([&] { glass->frame(golden ? &recorder : nullptr); });
+    caller([&] { glass->next_frame(golden ? &recorder : nullptr); });
     if (!golden) continue;
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }

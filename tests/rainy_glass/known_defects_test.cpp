@@ -31,7 +31,7 @@ TEST(RainyGlassKnownDefects, Defect02_EightBitsHaveNoMiddle) {
     s.droplet_count = 1;
     s.largest_droplet = s.smallest_droplet = 0.05;
     RainyGlass glass(s, test::surroundings(s), test::executor());
-    glass.frame();
+    glass.next_frame();
     const std::vector<float> map = test::texels(glass.raindrops());
     const std::vector<Droplet> droplets = make_droplets(s);
     const Code code = code_of(s, Format::rgba8);
@@ -200,7 +200,7 @@ TEST(RainyGlassKnownDefects, Defect08_GrabTakesWhatStandsBeforeTheGlass) {
       }
     }
     RainyGlass glass(s, around, test::executor());
-    glass.frame();
+    glass.next_frame();
     int bled = 0;
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) bled += around.depth.row<float>(y)[x] > 1 && to_float(glass.colour().row<Half>(y)[4 * x]) > 0;

@@ -163,7 +163,7 @@ TEST(ScreenDropsCells, LayersCoverIndependently) {
   Settings s = test::settings(Variant::corrected, 500, 500);
   s.pane_height = 0.1;
   ScreenDrops window(s, test::inputs(s), test::executor());
-  window.render();
+  window.next_frame();
   const auto grids = make_layers(s);
   double dry = 1, wet = 0;
   for (const Layer& layer : grids) {
@@ -277,7 +277,7 @@ TEST(ScreenDropsBackground, IsTheMeanOverADisc) {
   in.colour = Image(Format::rgba32f, 64, 48);
   for (int row = 0; row < 48; ++row) std::fill_n(in.colour.row<float>(row), 4 * 64, 0.75f);
   ScreenDrops window(s, in, test::executor());
-  window.render();
+  window.next_frame();
   for (int row = 0; row < 48; ++row) {
     for (int i = 0; i < 64; ++i) ASSERT_NEAR(to_float(window.background().row<Half>(row)[4 * i]), 0.75, 0x1p-11);
   }

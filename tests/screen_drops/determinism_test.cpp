@@ -20,7 +20,7 @@ std::string hash_of_run(const Settings& s, int threads, std::uint64_t shuffle, i
   flow.wind = 100;
   flow.warm_up = 0.2;
   ScreenDrops window(s, test::inputs(s), executor, flows && s.variant == Variant::corrected ? &flow : nullptr);
-  return capture::hash_of_frames(frames, [&](Recorder* recorder) { window.render(recorder); });
+  return capture::hash_of_frames(frames, [&](Recorder* recorder) { window.next_frame(recorder); });
 }
 
 class ScreenDropsDeterminism : public testing::TestWithParam<Variant> {
@@ -99,7 +99,7 @@ TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluationWhichIsNearDouble) {
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     ScreenDrops window(s, in, test::executor(), corrected ? &flow : nullptr);
-    for (int frame = 0; frame < 9; ++frame) window.render();
+    for (int frame = 0; frame < 9; ++frame) window.next_frame();
     const BackgroundUniforms b = background_uniforms(s);
     const PublishedDropsUniforms p = published_drops_uniforms(s, 8);
     DropsUniforms d{};

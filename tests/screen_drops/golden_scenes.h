@@ -78,7 +78,7 @@ inline std::vector<std::string> golden_lines(const GoldenScene& scene, const par
   for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;
     const bool golden = frame <= 2 || frame == 59;
-    caller([&] { window->render(golden ? &recorder : nullptr); });
+    caller([&] { window->next_frame(golden ? &recorder : nullptr); });
     if (!golden) continue;
     for (const capture::HashLine& line : recorder.take_lines()) lines.push_back(fmt::format("{} {}", scene.name, line.text()));
   }

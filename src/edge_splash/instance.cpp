@@ -1,0 +1,110 @@
+#include "edge_splash/instance.h"
+
+#include <fmt/format.h>
+
+#include "edge_splash/evaluations.h"
+#include "edge_splash/host.h"
+#include "edge_splash/info.h"
+#include "edge_splash/memory.h"
+#include "edge_splash/parameters.h"
+#include "edge_splash/shapes.h"
+#include "effect/scene_pictures.h"
+#include "image/flipped.h"
+#include "night_street/memory.h"
+#include "night_street/night_street.h"
+#include "rainref/error.h"
+
+namespace rainref::edge_splash {
+namespace {
+
+Image stored(const scene::Config& config, const std::string& key, effect::Inputs& files) {
+  return flipped(effect::read_input(config, key, files).image);
+}
+
+Inputs pictures(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& files) {
+  Inputs in;
+  const Settings s = settings_from(config);
+  const std::string source = config.text("scene.source");
+  check(s);
+  if (source == "files") {
+    for (const char* key : {"scene.image", "scene.depth_image"}) {
+      if (config.text(key).empty())
+        throw Error(ExitCode::usage, fmt::format("{}: expected a file, because scene.source is \"files\"", key));
+    }
+    image_io::Picture picture = effect::read_input(config, "scene.image", files);
+    in.colour = flipped(picture.image);
+    in.colour_is_encoded = picture.srgb_encoded;
+    in.depth_is_distance = config.text("scene.depth_encoding") == "metres";
+    in.depth = in.depth_is_distance ? effect::read_depth(config, in.colour, files) : stored(config, "scene.depth_image", files);
+  } else {
+    for (const char* key : {"scene.image", "scene.depth_image"}) {
+      if (!config.text(key).empty())
+        throw Error(ExitCode::usage, fmt::format("{}: needs scene.source = \"files\", found \"{}\"", key, source));
+    }
+    in.depth_is_distance = true;
+    const scene::Camera eye = camera(s);
+    if (source == "street") {
+      night_street::Street::View view = night_street::Street({s.seed}).view(eye, s.width, s.height, s.depth.far_plane, executor);
+      in.colour = std::move(view.colour);
+      in.depth = std::move(view.depth);
+    } else {
+      ShapesView view = render_shapes(eye, s.width, s.height, s.depth.far_plane, executor);
+      in.colour = std::move(view.colour);
+      in.depth = std::move(view.depth);
+    }
+    // A camera may stand closer to something than the near plane, which would have cut it away.
+    for (int y = 0; y < in.depth.height(); ++y) {
+      for (int x = 0; x < in.depth.width(); ++x) {
+        float& z = in.depth.row<float>(y)[x];
+        if (z < s.depth.near_plane) z = static_cast<float>(s.depth.far_plane);
+      }
+    }
+  }
+  if (!config.text("scene.noise_image").empty()) in.noise = stored(config, "scene.noise_image", files);
+  if (s.variant == Variant::corrected && !config.text("scene.layer_image").empty()) in.layer = stored(config, "scene.layer_image", files);
+  return in;
+}
+
+effect::RunMemory memory_of(const scene::Config& config) {
+  const Settings s = settings_from(config);
+  effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, 8 + 4, 8 + 4};
+  const std::size_t inputs = image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f);
+  if (config.text("scene.source") == "street") {
+    m.peak.then(night_street::view_memory(s.width, s.height));
+    m.peak.release(night_street::normal_bytes(s.width, s.height));
+  } else {
+    m.peak.hold(inputs);
+  }
+  m.peak.then(memory(s));
+  m.peak.release(inputs);
+  return m;
+}
+
+}  // namespace
+
+Instance::Instance(const Settings& settings, const Inputs& pictures, const parallel::Executor& executor)
+    : InstanceOf(settings, pictures, executor) {}
+
+std::vector<PassOutput> Instance::buffers() {
+  const EdgeSplash& e = running();
+  return {{"edge", e.edge()}, {"angle", e.angle()}, {"noise", e.noise()}, {"colour", e.colour()}, {"picture", e.picture()}};
+}
+std::vector<image_io::Layer> Instance::layers() const {
+  return {{"", {"R", "G", "B", "A"}, &running().colour()}, {"depth", {"Z"}, &running().depth()}};
+}
+
+effect::Effect entry() {
+  return {"edge_splash",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          &evaluations(),
+          memory_of,
+          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
+            auto instance = std::make_unique<Instance>(settings_from(config), pictures(config, executor, inputs), executor);
+            for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
+            return instance;
+          }};
+}
+
+}  // namespace rainref::edge_splash

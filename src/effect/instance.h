@@ -1,0 +1,57 @@
+// A running effect, whichever it is.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "image_io/write.h"
+#include "rainref/recorder.h"
+
+namespace rainref::effect {
+
+/// A picture of an effect that is no frame of it: a map that it baked.
+struct Map {
+  const char* name;
+  const Image* image;  ///< row 0 = bottom
+};
+
+class Instance {
+ public:
+  virtual ~Instance() = default;
+  /// To the next frame: 0, 1, 2 ...
+  virtual void simulate(Recorder* recorder) = 0;
+  /// The frame that was simulated last.
+  virtual void render(Recorder* recorder) = 0;
+  /// Frames simulated so far.
+  virtual int frame() const = 0;
+  /// The picture as display code, row 0 = bottom.
+  virtual const Image& picture() const = 0;
+  /// What the effect holds between frames, by the names of its EffectInfo: images with row 0 = bottom, and records. Valid until the next
+  /// call of a member that is not const.
+  virtual std::vector<PassOutput> buffers() = 0;
+  /// What an EXR file of the frame holds, row 0 = bottom.
+  virtual std::vector<image_io::Layer> layers() const = 0;
+  /// What goes into files of its own beside the first EXR.
+  virtual std::vector<Map> maps() const { return {}; }
+};
+
+/// T: a class of include/rainref; all of them have one shape.
+template <class T>
+class InstanceOf : public Instance {
+ public:
+  void simulate(Recorder* recorder) final { effect_.simulate(recorder); }
+  void render(Recorder* recorder) final { effect_.render(recorder); }
+  int frame() const final { return effect_.frame(); }
+  const Image& picture() const final { return effect_.picture(); }
+  const T& running() const { return effect_; }
+
+ protected:
+  template <class... Arguments>
+  explicit InstanceOf(Arguments&&... arguments) : effect_(std::forward<Arguments>(arguments)...) {}
+
+ private:
+  T effect_;
+};
+
+}  // namespace rainref::effect

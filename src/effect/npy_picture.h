@@ -1,0 +1,20 @@
+// Pictures as NumPy arrays.
+#pragma once
+
+#include <filesystem>
+
+#include "image_io/read.h"
+
+namespace rainref::effect {
+
+/// Whether the file begins as a .npy file does; false where it cannot be read.
+bool is_npy(const std::filesystem::path& path);
+
+/// An array (height, width) or (height, width, 1, 3 or 4), top row first, as image_io::read gives pictures: <f4 and <f2 are
+/// linear, |u1 are sRGB codes.
+///
+/// Throws Error(io) when the file cannot be read, Error(usage) when it is another array, damaged, or has a NaN or an
+/// infinity; the message names the file.
+image_io::Picture read_npy(const std::filesystem::path& path);
+
+}  // namespace rainref::effect

@@ -1,0 +1,34 @@
+// What a run takes at its peak, so that one that does not fit is refused before anything is made.
+#pragma once
+
+#include <string>
+
+#include "base/memory.h"
+#include "rainref/image.h"
+#include "scene/config.h"
+
+namespace rainref::effect {
+
+/// Memory of a simulation: pictures made for it, the effect, what is traced of it. What it holds at the end, it holds between frames.
+/// Pictures that are read from files count when they are read.
+struct RunMemory {
+  std::string subject;  ///< "run.size 1280x720": what in the scene asks for it
+  MemoryPeak peak;
+  int width, height;                  ///< of the picture
+  std::size_t exr_images, exr_texel;  ///< of an EXR picture, bytes a pixel: images turned over, and their channels side by side
+
+  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+/// An image of the picture's size.
+inline std::size_t image_bytes(const RunMemory& m, Format format) { return Image::memory_bytes(format, m.width, m.height); }
+/// Whether the scene names a file there.
+inline bool is_named(const scene::Config& config, const char* key) { return !config.text(key).empty(); }
+
+/// Adds what writing of pictures takes after a frame. Files are taken to be compressed to half.
+void add_pictures(RunMemory& memory, bool png, bool exr);
+/// Adds the copies that a pack or a capture makes of what passes take and give.
+void add_captures(RunMemory& memory);
+/// Throws Error(usage) where it does not fit.
+void require_memory(const RunMemory& memory);
+
+}  // namespace rainref::effect

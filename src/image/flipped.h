@@ -1,0 +1,11 @@
+// Images between effects, whose row 0 is the bottom, and files, whose first row is the top.
+#pragma once
+
+#include "rainref/image.h"
+
+namespace rainref {
+
+/// The same image with its rows in the other order.
+Image flipped(const Image& image);
+
+}  // namespace rainref

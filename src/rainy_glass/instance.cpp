@@ -1,0 +1,100 @@
+#include "rainy_glass/instance.h"
+
+#include <fmt/format.h>
+
+#include "effect/scene_pictures.h"
+#include "night_street/memory.h"
+#include "rainref/error.h"
+#include "rainy_glass/backdrop.h"
+#include "rainy_glass/evaluations.h"
+#include "rainy_glass/info.h"
+#include "rainy_glass/memory.h"
+#include "rainy_glass/parameters.h"
+
+namespace rainref::rainy_glass {
+namespace {
+
+Surroundings surroundings_of(const scene::Config& config, const Settings& settings, const parallel::Executor& executor,
+                             effect::Inputs& inputs) {
+  const bool corrected = settings.variant == Variant::corrected;
+  const bool own_scene = !config.text("scene.image").empty();
+  if (!own_scene && corrected && !config.text("scene.depth_image").empty())
+    throw Error(ExitCode::usage, "scene.depth_image: expected scene.image beside it, found none");
+  if (own_scene && corrected && config.text("scene.depth_image").empty())
+    throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
+  if (settings.shape != Shape::image) effect::refuse_unused(config, "glass.normal_image", "glass.shape");
+  if (!settings.use_probe) effect::refuse_unused(config, "glass.probe_image", "glass.background");
+  const Image panorama = effect::read_panorama(config, inputs);
+  Surroundings s;
+  if (own_scene) {
+    s.colour = effect::read_linear(config, "scene.image", inputs);
+    if (corrected) s.depth = effect::read_depth(config, s.colour, inputs);
+  } else {
+    Settings street = settings;
+    street.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
+    s = make_backdrop(street, backdrop_from(config), executor, panorama);
+  }
+  if (settings.use_probe && s.probe.empty()) {
+    if (config.text("glass.probe_image").empty())
+      throw Error(ExitCode::usage, "glass.probe_image: expected a panorama beside scene.image, found none");
+    s.probe = effect::read_linear(config, "glass.probe_image", inputs);
+  }
+  if (settings.shape == Shape::image) {
+    if (config.text("glass.normal_image").empty())
+      throw Error(ExitCode::usage, "glass.normal_image: expected a picture for glass.shape = \"image\", found none");
+    const image_io::Picture p = effect::read_input(config, "glass.normal_image", inputs);
+    const bool is_code = info(p.image.format()).kind == FormatInfo::unorm8 || p.srgb_encoded;
+    s.normals = effect::floats_of(p, [&](float x, int c) { return c < 3 && is_code ? 2 * x - 1 : x; });
+  }
+  if (!config.text("maps.raindrops_image").empty()) s.raindrops = effect::read_tile(config, "maps.raindrops_image", true, inputs);
+  if (!config.text("maps.rivulets_image").empty()) s.rivulets = effect::read_tile(config, "maps.rivulets_image", true, inputs);
+  return s;
+}
+
+effect::RunMemory memory_of(const scene::Config& config) {
+  const Settings s = settings_from(config);
+  effect::RunMemory m{
+      fmt::format("run.size {}x{} with maps.size {}", s.width, s.height, s.map_size), {}, s.width, s.height, 8 + 8 + 16, 6 + 6 + 12};
+  const std::size_t colour = image_bytes(m, Format::rgba32f), depth = image_bytes(m, Format::r32f);
+  if (effect::is_named(config, "scene.image") || effect::is_named(config, "scene.panorama")) {
+    m.peak.hold(colour + depth);
+  } else {
+    m.peak.then(night_street::view_memory(s.width, s.height));
+    if (s.use_probe) m.peak.then(night_street::panorama_memory(1024, 512));
+    m.peak.release(night_street::normal_bytes(s.width, s.height));
+  }
+  m.peak.pass(colour);                                    // out of focus
+  m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars
+  m.peak.then(memory(s));
+  return m;
+}
+
+}  // namespace
+
+Instance::Instance(const Settings& settings, Surroundings surroundings, const parallel::Executor& executor)
+    : InstanceOf(settings, surroundings, executor), settings_(settings), surroundings_(std::move(surroundings)) {}
+
+std::vector<PassOutput> Instance::buffers() {
+  const RainyGlass& g = running();
+  return {{"raindrops", g.raindrops()},     {"rivulets", g.rivulets()}, {"surface", g.surface()},
+          {"orientation", g.orientation()}, {"colour", g.colour()},     {"picture", g.picture()}};
+}
+std::vector<image_io::Layer> Instance::layers() const {
+  const RainyGlass& g = running();
+  return {{"", {"R", "G", "B"}, &g.colour()}, {"normal", {"X", "Y", "Z"}, &g.orientation()}, {"glass", {"U", "V", "Z"}, &g.surface()}};
+}
+
+effect::Effect entry() {
+  return {"rainy_glass",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          &evaluations(),
+          memory_of,
+          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
+            const Settings settings = settings_from(config);
+            return std::make_unique<Instance>(settings, surroundings_of(config, settings, executor, inputs), executor);
+          }};
+}
+
+}  // namespace rainref::rainy_glass

@@ -1,0 +1,87 @@
+#include "screen_drops/instance.h"
+
+#include <fmt/format.h>
+
+#include "effect/scene_pictures.h"
+#include "night_street/memory.h"
+#include "night_street/night_street.h"
+#include "scene/panorama_view.h"
+#include "screen_drops/evaluations.h"
+#include "screen_drops/flow.h"
+#include "screen_drops/host.h"
+#include "screen_drops/info.h"
+#include "screen_drops/memory.h"
+#include "screen_drops/parameters.h"
+
+namespace rainref::screen_drops {
+namespace {
+
+constexpr double street_far = 1000;  // depth of its sky [m]; nobody looks at it
+
+Inputs pictures(const scene::Config& config, const Settings& settings, const parallel::Executor& executor, effect::Inputs& files) {
+  check(settings);
+  Inputs in;
+  const Image panorama = effect::read_panorama(config, files);
+  if (!panorama.empty()) {
+    in.colour = scene::panorama_view(panorama, scene_camera(settings), settings.width, settings.height, executor);
+  } else if (config.text("scene.image").empty()) {
+    in.colour =
+        night_street::Street({settings.seed}).view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
+  } else {
+    in.colour = effect::read_linear(config, "scene.image", files);
+  }
+  if (settings.variant == Variant::as_published && !config.text("noise.image").empty())
+    in.noise = effect::read_tile(config, "noise.image", false, files);
+  return in;
+}
+
+effect::RunMemory memory_of(const scene::Config& config) {
+  const Settings s = settings_from(config);
+  effect::RunMemory m{fmt::format("run.size {}x{}", s.width, s.height), {}, s.width, s.height, 8 + 8, 6 + 6};
+  if (effect::is_named(config, "scene.image") || effect::is_named(config, "scene.panorama")) {
+    m.peak.hold(image_bytes(m, Format::rgba32f));
+  } else {
+    m.peak.then(night_street::view_memory(s.width, s.height));
+    m.peak.release(night_street::normal_bytes(s.width, s.height) + image_bytes(m, Format::r32f));
+  }
+  const std::optional<FlowSettings> flow = flow_from(config, s);
+  m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
+  return m;
+}
+
+}  // namespace
+
+Instance::Instance(const Settings& settings, Inputs pictures, const FlowSettings* flow, const parallel::Executor& executor)
+    : InstanceOf(settings, pictures, executor, flow), settings_(settings), pictures_(std::move(pictures)) {}
+
+std::vector<PassOutput> Instance::buffers() {
+  const ScreenDrops& s = running();
+  std::vector<PassOutput> all{{"background", s.background()}};
+  if (settings_.variant == Variant::corrected) {
+    all.push_back({"cells", s.cells()});
+    all.push_back({"height", s.height()});
+  }
+  for (const PassOutput& image : std::initializer_list<PassOutput>{{"water", s.water()}, {"colour", s.colour()}, {"picture", s.picture()}})
+    all.push_back(image);
+  return all;
+}
+std::vector<image_io::Layer> Instance::layers() const {
+  return {{"", {"R", "G", "B"}, &running().colour()}, {"background", {"R", "G", "B"}, &running().background()}};
+}
+
+effect::Effect entry() {
+  return {"screen_drops",
+          {"as-published", "corrected"},
+          parameters(),
+          &effect_info(),
+          &evaluations(),
+          memory_of,
+          [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
+            const Settings settings = settings_from(config);
+            Inputs seen = pictures(config, settings, executor, inputs);
+            const std::optional<FlowSettings> flow = flow_from(config, settings);
+            return std::make_unique<Instance>(settings, std::move(seen), flow ? &*flow : nullptr, executor);
+          }};
+}
+
+}  // namespace rainref::screen_drops

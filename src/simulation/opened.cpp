@@ -1,0 +1,113 @@
+#include "simulation/opened.h"
+
+#include <utility>
+
+#include "base/floating_point.h"
+#include "image/flipped.h"
+#include "image_io/write.h"
+#include "rainref/error.h"
+#include "registry/registry.h"
+
+namespace rainref::simulation {
+namespace {
+
+/// Memory is refused before anything is made.
+const effect::Effect& fitting(const scene::Config& config) {
+  const FloatingPointGuard guard;
+  require_memory(memory_of(config));
+  return *registry::find(config.effect());
+}
+
+void write_top_first(const std::filesystem::path& path, std::vector<image_io::Layer> layers) {
+  std::vector<Image> turned;
+  turned.reserve(layers.size());
+  for (image_io::Layer& layer : layers) layer.image = &turned.emplace_back(flipped(*layer.image));
+  image_io::write_exr(path, layers);
+}
+
+void write_map(const std::filesystem::path& folder, const effect::Map& map) {
+  if (map.image->format() == Format::rgba8)
+    image_io::write_png(folder / fmt::format("{}.png", map.name), flipped(*map.image), image_io::PngChannels::rgba);
+  else
+    write_top_first(folder / fmt::format("{}.exr", map.name), {{"", {"R", "G", "B", "A"}, map.image}});
+}
+
+}  // namespace
+
+const scene::EffectTable& effect_table() {
+  static const scene::EffectTable table = [] {
+    static std::vector<std::vector<scene::Parameter>> parameters;  // which the table refers to
+    scene::EffectTable t;
+    parameters.reserve(registry::effects().size());
+    for (const effect::Effect* e : registry::effects()) {
+      std::vector<scene::Parameter>& all = parameters.emplace_back(e->parameters.begin(), e->parameters.end());
+      if (const truth::EffectTracing* tracing = truth::tracing_of(e->name)) {
+        for (scene::Parameter& p : tracing->parameters()) all.push_back(std::move(p));
+      }
+      t.effects.push_back({e->name, e->variants, all});
+    }
+    return t;
+  }();
+  return table;
+}
+
+scene::Config config_of_passes(const scene::Config& config) {
+  std::vector<scene::Config::Entry> entries;
+  for (const scene::Config::Entry& e : config.entries()) {
+    if (!e.parameter.key.starts_with("compositor.")) entries.push_back(e);
+  }
+  return scene::Config(std::move(entries), config.directory());
+}
+
+effect::RunMemory memory_of(const scene::Config& config) {
+  effect::RunMemory memory = registry::find(config.effect())->memory(config);
+  if (const truth::EffectTracing* tracing = truth::tracing_of(config.effect())) tracing->hold(memory, config);
+  return memory;
+}
+
+Opened::Opened(scene::Config config, const parallel::Executor& executor)
+    : config_(std::move(config)), executor_(executor), effect_(fitting(config_)) {
+  const FloatingPointGuard guard;
+  instance_ = effect_.open(config_, executor_, inputs_);
+  is_traced_ = truth::choice_from(config_).is_traced;
+  if (is_traced_) has_truth();
+}
+
+void Opened::simulate(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  instance_->simulate(recorder);
+}
+
+void Opened::render(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  instance_->render(recorder);
+  if (is_traced_ && is_shown_) tracing_->trace(instance_->frame() - 1, recorder);
+}
+
+std::vector<PassOutput> Opened::buffers() const {
+  const FloatingPointGuard guard;
+  return instance_->buffers();
+}
+
+void Opened::write_png(const std::filesystem::path& path) const { image_io::write_png(path, flipped(picture())); }
+
+void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
+  if (is_traced_) return write_top_first(path, tracing_->layers());
+  write_top_first(path, instance_->layers());
+  if (!with_maps || std::exchange(has_written_maps_, true)) return;
+  for (const effect::Map& map : instance_->maps()) write_map(path.parent_path(), map);
+}
+
+bool Opened::has_truth() {
+  const FloatingPointGuard guard;
+  const truth::EffectTracing* how = truth::tracing_of(effect_.name);
+  if (!tracing_ && how) tracing_ = how->make(config_, *instance_, executor_);
+  return tracing_ != nullptr;
+}
+
+truth::Comparison Opened::compare_truth() {
+  const FloatingPointGuard guard;
+  return tracing_->compare();
+}
+
+}  // namespace rainref::simulation

@@ -1,0 +1,87 @@
+#include "rainref/simulation.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/floating_point.h"
+#include "base/read_file.h"
+#include "rainref/error.h"
+#include "scene/json.h"
+#include "scene/toml.h"
+#include "simulation/opened.h"
+
+namespace rainref {
+
+struct Simulation::State {
+  simulation::Opened opened;
+};
+
+SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set) {
+  const FloatingPointGuard guard;
+  const std::vector<std::byte> bytes = read_file(file);
+  return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), file.string()};
+}
+
+Simulation::Simulation(const SceneText& scene, const parallel::Executor& executor) {
+  const FloatingPointGuard guard;
+  state_ = std::make_unique<State>(State{simulation::Opened(scene::parse(scene, simulation::effect_table()), executor)});
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+const std::string& Simulation::effect() const { return state_->opened.config().effect(); }
+Variant Simulation::variant() const {
+  const FloatingPointGuard guard;
+  return variant_from_name(state_->opened.config().variant());
+}
+std::string Simulation::scene_json() const {
+  const FloatingPointGuard guard;
+  return scene::config_json(state_->opened.config()).dump(2);
+}
+int Simulation::frames() const {
+  const FloatingPointGuard guard;
+  return static_cast<int>(state_->opened.config().integer("run.frames"));
+}
+const std::vector<std::string>& Simulation::warnings() const { return state_->opened.inputs().warnings; }
+
+void Simulation::simulate(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  state_->opened.simulate(recorder);
+}
+void Simulation::render(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  state_->opened.render(recorder);
+}
+int Simulation::frame() const { return state_->opened.frame(); }
+
+const Image& Simulation::picture() const { return state_->opened.picture(); }
+std::vector<std::string> Simulation::buffers() const {
+  const FloatingPointGuard guard;
+  std::vector<std::string> names;
+  for (const PassOutput& b : state_->opened.buffers()) names.emplace_back(b.name);
+  return names;
+}
+Buffer Simulation::buffer(std::string_view name) const {
+  const FloatingPointGuard guard;
+  std::vector<std::string> names;
+  for (const PassOutput& b : state_->opened.buffers()) {
+    if (b.name == name) return b.content;
+    names.emplace_back(b.name);
+  }
+  throw Error(ExitCode::usage, fmt::format("{} has no buffer '{}'{}", effect(), name, did_you_mean(name, names)));
+}
+
+void Simulation::write_png(const std::filesystem::path& path) const {
+  const FloatingPointGuard guard;
+  state_->opened.write_png(path);
+}
+void Simulation::write_exr(const std::filesystem::path& path) const {
+  const FloatingPointGuard guard;
+  state_->opened.write_exr(path, false);
+}
+
+}  // namespace rainref

@@ -1,0 +1,36 @@
+// What is traced of an effect on a pane of glass.
+#pragma once
+
+#include "truth/pixels.h"
+#include "truth/tracing.h"
+
+namespace rainref::truth {
+
+/// The compare of a view, from where its name means something else.
+template <class Running, class View>
+Comparison compare_pane(const Running& running, const View& view, const PictureOptions& options, const parallel::Executor& executor) {
+  return compare(running, view, options, executor);
+}
+
+/// View: what is known of an effect's pane, with scene(running), camera(), width(), height() and display(radiance, executor), and a
+/// compare(running, view, options, executor) beside it.
+template <class View, class Instance>
+class PaneTracing : public Tracing {
+ public:
+  Comparison compare() override { return compare_pane(instance_.running(), view_, choice().picture, executor()); }
+
+ protected:
+  PaneTracing(const scene::Config& config, const Instance& instance, View view, const parallel::Executor& on)
+      : Tracing(choice_from(config), on), instance_(instance), view_(std::move(view)) {}
+
+ private:
+  Picture picture() override {
+    return trace_picture(*view_.scene(instance_.running()), view_.camera(), view_.width(), view_.height(), choice().picture, executor());
+  }
+  Image display(const Image& radiance) const override { return view_.display(radiance, executor()); }
+
+  const Instance& instance_;
+  View view_;
+};
+
+}  // namespace rainref::truth

@@ -1,0 +1,51 @@
+#include "truth/parameters.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
+namespace rainref::truth {
+
+std::vector<scene::Parameter> parameters() {
+  constexpr const char* correct = "corrected";
+  return {
+      scene::choice("compositor.picture", {"passes", "traced"}, "passes", "What is shown: the passes' picture, or one that is traced.")
+          .only(correct),
+      scene::integer("compositor.samples", "1", 1, 16, 1, "Traced rays of a pixel: 1, 4, 8 or 16.").only(correct),
+      scene::integer("compositor.depth", "1", 1, 64, 8, "Surfaces that a traced ray may meet one after the other.").only(correct),
+      scene::text("compositor.embree_config", "", "Configuration of Embree, such as isa=sse2; it changes no bit.").only(correct),
+  };
+}
+
+scene::Parameter pane_thickness() {
+  return scene::real("compositor.glass_thickness", "m", 1e-5, 0.1, 5e-3, "Thickness of the pane that rays go through.");
+}
+
+std::vector<scene::Parameter> pane_parameters() {
+  std::vector<scene::Parameter> all = parameters();
+  all.push_back(pane_thickness().only("corrected"));
+  return all;
+}
+
+Choice choice_from(const scene::Config& config) {
+  Choice c;
+  const auto& entries = config.entries();
+  const auto declared = [](const scene::Config::Entry& e) { return e.parameter.key == "compositor.picture"; };
+  if (std::none_of(entries.begin(), entries.end(), declared)) return c;
+  c.is_traced = config.text("compositor.picture") == "traced";
+  c.picture.samples = static_cast<int>(config.integer("compositor.samples"));
+  c.picture.shading.depth = static_cast<int>(config.integer("compositor.depth"));
+  c.tracer.embree_config = config.text("compositor.embree_config");
+  try {
+    samples(c.picture.samples);
+  } catch (const Error& e) {
+    const scene::Origin& origin = config.entry("compositor.samples").origin;
+    if (origin.kind == scene::Origin::file) throw Error(e.code(), origin.at, e.what());
+    throw Error(e.code(), fmt::format("--set {}", e.what()));
+  }
+  return c;
+}
+
+}  // namespace rainref::truth

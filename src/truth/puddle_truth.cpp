@@ -1,0 +1,143 @@
+#include "truth/puddle_truth.h"
+
+#include <algorithm>
+#include <array>
+
+#include "compositor/interface.h"
+#include "math/constants.h"
+#include "math/real64.h"
+#include "pass/run.h"
+#include "puddle/display.pass.h"
+#include "puddle/ground.h"
+#include "puddle/host.h"
+
+namespace rainref::truth {
+namespace {
+
+constexpr double water_ior = water_refractive_index;
+constexpr double degrees_per_radian = 57.29577951308232;
+
+double sign_of_largest(const double (&d)[3]) {
+  double best = d[0];
+  for (const double x : d) best = std::abs(x) > std::abs(best) ? x : best;
+  return best;
+}
+
+/// What shade takes for the end of the refracted ray: the bed's depth under the surface point, straight along the ray.
+Vec ground_of_passes(const Vec& point, const Vec& view, const Vec& normal, double depth) {
+  const Vec bent = split(view, normal, 1, water_ior).refracted;
+  return point + depth / std::max(-bent.y, 0.05) * bent;
+}
+
+}  // namespace
+
+Image display(const puddle::Settings& settings, const Image& radiance, const parallel::Executor& executor) {
+  Image picture(Format::rgba8, radiance.width(), radiance.height());
+  pass::HostIo<puddle::DisplayPass> io;
+  io.colour = radiance;
+  io.picture = picture;
+  pass::Run<puddle::DisplayPass>(puddle::display_uniforms(settings), settings.variant == Variant::corrected, settings.rounding, io)
+      .tiles(executor, 8);
+  return picture;
+}
+
+PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settings, const PuddleScene& traced,
+                    const ShadingOptions& options, const parallel::Executor& executor) {
+  const int width = settings.width, height = settings.height;
+  const Scene& scene = traced.scene();
+  const PictureOptions one_ray{options, 1};
+  const Picture truth = trace_picture(scene, traced.camera(), width, height, one_ray, executor);
+  const Image shown = display(settings, truth.beauty, executor);
+  const TextureData bed = puddle::make_bed(settings);
+  const puddle::ShadeUniforms shade_uniforms = puddle::shade_uniforms(settings);
+  const PrimaryRays primary(traced.camera(), width, height);
+  const float f0 = reflectance_straight_on(static_cast<float>(water_refractive_index));
+
+  PuddleTruth out;
+  out.pixels = static_cast<std::size_t>(width) * height;
+  enum { distance, angle, offset, colour, code, ground_code, schlick };
+  const auto add = [&](const char* name, const char* unit) { out.differences.emplace_back(name, unit, width, height); };
+  add("hit_distance", "m");
+  add("normal_angle", "deg");
+  add("ground_offset", "m");
+  add("colour", "");
+  add("display", "code");
+  add("ground_display", "code");
+  add("schlick", "");
+
+  std::vector<std::array<std::size_t, 3>> counts(static_cast<std::size_t>(height));
+  executor.for_tiles(width, height, width, 1, [&](const parallel::Tile& tile) {
+    const int y = tile.y0;
+    std::vector<Ray> rays(static_cast<std::size_t>(width));
+    std::vector<Hit> hits(rays.size()), beds(rays.size());
+    for (int x = 0; x < width; ++x) rays[x] = primary.through(x + 0.5, y + 0.5);
+    scene.tracer().first_hits(rays, hits);
+    std::vector<Ray> bent = rays;
+    std::vector<Vec> normals(rays.size());
+    for (int x = 0; x < width; ++x) {
+      bent[x].farthest = 0;  // not asked for, unless the ray meets water
+      if (!hits[x].is_surface() || !scene.material(hits[x].surface).is_masked) continue;
+      const Material& water = scene.material(hits[x].surface);
+      Place at;
+      at.hit = hits[x];
+      at.normal = scene.tracer().surface(hits[x].surface).normal(rays[x], hits[x]);
+      normals[x] = water.smooth_normals ? smooth_normal(water, at) : at.normal;
+      const Vec direction = glm::normalize(rays[x].direction);
+      bent[x] = {rays[x].at(hits[x].t), split(direction, normals[x], 1, water_ior).refracted};
+      bent[x].nearest = 1e-9;
+    }
+    scene.tracer().first_hits(bent, beds);
+    for (int x = 0; x < width; ++x) {
+      const float* hit = puddle.hit().row<float>(y) + 4 * static_cast<std::ptrdiff_t>(x);
+      const Half* stored = puddle.normal().row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
+      const Vec position(hit[0], hit[1], hit[2]), normal(to_float(stored[0]), to_float(stored[1]), to_float(stored[2]));
+      const scalar::Number u(position.x * shade_uniforms.inverse_size[0] + 0.5), v(position.z * shade_uniforms.inverse_size[1] + 0.5);
+      const double depth = scalar::sample_bilinear<0, 1>(bed.view(), u, v)[0].v;
+      const bool is_water = to_float(stored[3]) > 0.5f && depth > 0,
+                 is_truly_water = hits[x].is_surface() && scene.material(hits[x].surface).is_masked;
+      auto& count = counts[static_cast<std::size_t>(y)];
+      count[0] += is_water && is_truly_water;
+      count[1] += is_water && !is_truly_water;
+      count[2] += !is_water && is_truly_water;
+      const Vec view = glm::normalize(rays[x].direction);
+      if (is_water && is_truly_water) {
+        const double length = glm::length(rays[x].direction);
+        out.differences[distance].at(x, y) = glm::length(position - rays[x].origin) - hits[x].t * length;
+        const Vec cross = glm::cross(normal, normals[x]);
+        out.differences[angle].at(x, y) = degrees_per_radian * atan2_real(Real64(glm::length(cross)), Real64(dot(normal, normals[x]))).v;
+        if (beds[x].is_surface()) {
+          const Vec there = ground_of_passes(position, view, normal, depth) - bent[x].at(beds[x].t);
+          out.differences[offset].at(x, y) = std::sqrt(there.x * there.x + there.z * there.z);
+        }
+      }
+      if (is_truly_water) {
+        const double cosine = std::clamp(-dot(view, normals[x]), 0.0, 1.0);
+        out.differences[schlick].at(x, y) =
+            scalar::fresnel_schlick(scalar::Number(cosine), f0).v - scalar::fresnel_dielectric(scalar::Number(cosine), water_ior).v;
+      }
+      const Half* passes = puddle.colour().row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
+      const Half* true_colour = truth.beauty.row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
+      const Unorm8* passes_code = puddle.picture().row<Unorm8>(y) + 4 * static_cast<std::ptrdiff_t>(x);
+      const Unorm8* true_code = shown.row<Unorm8>(y) + 4 * static_cast<std::ptrdiff_t>(x);
+      double d[3], c[3];
+      for (int k = 0; k < 3; ++k) {
+        d[k] = static_cast<double>(to_float(passes[k])) - to_float(true_colour[k]);
+        c[k] = static_cast<double>(passes_code[k].code) - true_code[k].code;
+      }
+      if (is_water && is_truly_water) {
+        out.differences[colour].at(x, y) = sign_of_largest(d);
+        out.differences[code].at(x, y) = sign_of_largest(c);
+      } else if (hits[x].is_surface() && !is_truly_water) {
+        out.differences[ground_code].at(x, y) = sign_of_largest(c);
+      }
+    }
+  });
+  for (const auto& c : counts) {
+    out.water_in_both += c[0];
+    out.water_in_passes_only += c[1];
+    out.water_in_truth_only += c[2];
+  }
+  return out;
+}
+
+}  // namespace rainref::truth

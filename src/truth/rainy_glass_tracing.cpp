@@ -1,0 +1,57 @@
+#include "rainref/error.h"
+#include "rainy_glass/backdrop.h"
+#include "rainy_glass/instance.h"
+#include "rainy_glass/parameters.h"
+#include "truth/pane_tracing.h"
+#include "truth/rainy_glass_truth.h"
+
+namespace rainref::truth {
+namespace {
+
+using rainy_glass::Instance, rainy_glass::Surroundings;
+
+/// The scene without anything before the glass.
+std::unique_ptr<const Surroundings> unbarred(const scene::Config& config, const Instance& glass, const parallel::Executor& executor) {
+  rainy_glass::BackdropOptions options = rainy_glass::backdrop_from(config);
+  options.bar_spacing = 0;
+  return std::make_unique<const Surroundings>(rainy_glass::make_backdrop(glass.settings(), options, executor));
+}
+
+class RainyGlassTracing : public PaneTracing<RainyGlassView, Instance> {
+ public:
+  RainyGlassTracing(const scene::Config& config, const Instance& glass, std::unique_ptr<const Surroundings> scene,
+                    const parallel::Executor& on)
+      : PaneTracing(config, glass,
+                    RainyGlassView(glass.settings(), glass.surroundings(), *scene, config.real("compositor.glass_thickness"),
+                                   choice_from(config).tracer),
+                    on),
+        scene_(std::move(scene)) {}
+
+ private:
+  std::unique_ptr<const Surroundings> scene_;  // which the view refers to
+};
+
+}  // namespace
+
+EffectTracing rainy_glass_tracing() {
+  return {
+      "rainy_glass", pane_parameters,
+      [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+        const auto& glass = static_cast<const Instance&>(instance);
+        const rainy_glass::Settings& s = glass.settings();
+        const bool can = s.variant == Variant::corrected && s.shape == rainy_glass::Shape::pane && !s.use_probe &&
+                         config.text("scene.image").empty() && config.text("scene.panorama").empty();
+        if (can) return std::make_unique<RainyGlassTracing>(config, glass, unbarred(config, glass, executor), executor);
+        if (!choice_from(config).is_traced) return nullptr;
+        throw Error(ExitCode::usage,
+                    "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here "
+                    "instead of scene.image or scene.panorama");
+      },
+      [](effect::RunMemory& m, const scene::Config& config) {
+        // The scene without bars.
+        if (choice_from(config).is_traced) m.peak.hold(image_bytes(m, Format::rgba32f) + image_bytes(m, Format::r32f));
+        hold_traced(m, config);
+      }};
+}
+
+}  // namespace rainref::truth

@@ -1,0 +1,71 @@
+// The pane of rainy_glass as rays see it: the eye, glass of real thickness, water whose slopes the maps give, the street at night
+// behind it, seen by a camera that focuses on the pane.
+//
+// The effect knows no height of its water, and none can be had: a slope that is masked, or mixed of two phases, is the gradient of
+// no surface. So the truth here is a sheet too thin to matter, with these slopes: rays are met on the outer face and bent there,
+// twice by Snell's law, with the normal of the slope at that very place.
+#pragma once
+
+#include <memory>
+
+#include "compositor/pane_scene.h"
+#include "compositor/picture.h"
+#include "image/texture.h"
+#include "night_street/night_street.h"
+#include "rainref/rainy_glass.h"
+#include "rainy_glass/shown.h"
+#include "truth/tracer_names.h"
+
+namespace rainref::truth {
+
+class RainyGlassView {
+ public:
+  /// around: what the passes take; unbarred: the same street without anything before the glass. Both must outlive the view.
+  /// thickness [m]. Throws Error(usage) unless the settings are a corrected pane before the grabbed scene, and for glass that reaches
+  /// to the eye.
+  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred,
+                 double thickness, const TracerOptions& tracer);
+
+  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene.
+  std::unique_ptr<Scene> scene(const rainy_glass::RainyGlass& rendered) const;
+
+  scene::Camera camera() const { return camera_; }
+  const Pane& pane() const { return pane_; }
+  const rainy_glass::Settings& settings() const { return settings_; }
+  const rainy_glass::Surroundings& surroundings() const { return *around_; }
+  int width() const { return settings_.width; }
+  int height() const { return settings_.height; }
+  /// The picture that the effect's display makes of a radiance (rgba16f). rgba8.
+  Image display(const Image& radiance, const parallel::Executor& executor) const;
+  /// Of the pane's (u, v), as the passes know places on the glass [m].
+  struct Spot {
+    double u, v;
+  };
+  Spot spot(double u, double v) const { return {extent_.low.u + u * extent_.size.u, extent_.low.v + v * extent_.size.v}; }
+
+  struct Extent {
+    Spot low, size;
+  };
+
+  /// What a ray that left the glass comes to: from the eye toward the place where it meets the street, and linear radiance.
+  /// Where the eye sees that place, radiance is its picture's, out of focus as that is; elsewhere the street's own, sharp.
+  struct Met {
+    Vec from_eye, radiance;
+  };
+  /// direction: unit.
+  Met met(const Vec& origin, const Vec& direction) const;
+
+ private:
+  rainy_glass::Settings settings_;
+  const rainy_glass::Surroundings *around_, *unbarred_;
+  TracerOptions tracer_;
+  scene::Camera camera_;
+  scene::Camera::Basis basis_;
+  double half_width_, half_height_;
+  Extent extent_;  // of the pane on the glass
+  Pane pane_;
+  night_street::Street street_;
+  TextureData colour_;
+};
+
+}  // namespace rainref::truth

@@ -1,0 +1,32 @@
+#include "screen_drops/instance.h"
+#include "truth/pane_tracing.h"
+#include "truth/screen_drops_truth.h"
+
+namespace rainref::truth {
+namespace {
+
+using screen_drops::Instance;
+
+class ScreenDropsTracing : public PaneTracing<ScreenDropsView, Instance> {
+ public:
+  ScreenDropsTracing(const scene::Config& config, const Instance& drops, const parallel::Executor& on)
+      : PaneTracing(config, drops,
+                    ScreenDropsView(drops.settings(), drops.scene_colour(), config.real("compositor.glass_thickness"),
+                                    choice_from(config).tracer, on),
+                    on) {}
+};
+
+}  // namespace
+
+EffectTracing screen_drops_tracing() {
+  return {
+      "screen_drops", pane_parameters,
+      [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+        const auto& drops = static_cast<const Instance&>(instance);
+        if (drops.settings().variant != Variant::corrected) return nullptr;
+        return std::make_unique<ScreenDropsTracing>(config, drops, executor);
+      },
+      hold_traced};
+}
+
+}  // namespace rainref::truth

@@ -1,0 +1,106 @@
+#include "truth/screen_drops_view.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "compositor/optics.h"
+#include "rainref/error.h"
+#include "pass/display.h"
+#include "screen_drops/host.h"
+#include "screen_drops/shown.h"
+
+namespace rainref::truth {
+namespace {
+
+scene::Camera at_origin(const screen_drops::Settings& s) {
+  scene::Camera camera = screen_drops::camera(s);
+  camera.target -= camera.position;
+  camera.position = {0, 0, 0};
+  return camera;
+}
+
+PaneShape shape_of(const screen_drops::Settings& s, const scene::Camera::Basis& basis, double border, double thickness) {
+  const double distance = screen_drops::glass_distance(s), height = s.pane_height + 2 * border,
+               width = s.pane_height * s.width / s.height + 2 * border;
+  if (!(thickness < 0.9 * distance))
+    throw Error(ExitCode::usage,
+                fmt::format("compositor.glass_thickness: expected less than nine tenths of the {} m from the eye to the glass, found {} m",
+                            distance, thickness));
+  return {distance * basis.forward - 0.5 * width * basis.right - 0.5 * height * basis.up,
+          width * basis.right,
+          height * basis.up,
+          basis.forward,
+          thickness,
+          0};
+}
+
+class Outside : public Environment {
+ public:
+  explicit Outside(const ScreenDropsView& view) : view_(view) {}
+  void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
+    for (std::size_t i = 0; i < escaped_rays.size(); ++i) out[i] = view_.radiance(escaped_rays[i].direction);
+  }
+
+ private:
+  const ScreenDropsView& view_;
+};
+
+}  // namespace
+
+ScreenDropsView::ScreenDropsView(const screen_drops::Settings& s, const Image& colour, double thickness, const TracerOptions& tracer,
+                                 const parallel::Executor& executor)
+    : settings_(s),
+      tracer_(tracer),
+      executor_(executor),
+      border_(1e-3 * screen_drops::cell_over_radius * s.largest_radius),
+      camera_(at_origin(s)),
+      basis_(camera_.basis()),
+      pane_(shape_of(s, basis_, border_, thickness)) {
+  if (s.variant != Variant::corrected) throw Error(ExitCode::usage, "a traced window: expected the corrected variant, found as-published");
+  const double half_height = camera_.half_height(), half_width = half_height * s.width / s.height;
+  scale_[0] = 0.5 / (half_width * s.scene_margin);
+  scale_[1] = 0.5 / (half_height * s.scene_margin);
+  scene_ = TextureData(screen_drops::defocused_scene(s, colour, executor), Address::clamp, Address::clamp);
+}
+
+Vec ScreenDropsView::radiance(const Vec& direction) const {
+  const double ahead = dot(direction, basis_.forward);
+  if (!(ahead > 0)) return {0, 0, 0};
+  using scalar::Number;
+  const double inverse = 1 / std::max(ahead, 1e-6);
+  const Number u(0.5 + dot(direction, basis_.right) * inverse * scale_[0]), v(0.5 + dot(direction, basis_.up) * inverse * scale_[1]);
+  const auto s = scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(scene_.view()), u, v);
+  return {s[0].v, s[1].v, s[2].v};
+}
+
+std::shared_ptr<const CapWater> ScreenDropsView::water(const screen_drops::ScreenDrops& rendered) const {
+  std::vector<CapBase> caps;
+  for (const screen_drops::Cap& c : screen_drops::caps(settings_, rendered.cells()))
+    caps.push_back({c.x + border_, c.y + border_, c.radius});
+  CapWater::Layer layer{};
+  if (rendered.height().width() > 1) {
+    layer = {std::make_shared<const WaterLayer>(rendered.height()),
+             {border_, border_},
+             {settings_.pane_height * settings_.width / settings_.height, settings_.pane_height}};
+  }
+  return std::make_shared<const CapWater>(pane_, std::move(caps), settings_.contact_angle_deg, layer);
+}
+
+std::unique_ptr<Scene> ScreenDropsView::scene(const screen_drops::ScreenDrops& rendered) const {
+  auto scene = std::make_unique<Scene>(tracer_);
+  PaneMedia media;
+  media.water = compositor::water(settings_.water_ior);
+  add_cap_pane(*scene, water(rendered), emitter({0, 0, 0}), executor_, media);
+  scene->set_environment(std::make_shared<Outside>(*this));
+  scene->commit();
+  return scene;
+}
+
+Image ScreenDropsView::display(const Image& radiance, const parallel::Executor& executor) const {
+  Image picture(Format::rgba8, radiance.width(), radiance.height());
+  pass::display_run(settings_.exposure, settings_.rounding, radiance, picture).tiles(executor, 8);
+  return picture;
+}
+
+}  // namespace rainref::truth

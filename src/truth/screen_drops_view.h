@@ -1,0 +1,51 @@
+// The window of screen_drops as rays see it: the eye, a pane of glass across the view, the caps and the flowing water of a frame,
+// and the scene far behind, seen by a camera that focuses on the pane.
+#pragma once
+
+#include <memory>
+
+#include "compositor/cap_water.h"
+#include "compositor/picture.h"
+#include "image/texture.h"
+#include "rainref/screen_drops.h"
+#include "truth/tracer_names.h"
+
+namespace rainref::truth {
+
+class ScreenDropsView {
+ public:
+  /// colour: the scene's picture, as Inputs::colour. thickness [m]. Throws Error(usage) for glass that reaches to the eye and for
+  /// settings that are not corrected.
+  ScreenDropsView(const screen_drops::Settings& settings, const Image& colour, double thickness, const TracerOptions& tracer,
+                  const parallel::Executor& executor);
+
+  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene, and the
+  /// executor the view.
+  std::unique_ptr<Scene> scene(const screen_drops::ScreenDrops& rendered) const;
+  /// That water alone.
+  std::shared_ptr<const CapWater> water(const screen_drops::ScreenDrops& rendered) const;
+
+  /// Eye at the origin, axes of the effect's camera; the pane's outer face where the passes have the glass.
+  scene::Camera camera() const { return camera_; }
+  const Pane& pane() const { return pane_; }
+  const screen_drops::Settings& settings() const { return settings_; }
+  int width() const { return settings_.width; }
+  int height() const { return settings_.height; }
+  /// The picture that the effect's display makes of a radiance (rgba16f). rgba8.
+  Image display(const Image& radiance, const parallel::Executor& executor) const;
+  /// Of light that comes against `direction`: linear; 0 from the room, behind the pane.
+  Vec radiance(const Vec& direction) const;
+
+ private:
+  screen_drops::Settings settings_;
+  TracerOptions tracer_;
+  const parallel::Executor& executor_;
+  double border_;  // of pane around the picture [m]: drops lie across its edge
+  scene::Camera camera_;
+  scene::Camera::Basis basis_;
+  Pane pane_;
+  double scale_[2];  // of the image plane to texture coordinates
+  TextureData scene_;
+};
+
+}  // namespace rainref::truth

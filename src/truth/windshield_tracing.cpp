@@ -1,0 +1,55 @@
+#include "rainref/error.h"
+#include "truth/tracing.h"
+#include "truth/windshield_truth.h"
+#include "windshield/instance.h"
+
+namespace rainref::truth {
+namespace {
+
+class WindshieldTracing : public Tracing {
+ public:
+  WindshieldTracing(const scene::Config& config, const windshield::Instance& windshield, const parallel::Executor& on)
+      : Tracing(choice_from(config), on),
+        windshield_(windshield),
+        view_(windshield.settings(), {config.real("compositor.glass_thickness"), config.real("compositor.glass_radius")}, choice().tracer,
+              on) {}
+
+  Comparison compare() override {
+    WindshieldTruth t = truth::compare(windshield_.running(), view_, choice().picture, executor());
+    return {{{"glass_pixels", t.glass}, {"drop_pixels", t.drops}, {"mirrored_pixels", t.mirrored}}, std::move(t.differences)};
+  }
+
+ private:
+  Picture picture() override {
+    const windshield::PictureSettings& p = view_.settings().picture;
+    return trace_picture(*view_.scene(windshield_.running()), view_.camera(), p.width, p.height, choice().picture, executor());
+  }
+  Image display(const Image& radiance) const override { return truth::display(view_.settings(), radiance, executor()); }
+
+  const windshield::Instance& windshield_;
+  WindshieldView view_;
+};
+
+}  // namespace
+
+EffectTracing windshield_tracing() {
+  return {
+      "windshield",
+      [] {
+        std::vector<scene::Parameter> all = parameters();
+        all.push_back(pane_thickness());
+        all.push_back(scene::real("compositor.glass_radius", "m", 0, 1e6, 0,
+                                  "Radius of its bend across the car, convex outward; 0: flat. The passes' glass is flat."));
+        return all;
+      },
+      [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
+        const auto& windshield = static_cast<const windshield::Instance&>(instance);
+        if (windshield.has_street()) return std::make_unique<WindshieldTracing>(config, windshield, executor);
+        if (!choice_from(config).is_traced) return nullptr;
+        throw Error(ExitCode::usage,
+                    "compositor.picture: expected \"passes\", for rays need the street made here and scene.image names a picture");
+      },
+      hold_traced};
+}
+
+}  // namespace rainref::truth

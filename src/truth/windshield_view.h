@@ -1,0 +1,48 @@
+// The windshield as rays see it: the driver's eye, a pane of glass, the water of a frame, the street at night behind it.
+#pragma once
+
+#include <memory>
+
+#include "compositor/pane_scene.h"
+#include "compositor/picture.h"
+#include "night_street/night_street.h"
+#include "rainref/windshield.h"
+#include "windshield/scene_keys.h"
+#include "truth/tracer_names.h"
+
+namespace rainref::truth {
+
+struct WindshieldGlass {
+  double thickness = 5e-3;  ///< [m]
+  double radius = 0;        ///< of the bend across the car [m]; 0: flat
+};
+
+class WindshieldView {
+ public:
+  /// Throws Error(usage) for a pane that cannot be.
+  WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
+                 const parallel::Executor& executor);
+
+  /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
+  /// and the executor the view.
+  std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
+  /// The same with this height texture [mm], the car `distance` metres on from where it began.
+  std::unique_ptr<Scene> scene(const Image& height, double distance) const;
+  /// Where the car of that frame is along the street [m].
+  double distance(const windshield::Windshield& rendered) const;
+
+  const Pane& pane() const { return pane_; }
+  const night_street::Street& street() const { return street_; }
+  scene::Camera camera() const { return windshield::camera(settings_.picture); }
+  const windshield::Settings& settings() const { return settings_; }
+
+ private:
+  windshield::Settings settings_;
+  TracerOptions tracer_;
+  const parallel::Executor& executor_;
+  Pane pane_;
+  windshield::Vehicle vehicle_;
+  night_street::Street street_;
+};
+
+}  // namespace rainref::truth

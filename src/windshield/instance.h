@@ -1,0 +1,29 @@
+// The windshield as a scene says it: opened, run and written like every effect.
+#pragma once
+
+#include "drops/records.h"
+#include "effect/effect.h"
+#include "rainref/windshield.h"
+#include "windshield/scene_keys.h"
+
+namespace rainref::windshield {
+
+/// What the registry holds.
+effect::Effect entry();
+
+class Instance final : public effect::InstanceOf<Windshield> {
+ public:
+  /// has_street: its surroundings are the street made here.
+  Instance(const scene::Config& config, Surroundings surroundings, bool has_street, const parallel::Executor& executor);
+  const Settings& settings() const { return settings_; }
+  bool has_street() const { return has_street_; }
+  std::vector<PassOutput> buffers() override;
+  std::vector<image_io::Layer> layers() const override;
+
+ private:
+  Settings settings_;
+  bool has_street_;
+  std::vector<drops::Drop> drops_;  // as buffers() gave them
+};
+
+}  // namespace rainref::windshield

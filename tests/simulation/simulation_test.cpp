@@ -1,0 +1,174 @@
+// One interface over all effects: what it holds is what the passes gave, and it shows what the command line shows.
+#include "rainref/simulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "capture/hashing.h"
+#include "rainref/error.h"
+#include "registry/registry.h"
+#include "source_folder.h"
+#include "base/temporary_folder.h"
+
+namespace rainref {
+namespace {
+
+using testing::HasSubstr;
+
+/// A picture of 2 x 1 as a NumPy array: the street's panorama and the asphalt take a second.
+std::string tiny_picture() {
+  static const TemporaryFolder folder;
+  static const std::string file = [] {
+    std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (1, 2, 3), }";
+    header.resize(117, ' ');
+    const std::string path = (folder / "tiny.npy").string();
+    std::ofstream(path, std::ios::binary) << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n' << "\x20\x40\x60\x80\xa0\xc0";
+    return path;
+  }();
+  return file;
+}
+
+/// A scene so small that a frame takes no time.
+SceneText small(const std::string& effect, const std::string& variant, std::vector<std::string> more = {}) {
+  std::vector<std::string> set{"effect=" + effect, "variant=" + variant, "run.size=[33, 21]"};
+  if (effect == "puddle") set.insert(set.end(), {"environment.image=" + tiny_picture(), "puddle.ground_image=" + tiny_picture()});
+  if (effect == "puddle" && variant == "corrected") set.insert(set.end(), {"puddle.grid=[61, 45]", "puddle.shape=basin", "rain.rate=80"});
+  if (effect == "windshield")
+    set.insert(set.end(), {"windshield.height_size=[64, 36]", "scene.size=[32, 18]", "windshield.capacity=3000",
+                           variant == "corrected" ? "rain.rate=100" : "windshield.spawn_rate=20000"});
+  if (effect == "rainy_glass") set.push_back("maps.size=32");
+  set.insert(set.end(), more.begin(), more.end());
+  return {"", set};
+}
+
+/// The last contents that passes gave, by buffer.
+class Given : public Recorder {
+ public:
+  void pass(const PassCall& call) override {
+    for (const PassOutput& output : call.outputs) last[std::string(output.name)] = bytes_of(output.content);
+  }
+  static std::vector<std::byte> bytes_of(const std::variant<BufferView, RecordView>& content) {
+    if (const auto* records = std::get_if<RecordView>(&content)) return {records->bytes().begin(), records->bytes().end()};
+    const auto& image = std::get<BufferView>(content);
+    std::vector<std::byte> bytes(image.row_bytes() * static_cast<std::size_t>(image.height()));
+    for (int y = 0; y < image.height(); ++y) image.copy_row(y, bytes.data() + static_cast<std::size_t>(y) * image.row_bytes());
+    return bytes;
+  }
+  std::map<std::string, std::vector<std::byte>> last;
+};
+
+class EveryEffect : public testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(EveryEffect, HoldsWhatItsPassesGave) {
+  const auto& [effect, variant] = GetParam();
+  const parallel::Executor executor(2);
+  Simulation scene(small(effect, variant), executor);
+  EXPECT_EQ(scene.effect(), effect);
+  EXPECT_EQ(name(scene.variant()), variant);
+  EXPECT_EQ(scene.frame(), 0);
+  Given given;
+  for (int frame = 0; frame < 3; ++frame) scene.next_frame(&given);
+  EXPECT_EQ(scene.frame(), 3);
+  const capture::EffectInfo& info = *registry::find(effect)->info;
+  int compared = 0;
+  for (const std::string& name : scene.buffers()) {
+    const capture::BufferInfo& declared = info.buffer(name, variant);
+    const auto held = scene.buffer(name);
+    EXPECT_EQ(std::holds_alternative<RecordView>(held), declared.format == "records") << name;
+    if (!given.last.contains(name)) {
+      // What the host makes, and no pass.
+      EXPECT_THAT(name, testing::AnyOf("surface", "orientation", "height")) << "no pass gave " << name;
+      continue;
+    }
+    EXPECT_EQ(Given::bytes_of(held), given.last[name]) << name;
+    ++compared;
+  }
+  EXPECT_GE(compared, 3);
+  EXPECT_EQ(Given::bytes_of(scene.picture()), given.last["picture"]);
+}
+
+// What has no past shows the same whether the frames before were rendered or not.
+TEST_P(EveryEffect, AdvancesWithoutRendering) {
+  const auto& [effect, variant] = GetParam();
+  const parallel::Executor executor(1);
+  Simulation all(small(effect, variant), executor), last(small(effect, variant), executor);
+  for (int frame = 0; frame < 4; ++frame) {
+    all.next_frame();
+    last.simulate();
+  }
+  last.render();
+  const std::string held = effect == "windshield" ? "drops" : "picture";  // its mask has a past
+  EXPECT_EQ(Given::bytes_of(all.buffer(held)), Given::bytes_of(last.buffer(held)));
+  if (effect != "windshield") {
+    last.render();  // and once more
+    EXPECT_EQ(Given::bytes_of(all.buffer(held)), Given::bytes_of(last.buffer(held)));
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> all() {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const effect::Effect* e : registry::effects()) {
+    for (const std::string& variant : e->variants) out.emplace_back(e->name, variant);
+  }
+  return out;
+}
+INSTANTIATE_TEST_SUITE_P(Simulation, EveryEffect, testing::ValuesIn(all()),
+                         [](const auto& p) { return p.param.first + (p.param.second == "corrected" ? "_corrected" : "_as_published"); });
+
+std::string refusal(const auto& body) {
+  try {
+    body();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::usage);
+    return e.what();
+  }
+  ADD_FAILURE() << "expected an error";
+  return "";
+}
+
+TEST(Simulation, WhatCannotBeIsRefused) {
+  const parallel::Executor executor(1);
+  const auto open = [&](const SceneText& scene) { return refusal([&] { Simulation(scene, executor); }); };
+  EXPECT_THAT(open({}), HasSubstr("effect"));
+  EXPECT_THAT(open({"", {"effect=pudle"}}), HasSubstr("did you mean 'puddle'?"));
+  EXPECT_THAT(open({"effect = 'puddle'\n[wave]\nspeeed = 1\n", {}, "mine.toml"}), HasSubstr("mine.toml:3:1: wave.speeed: "));
+  Simulation scene(small("puddle", "corrected"), executor);
+  EXPECT_THAT(refusal([&] { static_cast<void>(scene.buffer("colours")); }),
+              HasSubstr("puddle has no buffer 'colours'; did you mean 'colour'?"));
+}
+
+TEST(Simulation, TheVariantIsCorrectedUnlessSaid) {
+  const parallel::Executor executor(1);
+  EXPECT_EQ(Simulation({"effect = 'edge_splash'\n[run]\nsize = [16, 9]\n"}, executor).variant(), Variant::corrected);
+  EXPECT_EQ(Simulation({"effect = 'edge_splash'\nvariant = 'as-published'\n[run]\nsize = [16, 9]\n"}, executor).variant(),
+            Variant::as_published);
+}
+
+TEST(Simulation, ReadsSceneFilesAndWritesPictures) {
+  const TemporaryFolder folder;
+  const parallel::Executor executor(1);
+  Simulation scene(read_scene(test::source_folder() + "/scenes/edge_splash/default.toml", {"run.size=[16, 9]", "run.frames=7"}), executor);
+  EXPECT_EQ(scene.frames(), 7);
+  EXPECT_THAT(scene.scene_json(), HasSubstr("\"effect\": \"edge_splash\""));
+  EXPECT_TRUE(scene.warnings().empty());
+  scene.next_frame();
+  scene.write_png(folder / "a.png");
+  scene.write_exr(folder / "a.exr");
+  const auto start = [&](const char* name) {
+    std::string bytes(4, '\0');
+    std::ifstream(folder / name, std::ios::binary).read(bytes.data(), 4);
+    return bytes;
+  };
+  EXPECT_EQ(start("a.png"), "\x89PNG");
+  EXPECT_EQ(start("a.exr"), "\x76\x2f\x31\x01");
+  EXPECT_THROW(read_scene(folder / "none.toml"), Error);
+}
+
+}  // namespace
+}  // namespace rainref
