@@ -70,7 +70,7 @@ TEST_F(SixthEffect, JudgesPortsOfIt) {
     std::filesystem::copy(folder / "pack", folder / "port", std::filesystem::copy_options::recursive);
     EXPECT_THAT(said({"validate", "pack", "--port", "port"}), AllOf(HasSubstr("condense"), HasSubstr("veil"), Not(HasSubstr("FAIL"))));
     said({"validate", "--shadow", "port"});
-    EXPECT_THAT(said({"mutate", "pack"}), AllOf(HasSubstr("condense"), HasSubstr("veil")));
+    EXPECT_THAT(said({"mutate", "pack", "--all"}), AllOf(HasSubstr("condense"), HasSubstr("veil")));
     // A port that forgot the frame before.
     put(folder / "port/breath.condense/0003.0/out.film.npy", contents(folder / "port/breath.condense/0002.0/out.film.npy"));
     EXPECT_THAT(said({"validate", "pack", "--port", "port"}, 1), AllOf(HasSubstr("FAIL"), HasSubstr("condense")));
