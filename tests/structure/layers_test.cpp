@@ -38,7 +38,7 @@ struct Library {
 const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"},
                                      {"^hwy/", "math"},
                                      {"^OpenImageIO/|^Imath/|^OpenEXR/|^png\\.h", "image_io"},
-                                     {"^embree|^assimp", "compositor"},
+                                     {"^embree", "compositor"},
                                      {"^toml", "scene"},
                                      {"^CLI/", "cli"},
                                      {"^xxhash", "base"}};
