@@ -12,7 +12,7 @@
 #include "cli/option_values.h"
 #include "cli/scene_flags.h"
 #include "cli/verbs.h"
-#include "conformance/profiles.h"
+#include "judge/profiles.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 void add_profile(CLI::App& verb, std::string& profile) {
   verb.add_option("--profile", profile,
-                  fmt::format("What the port's API allows: {} (default: vulkan)", fmt::join(conformance::profile_names(), ", ")))
+                  fmt::format("What the port's API allows: {} (default: vulkan)", fmt::join(judge::profile_names(), ", ")))
       ->type_name("NAME");
 }
 void add_threads(CLI::App& verb, std::optional<std::string>& threads) {

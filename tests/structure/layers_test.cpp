@@ -17,8 +17,8 @@ const fs::path root = RAINREF_SOURCE_DIR;
 const std::map<std::string, int> floors{{"base", 0},        {"math", 1},         {"image", 2},        {"parallel", 3},   {"random", 3},
                                         {"scene", 4},       {"capture", 4},      {"pass", 4},         {"image_io", 4},   {"rain", 4},
                                         {"drops", 4},       {"blur_pyramid", 4}, {"night_street", 4}, {"puddle", 5},     {"windshield", 5},
-                                        {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5},  {"compositor", 6}, {"conformance", 6},
-                                        {"port_dump", 6},   {"cli", 7}};
+                                        {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5},  {"compositor", 6}, {"judge", 6},
+                                        {"faults", 6},      {"reports", 6},      {"port_dump", 6},    {"cli", 7}};
 // Public headers, by the floor that implements them.
 const std::map<std::string, int> public_floors{{"version", 0},    {"error", 0},       {"variant", 0},      {"storage", 1},    {"image", 2},
                                                {"texture", 2},    {"recorder", 2},    {"executor", 3},     {"scene_text", 4}, {"puddle", 5},
@@ -29,7 +29,9 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"pass", {"capture", "scene"}},
                                                                  {"drops", {"capture", "pass", "rain", "scene"}},
                                                                  {"blur_pyramid", {"capture", "scene"}},
-                                                                 {"conformance", {"port_dump"}}};
+                                                                 {"judge", {"port_dump"}},
+                                                                 {"faults", {"judge"}},
+                                                                 {"reports", {"faults", "judge"}}};
 
 struct Library {
   const char* pattern;
