@@ -8,6 +8,7 @@
 #include "image/code_range.h"
 #include "judge/judge.h"
 #include "judge/keyed.h"
+#include "judge/reference_outputs.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
 

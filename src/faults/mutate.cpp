@@ -10,9 +10,10 @@
 #include "faults/list_faults.h"
 #include "judge/check_pack.h"
 #include "judge/evaluations.h"
-#include "judge/judge.h"
+#include "judge/invocation_judge.h"
 #include "judge/keyed.h"
 #include "judge/profiles.h"
+#include "judge/reference_outputs.h"
 #include "rainref/error.h"
 
 namespace rainref::faults {

@@ -37,23 +37,4 @@ struct ModeJudgements {
 ModeJudgements judge_case(const capture::PassCase& c, const capture::PassModel* model, const std::vector<capture::Array>& port,
                           const JudgeOptions& options);
 
-/// Invocation by invocation, for callers that ask about a few: whether some alternative accepts these stored values.
-class InvocationJudge {
- public:
-  InvocationJudge(const capture::PassCase& c, const capture::PassModel& model, const enclosed::Profile& profile, HalfMode mode);
-  /// `port` as in judge_case.
-  bool accepts(int x, int y, const std::vector<capture::Array>& port) const;
-
- private:
-  const capture::PassCase& case_;
-  const capture::PassModel& model_;
-  const enclosed::Profile& profile_;
-  HalfMode mode_;
-};
-
-/// The reference's outputs for a case: what the pack should hold, or that with halves stored by another rounding. Keyed
-/// records where the model knows them, in any order; what no model gives is as in the case.
-std::vector<capture::Array> reference_outputs(const capture::PassCase& c, const capture::PassModel& model,
-                                              const parallel::Executor& executor, HalfMode mode = HalfMode::either);
-
 }  // namespace rainref::judge

@@ -15,6 +15,7 @@
 #include "judge/known_effects.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
+#include "judge/reference_outputs.h"
 #include "judge/shadow_checks.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"

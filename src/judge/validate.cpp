@@ -11,6 +11,7 @@
 #include "judge/keyed.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
+#include "judge/reference_outputs.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "judge/judge.h"
+#include "judge/invocation_judge.h"
 #include "judge/support.h"
 #include "math/path_enumeration.h"
 #include "rainref/executor.h"

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include "judge/conclude.h"
+#include "judge/invocation_judge.h"
 #include "judge/judge.h"
+#include "judge/reference_outputs.h"
 #include "judge/support.h"
 #include "reports/figures.h"
 

@@ -3,7 +3,9 @@
 #include <cstdlib>
 
 #include "faults/diagnose.h"
+#include "judge/invocation_judge.h"
 #include "judge/mini_port.h"
+#include "judge/reference_outputs.h"
 #include "judge/support.h"
 #include "reports/example_judgement.h"
 
