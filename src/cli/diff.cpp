@@ -9,10 +9,10 @@
 #include "capture/difference.h"
 #include "capture/pack_read.h"
 #include "cli/commands.h"
-#include "conformance/check_pack.h"
-#include "registry/registry.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
+#include "judge/check_pack.h"
+#include "registry/registry.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
@@ -159,7 +159,7 @@ void print_configurations(const Pack& a, const Pack& b) {
 int diff(const std::filesystem::path& folder_a, const std::filesystem::path& folder_b) {
   const Pack a(folder_a), b(folder_b);
   for (const Pack* pack : {&a, &b})
-    if (registry::find(pack->effect)) conformance::check_pack(*pack);
+    if (registry::find(pack->effect)) judge::check_pack(*pack);
   print_configurations(a, b);
   if (a.effect != b.effect || a.variant != b.variant) {
     say("different scenes: {} {} in A, {} {} in B\n", a.effect, a.variant, b.effect, b.variant);

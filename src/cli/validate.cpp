@@ -17,12 +17,14 @@
 #include "registry/registry.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
-#include "conformance/profiles.h"
-#include "conformance/races.h"
-#include "conformance/report_text.h"
-#include "conformance/shadow.h"
-#include "conformance/validate.h"
+#include "faults/diagnose.h"
+#include "faults/mutate.h"
+#include "judge/profiles.h"
+#include "judge/races.h"
+#include "judge/shadow.h"
+#include "judge/validate.h"
 #include "rainref/error.h"
+#include "reports/text.h"
 
 namespace rainref::cli {
 
@@ -48,7 +50,7 @@ void make_empty(const fs::path& wanted) {
 
 /// Runs the port's command and gives the folders of its runs; a failure goes into the judgement. `last_line` is what the
 /// last run printed last.
-std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, conformance::PortJudgement& judgement,
+std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& folder, judge::PortJudgement& judgement,
                                std::string& last_line) {
   std::vector<fs::path> runs;
   Progress progress("running the port", request.repeat);
@@ -59,7 +61,7 @@ std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& f
     const CommandEnd end =
         run_command(folders.filled_in(request.exec), std::chrono::duration<double>(request.timeout_s), folders.environment());
     if (!end.failure.empty()) {
-      judgement.status = conformance::Status::fail;
+      judgement.status = judge::Status::fail;
       judgement.reason = request.repeat == 1 ? end.failure : fmt::format("run {}: {}", k, end.failure);
       for (const std::string& line : end.last_lines) judgement.notes.push_back("the port printed: " + line);
       return {};
@@ -74,24 +76,24 @@ std::vector<fs::path> run_port(const ValidateRequest& request, const fs::path& f
 
 /// A judgement, and what a page shows of it. The folders and the executor that it reads from live as long.
 struct Judged {
-  conformance::PortJudgement judgement;
-  conformance::PageSource source;
+  judge::PortJudgement judgement;
+  reports::PageSource source;
 };
 
 Judged judge_pack(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
   const auto opened = std::make_shared<const capture::Pack>(request.pack);
   const capture::Pack& pack = *opened;
-  conformance::ValidateOptions options;
+  judge::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
   // What is wrong with the request shows before the port is run.
-  static_cast<void>(conformance::judging_profile(options.profile));
+  static_cast<void>(judge::judging_profile(options.profile));
   if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
   std::vector<std::string> ids;
   for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
   reports.check(pack.passes, ids);
 
-  conformance::PortJudgement judgement;
+  judge::PortJudgement judgement;
   judgement.pack = request.pack.string();
   judgement.profile = request.profile;
   judgement.effect = pack.effect;
@@ -108,14 +110,15 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
     if (runs.empty()) return {judgement, {}};
   }
   options.executor = &executor;
+  options.explain = faults::diagnose;
   try {
     Progress progress("judging", static_cast<int>(pack.cases.size()));
     options.progress = [&](int, int) { progress.advance(); };
     const std::string shown = judgement.port;
-    judgement = conformance::validate(pack, runs.front(), options);
+    judgement = judge::validate(pack, runs.front(), options);
     if (!shown.empty()) judgement.port = shown;
     if (runs.size() > 1) {
-      conformance::add_races(conformance::find_races(pack, runs, request.only), judgement);
+      judge::add_races(judge::find_races(pack, runs, request.only), judgement);
       judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
     }
   } catch (const Error& e) {
@@ -123,13 +126,13 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
     if (e.code() != ExitCode::port_files || last_line.empty()) throw;
     throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), last_line));
   }
-  conformance::PageSource source = conformance::page_source(opened, runs.front());
+  reports::PageSource source = reports::page_source(opened, runs.front());
   source.read = [temporary, read = source.read](const std::string& id, const std::string& output) { return read(id, output); };
   return {std::move(judgement), std::move(source)};
 }
 
 /// The plan of a dump: what the scene does in the frames that are there, or what the manifest beside them says.
-conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Executor& executor) {
+judge::ShadowPlan shadow_plan(const ValidateRequest& request, const parallel::Executor& executor) {
   const bool has_manifest = fs::exists(request.shadow / capture::manifest_name);
   const auto manifest = [&] {
     const capture::Pack pack(request.shadow);
@@ -137,7 +140,7 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
       throw Error(ExitCode::usage, fmt::format("{}: its manifest is of a capture without inputs, which nothing can be recomputed from",
                                                request.shadow.string()));
     // A capture of rainref shares equal files. A port that dumped files of its own has dumped all of them.
-    return conformance::ShadowPlan::of_manifest(pack, pack.file_beside("port.json").empty());
+    return judge::ShadowPlan::of_manifest(pack, pack.file_beside("port.json").empty());
   };
   if (request.scene.scene.empty()) {
     if (!has_manifest)
@@ -147,9 +150,9 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
   }
   const scene::Config config = load_scene(request.scene);
   const capture::EffectInfo& info = *registry::find(config.effect())->info;
-  conformance::ShadowPlan plan = conformance::ShadowPlan::of_effect(info, config.variant(), request.scene.scene.filename().string());
+  judge::ShadowPlan plan = judge::ShadowPlan::of_effect(info, config.variant(), request.scene.scene.filename().string());
   std::set<int> frames;
-  for (const conformance::DumpedRun& run : conformance::dumped_runs(request.shadow, plan.effect, info.pass_names(config.variant())))
+  for (const judge::DumpedRun& run : judge::dumped_runs(request.shadow, plan.effect, info.pass_names(config.variant())))
     frames.insert(run.frame);
   simulation::Opened opened = open_scene(config, executor);
   capture::CaptureRecorder recorder(
@@ -173,35 +176,36 @@ conformance::ShadowPlan shadow_plan(const ValidateRequest& request, const parall
 }
 
 Judged judge_shadow(const ValidateRequest& request, const Reports& reports, const parallel::Executor& executor) {
-  static_cast<void>(conformance::judging_profile(request.profile));
+  static_cast<void>(judge::judging_profile(request.profile));
   if (!fs::is_directory(request.shadow))
     throw Error(ExitCode::port_files,
                 fmt::format("--shadow {}: expected a folder with the port's dumps, found none", request.shadow.string()));
-  const auto planned = std::make_shared<const conformance::ShadowPlan>(shadow_plan(request, executor));
-  const conformance::ShadowPlan& plan = *planned;
+  const auto planned = std::make_shared<const judge::ShadowPlan>(shadow_plan(request, executor));
+  const judge::ShadowPlan& plan = *planned;
   std::vector<std::string> passes;
   for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
   if (!request.only.empty() && std::find(passes.begin(), passes.end(), request.only) == passes.end()) {
     throw Error(ExitCode::usage, fmt::format("--only: expected one of the passes {}, found '{}'{}", fmt::join(passes, ", "), request.only,
                                              did_you_mean(request.only, passes)));
   }
-  const std::vector<conformance::DumpedRun> dumped = conformance::dumped_runs(request.shadow, plan.effect, passes);
+  const std::vector<judge::DumpedRun> dumped = judge::dumped_runs(request.shadow, plan.effect, passes);
   if (dumped.empty()) {
     throw Error(ExitCode::port_files,
                 fmt::format("{}: expected folders such as {}.{}/0000.0, found none", request.shadow.string(), plan.effect, passes.front()));
   }
   std::vector<std::string> ids;
-  for (const conformance::DumpedRun& run : dumped) ids.push_back(run.id);
+  for (const judge::DumpedRun& run : dumped) ids.push_back(run.id);
   reports.check(plan.passes, ids);
-  conformance::ValidateOptions options;
+  judge::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
+  options.explain = faults::diagnose;
   Progress progress("judging", static_cast<int>(dumped.size()));
   options.progress = [&](int, int) { progress.advance(); };
-  conformance::PortJudgement judgement = conformance::shadow(plan, request.shadow, dumped, options);
+  judge::PortJudgement judgement = judge::shadow(plan, request.shadow, dumped, options);
   options.progress = nullptr;
-  return {std::move(judgement), conformance::page_source(planned, request.shadow, dumped, options)};
+  return {std::move(judgement), reports::page_source(planned, request.shadow, dumped, options)};
 }
 
 int validate(const ValidateRequest& request, Reports& reports) {
@@ -209,9 +213,9 @@ int validate(const ValidateRequest& request, Reports& reports) {
   Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
   judged.judgement.command = request.command;
   reports.apply_baseline(judged.judgement);
-  print_text(conformance::report_text(judged.judgement));
+  print_text(reports::report_text(judged.judgement));
   reports.write(judged.judgement, judged.source);
-  return conformance::exit_code(judged.judgement, request.allow_untested);
+  return reports::exit_code(judged.judgement, request.allow_untested);
 }
 
 }  // namespace
@@ -228,16 +232,16 @@ int validate(const ValidateRequest& request) {
 
 int mutate(const MutateRequest& request) {
   const capture::Pack pack(request.pack);
-  static_cast<void>(conformance::judging_profile(request.profile));
+  static_cast<void>(judge::judging_profile(request.profile));
   const parallel::Executor executor(request.threads);
-  conformance::ValidateOptions options;
+  judge::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
   Progress progress("trying porting bugs", static_cast<int>(pack.cases.size()));
   options.progress = [&](int, int) { progress.advance(); };
-  const conformance::MutationReport report = conformance::mutate(pack, options);
-  print_text(conformance::report_text(report, request.all));
+  const faults::MutationReport report = faults::mutate(pack, options);
+  print_text(reports::report_text(report, request.all));
   return 0;
 }
 

@@ -12,11 +12,11 @@
 #include "base/folders.h"
 #include "base/hidden.h"
 #include "cli/commands.h"
-#include "conformance/report_figures.h"
-#include "conformance/report_html.h"
-#include "conformance/report_json.h"
-#include "conformance/report_junit.h"
 #include "rainref/error.h"
+#include "reports/figures.h"
+#include "reports/html.h"
+#include "reports/json.h"
+#include "reports/junit.h"
 
 namespace rainref::cli {
 namespace {
@@ -61,7 +61,7 @@ std::string command_text(int argc, const char* const* argv) {
 Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(allow_untested) {
   if (o.baseline) {
     if (o.baseline->empty()) throw Error(ExitCode::usage, "--baseline: expected a file, found ''");
-    baseline_ = conformance::Baseline::read(*o.baseline);
+    baseline_ = reports::Baseline::read(*o.baseline);
   }
   json_ = opened("--json", o.json);
   junit_ = opened("--junit", o.junit);
@@ -90,26 +90,26 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
 void Reports::check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const {
   if (baseline_) baseline_->check(passes, ids);
 }
-void Reports::apply_baseline(conformance::PortJudgement& judgement) const {
+void Reports::apply_baseline(judge::PortJudgement& judgement) const {
   if (baseline_) baseline_->apply(judgement);
 }
 
-void Reports::write(const conformance::PortJudgement& j, const conformance::PageSource& source) {
-  if (html_) finish(html_, conformance::report_html(j, source));
-  if (junit_) finish(junit_, conformance::report_junit(j, allow_untested_));
-  if (json_) finish(json_, conformance::report_json(j, conformance::exit_code(j, allow_untested_)));
+void Reports::write(const judge::PortJudgement& j, const reports::PageSource& source) {
+  if (html_) finish(html_, reports::report_html(j, source));
+  if (junit_) finish(junit_, reports::report_junit(j, allow_untested_));
+  if (json_) finish(json_, reports::report_json(j, reports::exit_code(j, allow_untested_)));
 }
 
 void Reports::write_error(const Error& error, const ValidateRequest& request) {
-  conformance::PortJudgement j;
+  judge::PortJudgement j;
   j.pack = request.pack.string();
   j.port = request.shadow.empty() ? request.port.string() : request.shadow.string();
   j.profile = request.profile;
   j.command = request.command;
   j.reason = error.what();
-  if (html_) finish(html_, conformance::report_html(j, {}));
-  if (junit_) finish(junit_, conformance::report_junit(j, false));
-  if (json_) finish(json_, conformance::report_json(j, static_cast<int>(error.code())));
+  if (html_) finish(html_, reports::report_html(j, {}));
+  if (junit_) finish(junit_, reports::report_junit(j, false));
+  if (json_) finish(json_, reports::report_json(j, static_cast<int>(error.code())));
 }
 
 }  // namespace rainref::cli

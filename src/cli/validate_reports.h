@@ -8,10 +8,10 @@
 
 #include "base/atomic_file.h"
 #include "capture/pack_read.h"
-#include "conformance/report_baseline.h"
-#include "conformance/report_source.h"
-#include "conformance/verdict.h"
+#include "judge/verdict.h"
 #include "rainref/error.h"
+#include "reports/baseline.h"
+#include "reports/source.h"
 
 namespace CLI {
 class App;
@@ -42,16 +42,16 @@ class Reports {
   /// Throws Error(usage) where the baseline names a pass, an output or a case that is not there.
   void check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const;
   /// Lets the listed failures pass. Before write, and before the exit code is taken.
-  void apply_baseline(conformance::PortJudgement& judgement) const;
+  void apply_baseline(judge::PortJudgement& judgement) const;
   /// Writes the files, each under its name only when whole.
-  void write(const conformance::PortJudgement& judgement, const conformance::PageSource& source);
+  void write(const judge::PortJudgement& judgement, const reports::PageSource& source);
   /// When nothing could be judged: the reports say why, so that none of an earlier run stays behind.
   void write_error(const Error& error, const ValidateRequest& request);
 
  private:
   using File = std::unique_ptr<AtomicFile>;
   File json_, junit_, html_;
-  std::optional<conformance::Baseline> baseline_;
+  std::optional<reports::Baseline> baseline_;
   bool allow_untested_;
 };
 

@@ -1,6 +1,6 @@
 // What a conforming GPU may do with a number: the rules by which an enclosure widens.
 //
-// The values that rainref judges by, each with its source, are the data files src/conformance/profiles/*.toml. Their
+// The values that rainref judges by, each with its source, are the data files src/judge/profiles/*.toml. Their
 // keys are the members of Profile; an Accuracy is a table.
 #pragma once
 

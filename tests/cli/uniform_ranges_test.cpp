@@ -14,7 +14,7 @@
 #include "capture/pass_info.h"
 #include "registry/registry.h"
 #include "simulation/opened.h"
-#include "conformance/support.h"
+#include "judge/support.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "source_folder.h"
@@ -22,7 +22,7 @@
 namespace rainref::cli {
 namespace {
 
-using conformance::test::Words;
+using judge::test::Words;
 
 double share(Words& words) { return static_cast<double>(words() >> 11) * 0x1p-53; }
 double drawn(double low, double high, Words& words) {
@@ -103,7 +103,7 @@ TEST_P(UniformRanges, HoldWhateverASceneMaySay) {
   Words words(7);
   int passes = 0, built = 0;
   std::set<std::string> faults;
-  const std::int64_t rounds = conformance::test::count_from("RAINREF_SCENES", 30);
+  const std::int64_t rounds = judge::test::count_from("RAINREF_SCENES", 30);
   for (std::int64_t round = 0; round < rounds; ++round) {
     std::vector<std::string> overrides = always;
     // A frame of a whole second may take 100 000 steps of the wave: one of them is enough.

@@ -5,7 +5,7 @@
 
 #include "cli/support.h"
 #include "cli/validate_reports.h"
-#include "conformance/example_judgement.h"
+#include "reports/example_judgement.h"
 
 namespace rainref::cli {
 namespace {
@@ -19,11 +19,11 @@ using testing::StartsWith;
 class ValidateReports : public CommandLine {
  protected:
   ValidateReports() {
-    std::filesystem::copy(conformance::small_pack("puddle-corrected"), folder / "pack", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(reports::small_pack("puddle-corrected"), folder / "pack", std::filesystem::copy_options::recursive);
     const capture::Pack pack(folder / "pack");
-    conformance::write_port(pack, folder / "good");
-    conformance::write_port(pack, folder / "bad", [](const capture::PackCase& c, const std::string&, capture::Array& a) {
-      if (c.pass == "shade") conformance::flip_rows(a);
+    reports::write_port(pack, folder / "good");
+    reports::write_port(pack, folder / "bad", [](const capture::PackCase& c, const std::string&, capture::Array& a) {
+      if (c.pass == "shade") reports::flip_rows(a);
     });
     before = folder.names();
   }

@@ -17,12 +17,14 @@
 #include "capture/manifest_write.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
-#include "conformance/judge.h"
-#include "conformance/judge_pass.h"
-#include "registry/registry.h"
-#include "conformance/shadow.h"
-#include "conformance/validate.h"
+#include "faults/diagnose.h"
+#include "faults/mutate.h"
 #include "fuzz/pack_edits.h"
+#include "judge/judge_pass.h"
+#include "registry/registry.h"
+#include "judge/reference_outputs.h"
+#include "judge/shadow.h"
+#include "judge/validate.h"
 #include "rainref/error.h"
 #include "source_folder.h"
 
@@ -107,15 +109,15 @@ inline bool settle(const Base& base, capture::PassCase& c) {
   try {
     capture::check_case(*effect.info, effect.parameters, c);
     if (!capture::uniform_fault(*effect.info, c).empty() || !capture::record_fault(c).empty()) return false;
-    const capture::PassEvaluations* evaluations = conformance::evaluations_of(base.effect, c.pass);
+    const capture::PassEvaluations* evaluations = judge::evaluations_of(base.effect, c.pass);
     const bool is_data =
         std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; });
     if (!evaluations || is_data) return true;
     std::vector<capture::Array> expected;
-    const std::unique_ptr<capture::PassModel> model = conformance::bound(c.pass, evaluations->bind, c);
+    const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, evaluations->bind, c);
     if (model) {
       const parallel::Executor executor(1);
-      expected = conformance::reference_outputs(c, *model, executor);
+      expected = judge::reference_outputs(c, *model, executor);
     } else if (evaluations->recompute) {
       expected = evaluations->recompute(c);
     }
@@ -187,20 +189,21 @@ inline bool judge_pack(Bytes bytes) {
   }
 
   static const parallel::Executor executor(1);
-  conformance::ValidateOptions options;
+  judge::ValidateOptions options;
   options.executor = &executor;
+  options.explain = faults::diagnose;
   options.profile = p.one_of(std::vector<std::string>{"vulkan", "ieee", "webgpu", "d3d", "cuda", "metal"});
   return is_taken([&] {
     const capture::Pack opened(pack.root());
     if (verb == 0) {
-      conformance::validate(opened, port.root(), options);
+      judge::validate(opened, port.root(), options);
     } else if (verb == 1) {
-      conformance::mutate(opened, options, 9);
+      faults::mutate(opened, options, 9);
     } else {
-      const conformance::ShadowPlan plan = conformance::ShadowPlan::of_manifest(opened, false);
+      const judge::ShadowPlan plan = judge::ShadowPlan::of_manifest(opened, false);
       std::vector<std::string> passes;
       for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
-      conformance::shadow(plan, port.root(), conformance::dumped_runs(port.root(), plan.effect, passes), options);
+      judge::shadow(plan, port.root(), judge::dumped_runs(port.root(), plan.effect, passes), options);
     }
   });
 }

@@ -1,4 +1,4 @@
-// The profiles of src/conformance/profiles for tests: a reader of exactly the TOML that those files use. A line is a
+// The profiles of src/judge/profiles for tests: a reader of exactly the TOML that those files use. A line is a
 // comment, `key = value` or `key = {key = value, ..., source = "text"}`. Anything else fails the test that asked.
 #pragma once
 
@@ -49,7 +49,7 @@ inline enclosed::Profile read_profile(const std::string& name) {
   const std::map<std::string, StoreOverflow> overflows{
       {"\"inf\"", StoreOverflow::inf}, {"\"max\"", StoreOverflow::max}, {"\"either\"", StoreOverflow::either}};
 
-  const std::string path = rainref::test::source_folder() + "/src/conformance/profiles/" + name + ".toml";
+  const std::string path = rainref::test::source_folder() + "/src/judge/profiles/" + name + ".toml";
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   const std::regex top("(\\w+) = (\"\\w+\"|true|false)"), entry("(\\w+) = \\{(.*), source = \"[^\"]{4,}\"\\}");

@@ -1,7 +1,7 @@
 // The WGSL port of display, run by a headless Chromium's WebGPU on its software adapter, and judged under `webgpu`.
-#include "conformance/browser.h"
 #include "ports/runner/npy.h"
 #include "ports/support.h"
+#include "reports/browser.h"
 
 namespace rainref::ports {
 namespace {

@@ -131,10 +131,13 @@ std::string broken_link(const fs::path& document, const std::string& link) {
 
 /// The verbs of the command line, from its own source.
 std::set<std::string> verbs() {
-  const std::string source = text_of(root / "src/cli/cli.cpp");
   std::set<std::string> found{"help"};
   const std::regex verb("add_subcommand\\(\"([a-z]+)\"");
-  for (std::sregex_iterator i(source.begin(), source.end(), verb), end; i != end; ++i) found.insert((*i)[1]);
+  for (const auto& file : fs::directory_iterator(root / "src/cli")) {
+    if (!file.is_regular_file()) continue;
+    const std::string source = text_of(file.path());
+    for (std::sregex_iterator i(source.begin(), source.end(), verb), end; i != end; ++i) found.insert((*i)[1]);
+  }
   return found;
 }
 /// The words behind `rainref` in code, blocks and spans alike.

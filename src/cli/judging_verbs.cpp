@@ -1,0 +1,154 @@
+// The verbs that judge: ports, and packs.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/commands.h"
+#include "cli/option_values.h"
+#include "cli/scene_flags.h"
+#include "cli/verbs.h"
+#include "judge/profiles.h"
+#include "rainref/error.h"
+#include "rainref/executor.h"
+
+namespace rainref::cli {
+namespace {
+
+void add_profile(CLI::App& verb, std::string& profile) {
+  verb.add_option("--profile", profile,
+                  fmt::format("What the port's API allows: {} (default: vulkan)", fmt::join(judge::profile_names(), ", ")))
+      ->type_name("NAME");
+}
+void add_threads(CLI::App& verb, std::optional<std::string>& threads) {
+  verb.add_option("--threads", threads, "Threads; the result does not depend on them")->type_name("N");
+}
+int threads_of(const std::optional<std::string>& text) {
+  return text ? whole_number(*text, "--threads", 1, parallel::Executor::max_threads) : 0;
+}
+
+struct ValidateFlags {
+  ValidateRequest request;
+  std::string pack, port;
+  SceneFlags scene;  // of --shadow
+  std::optional<std::string> shadow, exec, timeout, repeat, threads;
+};
+
+void add_validate_options(CLI::App& verb, ValidateFlags& f) {
+  verb.add_option("PACK", f.pack, "Folder of the pack; with --shadow the scene that the port ran")->type_name("DIR");
+  verb.add_option("--port", f.port, "Folder with the port's outputs, laid out as the pack")->type_name("DIR");
+  verb.add_option("--exec", f.exec,
+                  "Run the port first: a shell command with {pack} and {out} (or $RAINREF_PACK and $RAINREF_OUT), which becomes a new "
+                  "folder or that of --port")
+      ->type_name("COMMAND");
+  verb.add_option("--timeout", f.timeout, "Seconds that the command may take (default: 600)")->type_name("SECONDS");
+  verb.add_option("--repeat", f.repeat, "Run the command so often and look for races")->type_name("N");
+  verb.add_option("--shadow", f.shadow, "Judge the dumps of a port's own run, inputs and outputs of each pass, one step at a time")
+      ->type_name("DIR");
+  verb.add_option("--size", f.scene.size, "With --shadow and a scene: its picture size, WxH")->type_name("WxH");
+  verb.add_option("--set", f.scene.set, "With --shadow and a scene: override one of its values, key=value")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  add_profile(verb, f.request.profile);
+  verb.add_option("--only", f.request.only, "Judge this pass alone")->type_name("PASS");
+  verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
+  add_threads(verb, f.threads);
+  add_report_options(verb, f.request.reports);
+  for (CLI::Option* option : verb.get_options([](const CLI::Option* o) { return o->get_type_name() == "TEXT"; })) option->type_name("FILE");
+  verb.footer(
+      "Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} "
+      "{out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
+}
+
+bool changes_scene(const ValidateFlags& f) { return f.scene.size || !f.scene.set.empty(); }
+
+/// A port's own run: PACK is the scene that it ran, or empty.
+void ask_for_shadow(const ValidateFlags& f, ValidateRequest& request) {
+  require_text(*f.shadow, "--shadow", "a folder");
+  if (f.exec || !f.port.empty()) throw Error(ExitCode::usage, fmt::format("{}: does not go with --shadow", f.exec ? "--exec" : "--port"));
+  if (f.pack.empty() && changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: expected the scene that they change");
+  if (std::error_code ignored; std::filesystem::is_directory(f.pack, ignored)) {
+    throw Error(ExitCode::usage, fmt::format("--shadow: expected the scene that the port ran, found the folder '{}'; a manifest.json "
+                                             "beside the dumps would serve as well",
+                                             f.pack));
+  }
+  request.shadow = *f.shadow;
+  SceneFlags scene = f.scene;
+  scene.scene = f.pack;
+  request.scene = resolve(scene);
+}
+
+/// The outputs for a pack need the pack and what wrote them.
+void require_pack_and_port(const ValidateFlags& f) {
+  if (f.pack.empty()) throw Error(ExitCode::usage, "validate: expected the folder of a PACK, or --shadow DIR");
+  if (changes_scene(f)) throw Error(ExitCode::usage, "--set and --size: go with --shadow and a scene only");
+  if (!f.exec && f.port.empty()) throw Error(ExitCode::usage, "validate: expected --port DIR, or --exec COMMAND, which runs the port");
+}
+
+/// The port's own command, how long each run of it may take, and how many there are.
+void ask_for_command(const ValidateFlags& f, ValidateRequest& request) {
+  if (!f.exec && (f.timeout || f.repeat))
+    throw Error(ExitCode::usage, fmt::format("{}: goes with --exec only", f.timeout ? "--timeout" : "--repeat"));
+  if (!f.exec) return;
+  request.exec = *f.exec;
+  require_text(request.exec, "--exec", "a command");
+  const bool has_out = f.exec->find("{out}") != std::string::npos || f.exec->find("RAINREF_OUT") != std::string::npos;
+  if (!has_out && f.port.empty()) {
+    throw Error(
+        ExitCode::usage,
+        "--exec: expected {out} or $RAINREF_OUT in the command, where the port's outputs go; or --port, the folder that it writes to");
+  }
+  if (f.timeout) request.timeout_s = whole_number(*f.timeout, "--timeout", 1, 1000000);
+  if (f.repeat) request.repeat = whole_number(*f.repeat, "--repeat", 1, 1000);
+  if (request.repeat > 1 && !has_out)
+    throw Error(ExitCode::usage, "--repeat: expected {out} or $RAINREF_OUT in the command: each run has a folder of its own");
+}
+
+}  // namespace
+
+Verb validate_verb(CLI::App& app, const std::string& command) {
+  CLI::App& verb = *app.add_subcommand("validate", "Judge a GPU port's outputs against a pack");
+  const auto f = std::make_shared<ValidateFlags>();
+  add_validate_options(verb, *f);
+  return {&verb, [f, command] {
+            ValidateRequest request = f->request;
+            if (f->shadow)
+              ask_for_shadow(*f, request);
+            else
+              require_pack_and_port(*f);
+            ask_for_command(*f, request);
+            request.pack = f->pack;
+            request.port = f->port;
+            request.threads = threads_of(f->threads);
+            request.command = command;
+            return validate(request);
+          }};
+}
+
+Verb mutate_verb(CLI::App& app) {
+  struct Flags {
+    MutateRequest request;
+    std::string pack;
+    std::optional<std::string> threads;
+  };
+  CLI::App& verb = *app.add_subcommand("mutate", "Which porting bugs a pack would catch");
+  const auto f = std::make_shared<Flags>();
+  verb.add_option("PACK", f->pack, "Folder of the pack")->type_name("DIR")->required();
+  add_profile(verb, f->request.profile);
+  verb.add_option("--only", f->request.only, "Of this pass alone")->type_name("PASS");
+  verb.add_flag("--all", f->request.all, "List every deviation, not only those missed");
+  add_threads(verb, f->threads);
+  verb.footer("Example: rainref mutate out/pack --profile vulkan");
+  return {&verb, [f] {
+            MutateRequest request = f->request;
+            request.pack = f->pack;
+            request.threads = threads_of(f->threads);
+            return mutate(request);
+          }};
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,46 @@
+#include "cli/option_values.h"
+
+#include <algorithm>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
+namespace rainref::cli {
+
+int whole_number(const std::string& text, const char* option, int low, int high) {
+  std::size_t used = 0;
+  long value = 0;
+  try {
+    value = std::stol(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used != text.size() || text.empty() || value < low || value > high) {
+    throw Error(ExitCode::usage, fmt::format("{}: expected a whole number from {} to {}, found '{}'", option, low, high, text));
+  }
+  return static_cast<int>(value);
+}
+
+std::vector<std::string> list_of(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+void require_word(const std::string& text, const char* option, const char* expected, const std::vector<std::string>& words) {
+  if (std::find(words.begin(), words.end(), text) != words.end()) return;
+  throw Error(ExitCode::usage, fmt::format("{}: expected {}, found '{}'{}", option, expected, text, did_you_mean(text, words)));
+}
+
+void require_text(const std::string& text, const char* option, const char* expected) {
+  if (text.empty()) throw Error(ExitCode::usage, fmt::format("{}: expected {}, found ''", option, expected));
+}
+
+}  // namespace rainref::cli

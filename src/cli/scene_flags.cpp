@@ -1,0 +1,42 @@
+#include "cli/scene_flags.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/option_values.h"
+#include "math/simd_target.h"
+#include "rainref/error.h"
+#include "rainref/executor.h"
+
+namespace rainref::cli {
+
+void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
+  verb.add_option("SCENE", flags.scene, "Scene file (TOML)")->type_name("FILE")->required();
+  if (with_frames) verb.add_option("--frames", flags.frames, "Number of frames")->type_name("N");
+  verb.add_option("--size", flags.size, "Picture size, WxH")->type_name("WxH");
+  verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them")->type_name("N");
+  verb.add_option("--simd", flags.simd, "SIMD target; the result does not depend on it (see `rainref list`)")->type_name("TARGET");
+  verb.add_option("--set", flags.set, "Override a scene value: key=value")->type_name("KEY=VALUE")->allow_extra_args(false);
+}
+
+SceneOptions resolve(const SceneFlags& flags) {
+  SceneOptions options;
+  options.scene = flags.scene;
+  options.overrides = flags.set;
+  if (flags.frames) options.overrides.push_back(fmt::format("run.frames={}", whole_number(*flags.frames, "--frames", 1, 1000000)));
+  if (flags.size) {
+    const std::string& size = *flags.size;
+    const std::size_t x = size.find_first_of("xX");
+    if (x == std::string::npos) throw Error(ExitCode::usage, fmt::format("--size: expected WxH such as 1280x720, found '{}'", size));
+    options.overrides.push_back(fmt::format("run.size=[{}, {}]", whole_number(size.substr(0, x), "--size", 1, 65536),
+                                            whole_number(size.substr(x + 1), "--size", 1, 65536)));
+  }
+  if (flags.threads) options.threads = whole_number(*flags.threads, "--threads", 1, parallel::Executor::max_threads);
+  if (flags.simd && flags.simd->empty())
+    throw Error(ExitCode::usage, fmt::format("--simd: expected one of {}, found ''", fmt::join(simd_targets(), ", ")));
+  select_simd_target(flags.simd.value_or(""));
+  return options;
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,129 @@
+#include "cli/verbs.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+#include "cli/option_values.h"
+#include "cli/scene_flags.h"
+
+// What the parser writes to lives as long as what runs the verb.
+namespace rainref::cli {
+
+Verb list_verb(CLI::App& app) {
+  CLI::App& verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
+  const auto json = std::make_shared<bool>(false);
+  verb.add_flag("--json", *json, "As JSON");
+  verb.footer("Example: rainref list --json");
+  return {&verb, [json] { return list(*json); }};
+}
+
+Verb describe_verb(CLI::App& app) {
+  struct Flags {
+    std::string effect;
+    bool json = false;
+    LayoutRequest layout;
+  };
+  CLI::App& verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
+  const auto f = std::make_shared<Flags>();
+  verb.add_option("EFFECT", f->effect, "Effect")->type_name("NAME")->required();
+  verb.add_flag("--json", f->json, "As JSON");
+  verb.add_option("--layout", f->layout.language, "Uniform blocks, records and lists ready to paste: c, glsl, hlsl, wgsl or cuda")
+      ->type_name("LANGUAGE");
+  verb.add_option("--pass", f->layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
+  verb.add_option("--variant", f->layout.variant, "With --layout: in this variant alone")->type_name("NAME");
+  verb.footer("Example: rainref describe puddle --layout glsl --pass wave_step --variant corrected");
+  return {&verb, [f] { return describe(f->effect, f->json, f->layout); }};
+}
+
+Verb run_verb(CLI::App& app) {
+  struct Flags {
+    SceneFlags scene;
+    RunOptions options;
+    std::string image = "png";
+    std::optional<std::string> output, every, captured;
+  };
+  CLI::App& verb = *app.add_subcommand("run", "Simulate and render a scene");
+  const auto f = std::make_shared<Flags>();
+  add_scene_flags(verb, f->scene);
+  verb.add_option("-o,--output", f->output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)")->type_name("DIR");
+  verb.add_option("--image", f->image, "Pictures to write: exr, png, both or none")->type_name("KIND");
+  verb.add_option("--every", f->every, "Write every K-th frame (default: the last frame only)")->type_name("K");
+  verb.add_option("--capture", f->captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")
+      ->type_name("WHAT");
+  verb.add_flag("--compare-truth", f->options.compare_truth,
+                "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
+  verb.add_flag("--json", f->options.json, "Print the summary as JSON");
+  verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
+  return {&verb, [f] {
+            require_word(f->image, "--image", "exr, png, both or none", {"exr", "png", "both", "none"});
+            RunOptions options = f->options;
+            options.png = f->image == "png" || f->image == "both";
+            options.exr = f->image == "exr" || f->image == "both";
+            if (f->output) require_text(*f->output, "--output", "a folder");
+            options.output = f->output.value_or("");
+            if (f->every) options.every = whole_number(*f->every, "--every", 1, 1000000);
+            if (f->captured) {
+              require_word(*f->captured, "--capture", "passes or all", {"passes", "all"});
+              options.capture = *f->captured == "all" ? RunOptions::all : RunOptions::passes;
+            }
+            options.scene = resolve(f->scene);
+            return run(options);
+          }};
+}
+
+Verb hash_verb(CLI::App& app) {
+  CLI::App& verb = *app.add_subcommand("hash", "Hash every buffer that every pass writes");
+  const auto scene = std::make_shared<SceneFlags>();
+  add_scene_flags(verb, *scene);
+  verb.footer("Example: rainref hash scenes/puddle/default.toml --frames 60 --threads 2 --simd avx2");
+  return {&verb, [scene] { return hash(resolve(*scene)); }};
+}
+
+Verb pack_verb(CLI::App& app) {
+  struct Flags {
+    SceneFlags scene;
+    std::string output, at = "0,1,12";
+    std::optional<std::string> passes;
+  };
+  CLI::App& verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
+  const auto f = std::make_shared<Flags>();
+  add_scene_flags(verb, f->scene, false);
+  verb.add_option("-o,--output", f->output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
+  verb.add_option("--at", f->at, "Frames to take, such as 0,1,12")->type_name("LIST");
+  verb.add_option("--passes", f->passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
+  verb.footer("Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack");
+  return {&verb, [f] {
+            PackOptions options;
+            require_text(f->output, "--output", "a folder");
+            options.output = f->output;
+            for (const std::string& frame : list_of(f->at)) options.frames.push_back(whole_number(frame, "--at", 0, 1000000));
+            std::sort(options.frames.begin(), options.frames.end());
+            if (f->passes) options.passes = list_of(*f->passes);
+            options.scene = resolve(f->scene);
+            return pack(options);
+          }};
+}
+
+Verb diff_verb(CLI::App& app) {
+  struct Flags {
+    std::string a, b;
+  };
+  CLI::App& verb = *app.add_subcommand("diff", "The first difference between two captures or packs");
+  const auto f = std::make_shared<Flags>();
+  verb.add_option("A", f->a, "Folder of a capture or pack")->type_name("DIR")->required();
+  verb.add_option("B", f->b, "Folder of another")->type_name("DIR")->required();
+  verb.footer("Example: rainref diff out/a/capture out/b/capture");
+  return {&verb, [f] { return diff(f->a, f->b); }};
+}
+
+Verb selftest_verb(CLI::App& app) {
+  CLI::App& verb = *app.add_subcommand("selftest", "Prove determinism on this machine, in seconds");
+  verb.footer("Example: rainref selftest");
+  return {&verb, [] { return selftest(); }};
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,30 @@
+// Each verb as the command line has it: its options, and what runs it with them.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace rainref::cli {
+
+struct Verb {
+  const CLI::App* parser;
+  std::function<int()> run;  ///< after parsing: the exit code, or Error
+};
+
+// Each declares one verb with its options.
+Verb list_verb(CLI::App& app);
+Verb describe_verb(CLI::App& app);
+Verb run_verb(CLI::App& app);
+Verb hash_verb(CLI::App& app);
+Verb pack_verb(CLI::App& app);
+Verb diff_verb(CLI::App& app);
+/// `command`: as typed, for the reports.
+Verb validate_verb(CLI::App& app, const std::string& command);
+Verb mutate_verb(CLI::App& app);
+Verb selftest_verb(CLI::App& app);
+
+}  // namespace rainref::cli

@@ -1,0 +1,75 @@
+// The named deviations: realistic mistakes of a port, made on the reference evaluation rather than in copies of a pass.
+// `mutate` asks which of them a pack would catch; the diagnosis asks which of them gives a port's failing bits.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capture/pack_read.h"
+#include "capture/pass_model.h"
+#include "judge/evaluations.h"
+#include "judge/slots.h"
+#include "judge/verdict.h"
+
+namespace rainref::faults {
+
+/// The records of a keyed list, one by one.
+using Records = std::vector<std::vector<std::byte>>;
+/// What a mistake in a list works on.
+struct ListEdit {
+  Records records;                ///< as the reference gives them, in the order of slots
+  std::vector<std::uint32_t> at;  ///< ids that a mistake of few records happens to; empty: some that show it
+  const Records* port = nullptr;  ///< what a port stored, for a mistake that is fitted to it
+};
+
+struct Deviation {
+  std::string name, sentence;
+  perturbed::Behaviour behaviour;                      ///< what the arithmetic does
+  std::function<void(capture::PassCase&)> alter_case;  ///< what the pass takes; null: as captured
+  std::function<bool(const capture::PassCase&, std::vector<capture::Array>&)>
+      alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
+  std::function<bool(const capture::PassCase&, ListEdit&)> alter_list;  ///< likewise from the finished list `list_output`
+  int list_output = -1;
+  std::optional<judge::HalfMode> stores;  ///< how halves are stored, whatever was declared
+  bool legal = false;                     ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool for_diagnosis = false;             ///< asked by the diagnosis only: `mutate` has enough of its kind
+
+  bool is_evaluated() const { return !alter_outputs && !alter_list; }
+};
+
+/// All deviations of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of finished buffers and lists.
+/// `before` is the run of the same pass before this one, or null.
+std::vector<Deviation> deviations_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
+                                     const capture::PassCase* before);
+
+struct Texel {
+  int x, y;
+};
+
+/// What a deviation stores at some texels. Applied once, asked texel by texel.
+class DeviatedPass {
+ public:
+  /// `finished`: what the reference gives, its halves stored by `mode`. The case and the deviation must outlive it. Throws
+  /// Error when the altered case cannot be bound.
+  DeviatedPass(const Deviation& deviation, const capture::PassCase& c, judge::Bind bind, const capture::PassModel& model,
+               judge::HalfMode mode, const std::vector<capture::Array>& finished);
+  bool applies() const { return applies_; }
+  /// Writes the texel's stored bytes into `out`, arrays like c.outputs.
+  void store(Texel at, std::vector<capture::Array>& out) const;
+
+ private:
+  const Deviation& deviation_;
+  const capture::PassCase& case_;
+  const capture::PassModel& model_;
+  judge::HalfMode mode_;
+  capture::PassCase altered_;
+  std::unique_ptr<capture::PassModel> altered_model_;
+  std::vector<capture::Array> finished_;
+  std::vector<judge::Slot> slots_;
+  bool applies_ = true;
+};
+
+}  // namespace rainref::faults

@@ -1,0 +1,29 @@
+// Why a port fails: which single mistake gives what it stored where it fails.
+#pragma once
+
+#include <vector>
+
+#include "capture/pack_read.h"
+#include "judge/judge_pass.h"
+
+namespace rainref::faults {
+
+/// What explains a failing run, best first; empty when nothing explains any of it. A wrong list is behind what is wrong in
+/// an image that goes with it, so lists are asked first. Serves as judge::ValidateOptions::explain.
+std::vector<judge::Cause> diagnose(const judge::FailedRun& failed);
+
+/// What explains the failing texels of a case, best first; empty when nothing explains any.
+std::vector<judge::Cause> diagnose_texels(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
+                                          judge::Bind bind, const capture::PassModel& model, const std::vector<capture::Array>& port,
+                                          const judge::CaseJudgement& judgement, const enclosed::Profile& profile, judge::HalfMode mode,
+                                          const parallel::Executor& executor);
+
+/// The same for the lists of a case that are matched by id: what explains the failing ids. `model` may be null.
+std::vector<judge::Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
+                                         const capture::PassModel* model, const std::vector<capture::Array>& port,
+                                         const enclosed::Profile& profile, const parallel::Executor& executor);
+
+/// The three best of them, of those that explain enough.
+std::vector<judge::Cause> best_causes(std::vector<judge::Cause> causes);
+
+}  // namespace rainref::faults

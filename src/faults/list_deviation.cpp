@@ -1,0 +1,95 @@
+// Lists of records taken apart and put together, and what a mistake makes of one.
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include "faults/list_faults.h"
+#include "judge/keyed.h"
+
+namespace rainref::faults {
+
+using capture::Array;
+using capture::PassCase;
+using judge::keyed_outputs;
+
+namespace {
+
+/// Beyond so many records a case with other inputs or uniforms is not tried: a radius that is too large makes one group of all.
+constexpr int most_for_altered_cases = 4096;
+
+}  // namespace
+
+Records records_of(const Array& list) {
+  const std::size_t size = list.record.size;
+  Records out;
+  for (auto at = list.levels[0].begin(); at != list.levels[0].end(); at += static_cast<std::ptrdiff_t>(size))
+    out.emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+  return out;
+}
+Array array_of(const Records& records, const Array& like) {
+  Array out = like;
+  out.width = static_cast<int>(records.size());
+  out.levels.assign(1, {});
+  for (const auto& r : records) out.levels[0].insert(out.levels[0].end(), r.begin(), r.end());
+  return out;
+}
+std::uint32_t id_of(const std::vector<std::byte>& record, const scene::UniformBlock& layout) {
+  const auto key = std::find_if(layout.members.begin(), layout.members.end(), [](const scene::Member& m) { return m.name == "id"; });
+  std::uint32_t id;
+  std::memcpy(&id, &record[key->offset], sizeof id);
+  return id;
+}
+
+std::vector<float> constants_of_lists(const capture::PassModel& model, const PassCase& c) {
+  std::vector<float> out;
+  for (const std::size_t o : keyed_outputs(c)) {
+    const capture::KeyedModel* keyed = model.keyed(c.outputs[o].name);
+    if (!keyed) continue;
+    std::vector<float> met;
+    perturbed::Behaviour collecting;
+    collecting.constants = &met;
+    const perturbed::Scope scope(collecting);
+    if (!keyed->perturbed()) continue;
+    std::map<float, int> counts;
+    for (const float v : met) ++counts[v];
+    for (const auto& [v, count] : counts)
+      if (2 * count >= c.outputs[o].array.width) out.push_back(v);
+  }
+  return out;
+}
+
+std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::size_t output, const capture::PassEvaluations& evaluations,
+                                   const capture::PassModel* model, const Array& finished, const std::vector<std::uint32_t>& at,
+                                   const Records* port) {
+  if (d.alter_list) {
+    if (d.list_output != static_cast<int>(output)) return std::nullopt;
+    ListEdit edit{records_of(finished), at, port};
+    if (!d.alter_list(c, edit)) return std::nullopt;
+    return array_of(edit.records, finished);
+  }
+  if (d.alter_outputs || d.stores) return std::nullopt;
+  PassCase altered;
+  std::unique_ptr<capture::PassModel> altered_model;
+  if (d.alter_case) {
+    if (finished.width > most_for_altered_cases) return std::nullopt;
+    altered = c;
+    d.alter_case(altered);
+    if (!evaluations.bind) {
+      if (!evaluations.recompute) return std::nullopt;
+      return evaluations.recompute(altered)[output];
+    }
+    altered_model = evaluations.bind(altered);
+    model = altered_model.get();
+  }
+  const capture::KeyedModel* keyed = model ? model->keyed(c.outputs[output].name) : nullptr;
+  if (!keyed) return std::nullopt;
+  const perturbed::Scope scope(d.behaviour);
+  const auto bytes = keyed->perturbed();
+  if (!bytes) return std::nullopt;
+  Array out = finished;
+  out.width = static_cast<int>(bytes->size() / finished.record.size);
+  out.levels = {*bytes};
+  return out;
+}
+
+}  // namespace rainref::faults

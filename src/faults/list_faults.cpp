@@ -1,0 +1,209 @@
+#include "faults/list_faults.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "faults/list_adder.h"
+#include "judge/keyed.h"
+#include "math/half.h"
+
+namespace rainref::faults {
+namespace {
+
+using capture::PassCase;
+using judge::keyed_outputs;
+using scene::Member;
+
+// ---- ids and slots -------------------------------------------------------------------------------------------------
+/// Gives the failing ids the records that the port has for them, as far as these are among the right ones.
+void permute_as_port(const List& list, ListEdit& e) {
+  std::vector<std::size_t> places;
+  for (const std::uint32_t id : e.at)
+    if (const std::size_t place = list.place(e.records, id); place < e.records.size()) places.push_back(place);
+  const Records right = e.records;
+  const auto apart = [&](const std::vector<std::byte>& a, const std::vector<std::byte>& b) {
+    double sum = 0;
+    for (const Member& m : list.fields)
+      for (int k = 0; k < m.components; ++k) {
+        const std::size_t at = m.offset + 4 * static_cast<std::size_t>(k);
+        const double x = m.scalar == scene::Scalar::float32 ? float_at(a, at) : word_at(a, at),
+                     y = m.scalar == scene::Scalar::float32 ? float_at(b, at) : word_at(b, at);
+        const double scale = std::max(std::abs(x), std::abs(y));
+        if (x != y) sum += scale > 0 ? std::abs(x - y) / scale : 0;
+      }
+    return sum;
+  };
+  std::set<std::size_t> free(places.begin(), places.end());
+  for (const std::size_t place : places) {
+    const std::uint32_t id = list.id_of(right[place]);
+    const std::size_t theirs = list.place(*e.port, id);
+    if (theirs == e.port->size() || free.empty()) continue;
+    std::size_t best = *free.begin();
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t p : free) {
+      const double far = apart(right[p], (*e.port)[theirs]);
+      if (far < least) least = far, best = p;
+    }
+    free.erase(best);
+    e.records[place] = right[best];
+    list.set_id(e.records[place], id);
+  }
+}
+
+void add_orders(Adder& a) {
+  a.add("in another order", "slots are filled in another order: records are matched by id", [](const List&, const PassCase&, ListEdit& e) {
+     std::reverse(e.records.begin(), e.records.end());
+     return e.records.size() > 1;
+   }).legal = true;
+  a.add("under permuted ids", "the records are right, under each other's ids: keys and fields are sorted or compacted apart",
+        [](const List& list, const PassCase&, ListEdit& e) {
+          constexpr std::size_t most = 1024;  // each is compared with each
+          if (e.port) {
+            if (e.at.size() > most) return false;
+            permute_as_port(list, e);
+            return true;
+          }
+          Ids ids;
+          for (const auto& r : e.records) ids.push_back(list.id_of(r));
+          for (std::size_t i = 0; i < e.records.size(); ++i) list.set_id(e.records[i], ids[ids.size() - 1 - i]);
+          return e.records.size() > 1;
+        });
+  for (const std::size_t by : {1, -1}) {
+    Deviation& d = a.add(by == 1 ? "one slot off" : "one slot off, other way", "an id has the fields of the slot beside it",
+                         [by](const List& list, const PassCase&, ListEdit& e) {
+                           const Records right = e.records;
+                           const std::size_t n = right.size();
+                           for (std::size_t i = 0; i < n; ++i) {
+                             e.records[i] = right[(i + n + by) % n];
+                             list.set_id(e.records[i], list.id_of(right[i]));
+                           }
+                           return n > 1;
+                         });
+    d.for_diagnosis = by != 1;
+  }
+  a.add("with ids one too large", "ids count from 1, or the id is taken after the counter was raised",
+        [](const List& list, const PassCase&, ListEdit& e) {
+          for (auto& r : e.records) list.set_id(r, list.id_of(r) + 1);
+          return !e.records.empty();
+        });
+  a.add("without its last record", "the dispatch is one short", [](const List&, const PassCase&, ListEdit& e) {
+    if (e.records.empty()) return false;
+    e.records.pop_back();
+    return true;
+  });
+  a.add("without the last partial workgroup", "records beyond the last whole workgroup of 64 are not written",
+        [](const List&, const PassCase&, ListEdit& e) {
+          const std::size_t whole = e.records.size() / 64 * 64;
+          const bool some = whole < e.records.size();
+          e.records.resize(whole);
+          return some;
+        });
+  a.add("not written", "the list stays empty", [](const List&, const PassCase&, ListEdit& e) {
+    const bool some = !e.records.empty();
+    e.records.clear();
+    return some;
+  });
+}
+
+// ---- fields --------------------------------------------------------------------------------------------------------
+void add_fields(Adder& a, bool has_input) {
+  for (const Member& m : a.list().fields) {
+    for (const std::size_t by : {1, -1}) {
+      Deviation& d = a.add(fmt::format("with the {} of the {} slot", m.name, by == 1 ? "next" : "previous"),
+                           fmt::format("{} is read or written one slot off", m.name), [m, by](const List&, const PassCase&, ListEdit& e) {
+                             const Records right = e.records;
+                             const std::size_t n = right.size();
+                             for (std::size_t i = 0; i < n; ++i) copy_member(m, right[(i + n + by) % n], e.records[i]);
+                             return n > 1;
+                           });
+      d.for_diagnosis = by != 1;
+    }
+    if (has_input) {
+      a.add(fmt::format("with stale {}", m.name), fmt::format("{} is that of before the pass", m.name),
+            [m](const List& list, const PassCase& c, ListEdit& e) {
+              const auto before = list.taken(c);
+              for (auto& r : e.records)
+                if (const auto old = before.find(list.id_of(r)); old != before.end()) copy_member(m, old->second, r);
+              return true;
+            });
+    }
+    if (m.scalar != scene::Scalar::float32) continue;
+    a.add(fmt::format("without {}", m.name), fmt::format("{} is not stored", m.name), [m](const List&, const PassCase&, ListEdit& e) {
+       for (auto& r : e.records) each_float(m, r, [](float, int) { return 0.0f; });
+       return true;
+     }).for_diagnosis = true;
+    for (int k = 0; k < m.components; ++k) {
+      const std::string part = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
+      a.add(fmt::format("with {} negated", part), fmt::format("{} has the other sign: the axis points the other way", part),
+            [m, k](const List&, const PassCase&, ListEdit& e) {
+              for (auto& r : e.records) each_float(m, r, [k](float f, int at) { return at == k && f != 0 ? -f : f; });
+              return true;
+            });
+    }
+    if (m.components > 1) {
+      a.add(fmt::format("with the components of {} exchanged", m.name), fmt::format("x and y of {} are exchanged", m.name),
+            [m](const List&, const PassCase&, ListEdit& e) {
+              for (auto& r : e.records) {
+                const std::vector<std::byte> right = r;
+                each_float(m, r,
+                           [&](float f, int at) { return at < 2 ? float_at(right, m.offset + 4 * static_cast<std::size_t>(1 - at)) : f; });
+              }
+              return true;
+            });
+    }
+  }
+  a.add("through half", "the fields have half precision", [](const List& list, const PassCase&, ListEdit& e) {
+    for (auto& r : e.records)
+      for (const Member& m : list.fields)
+        if (m.scalar == scene::Scalar::float32) each_float(m, r, [](float f, int) { return to_float(to_half(f)); });
+    return true;
+  });
+}
+
+// ---- time ----------------------------------------------------------------------------------------------------------
+void add_times(std::vector<Deviation>& out, Adder& a, const PassCase& c, bool has_input, const PassCase* before) {
+  const std::string name = a.list().name;
+  if (has_input) {
+    a.add("one step late", "the list is that of before the pass: a missing swap or a stale binding",
+          [](const List& list, const PassCase& taken, ListEdit& e) {
+            const capture::CaseInput* in = taken.input(list.name);
+            e.records = records_of(in->array);
+            return true;
+          });
+    Deviation twice;
+    twice.name = fmt::format("{} one step early", name);
+    twice.sentence = "the pass runs twice in a step";
+    twice.alter_case = [name, gave = c.outputs[a.list().output].array](PassCase& altered) {
+      for (capture::CaseInput& i : altered.inputs)
+        if (i.name == name) i.array = gave;
+    };
+    out.push_back(std::move(twice));
+  }
+  if (const capture::CaseOutput* old = before ? before->output(name) : nullptr; old && old->array.is_records) {
+    a.add("stale", "the list is that of the run before", [stale = old->array](const List&, const PassCase&, ListEdit& e) {
+      e.records = records_of(stale);
+      return true;
+    });
+  }
+}
+
+}  // namespace
+
+void add_list_faults(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+  for (const std::size_t o : keyed_outputs(c)) {
+    Adder a(out, List(c, o));
+    const capture::CaseInput* in = c.input(c.outputs[o].name);
+    const bool has_input = in && in->array.is_records && in->array.record.size == c.outputs[o].array.record.size;
+    // Of mistakes that give the same bits the first one is named: all of a list before some of it.
+    add_times(out, a, c, has_input, before);
+    add_orders(a);
+    add_fields(a, has_input);
+    add_events(a);
+  }
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,180 @@
+#include "faults/mutate.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "faults/list_faults.h"
+#include "judge/check_pack.h"
+#include "judge/evaluations.h"
+#include "judge/invocation_judge.h"
+#include "judge/keyed.h"
+#include "judge/profiles.h"
+#include "judge/reference_outputs.h"
+#include "rainref/error.h"
+
+namespace rainref::faults {
+namespace {
+
+using capture::Array;
+using capture::PassCase;
+using judge::Bind;
+using judge::binder;
+using judge::check_pack;
+using judge::evaluations_of;
+using judge::HalfMode;
+using judge::InvocationJudge;
+using judge::judge_keyed;
+using judge::keyed_outputs;
+using judge::KeyedJudgement;
+using judge::profile;
+using judge::read_case;
+using judge::reference_outputs;
+using judge::Slot;
+using judge::slots_of;
+using judge::ValidateOptions;
+
+std::vector<Texel> spread(const capture::PassModel& model, int most) {
+  std::vector<Texel> all;
+  const std::int64_t count = static_cast<std::int64_t>(model.width()) * model.height(), taken = std::min<std::int64_t>(count, most);
+  for (std::int64_t k = 0; k < taken; ++k) {
+    const std::int64_t i = k * count / taken;
+    all.push_back({static_cast<int>(i % model.width()), static_cast<int>(i / model.width())});
+  }
+  return all;
+}
+bool differs(const std::vector<Slot>& slots, const std::vector<Array>& stored, const std::vector<Array>& plain, Texel t) {
+  for (const Slot& s : slots) {
+    const std::size_t o = static_cast<std::size_t>(s.output);
+    if (std::memcmp(s.at(stored[o], t.x, t.y), s.at(plain[o], t.x, t.y), static_cast<std::size_t>(s.channel_bytes)) != 0) return true;
+  }
+  return false;
+}
+
+/// A rounding of half stores that a profile allows, and what the reference gives under it.
+struct Stores {
+  HalfMode mode;
+  std::vector<Array> finished;
+};
+std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCase& c, const capture::PassModel& model,
+                                 const parallel::Executor& executor) {
+  using enclosed::StoreRounding;
+  std::vector<Stores> out;
+  if (profile.reference) return {{HalfMode::either, reference_outputs(c, model, executor)}};  // as the pack has them
+  if (profile.half_store != StoreRounding::rtz) out.push_back({HalfMode::rne, reference_outputs(c, model, executor, HalfMode::rne)});
+  if (profile.half_store != StoreRounding::rne) out.push_back({HalfMode::rtz, reference_outputs(c, model, executor, HalfMode::rtz)});
+  return out;
+}
+
+/// One deviation on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
+/// only where it is so under every rounding that the profile leaves open.
+void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
+                  const enclosed::Profile& profile, const std::vector<Stores>& all_stores, MutantJudgement& out) {
+  const std::vector<Slot> slots = slots_of(c);
+  if (slots.empty() || d.alter_list) return;
+  std::int64_t fewest = -1, first_differing = 0;
+  for (const Stores& stores : all_stores) {
+    const DeviatedPass deviated(d, c, bind, model, stores.mode, stores.finished);
+    if (!deviated.applies()) return;
+    std::vector<Array> stored = stores.finished;
+    // A device that rounds the other way is judged as such, where a profile leaves it open.
+    const InvocationJudge judge(c, model, profile, d.stores && all_stores.size() > 1 ? *d.stores : stores.mode);
+    std::int64_t outside = 0, differing = 0;
+    for (const Texel t : texels) {
+      deviated.store(t, stored);
+      if (!differs(slots, stored, stores.finished, t)) continue;
+      ++differing;
+      outside += !judge.accepts(t.x, t.y, stored);
+    }
+    if (fewest < 0) first_differing = differing;
+    fewest = fewest < 0 ? outside : std::min(fewest, outside);
+  }
+  out.compared += static_cast<std::int64_t>(texels.size());
+  out.differing += first_differing;
+  out.outside += fewest;
+}
+
+/// Records by id.
+std::map<std::uint32_t, Records> by_id(const Array& list) {
+  std::map<std::uint32_t, Records> out;
+  for (std::vector<std::byte>& r : records_of(list)) out[id_of(r, list.record)].push_back(std::move(r));
+  return out;
+}
+/// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
+void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::PassEvaluations& evaluations, const capture::PassModel* model,
+                        const enclosed::Profile& profile, MutantJudgement& out) {
+  for (const std::size_t o : keyed_outputs(c)) {
+    const capture::CaseOutput& expected = c.outputs[o];
+    const std::optional<Array> stored = deviated_list(d, c, o, evaluations, model, expected.array);
+    if (!stored) continue;
+    const auto want = by_id(expected.array), have = by_id(*stored);
+    std::set<std::uint32_t> ids, outside;
+    for (const auto* list : {&want, &have})
+      for (const auto& [id, unused] : *list) ids.insert(id);
+    out.compared += static_cast<std::int64_t>(ids.size());
+    for (const std::uint32_t id : ids) {
+      const auto a = want.find(id), b = have.find(id);
+      out.differing += a == want.end() || b == have.end() || a->second != b->second;
+    }
+    const KeyedJudgement j = judge_keyed(expected, *stored, model ? model->keyed(expected.name) : nullptr, profile);
+    for (const auto* list : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside})
+      outside.insert(list->begin(), list->end());
+    out.outside += static_cast<std::int64_t>(outside.size());
+  }
+}
+
+}  // namespace
+
+MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations) {
+  const enclosed::Profile& chosen = profile(options.profile);
+  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+  check_pack(pack);
+  MutationReport report;
+  report.pack = pack.folder().string();
+  report.profile = options.profile;
+  int done = 0;
+  for (const capture::PackPass& pass : pack.passes) {
+    if (!options.only.empty() && pass.name != options.only) continue;
+    const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, pass.name);
+    const Bind bind = binder(pack.effect, pass.name);
+    std::map<std::string, std::size_t> places;  // of a deviation among the mutants
+    std::optional<PassCase> before;
+    bool judged = false;
+    for (const capture::PackCase& entry : pack.cases) {
+      if (entry.pass != pass.name) continue;
+      PassCase c = read_case(pack, entry);
+      if (!evaluations || (slots_of(c).empty() && keyed_outputs(c).empty()) || (!bind && !slots_of(c).empty())) continue;
+      judged = true;
+      const std::unique_ptr<capture::PassModel> model = bind ? bind(c) : std::make_unique<capture::ListPass>("", nullptr);
+      const std::vector<Texel> texels = spread(*model, invocations);
+      std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
+      std::erase_if(all, [](const Deviation& d) { return d.for_diagnosis; });
+      const std::vector<Stores> stores = stores_under(chosen, c, *model, *options.executor);
+      for (const Deviation& d : all) {
+        if (places.contains(d.name)) continue;
+        places[d.name] = report.mutants.size();
+        report.mutants.push_back({pass.name, d.name, d.sentence, d.legal});
+      }
+      options.executor->for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) {
+          const Deviation& d = all[static_cast<std::size_t>(k)];
+          try {
+            judge_mutant_lists(d, c, *evaluations, model.get(), chosen, report.mutants[places[d.name]]);
+            judge_mutant(d, c, bind, *model, texels, chosen, stores, report.mutants[places[d.name]]);
+          } catch (const Error&) {
+            // the altered case is none that the pass can run: nothing to compare
+          }
+        }
+      });
+      before = std::move(c);
+      if (options.progress) options.progress(++done, static_cast<int>(pack.cases.size()));
+    }
+    if (!judged) report.unjudged.push_back(fmt::format("{}: no output is judged by envelope or matched by id", pass.name));
+  }
+  return report;
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,31 @@
+// The power of a pack: which deviations of the reference it would catch.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "capture/pack_read.h"
+#include "judge/validate.h"
+
+namespace rainref::faults {
+
+/// One deviation on one pass of a pack.
+struct MutantJudgement {
+  std::string pass, name, sentence;
+  bool legal = false;
+  std::int64_t compared = 0;   ///< invocations, and ids of lists
+  std::int64_t differing = 0;  ///< that store other bits than the reference
+  std::int64_t outside = 0;    ///< that no alternative accepts
+  bool caught() const { return outside > 0; }
+};
+struct MutationReport {
+  std::string pack, profile;
+  std::vector<MutantJudgement> mutants;
+  std::vector<std::string> unjudged;  ///< passes that no envelope judges, and why
+};
+/// Which of the deviations the pack would catch under a profile. Compares at most `invocations` texels of each case,
+/// spread over the picture, and every record of its lists.
+MutationReport mutate(const capture::Pack& pack, const judge::ValidateOptions& options, int invocations = 4096);
+
+}  // namespace rainref::faults

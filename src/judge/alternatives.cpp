@@ -1,0 +1,59 @@
+#include "judge/alternatives.h"
+
+#include <cstddef>
+
+namespace rainref::judge {
+
+using capture::PassModel;
+using enclosed::CodeRange;
+using enclosed::Enclosure;
+
+enclosed::StoreRules rules_of(const enclosed::Profile& profile, HalfMode mode, Rounding unorm) {
+  enclosed::StoreRules rules = enclosed::store_rules(profile, unorm);
+  rules.half = mode == HalfMode::rne   ? enclosed::StoreRounding::rne
+               : mode == HalfMode::rtz ? enclosed::StoreRounding::rtz
+                                       : enclosed::StoreRounding::either;
+  // What a profile says of overflow goes with the rounding that it asks for.
+  if (profile.half_store != enclosed::StoreRounding::either && profile.half_store != rules.half && !profile.reference)
+    rules.half_overflow = enclosed::StoreOverflow::either;
+  return rules;
+}
+enclosed::Profile narrowed(const enclosed::Profile& profile, HalfMode mode) {
+  enclosed::Profile out = profile;
+  const enclosed::StoreRules rules = rules_of(profile, mode, Rounding::rne);
+  out.half_store = rules.half;
+  out.half_overflow = rules.half_overflow;
+  return out;
+}
+
+void Alternatives::only(const std::vector<float>& expected) {
+  count = 1;
+  gave_up = false;
+  values.front().clear();
+  for (const float x : expected) values.front().emplace_back(x, x);
+}
+void Alternatives::run(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
+  const enclosed::ProfileScope scope(profile);
+  enclosed::PathEnumeration paths;
+  count = 0;
+  gave_up = !paths.for_each_alternative([&] {
+    std::vector<Enclosure>& out = values[static_cast<std::size_t>(count++)];
+    out.assign(static_cast<std::size_t>(model.values()), Enclosure());
+    model.enclose(x, y, port, out.data());
+  });
+}
+
+void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& values, const enclosed::Profile& profile, HalfMode mode,
+                 std::vector<CodeRange>& out) {
+  out.resize(slots.size());
+  for (std::size_t v = 0; v < slots.size(); ++v)
+    out[v] = enclosed::code_range(slots[v].kind, values[v], rules_of(profile, mode, slots[v].store_rounding));
+}
+
+std::uint64_t distance(std::int64_t code, const CodeRange& r) {
+  if (r.contains(code)) return 0;
+  return code < r.lo ? static_cast<std::uint64_t>(r.lo) - static_cast<std::uint64_t>(code)
+                     : static_cast<std::uint64_t>(code) - static_cast<std::uint64_t>(r.hi);
+}
+
+}  // namespace rainref::judge

@@ -1,0 +1,16 @@
+// A pack against what this build declares of its effect, before anything of it is evaluated.
+#pragma once
+
+#include "capture/pack_read.h"
+
+namespace rainref::judge {
+
+/// Checks the uniform blocks, and every case's shapes, formats and uniforms, by the manifest alone: capture::check_case
+/// and capture::uniform_fault. Throws Error(port_files) naming the pack and the case; Error(usage) for an effect that this
+/// build does not know.
+void check_pack(const capture::Pack& pack);
+
+/// A case of a checked pack with its values; Error(port_files) where a record holds a float that is no finite number.
+capture::PassCase read_case(const capture::Pack& pack, const capture::PackCase& entry);
+
+}  // namespace rainref::judge

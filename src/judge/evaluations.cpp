@@ -1,0 +1,34 @@
+#include "judge/evaluations.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "registry/registry.h"
+#include "rainref/error.h"
+
+namespace rainref::judge {
+
+const capture::PassEvaluations* evaluations_of(const std::string& effect, const std::string& pass) {
+  for (const capture::PassEvaluations& r : *registry::effect_of_pack(effect).evaluations)
+    if (r.pass == pass) return &r;
+  return nullptr;
+}
+Bind binder(const std::string& effect, const std::string& pass) {
+  const capture::PassEvaluations* evaluations = evaluations_of(effect, pass);
+  return evaluations ? evaluations->bind : nullptr;
+}
+
+bool is_enveloped(const capture::PassCase& c) {
+  return std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::envelope; });
+}
+
+std::unique_ptr<capture::PassModel> bound(const std::string& pass, Bind bind, const capture::PassCase& c) {
+  if (!bind && is_enveloped(c)) throw Error(ExitCode::internal, fmt::format("no evaluation of pass {}", pass));
+  const auto has_model = [](const capture::CaseOutput& o) {
+    return o.judge == capture::Judge::envelope || o.judge == capture::Judge::keyed;
+  };
+  return bind && std::any_of(c.outputs.begin(), c.outputs.end(), has_model) ? bind(c) : nullptr;
+}
+
+}  // namespace rainref::judge

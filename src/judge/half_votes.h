@@ -1,0 +1,32 @@
+// How a port rounds its stores to binary16: one way for the whole port, found by what its passes stored.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "judge/verdict.h"
+
+namespace rainref::judge {
+
+/// Failing invocations of a pass under each rounding that it was judged by. Fewer than two: it stores no halves, or
+/// their rounding is settled.
+struct HalfVotes {
+  std::string pass;
+  std::vector<HalfMode> modes;  ///< the same two, or two and `either`, of every pass that votes
+  std::vector<std::int64_t> failing;
+};
+
+/// The rounding under which fewest passes fail; of equals that with fewest failing invocations, then the first.
+HalfMode port_rounding(const std::vector<HalfVotes>& passes);
+
+/// The rounding that a pass is judged by, and what is to be said of it.
+struct FoundRounding {
+  std::size_t mode = 0;  ///< of HalfVotes::modes
+  std::string doubt;     ///< "": none
+};
+/// The port's where the pass fits it; else the other, or a mixture, where it fits that; else that with fewest failures.
+/// `asked`: what the profile asks for, or `either`.
+FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile);
+
+}  // namespace rainref::judge

@@ -1,0 +1,36 @@
+#include "judge/invocation_judge.h"
+
+#include <algorithm>
+
+#include "judge/alternatives.h"
+#include "judge/slots.h"
+#include "judge/stored.h"
+
+namespace rainref::judge {
+
+using capture::Array;
+using capture::PassCase;
+using capture::PassModel;
+using enclosed::CodeRange;
+
+InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, const enclosed::Profile& profile, HalfMode mode)
+    : case_(c), model_(model), profile_(profile), mode_(mode) {}
+
+bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
+  const std::vector<Slot> slots = slots_of(case_);
+  Stored stored;
+  stored.read(slots, case_, model_, profile_, port, x, y);
+  if (stored.any_impossible) return false;
+  if (profile_.reference) return std::all_of(stored.same.begin(), stored.same.end(), [](char same) { return same; });
+  Alternatives alternatives;
+  alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
+  if (alternatives.gave_up) return true;
+  std::vector<CodeRange> ranges;
+  for (int a = 0; a < alternatives.count; ++a) {
+    code_ranges(slots, alternatives.values[static_cast<std::size_t>(a)], profile_, mode_, ranges);
+    if (inside(profile_, ranges, stored)) return true;
+  }
+  return false;
+}
+
+}  // namespace rainref::judge

@@ -1,0 +1,26 @@
+// Invocation by invocation, for those who ask about a few.
+#pragma once
+
+#include <vector>
+
+#include "capture/pass_model.h"
+#include "judge/verdict.h"
+#include "math/profile.h"
+
+namespace rainref::judge {
+
+/// Whether some alternative accepts what is stored for an invocation. What it is made of must outlive it.
+class InvocationJudge {
+ public:
+  InvocationJudge(const capture::PassCase& c, const capture::PassModel& model, const enclosed::Profile& profile, HalfMode mode);
+  /// `port` as in judge_case.
+  bool accepts(int x, int y, const std::vector<capture::Array>& port) const;
+
+ private:
+  const capture::PassCase& case_;
+  const capture::PassModel& model_;
+  const enclosed::Profile& profile_;
+  HalfMode mode_;
+};
+
+}  // namespace rainref::judge

@@ -1,0 +1,40 @@
+// Judging one run of a pass: each invocation's stored values against every result that the profile allows.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "capture/pass_model.h"
+#include "judge/verdict.h"
+#include "math/profile.h"
+#include "rainref/executor.h"
+
+namespace rainref::judge {
+
+struct JudgeOptions {
+  const enclosed::Profile* profile;
+  const enclosed::Profile* typical = nullptr;  ///< null: nothing warns
+  const parallel::Executor* executor;
+  std::optional<HalfMode> half_mode;  ///< declared by the port
+};
+
+/// What a profile asks of stores to binary16.
+HalfMode half_mode_of(const enclosed::Profile& profile);
+
+/// The ways in which stores to binary16 may have been rounded, each judged. Where the profile leaves it open these are rne,
+/// rtz and either, or the one that the port declares. Where it asks for one, that one and then the other, because drivers
+/// do not all obey; only that one where the port declares the same.
+struct ModeJudgements {
+  std::vector<HalfMode> modes;
+  std::vector<CaseJudgement> judgements;  ///< one for each mode
+};
+
+/// Judges what a port stored: `port` holds its outputs in the order of c.outputs, of the same format and size. Outputs
+/// of Judge::bits must equal the expected bits, those of Judge::input_only are not judged. `model` may be null when no
+/// output is judged by envelope.
+///
+/// With the reference's own outputs as `port` nothing ever fails: every envelope holds the reference.
+ModeJudgements judge_case(const capture::PassCase& c, const capture::PassModel* model, const std::vector<capture::Array>& port,
+                          const JudgeOptions& options);
+
+}  // namespace rainref::judge

@@ -1,0 +1,128 @@
+#include "judge/judge_pass.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "judge/conclude.h"
+#include "judge/evaluations.h"
+#include "judge/half_votes.h"
+#include "judge/keyed.h"
+
+namespace rainref::judge {
+namespace {
+
+using capture::PassModel;
+
+/// Binds and settles a run.
+std::unique_ptr<PassModel> prepare(const capture::PackPass& pass, Bind bind, const PassRuns& runs, PortRun& run) {
+  std::unique_ptr<PassModel> model = bound(pass.name, bind, run.c);
+  if (runs.settle) runs.settle(run, model.get());
+  return model;
+}
+
+/// A run that was not judged counts under every rounding.
+ModeJudgements not_judged(const PortRun& run) {
+  ModeJudgements out;
+  out.judgements.resize(1);
+  CaseJudgement& j = out.judgements.front();
+  j.id = run.c.folder();
+  j.status = run.broken.empty() ? Status::untested : Status::fail;
+  j.reason = run.broken.empty() ? run.untested : run.broken;
+  j.broken = !run.broken.empty();
+  return out;
+}
+
+/// A pass's failures under each rounding, over all of its cases.
+HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& cases) {
+  HalfVotes votes{pass, {}, {}};
+  const auto judged = std::find_if(cases.begin(), cases.end(), [](const ModeJudgements& c) { return !c.modes.empty(); });
+  if (judged == cases.end()) return votes;
+  votes.modes = judged->modes;
+  votes.failing.resize(votes.modes.size(), 0);
+  for (const ModeJudgements& c : cases)
+    for (std::size_t m = 0; m < c.modes.size(); ++m) votes.failing[m] += c.judgements[m].failing;
+  return votes;
+}
+
+/// Keeps of each case the judgement under the rounding that was found.
+void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const HalfVotes& own, const std::vector<HalfVotes>& all,
+                 const JudgeOptions& options) {
+  FoundRounding found;
+  if (!own.modes.empty()) {
+    found = pass_rounding(own, all, half_mode_of(*options.profile), options.profile->name);
+    pass.half_mode = own.modes[found.mode];
+    pass.reason = found.doubt;
+    pass.half_mode_voted = own.modes.size() == 3;
+    if (pass.half_mode_voted) std::copy(own.failing.begin(), own.failing.end(), pass.half_votes.begin());
+  }
+  for (ModeJudgements& c : cases) pass.cases.push_back(std::move(c.judgements[c.modes.empty() ? 0 : found.mode]));
+}
+
+/// Asks about the run with the most failures, which says most.
+std::vector<Cause> causes_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+  const auto worst =
+      std::max_element(judged.cases.begin(), judged.cases.end(), [](const auto& a, const auto& b) { return a.failing < b.failing; });
+  if (worst == judged.cases.end() || worst->failing == 0) return {};
+  const auto k = static_cast<std::size_t>(worst - judged.cases.begin());
+  PortRun run = task.runs.load(k);
+  if (!is_enveloped(run.c) && keyed_outputs(run.c).empty()) return {};
+  const std::unique_ptr<PassModel> model = prepare(*task.pass, task.bind, task.runs, run);
+  std::optional<PortRun> before;
+  if (k > 0) {
+    before = task.runs.load(k - 1);
+    if (before->untested.empty())
+      prepare(*task.pass, task.bind, task.runs, *before);
+    else
+      before.reset();
+  }
+  return task.runs.explain({*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged.half_mode, options});
+}
+
+/// Every run of a pass, under each rounding that may be its port's.
+std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options) {
+  const PassRuns& runs = task.runs;
+  std::vector<ModeJudgements> cases;
+  for (std::size_t k = 0; k < runs.count; ++k) {
+    PortRun run = runs.load(k);
+    std::unique_ptr<PassModel> model;
+    if (run.untested.empty()) model = prepare(*task.pass, task.bind, runs, run);
+    if (!run.untested.empty()) {
+      cases.push_back(not_judged(run));
+    } else {
+      cases.push_back(judge_case(run.c, model.get(), run.stored, options));
+      for (CaseJudgement& j : cases.back().judgements) {
+        if (run.broken.empty()) continue;
+        j.status = Status::fail;
+        j.reason = run.broken;
+        j.broken = true;
+      }
+    }
+    if (runs.done_one) runs.done_one();
+  }
+  return cases;
+}
+
+}  // namespace
+
+std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options) {
+  std::vector<std::vector<ModeJudgements>> cases;
+  std::vector<HalfVotes> votes;
+  for (const PassTask& task : tasks) {
+    cases.push_back(judge_runs(task, options));
+    votes.push_back(votes_of(task.pass->name, cases.back()));
+  }
+  std::vector<PassJudgement> all;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const PassTask& task = tasks[k];
+    PassJudgement& judged = all.emplace_back();
+    judged.pass = task.pass->name;
+    judged.formula = task.pass->formula;
+    choose_mode(judged, cases[k], votes[k], votes, options);
+    conclude(judged);
+    if (task.runs.explain && judged.status == Status::fail) judged.causes = causes_of(task, judged, options);
+  }
+  return all;
+}
+
+}  // namespace rainref::judge

@@ -1,0 +1,62 @@
+// Judging every run of each pass that a port made, one run in memory at a time.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/pack_read.h"
+#include "judge/evaluations.h"
+#include "judge/judge.h"
+#include "judge/verdict.h"
+
+namespace rainref::judge {
+
+/// A run of a pass by a port.
+struct PortRun {
+  capture::PassCase c;                 ///< what the pass took; c.outputs: what the reference gives for it
+  std::vector<capture::Array> stored;  ///< what the port gave, in the order of c.outputs
+  std::string broken;                  ///< why the run fails whatever its outputs are; "": it does not
+  std::string untested;                ///< why it cannot be judged; "": it can
+};
+
+/// Run k of a pass, in the order of execution.
+using LoadRun = std::function<PortRun(std::size_t k)>;
+/// Called with each run before it is judged, with the pass's model, or null where no output is judged by envelope:
+/// checks c.outputs, or computes them.
+using SettleRun = std::function<void(PortRun&, const capture::PassModel*)>;
+
+/// The run of a failing pass that says most, for those who ask why it fails.
+struct FailedRun {
+  const capture::PackPass& pass;
+  const PortRun& run;
+  const capture::PassCase* before;  ///< the run of the same pass before it, settled; null: none
+  Bind bind;                        ///< null where no output is judged by envelope
+  const capture::PassModel* model;  ///< of the run; null where no output is judged by one
+  const CaseJudgement& judgement;
+  HalfMode half_mode;  ///< that the pass was judged by
+  const JudgeOptions& options;
+};
+/// What would explain its failures, best first. The judge itself knows no mistakes: faults/diagnose.h does.
+using Explain = std::function<std::vector<Cause>(const FailedRun&)>;
+
+struct PassRuns {
+  std::size_t count = 0;
+  LoadRun load;
+  SettleRun settle;
+  std::function<void()> done_one;  ///< after each run; may be null
+  Explain explain;                 ///< asked about a pass that fails; may be null
+};
+
+/// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records
+/// are then judged by bits.
+struct PassTask {
+  const capture::PackPass* pass;
+  Bind bind;
+  PassRuns runs;
+};
+/// The passes of one port, in this order. How its stores to binary16 round is one choice for all of them.
+std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options);
+
+}  // namespace rainref::judge

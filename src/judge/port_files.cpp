@@ -1,0 +1,56 @@
+#include "judge/port_files.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "port_dump/read_buffer.h"
+
+namespace rainref::judge {
+
+namespace fs = std::filesystem;
+
+void FileErrors::raise() const {
+  if (errors_.empty()) return;
+  constexpr std::size_t shown = 8;
+  const auto rank = [](ExitCode code) {
+    constexpr ExitCode order[] = {ExitCode::internal, ExitCode::io, ExitCode::usage, ExitCode::port_files, ExitCode::fail};
+    return std::find(std::begin(order), std::end(order), code) - std::begin(order);
+  };
+  std::vector<Error> all = errors_;
+  std::stable_sort(all.begin(), all.end(), [&](const Error& a, const Error& b) { return rank(a.code()) < rank(b.code()); });
+  if (all.size() == 1) throw Error(all.front());
+  std::vector<std::string> first;
+  for (std::size_t i = 0; i < std::min(shown, all.size()); ++i) first.emplace_back(all[i].what());
+  const std::string more = all.size() > shown ? fmt::format("; and {} more", all.size() - shown) : "";
+  throw Error(all.front().code(), fmt::format("{} files are missing or cannot be used: {}{}", all.size(), fmt::join(first, "; "), more));
+}
+
+PortFiles::PortFiles(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  if (!fs::is_directory(folder_, error)) {
+    throw Error(ExitCode::port_files,
+                fmt::format("{}: expected a folder of a port, found {}", folder_.string(), fs::exists(folder_, error) ? "a file" : "none"));
+  }
+  info_ = port_dump::read_port_info(folder_);
+}
+
+capture::Array PortFiles::read(const fs::path& run, const std::string& stem, const capture::Array& expected) {
+  port_dump::ReadNotes notes;
+  capture::Array array = port_dump::read_port_buffer(folder_ / run, stem, expected, info_, notes);
+  for (const std::string& note : notes.lines)
+    if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+  return array;
+}
+
+void require_apart(const fs::path& pack, const fs::path& port) {
+  std::error_code error;
+  if (!fs::equivalent(pack, port, error)) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{}: expected what the port itself wrote, found the pack's own '{}': its expected outputs would be judged by themselves",
+                  port.string(), pack.string()));
+}
+
+}  // namespace rainref::judge

@@ -1,0 +1,41 @@
+#include "judge/reference_outputs.h"
+
+#include <optional>
+
+#include "judge/slots.h"
+#include "math/plain.h"
+
+namespace rainref::judge {
+
+using capture::Array;
+using capture::PassCase;
+using capture::PassModel;
+
+std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, const parallel::Executor& executor, HalfMode mode) {
+  const std::vector<Slot> slots = slots_of(c);
+  std::vector<Array> out;
+  for (const capture::CaseOutput& o : c.outputs) {
+    Array& array = out.emplace_back(o.array);
+    const capture::KeyedModel* keyed = o.judge == capture::Judge::keyed ? model.keyed(o.name) : nullptr;
+    const auto records = keyed ? keyed->reference() : std::nullopt;
+    if (!records) continue;
+    array.width = static_cast<int>(records->size() / array.element_bytes());
+    array.levels = {*records};
+  }
+  if (slots.empty()) return out;
+  executor.for_tiles(model.width(), model.height(), model.width(), 4, [&](const parallel::Tile& tile) {
+    std::vector<plain::Plain<float>> values(slots.size());
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        model.evaluate(x, y, values.data());
+        for (std::size_t v = 0; v < slots.size(); ++v) {
+          const Slot& s = slots[v];
+          store_value(s, values[v].v, rounding_of(s, mode), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(x, y));
+        }
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace rainref::judge

@@ -1,0 +1,51 @@
+// Whether what a port's run took is what it should have taken: its inputs the outputs of the runs before it, its
+// uniforms this run's.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "judge/shadow_plan.h"
+
+namespace rainref::judge {
+
+/// Every buffer that a port dumped, by hash: "puddle.shade/0001.0/in.hit".
+class DumpedContents {
+ public:
+  void add(const std::string& buffer, std::string hash) { hashes_[buffer] = std::move(hash); }
+  /// "" for a buffer that was not dumped.
+  const std::string& hash(const std::string& buffer) const;
+  /// Buffers of this content, in the order of their names.
+  std::vector<std::string> with(const std::string& hash) const;
+
+ private:
+  std::map<std::string, std::string> hashes_;
+};
+
+/// Why an input is not the output that it should be, and what it is instead, if it is anything that was dumped.
+/// `input` and `output` are buffers of unlike content; `read` gives a buffer's values.
+std::string broken_link(const std::string& input, const std::string& output, const DumpedContents& contents,
+                        const std::function<capture::Array(const std::string&)>& read);
+
+/// Sentences about many runs: one for each subject, with a count and the first example.
+class Tally {
+ public:
+  void add(const std::string& subject, const std::string& example);
+  /// "uniform exposure of display is not the scene's, 3 times, first puddle.display/0000.0: ..."
+  std::vector<std::string> lines() const;
+
+ private:
+  struct Entry {
+    std::string subject, first;
+    int count = 0;
+  };
+  std::vector<Entry> entries_;
+};
+
+/// Compares a run's uniforms with the plan's. What differs goes into `differing`, because a port may set it otherwise; gives
+/// why the uniforms cannot be this run's, or "": another time, a counter of another run.
+std::string check_uniforms(const ShadowPlan& plan, const PlannedRun& run, const std::vector<std::byte>& uniforms, Tally& differing);
+
+}  // namespace rainref::judge

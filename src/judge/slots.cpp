@@ -1,0 +1,80 @@
+#include "judge/slots.h"
+
+#include <cstring>
+
+#include "image/colour.h"
+#include "math/plain.h"
+#include "rainref/error.h"
+
+namespace rainref::judge {
+namespace {
+
+template <class T>
+T loaded(const std::byte* at) {
+  T t;
+  std::memcpy(&t, at, sizeof t);
+  return t;
+}
+
+}  // namespace
+
+std::vector<Slot> slots_of(const capture::PassCase& c) {
+  std::vector<Slot> slots;
+  for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+    const capture::CaseOutput& out = c.outputs[o];
+    if (out.judge != capture::Judge::envelope || out.array.is_records) continue;
+    const FormatInfo& f = info(out.array.format);
+    for (int k = 0; k < f.channels; ++k) {
+      slots.push_back({static_cast<int>(o), k, f.kind, f.channel_bytes, f.texel_bytes(), out.array.width, out.store_rounding,
+                       out.range[1] - out.range[0]});
+    }
+  }
+  return slots;
+}
+
+float stored_value(const Slot& slot, const std::byte* at) {
+  switch (slot.kind) {
+    case FormatInfo::unorm8:
+      return to_float(loaded<Unorm8>(at));
+    case FormatInfo::srgb8:
+      return static_cast<float>(decode_srgb(loaded<Unorm8>(at).code / 255.0));
+    case FormatInfo::float16:
+      return to_float(loaded<Half>(at));
+    case FormatInfo::float32:
+      return loaded<float>(at);
+    case FormatInfo::uint32:
+      return static_cast<float>(loaded<std::uint32_t>(at));
+  }
+  return 0;
+}
+bool is_nan(FormatInfo::Kind kind, const std::byte* at) {
+  if (kind == FormatInfo::float16) return (loaded<Half>(at).bits & 0x7fffu) > 0x7c00u;
+  if (kind == FormatInfo::float32) return (loaded<std::uint32_t>(at) & 0x7fffffffu) > 0x7f800000u;
+  return false;
+}
+Rounding rounding_of(const Slot& slot, HalfMode mode) {
+  if (slot.kind != FormatInfo::float16 || mode == HalfMode::either) return slot.store_rounding;
+  return mode == HalfMode::rne ? Rounding::rne : Rounding::rtz;
+}
+void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at) {
+  const plain::Plain<float> x(value);
+  const auto put = [&](auto stored) {
+    plain::store(&stored, x, rounding);
+    std::memcpy(at, &stored, sizeof stored);
+  };
+  switch (slot.kind) {
+    case FormatInfo::unorm8:
+      put(Unorm8{});
+      return;
+    case FormatInfo::float16:
+      put(Half{});
+      return;
+    case FormatInfo::float32:
+      put(float{});
+      return;
+    default:
+      throw Error(ExitCode::internal, "store_value: no pass stores this format by envelope");
+  }
+}
+
+}  // namespace rainref::judge

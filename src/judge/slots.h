@@ -1,0 +1,39 @@
+// Where the values of an invocation lie in the outputs of a case.
+#pragma once
+
+#include <vector>
+
+#include "capture/pass_case.h"
+#include "image/code_range.h"
+#include "judge/verdict.h"
+
+namespace rainref::judge {
+
+/// One value of every invocation: a channel of an output judged by envelope.
+struct Slot {
+  int output, channel;
+  FormatInfo::Kind kind;
+  int channel_bytes, texel_bytes, width;
+  Rounding store_rounding;
+  double range;  ///< extent of the declared range
+
+  std::size_t offset(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(texel_bytes) +
+           static_cast<std::size_t>(channel * channel_bytes);
+  }
+  const std::byte* at(const capture::Array& a, int x, int y) const { return a.levels[0].data() + offset(x, y); }
+  std::int64_t code(const capture::Array& a, int x, int y) const { return enclosed::ordered_code(kind, at(a, x, y)); }
+};
+std::vector<Slot> slots_of(const capture::PassCase& c);
+
+/// A stored value as a shader reads it.
+float stored_value(const Slot& slot, const std::byte* at);
+/// Whether a stored float is not a number.
+bool is_nan(FormatInfo::Kind kind, const std::byte* at);
+/// How a slot is stored where a device rounds its halves like this; `either` is the reference's own way.
+Rounding rounding_of(const Slot& slot, HalfMode mode);
+/// Stores as the reference does.
+void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at);
+
+}  // namespace rainref::judge

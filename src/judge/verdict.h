@@ -1,0 +1,123 @@
+// What a judgement says: of an element, an output, a pass, a whole port.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rainref/image.h"
+
+namespace rainref::judge {
+
+enum class Status : std::uint8_t {
+  pass,
+  warn,      ///< inside what the profile allows, but outside what real devices do, or with an open question
+  fail,      ///< an element outside, a NaN, a crash
+  untested,  ///< nothing was judged, or too much of it was vacuous
+  known,     ///< fails, and the baseline says why it may
+  data       ///< taken as it is, because no GPU can reproduce it: neither judged nor a failure
+};
+/// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA".
+const char* name(Status status);
+/// The worse: fail over untested over known over warn over pass over data.
+Status worse(Status a, Status b);
+
+/// How a device rounds its stores to binary16, voted over all elements.
+enum class HalfMode : std::uint8_t { rne, rtz, either };
+const char* name(HalfMode mode);
+
+/// An element that no alternative accepts. Codes are ordered codes (image/code_range.h); the range is that of the
+/// alternative which comes nearest.
+struct Failure {
+  int x = 0, y = 0, channel = 0;
+  std::int64_t got = 0, low = 0, high = 0, expected = 0;
+  std::uint64_t distance = 0;  ///< codes between got and the range; the largest number for NaN
+  bool not_a_number = false;
+  bool got_is_negative_zero = false, expected_is_negative_zero = false;  ///< -0, whose code is that of +0
+  /// Of a record, whose number or id is x: the first member that is wrong, "y" or "velocity.z", and what it holds. "": the
+  /// record is in one of the lists alone.
+  std::string field = "";
+  FormatInfo::Kind field_kind = FormatInfo::uint32;
+};
+
+/// What an output's elements are.
+enum class Counted : std::uint8_t {
+  values,  ///< channels of texels
+  texels,  ///< judged by bits
+  fields,  ///< of records matched by id
+  records  ///< judged by bits
+};
+/// "values", "texels", "fields", "records".
+const char* name(Counted counted);
+
+/// One output of a pass over one case.
+struct OutputJudgement {
+  std::string name;
+  Format format = Format::r8;
+  bool records = false;
+  Counted counted = Counted::values;
+  int width = 0, height = 0;  ///< of records their expected number and 1
+  std::int64_t elements = 0;  ///< as `counted` says; of keyed lists the fields of every record in either list
+  std::int64_t failing = 0;
+  std::int64_t differing = 0;              ///< not the reference's bits
+  std::int64_t vacuous = 0;                ///< envelope wider than 1/16 of the declared range; of a record's field of its own
+  std::int64_t loose = 0;                  ///< wider than 1/256
+  std::int64_t atypical = 0;               ///< inside the profile, outside what real devices do
+  std::int64_t free = 0;                   ///< declared as not reproducible: held to a range of its own
+  std::string known;                       ///< why the baseline lets it fail; "": it does not
+  double median_width = 0, p99_width = 0;  ///< of the accepted codes, in codes: 0 where one code is accepted
+  std::vector<Failure> worst;              ///< in order of distance, then of place; at most max_failures
+  static constexpr std::size_t max_failures = 100;
+  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical), 3 (outside); row 0 first. Empty for records.
+  std::vector<std::uint8_t> map;
+};
+
+/// One case of a pass.
+struct CaseJudgement {
+  std::string id;
+  Status status = Status::untested;
+  std::string reason;   ///< why, where it is not a plain pass or fail
+  bool broken = false;  ///< fails for `reason`, whatever its outputs are: a race, an input that is not the output it comes from
+  std::int64_t invocations = 0;
+  std::int64_t failing = 0;       ///< invocations that no alternative accepts
+  std::int64_t ambiguous = 0;     ///< invocations with more than one alternative
+  std::int64_t other_branch = 0;  ///< of these, accepted only by an alternative that is not the reference's
+  std::int64_t gave_up = 0;       ///< invocations with too many alternatives
+  std::vector<OutputJudgement> outputs;
+};
+
+/// What would explain the failures of a pass.
+struct Cause {
+  std::string name, sentence;
+  std::int64_t explained = 0;  ///< failing texels whose stored bits it gives exactly
+  std::int64_t of = 0;         ///< failing texels replayed
+  std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
+  bool of_records = false;     ///< of a list: ids that are missing, too many, or wrong, in place of texels
+};
+
+struct PassJudgement {
+  std::string pass, formula;
+  Status status = Status::untested;
+  std::string reason;
+  bool inputs_are_good = true;  ///< every pass before it, on which it depends, passed
+  HalfMode half_mode = HalfMode::either;
+  std::array<std::int64_t, 3> half_votes{};  ///< failing invocations under rne, rtz, either
+  bool half_mode_voted = false;
+  std::vector<CaseJudgement> cases;
+  std::vector<Cause> causes;  ///< best first; empty: unknown
+};
+
+struct PortJudgement {
+  std::string pack, port, profile, effect, variant, scene;
+  std::string api, device, driver;
+  std::string command;  ///< that reproduces this
+  Status status = Status::untested;
+  std::string reason;
+  std::string first_bad_pass;         ///< in the order of dataflow
+  std::vector<PassJudgement> passes;  ///< in the order of execution
+  std::vector<std::string> notes;
+  std::vector<std::string> stale;  ///< what the baseline lists and did not fail: each a sentence, each fails the run
+};
+
+}  // namespace rainref::judge

@@ -1,0 +1,138 @@
+#include "reports/json.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "image/code_range.h"
+#include "rainref/version.h"
+#include "reports/figures.h"
+
+namespace rainref::reports {
+namespace {
+
+using judge::CaseJudgement;
+using judge::Cause;
+using judge::Failure;
+using judge::OutputJudgement;
+using judge::PassJudgement;
+using judge::PortJudgement;
+using Json = nlohmann::ordered_json;
+
+/// Value, bits and ordered code; the library writes null for what is not finite.
+Json code_json(FormatInfo::Kind kind, std::int64_t code, bool negative_zero = false) {
+  const int digits = kind == FormatInfo::float32 || kind == FormatInfo::uint32 ? 8 : kind == FormatInfo::float16 ? 4 : 2;
+  const std::uint32_t bits = negative_zero ? 1u << (4 * digits - 1) : enclosed::code_bits(kind, code);
+  return {
+      {"value", negative_zero ? -0.0 : enclosed::code_value(kind, code)}, {"bits", fmt::format("0x{:0{}x}", bits, digits)}, {"code", code}};
+}
+
+Json failure_json(const OutputJudgement& o, const Failure& f) {
+  if (o.records && f.field.empty()) return {{"record", f.x}};
+  const FormatInfo::Kind kind = o.records ? f.field_kind : info(o.format).kind;
+  // A vacuous range has no ends; the codes of its end would be none of the format.
+  const bool bounded = f.low != INT64_MIN;
+  Json out = o.records ? Json{{"record", f.x}, {"field", f.field}} : Json{{"x", f.x}, {"y", f.y}, {"channel", f.channel}};
+  out["got"] = code_json(kind, f.got, f.got_is_negative_zero);
+  out["low"] = bounded ? code_json(kind, f.low) : Json();
+  out["high"] = bounded ? code_json(kind, f.high) : Json();
+  if (!o.records) out["expected"] = code_json(kind, f.expected, f.expected_is_negative_zero);
+  out["distance"] = f.not_a_number ? Json() : Json(f.distance);
+  out["not_a_number"] = f.not_a_number;
+  return out;
+}
+
+/// Pairs of a verdict (0 equal, 1 inside, 2 atypical, 3 outside) and how many texels in a row have it, row 0 first.
+Json map_json(const std::vector<std::uint8_t>& map) {
+  Json runs = Json::array();
+  for (std::size_t begin = 0; begin < map.size();) {
+    std::size_t end = begin;
+    while (end < map.size() && map[end] == map[begin]) ++end;
+    runs.push_back(map[begin]);
+    runs.push_back(end - begin);
+    begin = end;
+  }
+  return runs;
+}
+
+Json output_json(const OutputJudgement& o) {
+  Json out{{"name", o.name}, {"format", o.records ? "records" : std::string(info(o.format).name)}};
+  if (!o.records) {
+    out["width"] = o.width;
+    out["height"] = o.height;
+  }
+  out["elements"] = o.elements;
+  out["counted"] = name(o.counted);
+  out["failing"] = o.failing;
+  out["differing"] = o.differing;
+  out["bounded"] = figures_of(o).bounded();
+  out["vacuous"] = o.vacuous;
+  out["loose"] = o.loose;
+  out["atypical"] = o.atypical;
+  out["free"] = o.free;
+  out["median_width"] = o.median_width;
+  out["p99_width"] = o.p99_width;
+  out["known"] = o.known.empty() ? Json() : Json(o.known);
+  out["worst"] = Json::array();
+  for (const Failure& f : o.worst) out["worst"].push_back(failure_json(o, f));
+  if ((o.failing > 0 || o.atypical > 0) && !o.map.empty()) out["map"] = map_json(o.map);
+  return out;
+}
+
+Json case_json(const CaseJudgement& c) {
+  Json out{{"id", c.id},
+           {"status", name(c.status)},
+           {"reason", c.reason},
+           {"broken", c.broken},
+           {"invocations", c.invocations},
+           {"failing", c.failing},
+           {"ambiguous", c.ambiguous},
+           {"other_branch", c.other_branch},
+           {"gave_up", c.gave_up},
+           {"outputs", Json::array()}};
+  for (const OutputJudgement& o : c.outputs) out["outputs"].push_back(output_json(o));
+  return out;
+}
+
+Json pass_json(const PassJudgement& p) {
+  Json out{{"pass", p.pass},
+           {"formula", p.formula},
+           {"status", name(p.status)},
+           {"reason", p.reason},
+           {"inputs_are_good", p.inputs_are_good},
+           {"half_mode", name(p.half_mode)},
+           {"half_mode_voted", p.half_mode_voted},
+           {"half_votes", {{"rne", p.half_votes[0]}, {"rtz", p.half_votes[1]}, {"either", p.half_votes[2]}}},
+           {"causes", Json::array()},
+           {"cases", Json::array()}};
+  for (const Cause& c : p.causes)
+    out["causes"].push_back({{"name", c.name}, {"sentence", c.sentence}, {"explained", c.explained}, {"of", c.of}, {"inside", c.inside}});
+  for (const CaseJudgement& c : p.cases) out["cases"].push_back(case_json(c));
+  return out;
+}
+
+}  // namespace
+
+std::string report_json(const PortJudgement& j, int exit_code) {
+  Json out{{"format", "rainref.judgement"},
+           {"version", 1},
+           {"rainref", {{"version", version()}, {"golden_generation", golden_generation}}},
+           {"status", name(j.status)},
+           {"exit_code", exit_code},
+           {"reason", j.reason},
+           {"first_bad_pass", j.first_bad_pass.empty() ? Json() : Json(j.first_bad_pass)},
+           {"pack", j.pack},
+           {"port", j.port},
+           {"profile", j.profile},
+           {"effect", j.effect},
+           {"variant", j.variant},
+           {"scene", j.scene},
+           {"device", {{"api", j.api}, {"name", j.device}, {"driver", j.driver}}},
+           {"command", j.command},
+           {"notes", j.notes},
+           {"stale", j.stale},
+           {"passes", Json::array()}};
+  for (const PassJudgement& p : j.passes) out["passes"].push_back(pass_json(p));
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rainref::reports

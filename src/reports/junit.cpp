@@ -1,0 +1,165 @@
+#include "reports/junit.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "reports/figures.h"
+#include "reports/markup.h"
+
+namespace rainref::reports {
+namespace {
+
+using judge::CaseJudgement;
+using judge::Cause;
+using judge::OutputJudgement;
+using judge::PassJudgement;
+using judge::PortJudgement;
+using judge::Status;
+
+constexpr std::size_t shown_failures = 10;
+
+/// A testcase and what it contains.
+struct Test {
+  enum Outcome : std::uint8_t { passed, failed, skipped, error } outcome = passed;
+  std::string name, message, text;
+  const char* type = "outside";  ///< of a failure
+};
+struct Suite {
+  std::string name;
+  std::vector<Test> tests;
+  std::string remark;
+
+  std::int64_t count(Test::Outcome o) const {
+    return std::count_if(tests.begin(), tests.end(), [&](const Test& t) { return t.outcome == o; });
+  }
+};
+
+std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
+  std::string out = fmt::format("outside the as-written envelope of {}\n", p.formula);
+  for (std::size_t k = 0; k < std::min(shown_failures, o.worst.size()); ++k) {
+    const FailureText t = failure_text(o, o.worst[k]);
+    out += t.got.empty() ? fmt::format("{}: {}\n", t.place, t.distance)
+                         : fmt::format("{}  got {}  accepted {}  expected {}  {}\n", t.place, t.got, t.accepted, t.expected, t.distance);
+  }
+  if (o.failing > static_cast<std::int64_t>(shown_failures))
+    out += fmt::format("({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown_failures));
+  if (has_unknown_cause(p)) out += "cause unknown\n";
+  for (const Cause& c : p.causes) out += fmt::format("likely cause: {}\n", cause_text(c));
+  return out;
+}
+
+Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgement& o, Test::Outcome untested) {
+  Test t;
+  t.name = fmt::format("{}/out.{}", c.id, o.name);
+  if (o.failing > 0) {
+    t.outcome = o.known.empty() ? Test::failed : Test::skipped;
+    t.message = o.known.empty() ? fmt::format("{} of {} {} outside", o.failing, o.elements, element_word(o))
+                                : fmt::format("known: {} ({} of {} {} outside)", o.known, o.failing, o.elements, element_word(o));
+    t.text = failing_text(p, o);
+  } else if (c.status == Status::untested) {
+    t.outcome = untested;
+    t.message = fmt::format("UNTESTED: {}", c.reason);
+    t.type = "not judged";
+  } else if (!c.reason.empty() && c.status != Status::fail) {
+    t.text = fmt::format("{}: {}\n", name(c.status), c.reason);
+  }
+  return t;
+}
+
+Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome untested) {
+  Suite suite;
+  suite.name = fmt::format("{}.{}", j.effect, p.pass);
+  if (p.status == Status::untested && p.cases.empty())
+    suite.tests.push_back({untested, p.pass, fmt::format("UNTESTED: {}", p.reason), "", "not judged"});
+  for (const CaseJudgement& c : p.cases) {
+    if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason, "broken"});
+    for (const OutputJudgement& o : c.outputs) suite.tests.push_back(test_of(p, c, o, untested));
+    if (!c.outputs.empty() || c.broken) continue;
+    const Test::Outcome outcome = c.status == Status::untested ? untested : c.status == Status::data ? Test::skipped : Test::passed;
+    suite.tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason),
+                           outcome == Test::passed ? c.reason : "", "not judged"});
+  }
+  const Figures f = figures_of(p);
+  suite.remark = fmt::format("{} {}\n", name(p.status), p.reason);
+  if (f.elements > 0) {
+    suite.remark +=
+        fmt::format("bounded {}, median width {} codes, 99 % below {}, ambiguous {}, vacuous {}, loose {}, atypical {}, free {}\n",
+                    share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width), f.ambiguous,
+                    share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged()), f.atypical, f.free);
+  }
+  if (const std::string half = half_text(p); !half.empty()) suite.remark += half + "\n";
+  return suite;
+}
+
+std::string test_xml(const Suite& suite, const Test& t) {
+  std::string out = fmt::format("    <testcase classname=\"{}\" name=\"{}\"", marked_up(suite.name), marked_up(t.name));
+  const std::string message = marked_up(t.message), text = marked_up(t.text);
+  switch (t.outcome) {
+    case Test::passed:
+      return out + (text.empty() ? "/>\n" : fmt::format(">\n      <system-out>{}</system-out>\n    </testcase>\n", text));
+    case Test::skipped:
+      out += fmt::format(">\n      <skipped message=\"{}\"/>\n", message);
+      break;
+    case Test::failed:
+      out += fmt::format(">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n", t.type, message, text);
+      break;
+    case Test::error:
+      out += fmt::format(">\n      <error type=\"not judged\" message=\"{}\">{}</error>\n", message, text);
+      break;
+  }
+  return out + "    </testcase>\n";
+}
+
+std::string counts_xml(const std::vector<Suite>& suites, bool skipped) {
+  std::int64_t tests = 0, of[4] = {};
+  for (const Suite& s : suites) {
+    tests += static_cast<std::int64_t>(s.tests.size());
+    for (const Test::Outcome o : {Test::failed, Test::error, Test::skipped}) of[o] += s.count(o);
+  }
+  return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"{}", tests, of[Test::failed], of[Test::error],
+                     skipped ? fmt::format(" skipped=\"{}\"", of[Test::skipped]) : "");
+}
+
+std::string suite_xml(const PortJudgement& j, const Suite& s) {
+  std::string out = fmt::format("  <testsuite name=\"{}\" {}>\n    <properties>\n", marked_up(s.name), counts_xml({s}, true));
+  for (const auto& [key, value] : {std::pair{"pack", j.pack},
+                                   {"port", j.port},
+                                   {"profile", j.profile},
+                                   {"api", j.api},
+                                   {"device", j.device},
+                                   {"driver", j.driver},
+                                   {"command", j.command}})
+    if (!value.empty()) out += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, marked_up(value));
+  out += "    </properties>\n";
+  for (const Test& t : s.tests) out += test_xml(s, t);
+  if (!s.remark.empty()) out += fmt::format("    <system-out>{}</system-out>\n", marked_up(s.remark));
+  return out + "  </testsuite>\n";
+}
+
+}  // namespace
+
+std::string report_junit(const PortJudgement& j, bool allow_untested) {
+  const Test::Outcome untested = forgives_untested(j, allow_untested) ? Test::skipped : Test::failed;
+  std::vector<Suite> suites;
+  for (const PassJudgement& p : j.passes) suites.push_back(suite_of(j, p, untested));
+  if (!j.stale.empty()) {
+    Suite baseline{"baseline", {}, ""};
+    for (const std::string& s : j.stale)
+      baseline.tests.push_back({Test::failed, s, "no longer fails: remove it from the baseline", s, "baseline"});
+    suites.push_back(std::move(baseline));
+  }
+  // What fails the run but lies in no pass: nothing was judged, or the port itself failed.
+  const bool shown = std::any_of(suites.begin(), suites.end(), [](const Suite& s) { return s.count(Test::failed) > 0; });
+  if (exit_code(j, allow_untested) != 0 && !shown)
+    suites.push_back({"validate", {{Test::error, "validate", j.reason, fmt::format("{}", fmt::join(j.notes, "\n"))}}, ""});
+
+  std::string out =
+      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"rainref validate\" {}>\n", counts_xml(suites, false));
+  for (const Suite& s : suites) out += suite_xml(j, s);
+  return out + "</testsuites>\n";
+}
+
+}  // namespace rainref::reports

@@ -1,0 +1,182 @@
+#include "reports/text.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/figures.h"
+
+namespace rainref::reports {
+namespace {
+
+using faults::MutantJudgement;
+using faults::MutationReport;
+using judge::CaseJudgement;
+using judge::Cause;
+using judge::OutputJudgement;
+using judge::PassJudgement;
+using judge::PortJudgement;
+using judge::Status;
+
+constexpr std::size_t shown_outputs = 4;   // of a pass that fails
+constexpr std::size_t shown_failures = 3;  // of an output
+constexpr std::size_t columns = 120;
+
+/// The text in lines of at most `columns`, broken at blanks, all but the first with this indent; a longer word stays whole.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string out;
+  std::size_t column = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t word = std::min(text.find_first_not_of(' ', at), text.size()), end = std::min(text.find(' ', word), text.size());
+    if (column > indent && column + end - at > columns) {
+      out += "\n" + std::string(indent, ' ');
+      column = indent;
+      at = word;
+    }
+    out += text.substr(at, end - at);
+    column += end - at;
+    at = end;
+  }
+  return out + "\n";
+}
+
+std::vector<std::string> row_of(const PassJudgement& p) {
+  const Figures f = figures_of(p);
+  if (f.elements == 0) return {name(p.status), p.pass, "nothing judged", "-", "-", "-", "-", "-", "-"};
+  return {name(p.status),
+          p.pass,
+          fmt::format("{} of {}", f.failing, f.invocations),
+          share_text(f.bounded(), f.judged()),
+          width_text(f.median_width),
+          width_text(f.p99_width),
+          fmt::format("{}", f.ambiguous),
+          share_text(f.vacuous, f.judged()),
+          share_text(f.loose, f.judged())};
+}
+
+/// What the columns do not say of a pass.
+std::vector<std::string> remarks_on(const PassJudgement& p) {
+  const Figures f = figures_of(p);
+  std::vector<std::string> out;
+  // A reason that a case has of its own stands below, with the case.
+  if (!p.reason.empty() && !is_broken(p)) out.push_back(p.reason);
+  std::string open;
+  std::size_t count = 0;
+  for (const CaseJudgement& c : p.cases)
+    if (c.status == Status::untested && c.outputs.empty() && ++count <= shown_outputs) open += (open.empty() ? "" : ", ") + c.id;
+  if (count > 0)
+    out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
+  if (f.atypical > 0 && p.status != Status::warn)
+    out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
+  if (f.other_branch > 0)
+    out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
+  if (f.gave_up > 0) out.push_back(fmt::format("{} invocations with too many open decisions to bound", f.gave_up));
+  if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
+  if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
+  return out;
+}
+
+/// Columns as wide as their widest cell; the first two are words, the others numbers.
+std::string table_text(const PortJudgement& j) {
+  std::vector<std::vector<std::string>> rows{{"", "pass", "outside", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"}};
+  for (const PassJudgement& p : j.passes) rows.push_back(row_of(p));
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  std::string out;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string line;
+    for (std::size_t k = 0; k < rows[r].size(); ++k)
+      line += k < 2 ? fmt::format("{:<{}}  ", rows[r][k], widths[k])
+                    : fmt::format("{:>{}}{}", rows[r][k], widths[k], k + 1 < rows[r].size() ? "  " : "");
+    out += line + "\n";
+    if (r == 0) continue;
+    for (const std::string& remark : remarks_on(j.passes[r - 1])) out += wrapped(std::string(widths[0] + 2, ' ') + remark, widths[0] + 4);
+  }
+  return out;
+}
+
+std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
+  std::string out = fmt::format("  {}/out.{} ({}): {} of {} {} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements,
+                                element_word(o), share_text(o.failing, o.elements));
+  const std::size_t shown = std::min(shown_failures, o.worst.size());
+  for (std::size_t k = 0; k < shown; ++k) {
+    const FailureText t = failure_text(o, o.worst[k]);
+    out += t.got.empty() ? fmt::format("    {}  {}\n", t.place, t.distance)
+                         : fmt::format("    {}  got {}  accepted {}  {}\n", t.place, t.got, t.accepted, t.distance);
+  }
+  if (o.failing > static_cast<std::int64_t>(shown))
+    out += fmt::format("    ({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown));
+  return out;
+}
+
+std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
+  const std::string verdict =
+      figures_of(p).outside > 0 ? fmt::format(" is outside the as-written envelope of {} under profile {}", p.formula, j.profile) : "";
+  std::string out = "\n" + wrapped(fmt::format("{} {}{}", name(p.status), p.pass, verdict), 2);
+  if (p.pass == j.first_bad_pass)
+    out += p.inputs_are_good ? "  first bad pass, its inputs are good\n" : "  first bad pass, its inputs are not good either\n";
+  std::size_t shown = 0, skipped = 0;
+  for (const CaseJudgement& c : p.cases) {
+    if (c.broken) {
+      if (shown == shown_outputs)
+        ++skipped;
+      else
+        out += wrapped(fmt::format("  {}: {}", c.id, c.reason), 4);
+      shown = std::min(shown + 1, shown_outputs);
+    }
+    for (const OutputJudgement& o : c.outputs) {
+      if (o.failing == 0) continue;
+      if (shown == shown_outputs) {
+        ++skipped;
+        continue;
+      }
+      ++shown;
+      out += output_text(c, o);
+      if (!o.known.empty()) out += wrapped(fmt::format("    known: {}", o.known), 6);
+    }
+  }
+  if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
+  if (has_unknown_cause(p)) out += "  cause unknown\n";
+  for (const Cause& c : p.causes) out += wrapped(fmt::format("  likely cause: {}", cause_text(c)), 4);
+  return out;
+}
+
+}  // namespace
+
+std::string report_text(const PortJudgement& j) {
+  std::string out = j.passes.empty() ? "" : table_text(j);
+  for (const PassJudgement& p : j.passes)
+    if ((p.status == Status::fail || p.status == Status::known) && !p.cases.empty()) out += failures_text(p, j);
+  for (const std::string& s : j.stale) out += fmt::format("\nbaseline: {}\n", s);
+  for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
+  out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
+  if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
+  if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);
+  if (!j.reason.empty()) out += fmt::format("\n  {}", j.reason);
+  return out + "\n";
+}
+
+std::string report_text(const MutationReport& r, bool all) {
+  std::string out;
+  std::int64_t caught = 0, equivalent = 0, bugs = 0;
+  for (const MutantJudgement& m : r.mutants) {
+    if (m.differing == 0) {
+      ++equivalent;
+    } else if (!m.legal) {
+      ++bugs;
+      caught += m.caught();
+    }
+    const char* verdict = m.differing == 0 ? "equivalent" : m.caught() ? "caught" : m.legal ? "legal" : "MISSED";
+    if (all || (!m.caught() && m.differing > 0 && !m.legal))
+      out += fmt::format("{:<10} {:<12} {}: {} of {} invocations differ, {} outside\n", verdict, m.pass, m.name, m.differing, m.compared,
+                         m.outside);
+  }
+  for (const std::string& u : r.unjudged) out += fmt::format("not judged: {}\n", u);
+  out += fmt::format("{} of {} deviations that change something would be caught under {} ({} change nothing on this pack)\n", caught, bugs,
+                     r.profile, equivalent);
+  return out;
+}
+
+}  // namespace rainref::reports

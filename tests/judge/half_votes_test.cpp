@@ -1,0 +1,98 @@
+// One rounding of half stores for a whole port: how it is found, and what is said of a pass that has another.
+#include "judge/half_votes.h"
+
+#include <gmock/gmock.h>
+
+#include "judge/mini_port.h"
+
+namespace rainref::judge {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::vector<HalfMode> open{HalfMode::rne, HalfMode::rtz, HalfMode::either}, asked_rtz{HalfMode::rtz, HalfMode::rne};
+HalfVotes votes(const char* pass, std::vector<std::int64_t> failing, const std::vector<HalfMode>& modes = open) {
+  return {pass, modes, std::move(failing)};
+}
+FoundRounding found(const std::vector<HalfVotes>& all, std::size_t k, HalfMode asked = HalfMode::either) {
+  return pass_rounding(all[k], all, asked, "some");
+}
+
+TEST(HalfVotes, FewestFailingPassesDecide) {
+  EXPECT_EQ(port_rounding({votes("a", {0, 9, 0}), votes("b", {0, 0, 0})}), HalfMode::rne);
+  EXPECT_EQ(port_rounding({votes("a", {9, 0, 0}), votes("b", {0, 0, 0})}), HalfMode::rtz);
+  // A pass that is wrong either way weighs no more than another, however much of it is wrong.
+  EXPECT_EQ(port_rounding({votes("a", {3, 0, 0}), votes("b", {5, 0, 0}), votes("bug", {100, 1000, 100})}), HalfMode::rtz);
+  // One of each: the one that fewer invocations contradict.
+  EXPECT_EQ(port_rounding({votes("a", {0, 7, 0}), votes("b", {9, 0, 0})}), HalfMode::rtz);
+  // Nothing tells: the first.
+  EXPECT_EQ(port_rounding({votes("a", {0, 0, 0})}), HalfMode::rne);
+  EXPECT_EQ(port_rounding({votes("a", {0, 0}, asked_rtz)}), HalfMode::rtz);
+  // Passes without halves have no vote.
+  EXPECT_EQ(port_rounding({{"floats", {HalfMode::rne}, {5}}, votes("a", {4, 0, 0})}), HalfMode::rtz);
+  EXPECT_EQ(port_rounding({{"data", {}, {}}}), HalfMode::either);
+}
+
+TEST(HalfVotes, APassThatFitsBothFollowsThePort) {
+  const std::vector<HalfVotes> all{votes("a", {8, 0, 0}), votes("b", {0, 0, 0})};
+  for (std::size_t k : {0, 1}) {
+    EXPECT_EQ(found(all, k).mode, 1u);
+    EXPECT_EQ(found(all, k).doubt, "");
+  }
+}
+
+TEST(HalfVotes, APassThatFitsOnlyTheOtherIsDoubtedAndBothAreNamed) {
+  const std::vector<HalfVotes> all{votes("a", {8, 0, 0}), votes("odd", {0, 6, 0}), votes("b", {5, 0, 0}), votes("both", {0, 0, 0})};
+  EXPECT_EQ(found(all, 1).mode, 0u);
+  EXPECT_EQ(found(all, 1).doubt, "stores to binary16 round to nearest in this pass and toward zero in a, b: a port has one rounding");
+  for (std::size_t k : {0, 2, 3}) EXPECT_EQ(found(all, k).doubt, "");
+}
+
+TEST(HalfVotes, AMixtureIsOneOnlyWhereBothFail) {
+  EXPECT_EQ(found({votes("a", {4, 5, 0})}, 0).mode, 2u);
+  EXPECT_EQ(found({votes("a", {4, 5, 0})}, 0).doubt, "some stores to binary16 round to nearest and some toward zero");
+  // Wrong in every way: shown under that which fits best.
+  EXPECT_EQ(found({votes("a", {5, 4, 1})}, 0).mode, 1u);
+  EXPECT_EQ(found({votes("a", {5, 4, 1})}, 0).doubt, "");
+}
+
+TEST(HalfVotes, WhatTheProfileAsksForIsSaid) {
+  const std::vector<HalfVotes> all{votes("a", {8, 0}, asked_rtz), votes("both", {0, 0}, asked_rtz), votes("obeys", {0, 3}, asked_rtz),
+                                   votes("b", {2, 0}, asked_rtz)};
+  EXPECT_EQ(found(all, 0, HalfMode::rtz).doubt, "stores to binary16 round to nearest, where the profile some asks for toward zero");
+  EXPECT_EQ(found(all, 1, HalfMode::rtz).doubt, "");
+  EXPECT_EQ(found(all, 2, HalfMode::rtz).doubt,
+            "stores to binary16 round toward zero in this pass and to nearest in a, b: a port has one rounding");
+}
+
+// ---- whole ports ---------------------------------------------------------------------------------------------------
+PortJudgement judged(const char* stores_only) {
+  MiniPort port("windshield-corrected");
+  port.stores = HalfMode::rtz;
+  port.stores_only = stores_only;
+  TemporaryFolder folder;
+  port.run(folder.path());
+  return judge(port.pack, folder.path());
+}
+
+TEST(PortRounding, TwoPassesThatDifferAreAWarning) {
+  const PortJudgement j = judged("normals");
+  EXPECT_EQ(j.status, Status::warn) << why(j);
+  const PassJudgement& odd = pass_of(j, "normals");
+  EXPECT_EQ(odd.status, Status::warn) << why(j);
+  EXPECT_EQ(odd.half_mode, HalfMode::rtz);
+  EXPECT_THAT(odd.reason, AllOf(HasSubstr("round toward zero in this pass and to nearest in"), HasSubstr("composite")));
+  for (const char* pass : {"splat", "wipe_texture", "composite"}) {
+    EXPECT_EQ(pass_of(j, pass).status, Status::pass) << why(j);
+    EXPECT_EQ(pass_of(j, pass).half_mode, HalfMode::rne) << pass;
+  }
+}
+TEST(PortRounding, APortThatTruncatesThroughoutPasses) {
+  const PortJudgement j = judged("");
+  EXPECT_EQ(j.status, Status::pass) << why(j);
+  for (const char* pass : {"normals", "composite"}) EXPECT_EQ(pass_of(j, pass).half_mode, HalfMode::rtz) << pass;
+}
+
+}  // namespace
+}  // namespace rainref::judge

@@ -1,0 +1,46 @@
+// The fuzzer's target without a fuzzer: packs as they are, what the fuzzer found, and programs of edits from a fixed seed.
+#include "fuzz/pack_target.h"
+
+#include <gtest/gtest.h>
+
+#include "judge/support.h"
+#include "source_folder.h"
+
+namespace rainref::fuzz {
+namespace {
+
+bool run(const std::vector<std::uint8_t>& program) { return judge_pack(std::as_bytes(std::span(program))); }
+
+// What the target makes of a pack without edits must be taken by every verb: or its edits would never reach the judge.
+TEST(PackFuzz, UntouchedPacksReachAVerdict) {
+  for (std::size_t b = 0; b < bases().size(); ++b)
+    for (std::size_t k = 0; k < bases()[b].cases.size(); ++k)
+      for (std::uint8_t verb : {0, 2})
+        EXPECT_TRUE(run({static_cast<std::uint8_t>(b), verb, static_cast<std::uint8_t>(k)})) << bases()[b].cases[k].folder();
+}
+
+// Each crashed, hung or was judged from memory that is not the program's once.
+TEST(PackFuzz, WhatWasFoundIsRefusedOrJudged) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(rainref::test::source_folder() + "/tests/fuzz/seeds/pack")) {
+    const std::string bytes = contents(entry.path());
+    judge_pack(std::as_bytes(std::span(bytes)));
+    ++files;
+  }
+  EXPECT_GT(files, 0);
+}
+
+TEST(PackFuzz, RandomPrograms) {
+  judge::test::Words words(2026);
+  int taken = 0, refused = 0;
+  for (int k = 0; k < 400; ++k) {
+    std::vector<std::uint8_t> program(4 + words() % 40);
+    for (std::uint8_t& byte : program) byte = static_cast<std::uint8_t>(words() >> 56);
+    ++(run(program) ? taken : refused);
+  }
+  EXPECT_GT(taken, 40);
+  EXPECT_GT(refused, 40);
+}
+
+}  // namespace
+}  // namespace rainref::fuzz

@@ -1,0 +1,283 @@
+// Each number of each profile against the specification that it claims to follow. The figures here are taken from the
+// specifications, not from the data files; what no specification says is named a choice.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "judge/profiles.h"
+#include "math/profiles.h"
+
+namespace rainref::judge {
+namespace {
+
+using namespace enclosed;
+
+Profile inexact(const char* name) {
+  Profile p;
+  p.name = name;
+  p.reference = false;
+  return p;
+}
+Accuracy ulp(double n) { return {n, 0, 0, 0}; }
+Accuracy absolute(double error) { return {0, 0, 0, error}; }
+Accuracy relative(double error) { return {0, 0, error, 0}; }
+/// n + k |x| ULP.
+Accuracy growing(double n, double k) { return {n, k, 0, 0}; }
+
+constexpr double pi = 3.141592653589793, ln2 = 0.6931471805599453;
+
+/// Vulkan 1.4, appendix "Vulkan Environment for SPIR-V", section "Precision and Operation of SPIR-V Instructions", the
+/// columns of 32 bits; other places are named.
+Profile vulkan() {
+  Profile p = inexact("vulkan");
+  p.basic = BasicRounding::either;                       // "Correctly Rounded": without a rounding mode either neighbour
+  p.contraction = true;                                  // "Evaluation of Expressions": AllowContract by default
+  p.flush = Flush::may;                                  // "Denormalized Values": may be flushed unless DenormPreserve
+  p.division = ulp(2.5);                                 // core instructions, OpFDiv, |y| in [2^-126, 2^126]
+  p.inverse_sqrt = ulp(2);                               // GLSL.std.450, InverseSqrt
+  p.sqrt_is_inherited = true;                            // Sqrt: from 1.0 / inversesqrt()
+  p.exp = p.exp2 = growing(3, 2);                        // Exp, Exp2: 3 + 2 |x|
+  p.log = p.log2 = ulp(3);                               // Log, Log2 outside [0.5, 2.0]
+  p.log_near_one = p.log2_near_one = absolute(0x1p-21);  // inside
+  p.pow_is_inherited = true;                             // Pow: from exp2(y log2(x))
+  p.sin_cos = absolute(0x1p-11);                         // Sin, Cos inside [-pi, pi]
+  p.sin_cos_domain = pi;
+  p.sin_cos_beyond = 0x1p-12;                // a choice: nothing is promised there; VK-GL-CTS accepts |x| 2^-12
+  p.atan2 = ulp(4096);                       // Atan2
+  p.subtexel_bits = 8;                       // appendix "Core Revisions", 1.4: subTexelPrecisionBits from 4 to 8
+  p.lod_bits = 6;                            // the same: mipmapPrecisionBits from 4 to 6
+  p.coordinate_bits = 20;                    // a choice: as VK-GL-CTS verifies lookups
+  p.unorm_load = ulp(1);                     // a choice
+  p.half_store = StoreRounding::either;      // "Floating-Point Format Conversions": the mode is not defined
+  p.half_overflow = StoreOverflow::either;   // the same: largest finite value or infinity
+  p.unorm_store_ulp = p.srgb_store_ulp = 1;  // "Conversion From Floating-Point to Normalized Fixed-Point": a neighbour
+  return p;
+}
+
+/// WGSL, section "Accuracy of Concrete Floating Point Expressions", the columns of f32; other places are named.
+Profile webgpu() {
+  Profile p = inexact("webgpu");
+  p.basic = BasicRounding::either;                       // "Differences from IEEE-754": up or down
+  p.contraction = true;                                  // "Reassociation and Fusion"
+  p.flush = Flush::may;                                  // "Differences from IEEE-754": inputs and outputs may be flushed
+  p.division = ulp(2.5);                                 // x / y, |y| in [2^-126, 2^126]
+  p.inverse_sqrt = ulp(2);                               // inverseSqrt
+  p.sqrt_is_inherited = true;                            // sqrt: from 1.0 / inverseSqrt(x)
+  p.exp = p.exp2 = growing(3, 2);                        // exp, exp2: 3 + 2 |x|
+  p.log = p.log2 = ulp(3);                               // log, log2 outside [0.5, 2.0]
+  p.log_near_one = p.log2_near_one = absolute(0x1p-21);  // inside
+  p.pow_is_inherited = true;                             // pow: from exp2(y log2(x))
+  p.sin_cos = absolute(0x1p-11);                         // sin, cos in [-pi, pi]; nothing beyond
+  p.sin_cos_domain = pi;
+  p.atan2 = ulp(4096);                       // atan2
+  p.subtexel_bits = 7;                       // a choice: WebGPU gives no number
+  p.lod_bits = 4;                            // a choice
+  p.coordinate_bits = 20;                    // a choice
+  p.unorm_load = ulp(3);                     // unpack4x8unorm; for texture loads a choice
+  p.half_store = StoreRounding::either;      // "Floating Point Conversion": no rounding mode
+  p.half_overflow = StoreOverflow::either;   // the same
+  p.unorm_store_ulp = p.srgb_store_ulp = 1;  // a choice
+  return p;
+}
+
+/// The Direct3D 11.3 functional specification, by its sections.
+Profile d3d() {
+  const double reciprocal = 1, product = 0.5;  // 3.1.3.1, x / y in two steps: ULP of each
+  Profile p = inexact("d3d");
+  p.basic = BasicRounding::nearest;            // 3.1.3.1: add, subtract, multiply 0.5 ULP to nearest even
+  p.contraction = true;                        // 3.1.3.1: fused operations no worse than unfused ones
+  p.flush = Flush::must;                       // 3.1.3.1: denorms are flushed
+  p.division = ulp(2 * reciprocal + product);  // an ULP of 1/y is up to 2 of the quotient
+  p.inverse_sqrt = relative(0x1p-21);          // 22.10.19, rsq
+  p.sqrt = ulp(1);                             // 3.1.3.1
+  p.exp2 = relative(0x1p-21);                  // 22.10.6, exp: 2^x
+  p.exp = {0, 2, 0x1p-21, 0};                  // HLSL's exp: 2^(x log2 e), two roundings of the exponent
+  p.log2 = relative(0x1p-21);                  // 22.10.11, log outside [0.5, 2]
+  p.log2_near_one = absolute(0x1p-21);         // inside
+  p.log = {2, 0, 0x1p-21, 0};                  // HLSL's log: log2(x) ln 2, two roundings
+  p.log_near_one = {2, 0, 0, 0x1p-21 * ln2};   // the same
+  p.pow_is_inherited = true;                   // HLSL's pow: exp2(y log2(x))
+  p.sin_cos = absolute(0.0008);                // 22.10.21, sincos in [-100 pi, 100 pi]; nothing beyond
+  p.sin_cos_domain = 100 * pi;
+  p.atan2 = ulp(4096);                         // a choice: there is no atan instruction
+  p.subtexel_bits = 8;                         // 7.18.16: at least 8 bits of subtexel precision
+  p.lod_bits = 8;                              // 7.18.10: at least 8.8
+  p.coordinate_bits = 0;                       // 3.2.4.1: conversion to fixed point is within those bits
+  p.unorm_load = ulp(1);                       // a choice
+  p.half_store = StoreRounding::rtz;           // 3.2.2: round to zero to another float format
+  p.half_overflow = StoreOverflow::max;        // 3.2.2: the largest representable value, not infinity
+  p.unorm_store_ulp = p.srgb_store_ulp = 0.6;  // 3.2.3.6 and 3.2.3.8: 0.6 ULP on the integer side
+  return p;
+}
+
+/// The CUDA C++ Programming Guide, "Mathematical Functions", table of single-precision standard functions, whose errors count
+/// from the correctly rounded result: half an ULP more from the exact one.
+Profile cuda() {
+  const auto from_rounded = [](double n) { return ulp(n + 0.5); };
+  Profile p = inexact("cuda");
+  p.basic = BasicRounding::nearest;  // x + y, x * y: round to nearest even
+  p.contraction = true;              // nvcc: -fmad=true
+  p.flush = Flush::never;            // nvcc: -ftz=false
+  p.division = p.sqrt = Accuracy{};  // x / y, sqrtf with -prec-div=true, -prec-sqrt=true: 0
+  p.inverse_sqrt = from_rounded(2);  // rsqrtf
+  p.exp = p.exp2 = from_rounded(2);  // expf, exp2f
+  p.log = p.log2 = from_rounded(1);  // logf, log2f
+  p.log_near_one = p.log2_near_one = from_rounded(1);
+  p.pow = from_rounded(4);                   // powf
+  p.sin_cos = from_rounded(2);               // sinf, cosf, full range
+  p.atan2 = from_rounded(3);                 // atan2f
+  p.subtexel_bits = 8;                       // "Texture Fetching", linear filtering: 8 bits of fraction
+  p.lod_bits = 8;                            // a choice
+  p.coordinate_bits = 0;                     // a choice
+  p.unorm_load = ulp(1);                     // a choice
+  p.half_store = StoreRounding::rne;         // a choice: as __float2half
+  p.half_overflow = StoreOverflow::inf;      // a choice
+  p.unorm_store_ulp = p.srgb_store_ulp = 1;  // a choice: there is no such store
+  return p;
+}
+
+/// The Metal Shading Language Specification 4.1, section 8.4, table 8.2 (fast math, the default).
+Profile metal() {
+  const double rsqrt = 2, quotient = 2.5, atan = 5;  // rsqrt(x), x / y, atan(x) [ULP]
+  Profile p = inexact("metal");
+  p.basic = BasicRounding::either;  // correctly rounded; that the direction is open is a choice
+  p.contraction = true;             // 1.6.5
+  p.flush = Flush::may;             // 8.1
+  p.division = ulp(quotient);       // y in [2^-126, 2^126]
+  p.inverse_sqrt = ulp(rsqrt);
+  p.sqrt = ulp(2 * rsqrt + 1);          // x rsqrt(x): an ULP of rsqrt is up to 2 of the product, which is rounded
+  p.exp = p.exp2 = growing(3, 2);       // 3 + floor(|2 x|)
+  p.log = ulp(3);                       // outside [0.5, 2]
+  p.log_near_one = absolute(0x1p-21);   // inside
+  p.log2 = ulp(2);                      // outside
+  p.log2_near_one = absolute(0x1p-22);  // inside
+  p.pow_is_inherited = true;            // exp2(y log2(x))
+  p.sin_cos = absolute(0x1p-13);        // in [-pi, pi]; larger beyond
+  p.sin_cos_domain = pi;
+  p.atan2 = ulp(2 * (atan + quotient + 0.5));  // atan(y / x), and pi added: each up to doubled
+  p.subtexel_bits = 7;                         // a choice
+  p.lod_bits = 4;                              // a choice
+  p.coordinate_bits = 20;                      // a choice
+  p.unorm_load = ulp(1);                       // a choice
+  p.half_store = StoreRounding::either;        // the compiler option -ftexture-write-rounding-mode
+  p.half_overflow = StoreOverflow::either;     // a choice
+  p.unorm_store_ulp = p.srgb_store_ulp = 1;    // a choice
+  return p;
+}
+
+/// No specification: what the devices that were measured do, and choices that hold there.
+Profile typical() {
+  Profile p = inexact("typical");
+  p.contraction = true;
+  p.flush = Flush::may;
+  p.division = p.sqrt = ulp(1);
+  p.inverse_sqrt = p.exp2 = p.log2 = ulp(2);
+  p.exp = growing(4, 2);
+  p.log = ulp(4);
+  p.log_near_one = p.log2_near_one = {2, 0, 0, 0x1p-24};
+  p.pow_is_inherited = true;
+  p.sin_cos = {4, 0, 0, 0x1p-21};
+  p.sin_cos_domain = 100 * pi;
+  p.sin_cos_beyond = 0x1p-22;
+  p.atan2 = ulp(4);
+  p.subtexel_bits = p.lod_bits = 8;
+  p.half_store = StoreRounding::either;
+  p.half_overflow = StoreOverflow::either;
+  p.unorm_store_ulp = p.srgb_store_ulp = 0.6;
+  return p;
+}
+
+/// Exact rules: the defaults.
+Profile ieee() { return {}; }
+
+/// Every number of a profile by its key in the data file.
+std::map<std::string, double> figures(const Profile& p) {
+  std::map<std::string, double> out{{"reference", p.reference},
+                                    {"basic", static_cast<double>(p.basic)},
+                                    {"contraction", p.contraction},
+                                    {"flush", static_cast<double>(p.flush)},
+                                    {"sqrt_is_inherited", p.sqrt_is_inherited},
+                                    {"pow_is_inherited", p.pow_is_inherited},
+                                    {"sin_cos_domain", p.sin_cos_domain},
+                                    {"sin_cos_beyond", p.sin_cos_beyond},
+                                    {"subtexel_bits", p.subtexel_bits},
+                                    {"coordinate_bits", p.coordinate_bits},
+                                    {"lod_bits", p.lod_bits},
+                                    {"half_store", static_cast<double>(p.half_store)},
+                                    {"half_overflow", static_cast<double>(p.half_overflow)},
+                                    {"unorm_store_ulp", p.unorm_store_ulp},
+                                    {"srgb_store_ulp", p.srgb_store_ulp}};
+  for (const auto& [key, a] : {std::pair{"division", p.division},
+                               {"sqrt", p.sqrt},
+                               {"inverse_sqrt", p.inverse_sqrt},
+                               {"exp", p.exp},
+                               {"exp2", p.exp2},
+                               {"log", p.log},
+                               {"log2", p.log2},
+                               {"log_near_one", p.log_near_one},
+                               {"log2_near_one", p.log2_near_one},
+                               {"pow", p.pow},
+                               {"sin_cos", p.sin_cos},
+                               {"atan2", p.atan2},
+                               {"unorm_load", p.unorm_load}}) {
+    const std::string name = key;
+    out[name + ".ulp"] = a.ulp;
+    out[name + ".ulp_per_x"] = a.ulp_per_x;
+    out[name + ".relative"] = a.relative;
+    out[name + ".absolute"] = a.absolute;
+  }
+  return out;
+}
+
+const std::map<std::string, Profile (*)()>& specifications() {
+  static const std::map<std::string, Profile (*)()> all{{"ieee", ieee}, {"vulkan", vulkan}, {"webgpu", webgpu},  {"d3d", d3d},
+                                                        {"cuda", cuda}, {"metal", metal},   {"typical", typical}};
+  return all;
+}
+
+TEST(ProfileTables, AreThoseThatAreOffered) {
+  std::vector<std::string> names = profile_names(), expected;
+  for (const auto& [name, unused] : specifications())
+    if (name != "typical") expected.push_back(name);  // which only warns
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, expected);
+}
+
+// As built in, and as the tests of the rooms below read them.
+TEST(ProfileTables, EachNumberIsTheSpecifications) {
+  for (const auto& [name, specified] : specifications()) {
+    const std::map<std::string, double> want = figures(specified()), built_in = figures(profile(name)),
+                                        read = figures(rainref::test::profile_named(name));
+    EXPECT_EQ(profile(name).name, name);
+    for (const auto& [key, value] : want) {
+      // The files have nine digits of what is no short number, rounded up.
+      const double slack = value * 1e-7;
+      for (const auto* have : {&built_in, &read}) {
+        EXPECT_GE(have->at(key), value) << name << ' ' << key;
+        EXPECT_LE(have->at(key), value + slack) << name << ' ' << key;
+      }
+    }
+  }
+}
+
+// No key of a data file escapes the tables above.
+TEST(ProfileTables, EveryKeyIsCompared) {
+  const std::map<std::string, double> compared = figures(Profile{});
+  for (const auto& [name, unused] : specifications()) {
+    std::istringstream text{std::string(profile_text(name))};
+    const std::regex key("^(\\w+) = ");
+    int keys = 0;
+    for (std::string line; std::getline(text, line);) {
+      std::smatch found;
+      if (!std::regex_search(line, found, key) || found[1] == "name") continue;
+      ++keys;
+      EXPECT_TRUE(compared.contains(found[1]) || compared.contains(found[1].str() + ".ulp")) << name << ": " << found[1];
+    }
+    EXPECT_GT(keys, 4) << name;
+  }
+}
+
+}  // namespace
+}  // namespace rainref::judge

@@ -1,0 +1,360 @@
+// A port's own run, judged one step at a time.
+#include "judge/shadow.h"
+
+#include "faults/diagnose.h"
+#include "judge/mini_port.h"
+#include "judge/rearrange.h"
+
+#include <cstring>
+
+#include <gmock/gmock.h>
+
+namespace rainref::judge {
+namespace {
+
+using capture::Array;
+using capture::PassCase;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+/// The two frames of a small pack as a run of its own, two wave steps in each.
+class ShadowTest : public testing::Test {
+ protected:
+  explicit ShadowTest(const std::string& name = "puddle-corrected") : port(name) { port.free_running = true; }
+
+  PortJudgement shadow_of(const std::string& only = "") {
+    port.run(folder.path());
+    return judge_dump(only);
+  }
+  PortJudgement judge_dump(const std::string& only = "") const {
+    const ShadowPlan plan = ShadowPlan::of_manifest(port.pack, false);
+    std::vector<std::string> passes;
+    for (const capture::PackPass& p : plan.passes) passes.push_back(p.name);
+    ValidateOptions options;
+    options.executor = &test_executor();
+    options.explain = faults::diagnose;
+    options.only = only;
+    return shadow(plan, folder.path(), dumped_runs(folder.path(), plan.effect, passes), options);
+  }
+  std::filesystem::path file(const std::string& name) const { return folder / name; }
+  MiniPort port;
+  TemporaryFolder folder;
+};
+
+// Truncating stores and fused products: after four steps its water is not the reference's, and every step is right.
+TEST_F(ShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.fault = perturbed::Fault::fused;
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.status, Status::pass) << why(j);
+  // Against the pack, whose water is the reference's, the same dump fails: that is what the shadow is for.
+  EXPECT_EQ(judge(port.pack, folder.path()).status, Status::fail);
+  EXPECT_EQ(pass_of(j, "wave_step").half_mode, HalfMode::rtz);
+  EXPECT_TRUE(pass_of(j, "display").inputs_are_good);
+  EXPECT_THAT(j.notes, Contains(HasSubstr("wave_step was not compared with the output of wave_step, which is not there in 1 run")));
+}
+
+TEST_F(ShadowTest, TheFirstBadRunIsNamedAndWhatFollowsFromItIsNot) {
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.folder() != "puddle.wave_step/0011.1") return;
+    const std::uint16_t height = 0x2c00;  // 1/16 m where the water moves by millimetres
+    std::memcpy(out[0].levels[0].data() + 4 * (9 * 29 + 14), &height, 2);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "wave_step") << why(j);
+  EXPECT_THAT(j.notes, Contains("the first bad run is puddle.wave_step/0011.1"));
+  const PassJudgement& wave = pass_of(j, "wave_step");
+  EXPECT_TRUE(wave.inputs_are_good);
+  EXPECT_EQ(wave.cases[0].failing + wave.cases[2].failing + wave.cases[3].failing, 0);
+  ASSERT_EQ(wave.cases[1].outputs[0].failing, 1);
+  EXPECT_EQ(wave.cases[1].outputs[0].worst[0].x, 14);
+  // Two steps and the picture follow from the wrong water, rightly.
+  for (const char* pass : {"shade", "display"}) {
+    EXPECT_EQ(pass_of(j, pass).status, Status::pass) << why(j);
+    EXPECT_FALSE(pass_of(j, pass).inputs_are_good);
+  }
+}
+
+TEST_F(ShadowTest, ABadPassBehindGoodOnesHasGoodInputs) {
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.pass == "display") flip_rows(out[0]);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "display");
+  EXPECT_TRUE(pass_of(j, "display").inputs_are_good) << why(j);
+  ASSERT_FALSE(pass_of(j, "display").causes.empty());
+  EXPECT_EQ(pass_of(j, "display").causes[0].name, "upside down");
+}
+
+TEST_F(ShadowTest, SwappedChannelsOfAnInputAreNamed) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "puddle.wave_step/0012.0") swap_channels(input_of(c, "wave").array, 0, 1);
+  };
+  const PortJudgement j = shadow_of();
+  const PassJudgement& wave = pass_of(j, "wave_step");
+  EXPECT_EQ(wave.status, Status::fail);
+  EXPECT_THAT(wave.reason,
+              AllOf(HasSubstr("input puddle.wave_step/0012.0/in.wave is not the previous output puddle.wave_step/0011.1/out.wave"),
+                    HasSubstr("with its first two channels swapped: ping-pong order")));
+  EXPECT_FALSE(wave.inputs_are_good);
+  for (const CaseJudgement& c : wave.cases) EXPECT_EQ(c.failing, 0) << c.id;  // its arithmetic is right
+}
+
+TEST_F(ShadowTest, AStaleInputIsNamed) {
+  Array old;
+  port.before = [&](PassCase& c) {
+    if (c.folder() == "puddle.wave_step/0011.1") old = input_of(c, "wave").array;
+    if (c.folder() == "puddle.wave_step/0012.0") input_of(c, "wave").array = old;
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_THAT(pass_of(j, "wave_step").reason,
+              HasSubstr("it is puddle.wave_step/0011.1/in.wave, the state before that run: a missing swap or a stale frame"));
+}
+
+TEST_F(ShadowTest, APictureOfTheFrameBeforeIsNamed) {
+  Array old;
+  port.before = [&](PassCase& c) {
+    if (c.folder() == "puddle.display/0011.0") old = input_of(c, "colour").array;
+    if (c.folder() == "puddle.display/0012.0") input_of(c, "colour").array = old;
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_THAT(pass_of(j, "display").reason, HasSubstr("it is puddle.shade/0011.0/out.colour: a stale frame"));
+}
+
+TEST_F(ShadowTest, AHiddenPassIsSeen) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "puddle.shade/0012.0") input_of(c, "hit").array.levels[0][16 * 40] ^= std::byte{1};
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "shade");
+  EXPECT_THAT(pass_of(j, "shade").reason,
+              AllOf(HasSubstr("1 of 2940 values differ, first at x 5, y 1, channel 0"), HasSubstr("a pass between them")));
+}
+
+// The input that is dumped is right, but the pass took another.
+TEST_F(ShadowTest, AnOutputThatDoesNotFollowFromTheInputsFails) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "puddle.shade/0012.0") flip_rows(input_of(c, "normal").array);
+  };
+  port.dumped = [](PassCase& c) {
+    if (c.folder() == "puddle.shade/0012.0") flip_rows(input_of(c, "normal").array);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "shade") << why(j);
+  EXPECT_TRUE(pass_of(j, "shade").inputs_are_good);
+  ASSERT_FALSE(pass_of(j, "shade").causes.empty());
+  EXPECT_EQ(pass_of(j, "shade").causes[0].name, "input normal upside down");
+}
+
+TEST_F(ShadowTest, RaindropsAreRecomputedFromThePortsUniforms) {
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.folder() == "puddle.raindrops/0012.0") out[0].levels[0][0] ^= std::byte{1};
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "raindrops");
+  EXPECT_EQ(pass_of(j, "raindrops").cases[2].outputs[0].worst[0].x, 0);
+}
+
+// What the host makes of the water for the march must hold for the port's own water.
+TEST_F(ShadowTest, BoundsOfAnotherFrameFail) {
+  port.before = [](PassCase& c) {
+    if (c.folder() != "puddle.surface_hit/0012.0") return;
+    Array& bounds = input_of(c, "bounds").array;
+    const float flat[2] = {1e-4f, 1e-3f};  // of water at rest
+    std::memcpy(bounds.levels[0].data(), flat, sizeof flat);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "surface_hit") << why(j);
+  EXPECT_THAT(pass_of(j, "surface_hit").reason,
+              AllOf(HasSubstr("in.bounds at (0, 0) says height 0.0001 m"), HasSubstr("of another frame?")));
+}
+
+TEST_F(ShadowTest, ACounterOfAnotherRunFails) {
+  std::vector<std::byte> old;
+  port.before = [&](PassCase& c) {
+    if (c.folder() == "puddle.raindrops/0012.0") old = c.uniforms;
+    if (c.folder() == "puddle.raindrops/0012.1") c.uniforms = old;
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_THAT(pass_of(j, "raindrops").reason,
+              AllOf(HasSubstr("uniform step is 24"), HasSubstr("expected 25"), HasSubstr("it is that of puddle.raindrops/0012.0")));
+}
+
+TEST_F(ShadowTest, AConstantThatThePortChoseIsANote) {
+  port.before = [](PassCase& c) {
+    const float exposure = 1.5f;
+    if (c.pass == "display") std::memcpy(c.uniforms.data() + 4, &exposure, 4);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.status, Status::pass) << why(j);
+  EXPECT_THAT(j.notes, Contains(AllOf(HasSubstr("uniform exposure of display is not the manifest's in 2 runs"),
+                                      HasSubstr("1.5 0x3fc00000, expected 1.6245048"))));
+}
+
+TEST_F(ShadowTest, AUniformThatIsNoNumberFails) {
+  port.dumped = [](PassCase& c) {
+    const std::uint32_t nan = 0x7fc00000;
+    if (c.folder() == "puddle.display/0012.0") std::memcpy(c.uniforms.data() + 4, &nan, 4);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(pass_of(j, "display").status, Status::fail);
+  EXPECT_EQ(pass_of(j, "display").reason, "uniform exposure is nan, expected 0 to 1.04858e+06");
+}
+
+TEST_F(ShadowTest, WhatIsNotThereIsRefusedOrUntested) {
+  port.run(folder.path());
+  std::filesystem::remove(file("puddle.display/0012.0/uniforms.bin"));
+  auto [code, text] = error_of([&] { judge_dump(); });
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, HasSubstr("uniforms.bin' is missing"));
+  std::filesystem::remove(file("puddle.shade/0011.0/in.hit.npy"));
+  std::tie(code, text) = error_of([&] { judge_dump(); });
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, AllOf(HasSubstr("2 files are missing"), HasSubstr("in.hit")));
+  EXPECT_EQ(pass_of(judge_dump("wave_step"), "wave_step").status, Status::pass);  // its own files are there
+
+  std::filesystem::remove_all(file("puddle.display"));
+  std::filesystem::remove_all(file("puddle.shade/0011.0"));
+  const PortJudgement j = judge_dump();
+  EXPECT_EQ(j.status, Status::untested) << why(j);
+  EXPECT_EQ(pass_of(j, "display").reason, "the port has dumped no run of this pass");
+  EXPECT_EQ(pass_of(j, "shade").status, Status::untested);
+  EXPECT_EQ(pass_of(j, "shade").reason, "the port has not dumped this run");
+}
+
+TEST_F(ShadowTest, FoldersOfOtherNamesAreRefused) {
+  port.run(folder.path());
+  std::filesystem::rename(file("puddle.shade/0011.0"), file("puddle.shade/11.0"));
+  auto [code, text] = error_of([&] { judge_dump(); });
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, HasSubstr("expected <frame>.<step> with four digits or more"));
+  std::filesystem::rename(file("puddle.shade"), file("puddle.shad"));
+  std::tie(code, text) = error_of([&] { judge_dump(); });
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, HasSubstr("did you mean 'puddle.shade'?"));
+}
+
+class PublishedShadowTest : public ShadowTest {
+ protected:
+  PublishedShadowTest() : ShadowTest("puddle-as-published") {}
+};
+
+TEST_F(PublishedShadowTest, WhatNoGpuReproducesIsTakenAsData) {
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.pass == "ground_noise") std::memset(out[0].levels[0].data(), 0, 400);  // another sine
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_NE(j.status, Status::fail) << why(j);
+  EXPECT_EQ(pass_of(j, "shade").status, Status::pass);
+}
+
+TEST_F(PublishedShadowTest, TheTimeOfAnotherFrameFails) {
+  std::vector<std::byte> old;
+  port.dumped = [&](PassCase& c) {
+    if (c.folder() == "puddle.raindrops/0011.0") old = c.uniforms;
+    if (c.folder() == "puddle.raindrops/0012.0") c.uniforms = old;
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "raindrops") << why(j);
+  EXPECT_THAT(pass_of(j, "raindrops").reason, AllOf(HasSubstr("uniform time is 0.18333334"), HasSubstr("expected 0.2"),
+                                                    HasSubstr("it is that of puddle.raindrops/0011.0")));
+}
+
+// The other effects: lists of drops that are handed from pass to pass, and a picture whose mip levels come from a run each.
+class WindshieldShadowTest : public ShadowTest {
+ protected:
+  WindshieldShadowTest() : ShadowTest("windshield-corrected") {}
+};
+class PublishedWindshieldShadowTest : public ShadowTest {
+ protected:
+  PublishedWindshieldShadowTest() : ShadowTest("windshield-as-published") {}
+};
+class ScreenDropsShadowTest : public ShadowTest {
+ protected:
+  ScreenDropsShadowTest() : ShadowTest("screen_drops-corrected") {}
+};
+class RainyGlassShadowTest : public ShadowTest {
+ protected:
+  RainyGlassShadowTest() : ShadowTest("rainy_glass-corrected") {}
+};
+class EdgeSplashShadowTest : public ShadowTest {
+ protected:
+  EdgeSplashShadowTest() : ShadowTest("edge_splash-corrected") {}
+};
+
+/// Of a device that truncates and fuses; a port may be asked to warn of what real devices do not do.
+void expect_good(const PortJudgement& j) {
+  EXPECT_TRUE(j.status == Status::pass || j.status == Status::warn) << why(j);
+  for (const PassJudgement& p : j.passes) EXPECT_TRUE(p.status == Status::pass || p.status == Status::warn) << p.pass;
+}
+TEST_F(WindshieldShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.fault = perturbed::Fault::fused;
+  expect_good(shadow_of());
+  // Its drops are not the pack's any more.
+  EXPECT_EQ(judge(port.pack, folder.path()).status, Status::fail);
+}
+TEST_F(PublishedWindshieldShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.behaviour.fault = perturbed::Fault::fused;
+  expect_good(shadow_of());
+}
+TEST_F(ScreenDropsShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.fault = perturbed::Fault::fused;
+  expect_good(shadow_of());
+}
+TEST_F(RainyGlassShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.fault = perturbed::Fault::fused;
+  expect_good(shadow_of());
+}
+TEST_F(EdgeSplashShadowTest, AFreeRunOfAConformingDevicePasses) {
+  port.stores = HalfMode::rtz;
+  port.behaviour.fault = perturbed::Fault::fused;
+  expect_good(shadow_of());
+}
+
+TEST_F(WindshieldShadowTest, ALostDropIsFoundWhereItIsLost) {
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.folder() != "windshield.merge/0012.0") return;
+    out[0].levels[0].resize(out[0].levels[0].size() - out[0].element_bytes());
+    --out[0].width;
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "merge") << why(j);
+  EXPECT_THAT(j.notes, Contains("the first bad run is windshield.merge/0012.0"));
+  EXPECT_THAT(pass_of(j, "merge").reason, HasSubstr("drops, missing: "));
+  EXPECT_EQ(pass_of(j, "splat").status, Status::pass);  // it follows from the drops that are left
+  EXPECT_FALSE(pass_of(j, "splat").inputs_are_good);
+}
+
+TEST_F(WindshieldShadowTest, EachMipLevelMustBeTheOutputOfItsOwnRun) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "windshield.composite/0012.0") std::memset(input_of(c, "blurred").array.levels[2].data(), 0, 64);
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "composite") << why(j);
+  EXPECT_THAT(
+      pass_of(j, "composite").reason,
+      HasSubstr(
+          "input windshield.composite/0012.0/in.blurred.L2 is not the previous output windshield.blur_pyramid/0012.0.L2/out.blurred"));
+}
+
+TEST_F(WindshieldShadowTest, ALevelIsHalvedFromTheOneAbove) {
+  port.before = [](PassCase& c) {
+    if (c.folder() == "windshield.blur_pyramid/0012.0.L2") {
+      Array& above = input_of(c, "blurred").array;
+      above.levels[0][0] = std::byte{1};
+    }
+  };
+  const PortJudgement j = shadow_of();
+  EXPECT_EQ(j.first_bad_pass, "blur_pyramid") << why(j);
+  EXPECT_THAT(
+      pass_of(j, "blur_pyramid").reason,
+      HasSubstr(
+          "input windshield.blur_pyramid/0012.0.L2/in.blurred is not the previous output windshield.blur_pyramid/0012.0.L1/out.blurred"));
+}
+
+}  // namespace
+}  // namespace rainref::judge

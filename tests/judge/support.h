@@ -1,0 +1,151 @@
+// The small packs' cases with their models, and random conforming devices to judge by them.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/pack_read.h"
+#include "judge/profiles.h"
+#include "judge/slots.h"
+#include "judge/validate.h"
+#include "math/perturbed.h"
+#include "source_folder.h"
+
+namespace rainref::judge::test {
+
+inline const std::vector<std::string> packs{
+    "puddle-as-published",   "puddle-corrected",          "rainy_glass-as-published", "rainy_glass-corrected",   "edge_splash-as-published",
+    "edge_splash-corrected", "screen_drops-as-published", "screen_drops-corrected",   "windshield-as-published", "windshield-corrected"};
+/// Every profile under which results may differ.
+inline std::vector<std::string> inexact_profiles() {
+  std::vector<std::string> names = profile_names();
+  std::erase(names, "ieee");
+  names.push_back("typical");
+  return names;
+}
+/// Where more than 1 % of a pass's elements have no useful bound; docs/conformance.md names them.
+inline bool is_known_loose(const std::string& pass, const std::string& profile) {
+  return (pass == "rain_on_glass" || pass == "drops") && (profile == "webgpu" || profile == "metal");
+}
+inline std::filesystem::path pack_folder(const std::string& name) { return rainref::test::source_folder() + "/tests/packs/" + name; }
+
+/// A case that some envelope judges.
+struct BoundCase {
+  std::unique_ptr<capture::PassCase> c;
+  std::unique_ptr<capture::PassModel> model;
+  std::vector<Slot> slots;
+  std::vector<capture::Array> expected() const {
+    std::vector<capture::Array> out;
+    for (const capture::CaseOutput& o : c->outputs) out.push_back(o.array);
+    return out;
+  }
+};
+/// A pass of a small pack with all its cases.
+struct BoundPass {
+  /// Of masks of 0 and 1, which hide most of what devices do: nearly every value is one number.
+  bool is_of_masks() const { return name() == "edge_splash-as-published splash"; }
+  /// Of whole quanta, and the pack has no place where a device could tip one: nothing spreads. windshield_motion_test.cpp has
+  /// places where one can.
+  bool is_of_quanta() const {
+    return name() == "screen_drops-corrected merge" || name() == "windshield-corrected merge" ||
+           name() == "windshield-corrected wipe_drops";
+  }
+  std::string pack, pass;
+  std::vector<BoundCase> cases;
+  std::string name() const { return pack + " " + pass; }
+};
+/// Of some packs; all passes, or those named.
+inline std::vector<BoundPass> enveloped_passes(const std::vector<std::string>& of = packs, const std::vector<std::string>& only = {}) {
+  std::vector<BoundPass> all;
+  for (const std::string& name : of) {
+    const capture::Pack pack(pack_folder(name));
+    for (const capture::PackPass& pass : pack.passes) {
+      if (!only.empty() && std::find(only.begin(), only.end(), pass.name) == only.end()) continue;
+      BoundPass bound{name, pass.name, {}};
+      for (const capture::PackCase& entry : pack.cases) {
+        if (entry.pass != pass.name) continue;
+        auto c = std::make_unique<capture::PassCase>(pack.read(entry));
+        std::vector<Slot> slots = slots_of(*c);
+        if (slots.empty()) continue;
+        auto model = binder(pack.effect, pass.name)(*c);
+        bound.cases.push_back({std::move(c), std::move(model), std::move(slots)});
+      }
+      if (!bound.cases.empty()) all.push_back(std::move(bound));
+    }
+  }
+  return all;
+}
+
+/// splitmix64 (Steele, Lea, Flood 2014).
+class Words {
+ public:
+  explicit Words(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t operator()() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return z ^ z >> 31;
+  }
+  bool coin() { return (*this)() >> 63; }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// The values of one invocation on a conforming device, the seed'th: three kinds take turns, whose errors lie anywhere,
+/// or lean to one end throughout.
+inline std::vector<float> conforming_values(const capture::PassModel& model, int x, int y, const perturbed::Variations& variations,
+                                            std::uint64_t seed) {
+  perturbed::Behaviour behaviour;
+  behaviour.variations = &variations;
+  behaviour.random = Words(seed)();
+  behaviour.lean = static_cast<int>(seed % 3) - 1;
+  const perturbed::Scope scope(behaviour);
+  std::vector<perturbed::Perturbed> values(static_cast<std::size_t>(model.values()));
+  model.evaluate(x, y, values.data());
+  std::vector<float> out;
+  for (const perturbed::Perturbed& v : values) out.push_back(v.v);
+  return out;
+}
+
+/// What the profile leaves open about a device's stores to binary16, one of it.
+inline HalfMode drawn_mode(const enclosed::Profile& p, Words& words) {
+  if (p.half_store == enclosed::StoreRounding::rne) return HalfMode::rne;
+  if (p.half_store == enclosed::StoreRounding::rtz) return HalfMode::rtz;
+  constexpr HalfMode modes[] = {HalfMode::rne, HalfMode::rtz, HalfMode::either};
+  return modes[words() % 3];
+}
+inline void store_conforming(const Slot& slot, float value, const enclosed::Profile& p, HalfMode mode, Words& words, std::byte* at) {
+  if (slot.kind == FormatInfo::float16) {
+    const float cut = to_float(to_half(value, Rounding::rtz));
+    const bool beyond = value >= 65520.0f || value <= -65520.0f;
+    if (mode == HalfMode::either && cut != value && !beyond) {
+      // The half below or above, by the bits of the one toward zero; a negative one that reaches 0 is stored as +0.
+      const Half low = to_half(value, Rounding::rtz);
+      const Half any{static_cast<std::uint16_t>(words.coin() ? low.bits : low.bits + 1)};
+      return store_value(slot, to_float(any), Rounding::rne, at);
+    }
+    return store_value(slot, value, mode == HalfMode::rtz ? Rounding::rtz : Rounding::rne, at);
+  }
+  if (slot.kind == FormatInfo::unorm8 && p.unorm_store_ulp > 0 && slot.store_rounding == Rounding::rne) {
+    const double scaled = 255.0 * std::min(std::max(value, 0.0f), 1.0f), below = static_cast<double>(static_cast<int>(scaled));
+    const double other = words.coin() ? below : std::min(below + 1, 255.0);
+    const bool is_code = to_float(Unorm8{to_unorm8(value).code}) == value;
+    if (!is_code && std::abs(other - scaled) <= p.unorm_store_ulp) {
+      *at = static_cast<std::byte>(static_cast<int>(other));
+      return;
+    }
+  }
+  store_value(slot, value, slot.store_rounding, at);
+}
+
+/// A count from the environment, for the long proofs of scripts/full.
+inline std::int64_t count_from(const char* variable, std::int64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::atoll(text) : otherwise;
+}
+
+}  // namespace rainref::judge::test

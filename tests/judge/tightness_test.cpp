@@ -1,0 +1,21 @@
+// The envelopes are tight: no more than a few times as wide as what conforming devices really spread over, before
+// storage.
+#include "judge/spread.h"
+
+namespace rainref::judge {
+namespace {
+
+using namespace test;
+
+class Tightness : public testing::TestWithParam<std::string> {};
+
+TEST_P(Tightness, TheMedianEnvelopeIsAtMostFourTimesTheSpread) { expect_tight(enveloped_passes({GetParam()})); }
+
+INSTANTIATE_TEST_SUITE_P(Packs, Tightness, testing::ValuesIn(packs), [](const auto& tested) {
+  std::string name = tested.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace rainref::judge

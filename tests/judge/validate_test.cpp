@@ -1,0 +1,271 @@
+// A port judged against a pack: what passes, what fails and is named, what is refused.
+#include "judge/mini_port.h"
+#include "judge/profiles.h"
+
+#include <cstring>
+#include <limits>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace rainref::judge {
+namespace {
+
+using capture::Array;
+using capture::PassCase;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A stored value from its ordered code.
+void put_code(const Slot& s, std::int64_t code, std::byte* at) {
+  const auto magnitude = static_cast<std::uint32_t>(code < 0 ? -code : code);
+  if (s.kind == FormatInfo::unorm8) {
+    const auto byte = static_cast<std::uint8_t>(code);
+    std::memcpy(at, &byte, 1);
+  } else if (s.kind == FormatInfo::float16) {
+    const auto half = static_cast<std::uint16_t>(magnitude | (code < 0 ? 0x8000u : 0u));
+    std::memcpy(at, &half, 2);
+  } else {
+    const std::uint32_t word = magnitude | (code < 0 ? 0x80000000u : 0u);
+    std::memcpy(at, &word, 4);
+  }
+}
+
+class EveryProfile : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
+
+TEST_P(EveryProfile, TheExpectedOutputsPass) {
+  const auto& [pack, profile] = GetParam();
+  TemporaryFolder folder;
+  const MiniPort port(pack);
+  port.run(folder.path());
+  const PortJudgement j = judge(port.pack, folder.path(), profile);
+  for (const PassJudgement& p : j.passes) {
+    // The article's march has rays without a useful bound. Direct3D asks for truncated halves; to nearest is a warning.
+    const bool may_be_untested = pack == "puddle-as-published" && p.pass == "surface_hit" && profile != "ieee";
+    if (may_be_untested && p.status == Status::untested) continue;
+    const bool may_warn = profile == "d3d" && (p.pass == "wave_step" || p.pass == "surface_hit" || p.pass == "shade");
+    const bool is_data = pack == "puddle-as-published" && (p.pass == "raindrops" || p.pass == "ground_noise");
+    EXPECT_TRUE(p.status == (is_data ? Status::data : Status::pass) || (may_warn && p.status == Status::warn)) << p.pass << '\n' << why(j);
+    for (const CaseJudgement& c : p.cases)
+      for (const OutputJudgement& o : c.outputs) EXPECT_EQ(o.differing, 0) << c.id << ' ' << o.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Packs, EveryProfile,
+                         testing::Combine(testing::Values("puddle-corrected", "puddle-as-published"), testing::ValuesIn(profile_names())),
+                         [](const auto& tested) {
+                           std::string name = std::get<0>(tested.param) + "_" + std::get<1>(tested.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+/// One element of one output of one pass, and what is put there.
+struct Moved {
+  const char *pack, *pass, *output, *profile;
+  int x, y, channel;
+
+  friend void PrintTo(const Moved& m, std::ostream* out) {
+    *out << m.pack << '/' << m.pass << '/' << m.output << '(' << m.x << ',' << m.y << ')';
+  }
+};
+class OneElement : public testing::TestWithParam<Moved> {
+ protected:
+  const PassJudgement& put_there(std::int64_t code, bool bits_of_infinity = false, bool bits_of_nan = false) {
+    const Moved& m = GetParam();
+    MiniPort port(m.pack);
+    bool done = false;
+    port.after = [&](const PassCase& c, std::vector<Array>& out) {
+      if (c.pass != m.pass || done) return;
+      for (const Slot& s : slots_of(c)) {
+        if (c.outputs[static_cast<std::size_t>(s.output)].name != m.output || s.channel != m.channel) continue;
+        std::byte* at = out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(m.x, m.y);
+        const std::int64_t infinity = s.kind == FormatInfo::float16 ? 0x7c00 : 0x7f800000;
+        put_code(s, bits_of_nan ? infinity + 1 : bits_of_infinity ? infinity : code, at);
+        done = true;
+      }
+    };
+    TemporaryFolder folder;
+    port.run(folder.path());
+    EXPECT_TRUE(done);
+    last_ = judge(port.pack, folder.path(), m.profile);
+    return pass_of(last_, m.pass);
+  }
+  void expect_named(const PassJudgement& p, Failure& named) const {
+    const Moved& m = GetParam();
+    ASSERT_EQ(p.status, Status::fail) << why(last_);
+    EXPECT_EQ(last_.first_bad_pass, m.pass);
+    const auto& output = *std::find_if(p.cases.front().outputs.begin(), p.cases.front().outputs.end(),
+                                       [&](const OutputJudgement& o) { return o.name == m.output; });
+    EXPECT_EQ(output.failing, 1);
+    ASSERT_EQ(output.worst.size(), 1u);
+    named = output.worst.front();
+    EXPECT_EQ(named.x, m.x);
+    EXPECT_EQ(named.y, m.y);
+    EXPECT_EQ(named.channel, m.channel);
+    for (const PassJudgement& other : last_.passes) {
+      EXPECT_EQ(other.status == Status::fail, other.pass == p.pass) << other.pass;  // every case stands alone
+    }
+  }
+  PortJudgement last_;
+};
+
+TEST_P(OneElement, TwoCodesBeyondTheRangeFailsAndIsNamed) {
+  Failure far, near;
+  expect_named(put_there(GetParam().output == std::string("picture") ? 250 : 0x5555), far);  // shows the range
+  expect_named(put_there(far.high + 2), near);
+  EXPECT_EQ(near.distance, 2u);
+  EXPECT_EQ(near.high, far.high);
+  expect_named(put_there(far.low - 2), near);
+  EXPECT_EQ(near.distance, 2u);
+  EXPECT_NE(put_there(far.high).status, Status::fail) << why(last_);
+  EXPECT_NE(put_there(far.low).status, Status::fail) << why(last_);
+}
+
+/// Not of a picture: 8-bit codes hold neither.
+class OneFloat : public OneElement {};
+TEST_P(OneFloat, NaNAndInfinityFailAndAreNamed) {
+  Failure named;
+  expect_named(put_there(0, true), named);
+  EXPECT_FALSE(named.not_a_number);
+  expect_named(put_there(0, false, true), named);
+  EXPECT_TRUE(named.not_a_number);
+}
+
+std::string name_of(const testing::TestParamInfo<Moved>& tested) {
+  std::string name = std::string(tested.param.pack) + "_" + tested.param.pass + "_" + tested.param.profile;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+const Moved floats[] = {{"puddle-corrected", "wave_step", "wave", "vulkan", 5, 7, 0},
+                        {"puddle-corrected", "wave_step", "wave", "ieee", 28, 18, 1},
+                        {"puddle-as-published", "wave_step", "wave", "webgpu", 34, 20, 0},
+                        {"puddle-corrected", "shade", "colour", "cuda", 0, 0, 2},
+                        {"puddle-as-published", "shade", "colour", "d3d", 17, 3, 1}};
+const Moved codes[] = {{"puddle-corrected", "display", "picture", "metal", 9, 20, 0},
+                       {"puddle-as-published", "display", "picture", "vulkan", 34, 0, 2}};
+INSTANTIATE_TEST_SUITE_P(Floats, OneElement, testing::ValuesIn(floats), name_of);
+INSTANTIATE_TEST_SUITE_P(Pictures, OneElement, testing::ValuesIn(codes), name_of);
+INSTANTIATE_TEST_SUITE_P(Floats, OneFloat, testing::ValuesIn(floats), name_of);
+
+// What a march gives is held to the gap at its end; beyond any doubt it fails too.
+TEST(SurfaceHit, ANormalThatIsNotANumberIsNamed) {
+  MiniPort port("puddle-corrected");
+  port.after = [](const PassCase& c, std::vector<Array>& out) {
+    if (c.folder() != "puddle.surface_hit/0012.0") return;
+    const std::uint16_t nan = 0x7e00;
+    std::memcpy(out[1].levels[0].data() + 8 * (3 * 35 + 30), &nan, 2);
+  };
+  TemporaryFolder folder;
+  port.run(folder.path());
+  const PortJudgement j = judge(port.pack, folder.path());
+  const OutputJudgement& normal = pass_of(j, "surface_hit").cases.at(1).outputs.at(1);
+  ASSERT_EQ(normal.failing, 1) << why(j);
+  EXPECT_EQ(normal.worst[0].x, 30);
+  EXPECT_EQ(normal.worst[0].y, 3);
+  EXPECT_TRUE(normal.worst[0].not_a_number);
+}
+
+// The steps of the corrected march are free, but a count: finite, and of a march that the pass may make.
+TEST(SurfaceHit, StepsThatNoMarchHasFail) {
+  for (const float steps : {-7.0f, 1e30f, std::numeric_limits<float>::infinity()}) {
+    MiniPort port("puddle-corrected");
+    port.after = [&](const PassCase& c, std::vector<Array>& out) {
+      if (c.folder() == "puddle.surface_hit/0012.0") std::memcpy(out[0].levels[0].data() + 16 * (3 * 35 + 30) + 12, &steps, 4);
+    };
+    TemporaryFolder folder;
+    port.run(folder.path());
+    const PortJudgement j = judge(port.pack, folder.path());
+    EXPECT_EQ(j.first_bad_pass, "surface_hit") << steps << why(j);
+    const OutputJudgement& hit = pass_of(j, "surface_hit").cases.at(1).outputs.at(0);
+    ASSERT_EQ(hit.failing, 1) << steps;
+    EXPECT_EQ(std::tuple(hit.worst[0].x, hit.worst[0].y, hit.worst[0].channel), std::tuple(30, 3, 3)) << steps;
+  }
+}
+
+// Each judged output stands once in a judgement, in the case's order, whatever rule judges it.
+TEST(Outputs, EachIsListedOnce) {
+  for (const char* pack : {"windshield-corrected", "puddle-corrected", "rainy_glass-corrected"}) {
+    const MiniPort port(pack);
+    TemporaryFolder folder;
+    port.run(folder.path());
+    const PortJudgement j = judge(port.pack, folder.path());
+    for (const capture::PackCase& entry : port.pack.cases) {
+      const PassJudgement& pass = pass_of(j, entry.pass);
+      const auto found = std::find_if(pass.cases.begin(), pass.cases.end(), [&](const CaseJudgement& c) { return c.id == entry.id; });
+      ASSERT_NE(found, pass.cases.end());
+      std::vector<std::string> judged, listed;
+      for (const capture::PackOutput& o : entry.outputs)
+        if (o.rules.judge != capture::Judge::input_only) judged.push_back(o.name);
+      for (const OutputJudgement& o : found->outputs) listed.push_back(o.name);
+      EXPECT_EQ(listed, judged) << entry.id;
+    }
+  }
+}
+
+class Files : public testing::Test {
+ protected:
+  Files() { port.run(folder.path()); }
+  std::pair<ExitCode, std::string> refusal() {
+    return error_of([&] { judge(port.pack, folder.path()); });
+  }
+  std::filesystem::path file(const std::string& name) const { return folder / name; }
+  const MiniPort port{"puddle-corrected"};
+  TemporaryFolder folder;
+};
+
+TEST_F(Files, AllThatAreMissingAreNamedAtOnce) {
+  std::filesystem::remove(file("puddle.shade/0011.0/out.colour.npy"));
+  auto [code, text] = refusal();
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, HasSubstr("puddle.shade/0011.0"));
+  std::filesystem::remove(file("puddle.wave_step/0012.1/out.wave.npy"));
+  std::filesystem::remove_all(file("puddle.display/0012.0"));
+  std::tie(code, text) = refusal();
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, AllOf(HasSubstr("3 files are missing or cannot be used"), HasSubstr("puddle.wave_step/0012.1"),
+                          HasSubstr("puddle.shade/0011.0"), HasSubstr("puddle.display/0012.0")));
+}
+
+TEST_F(Files, WrongShapeTypeAndLengthAreRefused) {
+  const std::filesystem::path path = file("puddle.display/0011.0/out.picture.npy");
+  const std::string whole = contents(path);
+  put(path, whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(refusal().first, ExitCode::port_files);
+  PassCase c = port.pack.read(port.pack.cases[0]);
+  Array picture;
+  picture.format = Format::rgba8;
+  picture.width = 34;
+  picture.height = 21;
+  picture.levels = {std::vector<std::byte>(34 * 21 * 4)};
+  put_array(path.parent_path(), "out.picture", picture);
+  EXPECT_THAT(refusal().second, HasSubstr("34x21"));
+  picture.format = Format::rgba16f;
+  picture.width = 35;
+  picture.levels = {std::vector<std::byte>(35 * 21 * 8)};
+  put_array(path.parent_path(), "out.picture", picture);
+  EXPECT_EQ(refusal().first, ExitCode::port_files);
+}
+
+// A hard link and a symbolic one are the pack's file; a copy is the port's own, whatever is in it.
+TEST_F(Files, ThePacksOwnAreRefused) {
+  EXPECT_EQ(error_of([&] { judge(port.pack, port.pack.folder()); }).first, ExitCode::usage);
+  const std::filesystem::path path = file("puddle.shade/0011.0/out.colour.npy"),
+                              own = port.pack.folder() / "puddle.shade/0011.0/out.colour.npy";
+  EXPECT_EQ(refusal().first, ExitCode::pass);
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink(own, path);
+  EXPECT_EQ(refusal().first, ExitCode::usage);
+}
+
+// The worst of several errors counts: an unreadable file over a missing one.
+TEST_F(Files, AnUnreadableFileIsMoreSeriousThanAMissingOne) {
+  std::filesystem::remove(file("puddle.shade/0011.0/out.colour.npy"));
+  const std::filesystem::path path = file("puddle.wave_step/0012.1/out.wave.npy");
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  EXPECT_EQ(refusal().first, ExitCode::io);
+}
+
+}  // namespace
+}  // namespace rainref::judge

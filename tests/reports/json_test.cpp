@@ -1,0 +1,180 @@
+// The judgement as JSON: every number is there, and nothing is there that JSON cannot hold.
+#include "reports/json.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "faults/diagnose.h"
+#include "judge/validate.h"
+#include "reports/example_judgement.h"
+#include "source_folder.h"
+
+namespace rainref::reports {
+namespace {
+
+using namespace judge;
+
+using Json = nlohmann::json;
+
+TEST(ReportJson, HoldsTheWholeJudgement) {
+  const Json j = Json::parse(report_json(example_judgement(), 1));
+  EXPECT_EQ(j["format"], "rainref.judgement");
+  EXPECT_EQ(j["version"], 1);
+  EXPECT_EQ(j["status"], "FAIL");
+  EXPECT_EQ(j["exit_code"], 1);
+  EXPECT_EQ(j["first_bad_pass"], "shade");
+  EXPECT_EQ(j["device"], (Json{{"api", "Vulkan 1.3"}, {"name", "Test & <Device>"}, {"driver", ""}}));
+  EXPECT_EQ(j["command"], "rainref validate pack --port port");
+  EXPECT_EQ(j["notes"], (Json{"port/x.exr: one note"}));
+  ASSERT_EQ(j["passes"].size(), 4u);
+
+  const Json& hit = j["passes"][1];
+  EXPECT_EQ(hit["status"], "WARN");
+  EXPECT_EQ(hit["cases"][0]["ambiguous"], 4);
+  EXPECT_EQ(hit["cases"][0]["other_branch"], 1);
+  const Json& out = hit["cases"][0]["outputs"][0];
+  EXPECT_EQ(out["bounded"], 7);
+  EXPECT_EQ(out["vacuous"], 1);
+  EXPECT_EQ(out["loose"], 2);
+  EXPECT_EQ(out["atypical"], 2);
+  EXPECT_EQ(out["median_width"], 7);
+  EXPECT_EQ(out["p99_width"], 4e9);
+  EXPECT_EQ(out["map"], (Json{0, 1, 2, 2, 0, 4, 1, 1}));
+  EXPECT_FALSE(j["passes"][0]["cases"][0]["outputs"][0].contains("map"));
+
+  const Json& shade = j["passes"][3];
+  EXPECT_EQ(shade["half_mode"], "rtz");
+  EXPECT_EQ(shade["half_votes"], (Json{{"rne", 8}, {"rtz", 2}, {"either", 2}}));
+  EXPECT_EQ(
+      shade["causes"][0],
+      (Json{{"name", "upside down"}, {"sentence", "the buffer is stored from the bottom up"}, {"explained", 2}, {"of", 2}, {"inside", 1}}));
+  const Json& worst = shade["cases"][0]["outputs"][0]["worst"];
+  ASSERT_EQ(worst.size(), 2u);
+  EXPECT_EQ(worst[0]["got"], (Json{{"value", nullptr}, {"bits", "0x7e01"}, {"code", 0x7e01}}));
+  EXPECT_EQ(worst[0]["distance"], nullptr);
+  EXPECT_EQ(worst[0]["not_a_number"], true);
+  EXPECT_EQ(worst[1]["x"], 0);
+  EXPECT_EQ(worst[1]["y"], 1);
+  EXPECT_EQ(worst[1]["channel"], 3);
+  EXPECT_EQ(worst[1]["low"], (Json{{"value", 1.0}, {"bits", "0x3c00"}, {"code", 0x3c00}}));
+  EXPECT_EQ(worst[1]["distance"], 3);
+}
+
+TEST(ReportJson, TheRunsOfAMapAreTheMap) {
+  PortJudgement j = example_judgement();
+  OutputJudgement& o = j.passes[3].cases[0].outputs[0];
+  const Json runs = Json::parse(report_json(j, 1))["passes"][3]["cases"][0]["outputs"][0]["map"];
+  std::vector<std::uint8_t> map;
+  for (std::size_t k = 0; k < runs.size(); k += 2) map.insert(map.end(), runs[k + 1].get<std::size_t>(), runs[k].get<std::uint8_t>());
+  EXPECT_EQ(map, o.map);
+}
+
+TEST(ReportJson, NamesThatAreNoUtf8AndRangesWithoutEnds) {
+  PortJudgement j = example_judgement();
+  j.port = "bad \xff name";
+  Failure& f = j.passes[3].cases[0].outputs[0].worst[1];
+  f.low = INT64_MIN;
+  f.high = INT64_MAX;
+  f.got = -0x7c00;
+  const Json out = Json::parse(report_json(j, 1));
+  EXPECT_EQ(out["port"], "bad \xef\xbf\xbd name");
+  const Json& worst = out["passes"][3]["cases"][0]["outputs"][0]["worst"][1];
+  EXPECT_EQ(worst["low"], nullptr);
+  EXPECT_EQ(worst["high"], nullptr);
+  EXPECT_EQ(worst["got"], (Json{{"value", nullptr}, {"bits", "0xfc00"}, {"code", -0x7c00}}));
+}
+
+TEST(ReportJson, RecordsAndKnownFailures) {
+  PortJudgement j = example_judgement();
+  OutputJudgement& o = j.passes[3].cases[0].outputs[0];
+  o.records = true;
+  o.map.clear();
+  o.known = "a reason";
+  const Json out = Json::parse(report_json(j, 1))["passes"][3]["cases"][0]["outputs"][0];
+  EXPECT_EQ(out["format"], "records");
+  EXPECT_EQ(out["worst"][0], (Json{{"record", 2}}));
+  EXPECT_EQ(out["known"], "a reason");
+  EXPECT_FALSE(out.contains("width"));
+}
+
+/// Keys as the document writes them: those of a section's objects, "passes[].cases[].id", and of the objects that these
+/// hold, "device.api".
+void add_keys(const Json& j, const std::string& prefix, std::set<std::string>& keys) {
+  if (j.is_array()) {
+    for (const Json& element : j) add_keys(element, prefix + "[]", keys);
+    return;
+  }
+  if (!j.is_object()) return;
+  for (const auto& [key, value] : j.items()) {
+    const std::string path = prefix.empty() ? key : prefix + "." + key;
+    const bool has_own_row = !value.is_object() && !(value.is_array() && !value.empty() && value[0].is_object());
+    if (has_own_row) keys.insert(path);
+    add_keys(value, path, keys);
+    if (value.is_array()) keys.insert(path);
+  }
+}
+std::set<std::string> documented_keys() {
+  std::istringstream document(contents(std::filesystem::path(rainref::test::source_folder()) / "docs/reports.md"));
+  std::set<std::string> keys;
+  std::string prefix;
+  bool is_json = false;
+  for (std::string line; std::getline(document, line);) {
+    if (line.starts_with("## ")) is_json = line == "## JSON";
+    if (!is_json) continue;
+    if (line.starts_with("### `")) {
+      prefix = line.substr(5, line.find('`', 5) - 5);
+      prefix = prefix == "." ? "" : prefix + ".";
+    }
+    if (!line.starts_with("| `")) continue;
+    const std::string cell = line.substr(2, line.find(" |", 2) - 2);
+    for (std::size_t at = 0; (at = cell.find('`', at)) != std::string::npos;) {
+      const std::size_t end = cell.find('`', at + 1);
+      keys.insert(prefix + cell.substr(at + 1, end - at - 1));
+      at = end + 1;
+    }
+  }
+  return keys;
+}
+
+// The keys are those of a real judgement: shade upside down, a drop that is moved, a texel of the water that is no number.
+TEST(ReportJson, TheDocumentNamesEveryKeyAndNoOther) {
+  const TemporaryFolder folder;
+  const capture::Pack pack(small_pack("puddle-corrected"));
+  write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string&, capture::Array& a) {
+    if (c.pass == "shade") flip_rows(a);
+    if (c.pass == "raindrops") a.levels[0][1] ^= std::byte{1};
+    if (c.pass == "wave_step") a.levels[0][1] = std::byte{0x7e};
+  });
+  put(folder / "port.json", R"({"api": "Vulkan", "device": "none", "driver": "1"})");
+  const parallel::Executor executor;
+  ValidateOptions options;
+  options.executor = &executor;
+  options.explain = faults::diagnose;
+  const PortJudgement j = validate(pack, folder.path(), options);
+  const Json json = Json::parse(report_json(j, 1));
+  std::set<std::string> keys;
+  add_keys(json, "", keys);
+  const std::set<std::string> named = documented_keys();
+  std::vector<std::string> undocumented, unwritten;
+  std::set_difference(keys.begin(), keys.end(), named.begin(), named.end(), std::back_inserter(undocumented));
+  std::set_difference(named.begin(), named.end(), keys.begin(), keys.end(), std::back_inserter(unwritten));
+  EXPECT_THAT(undocumented, testing::IsEmpty());
+  EXPECT_THAT(unwritten, testing::IsEmpty());
+
+  // The first word of the first drop is its x, one step in 256 aside.
+  const Json& drop = json["passes"][0]["cases"][0]["outputs"][0]["worst"][0];
+  EXPECT_EQ(drop["record"], 0);
+  EXPECT_EQ(drop["field"], "x");
+  EXPECT_EQ(drop["distance"], 256);
+  EXPECT_EQ(drop["low"], drop["high"]);
+  EXPECT_NE(drop["low"], drop["got"]);
+}
+
+}  // namespace
+}  // namespace rainref::reports
