@@ -1,5 +1,6 @@
 #include "windshield/evaluations.h"
 
+#include "blur_pyramid/blur_pyramid.h"
 #include "drops/evaluations.h"
 #include "pass/display.h"
 #include "pass/model.h"
@@ -17,7 +18,7 @@ const std::vector<capture::PassEvaluations>& evaluations() {
                                                          {"splat", drops::bind_splat},
                                                          {"wipe_texture", pass::bind<WipeTexturePass, scalar::WipeTexturePassText>},
                                                          {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
-                                                         {"blur_pyramid", bind_blur_pyramid},
+                                                         {"blur_pyramid", blur_pyramid::bind_blur},
                                                          {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
                                                          {"display", pass::bind_display}};
   return all;

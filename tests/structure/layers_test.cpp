@@ -28,7 +28,7 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"night_street", {"scene"}},
                                                                  {"pass", {"capture", "scene"}},
                                                                  {"drops", {"capture", "pass", "rain", "scene"}},
-                                                                 {"blur_pyramid", {"capture", "scene"}},
+                                                                 {"blur_pyramid", {"capture", "pass", "scene"}},
                                                                  {"conformance", {"port_dump"}}};
 
 struct Library {
