@@ -2,17 +2,13 @@
 
 #include <algorithm>
 
-#include "blur_pyramid/kernels.h"
+#include "blur_pyramid/plain.h"
 #include "math/half_array.h"
+#include "pass/info.h"
+#include "pass/model.h"
 #include "rainref/error.h"
 
 namespace rainref::blur_pyramid {
-namespace {
-
-constexpr int tile_rows = 8;
-constexpr const char *published = "as-published", *correct = "corrected";
-
-}  // namespace
 
 std::vector<scene::Parameter> blur_parameters(const std::string& prefix) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
@@ -25,7 +21,7 @@ std::vector<scene::Parameter> blur_parameters(const std::string& prefix) {
 BlurSettings blur_settings(const scene::Config& config, const std::string& prefix, Rounding rounding) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   BlurSettings s;
-  s.corrected = config.variant() == correct;
+  s.corrected = config.variant() == "corrected";
   s.rounding = rounding;
   s.levels = static_cast<int>(config.integer(key("blur_levels")));
   s.fog_density = config.real(key("fog_density"));
@@ -65,25 +61,21 @@ std::vector<Image> make_levels(const BlurSettings& s, int width, int height) {
   return levels;
 }
 
-void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth,
-               Image& out) {
-  const auto same = [&](const Image& i, Format format) {
-    return i.format() == format && i.width() == out.width() && i.height() == out.height();
-  };
-  if (!same(colour, Format::rgba16f) || !same(depth, Format::r32f) || !same(out, Format::rgba16f)) {
-    throw Error(ExitCode::internal, "blur_pyramid: colour, depth and level 0 do not fit");
-  }
-  executor.for_tiles(out.width(), out.height(), out.width(), tile_rows,
-                     [&](const parallel::Tile& tile) { fog_rows(uniforms, rounding, colour, depth, out, tile); });
+pass::Run<FogPass> fog_run(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out) {
+  pass::HostIo<FogPass> io;
+  io.scene_colour = colour;
+  io.scene_depth = depth;
+  io.blurred = out;
+  return pass::Run<FogPass>(uniforms, true, rounding, io);
 }
-void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above,
-                 Image& out) {
-  const bool fits = above.width() == uniforms.source_size[0] && above.height() == uniforms.source_size[1] &&
-                    level_size(above.width(), above.height(), 1) == std::array<int, 2>{out.width(), out.height()};
-  if (!fits || above.format() != Format::rgba16f || out.format() != Format::rgba16f)
+pass::Run<HalvePass> halve_run(const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out) {
+  if (above.width() != uniforms.source_size[0] || above.height() != uniforms.source_size[1] ||
+      level_size(above.width(), above.height(), 1) != std::array<int, 2>{out.width(), out.height()})
     throw Error(ExitCode::internal, "blur_pyramid: the levels do not fit");
-  executor.for_tiles(out.width(), out.height(), out.width(), tile_rows,
-                     [&](const parallel::Tile& tile) { halve_rows(uniforms, corrected, rounding, above, out, tile); });
+  pass::HostIo<HalvePass> io;
+  io.above = above;
+  io.blurred = out;
+  return pass::Run<HalvePass>(uniforms, corrected, rounding, io);
 }
 
 LevelTexture::LevelTexture(const std::vector<Image>& levels) {
@@ -114,29 +106,21 @@ void LevelTexture::refresh(const parallel::Executor& executor, const std::vector
 }
 
 capture::PassInfo blur_info(const std::string& colour_from, const std::string& depth_from) {
-  using scene::member;
-  const scene::UniformBlock block = scene::uniform_block<BlurUniforms>(
-      "BlurUniforms",
-      {member<&BlurUniforms::fog_colour>("fog_colour", "1", scene::radiance, "Linear radiance of the fog."),
-       member<&BlurUniforms::fog_density>("fog_density", "1/m", {0, 10}, "Extinction of light in the fog."),
-       member<&BlurUniforms::middle>("middle", "1", scene::share,
-                                     "corrected: weight of the middle one of three texels, for columns and rows."),
-       member<&BlurUniforms::last>("last", "1", scene::share, "corrected: weight of the last one, over output index + 1."),
-       member<&BlurUniforms::source_size>("source_size", "texel", {1, 65536}, "Columns and rows of the level above."),
-       member<&BlurUniforms::level>("level", "1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
-  return {"blur_pyramid",
-          "The scene in fog, and blurred levels of it; one run a level.",
-          {{published, 1, capture::Judge::envelope, "BlurUniforms"}, {correct, 1, capture::Judge::envelope, "BlurUniforms"}},
-          {capture::per_texel({"scene_colour", colour_from}), capture::per_texel({"scene_depth", depth_from}), {"blurred", "blur_pyramid"}},
-          {"blurred"},
-          {block},
-          "gather",
-          {"the four texels"}};
+  capture::PassInfo info = pass::info_of<FogPass>();
+  const capture::PassInfo further = pass::info_of<HalvePass>();
+  info.reads[0].from = colour_from;
+  info.reads[1].from = depth_from;
+  info.reads.push_back(further.reads.front());
+  info.order_free_sums = further.order_free_sums;
+  return info;
 }
 std::vector<capture::BufferInfo> blur_buffers() {
   return {{"scene_colour", "rgba16f", "Opaque scene without fog: linear radiance.", "1", {0, 1}, "none", "linear Rec. 709", "unused"},
           {"scene_depth", "r32f", "Distance of the scene along the view axis.", "m", {0, 1000}},
-          {"blurred", "rgba16f", "Level of the blurred scene: linear radiance, alpha 1.", "1", {0, 1}, "none", "linear Rec. 709", "1"}};
+          pass::buffers_of<HalvePass>().front()};
+}
+std::unique_ptr<capture::PassModel> bind_blur(const capture::PassCase& c) {
+  return c.level == 0 ? pass::bind<FogPass, scalar::FogPassText>(c) : pass::bind<HalvePass, scalar::HalvePassText>(c);
 }
 
 }  // namespace rainref::blur_pyramid

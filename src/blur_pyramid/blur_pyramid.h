@@ -2,14 +2,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "blur_pyramid/uniforms.h"
+#include "blur_pyramid/blur_pyramid.pass.h"
 #include "capture/pass_info.h"
+#include "capture/pass_model.h"
 #include "image/texture.h"
-#include "rainref/executor.h"
-#include "image/stored_texture.h"
+#include "pass/run.h"
 #include "rainref/image.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
@@ -37,12 +38,12 @@ BlurUniforms blur_uniforms(const BlurSettings& settings, int width, int height, 
 
 /// Levels of rgba16f, zero.
 std::vector<Image> make_levels(const BlurSettings& settings, int width, int height);
+/// Rows of a tile; the tiles of a further level must span its width.
+inline constexpr int tile_rows = 8;
 /// The pass for level 0. colour: rgba16f, linear radiance; depth: r32f, distance along the view axis [m]; out: rgba16f, alpha 1.
-void fog_level(const parallel::Executor& executor, const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth,
-               Image& out);
-/// The pass for a further level, from the one above.
-void halve_level(const parallel::Executor& executor, const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above,
-                 Image& out);
+pass::Run<FogPass> fog_run(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out);
+/// The pass for a further level, from the one above. Throws Error(internal) where the levels do not fit.
+pass::Run<HalvePass> halve_run(const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out);
 
 /// The levels as one texture with mips, for passes that sample them (clamped).
 class LevelTexture {
@@ -62,5 +63,6 @@ class LevelTexture {
 /// The pass, one run a level, and the buffers that it reads and writes.
 capture::PassInfo blur_info(const std::string& colour_from, const std::string& depth_from);
 std::vector<capture::BufferInfo> blur_buffers();
+std::unique_ptr<capture::PassModel> bind_blur(const capture::PassCase& c);
 
 }  // namespace rainref::blur_pyramid

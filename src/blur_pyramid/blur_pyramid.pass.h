@@ -1,4 +1,56 @@
 // Pass blur_pyramid: the fogged scene, then each level from the one above. Needs optics-inl.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_BLUR_PYRAMID_BLUR_PYRAMID_PASS_H_
+#define RAINREF_BLUR_PYRAMID_BLUR_PYRAMID_PASS_H_
+#include <algorithm>
+
+#include "blur_pyramid/uniforms.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::blur_pyramid {
+
+/// A run for level 0. From which passes the scene comes, blur_info says.
+struct FogPass {
+  static constexpr pass::About about{"blur_pyramid", "The scene in fog, and blurred levels of it; one run a level.", {1}, {1}};
+  using Uniforms = BlurUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "BlurUniforms",
+        {member<&U::fog_colour>("fog_colour", "1", scene::radiance, "Linear radiance of the fog."),
+         member<&U::fog_density>("fog_density", "1/m", {0, 10}, "Extinction of light in the fog."),
+         member<&U::middle>("middle", "1", scene::share, "corrected: weight of the middle one of three texels, for columns and rows."),
+         member<&U::last>("last", "1", scene::share, "corrected: weight of the last one, over output index + 1."),
+         member<&U::source_size>("source_size", "texel", {1, 65536}, "Columns and rows of the level above."),
+         member<&U::level>("level", "1", {0, Texture::max_levels}, "0 fogs the scene, further ones halve the level above.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Texels<Format::rgba16f> scene_colour = pass::In{.name = "scene_colour"};
+    typename B::template Texels<Format::r32f> scene_depth = pass::In{.name = "scene_depth"};
+    typename B::template Result<Format::rgba16f> blurred = pass::Out{.name = "blurred"};
+  };
+};
+/// A run for a further level. Its lanes are written by hand, rows first: see kernels.cpp.
+struct HalvePass {
+  static constexpr pass::About about{"blur_pyramid", FogPass::about.sentence, {1}, {1}, {"the four texels"}};
+  using Uniforms = BlurUniforms;
+  static scene::UniformBlock uniforms() { return FogPass::uniforms(); }
+  template <class B>
+  struct Io {
+    typename B::template Stored<Format::rgba16f> above = pass::In{.name = "blurred", .from = "blur_pyramid"};
+    typename B::template Result<Format::rgba16f> blurred = pass::Out{.name = "blurred",
+                                                                     .sentence = "Level of the blurred scene: linear radiance, alpha 1.",
+                                                                     .colour_space = "linear Rec. 709",
+                                                                     .alpha = "1"};
+  };
+};
+
+}  // namespace rainref::blur_pyramid
+#endif
+#else
 
 /// Level 0: fog (1 - T) + colour T, T = exp(-density depth).
 template <class N>
@@ -36,3 +88,30 @@ RAINREF_FN N halved_corrected(const BlurUniforms& u, Tap tap, int x, int y) {
   const auto column = [&](int i) RAINREF_LAMBDA { return box_of_three(tap(i, 0), tap(i, 1), tap(i, 2), wy1, wy2); };
   return box_of_three(column(0), column(1), column(2), N(u.middle[0]), last_weight(u.last[0], N::index(x)));
 }
+
+struct FogPassText {
+  template <class N, bool, class Io>
+  static RAINREF_FN void run(const BlurUniforms& u, const Io& io, int, int) {
+    io.blurred(fogged(u, io.scene_colour.rgb(), io.scene_depth()), N(1.0f));
+  }
+};
+struct HalvePassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const BlurUniforms& u, const Io& io, int x, int y) {
+    const Texture& above = io.above;
+    const auto held = [](int i, int uniform, int size) { return std::clamp(i, 0, std::clamp(uniform, 1, size) - 1); };
+    N c[4];
+    for (int k = 0; k < 4; ++k) {
+      const auto tap = [&](int i, int j) RAINREF_LAMBDA {
+        const int column = held(2 * x + i, u.source_size[0], above.width[0]), row = held(2 * y + j, u.source_size[1], above.height[0]);
+        return N::load(above.texels + 4 * (static_cast<std::ptrdiff_t>(row) * above.width[0] + column) + k);
+      };
+      if constexpr (corrected)
+        c[k] = halved_corrected<N>(u, tap, x, y);
+      else
+        c[k] = halved_as_published<N>(tap);
+    }
+    io.blurred(Vec3<N>(c[0], c[1], c[2]), c[3]);
+  }
+};
+#endif

@@ -1,12 +1,14 @@
-// Shells of blur_pyramid; compiled once for each SIMD target.
-#include "blur_pyramid/kernels.h"
-
+// blur_pyramid in lanes; compiled once for each SIMD target.
 #include <algorithm>
 #include <vector>
+
+#include "blur_pyramid/blur_pyramid.pass.h"
+#include "pass/run.h"
 
 #define RAINREF_KERNELS "blur_pyramid/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
+#include "pass/rows-inl.h"
 
 RAINREF_TARGET_BEGIN(blur_pyramid)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
@@ -16,22 +18,7 @@ RAINREF_TARGET_BEGIN(blur_pyramid)
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-void FogRows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out,
-             const parallel::Tile& tile) {
-  const BlurUniforms u = uniforms;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const Half* from = colour.row<Half>(y);
-    const float* distance = depth.row<float>(y);
-    Half* to = out.row<Half>(y);
-    for (int x = tile.x0; x < tile.x1; x += Lanes::size()) {
-      Lanes c[4];
-      load4(from + 4 * x, c);
-      const Vec3<Lanes> f = fogged(u, Vec3<Lanes>(c[0], c[1], c[2]), Lanes::load(distance + x));
-      const Lanes rgba[4] = {f.x, f.y, f.z, Lanes(1.0f)};
-      store4(to + 4 * x, rgba, rounding);
-    }
-  }
-}
+RAINREF_PASS_ROWS(FogPass)
 
 // One row of the level above as four planes of floats, and what two or three such rows come to. A plane is readable two
 // vectors past its last texel.
@@ -101,26 +88,14 @@ HWY_INLINE HWY_ATTR void halve(const BlurUniforms& u, Rounding rounding, const I
     }
   }
 }
-void HalveRows(const BlurUniforms& u, bool corrected, Rounding rounding, const Image& above, Image& out, const parallel::Tile& tile) {
-  if (corrected) return halve<true>(u, rounding, above, out, tile);
-  halve<false>(u, rounding, above, out, tile);
+void HalvePassRows(const BlurUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<HalvePass>& io,
+                   const parallel::Tile& tile) {
+  if (corrected) return halve<true>(u, rounding, *io.above.image, *io.blurred.image, tile);
+  halve<false>(u, rounding, *io.above.image, *io.blurred.image, tile);
 }
 RAINREF_TARGET_END(blur_pyramid)
 
 #if RAINREF_ONCE
-namespace rainref::blur_pyramid {
-
-RAINREF_EXPORT(FogRows);
-RAINREF_EXPORT(HalveRows);
-
-void fog_rows(const BlurUniforms& uniforms, Rounding rounding, const Image& colour, const Image& depth, Image& out,
-              const parallel::Tile& tile) {
-  RAINREF_DISPATCH(FogRows)(uniforms, rounding, colour, depth, out, tile);
-}
-void halve_rows(const BlurUniforms& uniforms, bool corrected, Rounding rounding, const Image& above, Image& out,
-                const parallel::Tile& tile) {
-  RAINREF_DISPATCH(HalveRows)(uniforms, corrected, rounding, above, out, tile);
-}
-
-}  // namespace rainref::blur_pyramid
+RAINREF_PASS_DISPATCH(blur_pyramid, FogPass)
+RAINREF_PASS_DISPATCH(blur_pyramid, HalvePass)
 #endif

@@ -1,8 +1,11 @@
-// The scalar evaluations of blur_pyramid, in a namespace of their own, so that argument types of this room do not pull them
-// into the lanes.
+// The scalar evaluations of blur_pyramid: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// room do not pull them into the lanes.
 #pragma once
 
-#include "blur_pyramid/uniforms.h"
+#include "blur_pyramid/blur_pyramid.pass.h"
+#include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
 
 namespace rainref::blur_pyramid::scalar {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "drops/every_evaluation.h"
+#include "drops/plain.h"
 #include "drops/passes.h"
 #include "rainref/error.h"
 
@@ -17,8 +17,8 @@ using capture::PassCase;
 using enclosed::Enclosure;
 
 template <class N>
-every::DropState<N> state_of(const Drop& d) {
-  every::DropState<N> s;
+scalar::DropState<N> state_of(const Drop& d) {
+  scalar::DropState<N> s;
   s.u = N::load(&d.position[0]);
   s.v = N::load(&d.position[1]);
   s.velocity_u = N::load(&d.velocity[0]);
@@ -42,9 +42,9 @@ struct Integrate {
 
   template <class N>
   ListedDrop<N> operator()(const Drop& drop) const {
-    const every::DropState<N> before = state_of<N>(drop);
-    const every::DropState<N> d =
-        corrected ? every::integrate_corrected<N>(uniforms, glass, before).drop : every::integrate_as_published<N>(uniforms, glass, before);
+    const scalar::DropState<N> before = state_of<N>(drop);
+    const scalar::DropState<N> d = corrected ? scalar::integrate_corrected<N>(uniforms, glass, before).drop
+                                             : scalar::integrate_as_published<N>(uniforms, glass, before);
     return {d.u, d.v, d.velocity_u, d.velocity_v, d.mass, d.life, corrected ? !is_ended(d.life) : d.life > N(0.0f)};
   }
 };

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "drops/every_evaluation.h"
+#include "drops/plain.h"
 #include "drops/evaluations.h"
 #include "drops/uniforms.h"
 #include "math/whole.h"
@@ -26,11 +26,11 @@ using capture::PassCase;
 using enclosed::Enclosure;
 using perturbed::Perturbed;
 using Number = plain::Plain<float>;
-using State = every::DropState<Enclosure>;
+using State = scalar::DropState<Enclosure>;
 
 template <class N>
-every::DropState<N> state_of(const Drop& d) {
-  every::DropState<N> s;
+scalar::DropState<N> state_of(const Drop& d) {
+  scalar::DropState<N> s;
   s.u = N::load(&d.position[0]);
   s.v = N::load(&d.position[1]);
   s.velocity_u = N::load(&d.velocity[0]);
@@ -40,7 +40,7 @@ every::DropState<N> state_of(const Drop& d) {
   return s;
 }
 template <class N>
-double mass_of(const every::DropState<N>& d) {
+double mass_of(const scalar::DropState<N>& d) {
   return static_cast<double>(d.mass.v);
 }
 double mass_of(const State& d) { return d.mass.lo; }
@@ -76,7 +76,7 @@ class Merging {
   struct Member {
     const Drop* drop;
     bool lives = true;
-    every::DropState<N> state;
+    scalar::DropState<N> state;
   };
   template <class N>
   std::vector<Member<N>> merged(int group) const {
@@ -98,19 +98,19 @@ class Merging {
       while (to[root] != none) root = to[root];
       Member<N>&into = all[root], &from = all[i];
       if (mass_of(into.state) + static_cast<double>(from.drop->mass) > most_quanta) continue;
-      into.state = every::absorb(into.state, from.state);
+      into.state = scalar::absorb(into.state, from.state);
       from.lives = false;
     }
     return all;
   }
 
   template <class N>
-  every::Trail<N> trail(const every::DropState<N>& d) const {
-    return every::trail(u_, d);
+  scalar::Trail<N> trail(const scalar::DropState<N>& d) const {
+    return scalar::trail(u_, d);
   }
   /// The trail without a decision about its rounding, its mass taken off `d`.
   Deposit take_trail(State& d) const {
-    const every::Trail<Enclosure> t = every::tail(u_, d);
+    const scalar::Trail<Enclosure> t = scalar::tail(u_, d);
     Deposit out;
     if (t.quanta.is_vacuous() || t.u.is_vacuous() || t.v.is_vacuous()) {
       enclosed::give_up();
@@ -141,9 +141,9 @@ class Merging {
   };
 
   template <class N>
-  bool touching(const every::DropState<N>& a, const every::DropState<N>& b) const {
-    return every::touches(every::plane_x(u_, a.u, a.v), every::plane_y(u_, a.v), every::base_radius(u_, a.mass),
-                          every::plane_x(u_, b.u, b.v), every::plane_y(u_, b.v), every::base_radius(u_, b.mass));
+  bool touching(const scalar::DropState<N>& a, const scalar::DropState<N>& b) const {
+    return scalar::touches(scalar::plane_x(u_, a.u, a.v), scalar::plane_y(u_, a.v), scalar::base_radius(u_, a.mass),
+                           scalar::plane_x(u_, b.u, b.v), scalar::plane_y(u_, b.v), scalar::base_radius(u_, b.mass));
   }
   bool may_touch(const Drop& a, const Drop& b) const {
     bool may = false;
@@ -164,7 +164,7 @@ class Merging {
     double largest = 0;
     for (std::size_t i = 0; i < drops_.size(); ++i) {
       const auto s = state_of<Number>(drops_[i]);
-      circles.push_back({every::plane_x(u_, s.u, s.v).v, every::plane_y(u_, s.v).v, every::base_radius(u_, s.mass).v * slack, i});
+      circles.push_back({scalar::plane_x(u_, s.u, s.v).v, scalar::plane_y(u_, s.v).v, scalar::base_radius(u_, s.mass).v * slack, i});
       largest = std::max(largest, circles.back().radius);
     }
     std::sort(circles.begin(), circles.end(), [](const Circle& a, const Circle& b) { return a.x < b.x; });
@@ -213,7 +213,7 @@ class Merging {
       }
       if (!moves) continue;
       const auto total = static_cast<float>(mass);
-      const double radius = 1.01 * every::base_radius(u_, Number(total)).v, shear = u_.frame[1] / u_.frame[2];
+      const double radius = 1.01 * scalar::base_radius(u_, Number(total)).v, shear = u_.frame[1] / u_.frame[2];
       const double reach_v = radius / u_.frame[2], reach_u = radius * (1 + (shear < 0 ? -shear : shear)) / u_.frame[0];
       const auto texel = [](double at, int size) { return whole_within(at * size, 0, size - 1); };
       // A texel more on each side, for rounding.
@@ -255,7 +255,7 @@ class MergedDrops : public capture::KeyedModel {
     for (int group = 0; group < groups(); ++group) {
       for (const Merging::Member<N>& one : m_.merged<N>(group)) {
         if (!one.lives) continue;
-        const every::DropState<N>& s = one.state;
+        const scalar::DropState<N>& s = one.state;
         out.push_back(stored(ListedDrop<N>{s.u, s.v, s.velocity_u, s.velocity_v, s.mass - m_.trail(s).quanta, s.life, true}, one.drop->id));
       }
     }
@@ -279,7 +279,7 @@ class MergeModel : public capture::PassModel {
       sum.least += more.least;
       sum.most += more.most;
     }
-    const Enclosure dry = every::dried(merging_.uniforms(), Enclosure::load(&merging_.film(texel)));
+    const Enclosure dry = scalar::dried(merging_.uniforms(), Enclosure::load(&merging_.film(texel)));
     const auto with = [](float before, std::int64_t added) {
       return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_quanta)));
     };
@@ -311,14 +311,14 @@ class MergeModel : public capture::PassModel {
   void value(int x, int y, N* out) const {
     const int texel = y * width() + x;
     const MergeUniforms& u = merging_.uniforms();
-    double sum = every::dried(u, N::load(&merging_.film(texel))).v;
+    double sum = scalar::dried(u, N::load(&merging_.film(texel))).v;
     const auto falls_here = [](N at, int size, int here) {
       return whole_within((at * N(static_cast<float>(size))).v, 0, size - 1) == here;
     };
     for (const int group : merging_.groups_over(texel)) {
       for (const Merging::Member<N>& one : merging_.merged<N>(group)) {
         if (!one.lives) continue;
-        const every::Trail<N> t = merging_.trail(one.state);
+        const scalar::Trail<N> t = merging_.trail(one.state);
         if (t.quanta.v > 0 && falls_here(t.u, u.film[0], x) && falls_here(t.v, u.film[1], y)) sum += t.quanta.v;
       }
     }

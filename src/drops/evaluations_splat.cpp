@@ -6,7 +6,7 @@
 #include "drops/framed.h"
 #include "drops/half_sum.h"
 #include "drops/evaluations.h"
-#include "drops/splat_every_evaluation.h"
+#include "drops/splat_plain.h"
 #include "rainref/error.h"
 
 namespace rainref::drops {
@@ -18,18 +18,18 @@ struct Splat {
   bool corrected;
   Rounding rounding;
   std::vector<Drop> drops;
-  std::vector<every::Stamp<plain::Plain<float>>> stamps;  // of each drop
+  std::vector<scalar::Stamp<plain::Plain<float>>> stamps;  // of each drop
   Framed film;
 
   bool rounds_each() const { return static_cast<SplatBlend>(uniforms.blend) == SplatBlend::add_in_half; }
   template <class N>
-  every::Stamp<N> stamp(const Drop& d) const {
-    return every::splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life));
+  scalar::Stamp<N> stamp(const Drop& d) const {
+    return scalar::splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life));
   }
   /// Drops whose stamps end a texel and a fiftieth of their radius short of this one surely add nothing, as the kernel knows.
   template <class N>
-  std::vector<every::Stamp<N>> near(int x, int y) const {
-    std::vector<every::Stamp<N>> out;
+  std::vector<scalar::Stamp<N>> near(int x, int y) const {
+    std::vector<scalar::Stamp<N>> out;
     const float* frame = uniforms.frame;
     for (std::size_t i = 0; i < static_cast<std::size_t>(uniforms.drop_count); ++i) {
       const auto& s = stamps[i];
@@ -42,11 +42,11 @@ struct Splat {
   }
   template <class N>
   void operator()(int x, int y, N* out) const {
-    const std::vector<every::Stamp<N>> some = near<N>(x, y);
+    const std::vector<scalar::Stamp<N>> some = near<N>(x, y);
     SplatUniforms u = uniforms;
     u.drop_count = static_cast<std::int32_t>(some.size());
-    out[0] = every::splat_drops<N>(u, some.data(), x, y, [&](N sum) { return rounds_each() ? half_of(sum, rounding) : sum; });
-    if (corrected) out[0] = every::film_height<N>(u, film.row(y - 1), film.row(y), film.row(y + 1), x) + out[0];
+    out[0] = scalar::splat_drops<N>(u, some.data(), x, y, [&](N sum) { return rounds_each() ? half_of(sum, rounding) : sum; });
+    if (corrected) out[0] = scalar::film_height<N>(u, film.row(y - 1), film.row(y), film.row(y + 1), x) + out[0];
   }
 };
 

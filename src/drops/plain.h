@@ -1,8 +1,11 @@
-// The scalar evaluations of this room's passes; a namespace of their own, like puddle::scalar.
+// The scalar evaluations of integrate and merge: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// room do not pull them into the lanes.
 #pragma once
 
 #include "drops/records.h"
 #include "drops/uniforms.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
 
 namespace rainref::drops::scalar {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "edge_splash/every_evaluation.h"
+#include "edge_splash/plain.h"
 #include "pass/display.h"
 #include "pass/model.h"
 
@@ -43,7 +43,7 @@ class MaskSet {
  private:
   std::vector<std::size_t> words_;
 };
-using Published = pass::Bound<PublishedSplashPass, every::PublishedSplashPassText>;
+using Published = pass::Bound<PublishedSplashPass, scalar::PublishedSplashPassText>;
 class PublishedModel : public capture::ModelOf<Published> {
  public:
   using ModelOf::ModelOf;
@@ -52,19 +52,19 @@ class PublishedModel : public capture::ModelOf<Published> {
     const Texture &depth = p.captured.depth.texture, &noise_map = p.captured.noise_map.texture;
     const Enclosure x = Enclosure::index(column), y = Enclosure::index(row);
     const auto edge_and_angle = MaskSet<2>([&] {
-                                  const every::EdgeMasks<Enclosure> m = every::edge_masks(p.uniforms, depth, x, y);
+                                  const scalar::EdgeMasks<Enclosure> m = scalar::edge_masks(p.uniforms, depth, x, y);
                                   return std::array{m.edge, m.angle};
                                 }).decide();
-    const auto noise = MaskSet<1>([&] { return std::array{every::noise_mask(p.uniforms, noise_map, x, y)}; }).decide();
+    const auto noise = MaskSet<1>([&] { return std::array{scalar::noise_mask(p.uniforms, noise_map, x, y)}; }).decide();
     p.with_cursors(column, row, out, [&](const auto& io) {
-      every::give(io, every::blend_as_published<Enclosure>(p.uniforms, {edge_and_angle[0], edge_and_angle[1]}, noise[0],
-                                                           every::scene_of<Enclosure>(io), x, y));
+      scalar::give(io, scalar::blend_as_published<Enclosure>(p.uniforms, {edge_and_angle[0], edge_and_angle[1]}, noise[0],
+                                                             scalar::scene_of<Enclosure>(io), x, y));
     });
   }
 };
 std::unique_ptr<PassModel> bind_splash(const PassCase& c) {
-  if (c.corrected()) return pass::bind<SplashPass, every::SplashPassText>(c);
-  return std::make_unique<PublishedModel>(pass::bound<PublishedSplashPass, every::PublishedSplashPassText>(c));
+  if (c.corrected()) return pass::bind<SplashPass, scalar::SplashPassText>(c);
+  return std::make_unique<PublishedModel>(pass::bound<PublishedSplashPass, scalar::PublishedSplashPassText>(c));
 }
 
 }  // namespace

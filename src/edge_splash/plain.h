@@ -1,8 +1,12 @@
-// The scalar evaluations of the passes of edge_splash: for the oracle and the tests.
+// The scalar evaluations of edge_splash: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// room do not pull them into the lanes.
 #pragma once
 
 #include "edge_splash/splash.pass.h"
+#include "image/footprint.h"
 #include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
 
 namespace rainref::edge_splash::scalar {
@@ -11,7 +15,9 @@ using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
 #include "edge_splash/splash.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -1,6 +1,9 @@
 // A pass as one definition. Its file has two parts, which a room includes where it needs them:
 //
-//   outside every namespace        what the pass is: a struct with `about`, `Uniforms`, uniforms() and Io<B>
+//   outside every namespace        what the pass is: a struct with `about`, `Uniforms`, uniforms() and Io<B>;
+//                                                                with fault(bound): why a case whose buffers fit does not, or "";
+//                                                                with near(list, corrected, columns, tile): the records of a list
+//                                                                that may count in a tile, where leaving out the others changes no bit
 //   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y);
 //                                                                with views(io), which is asked once a row: run(u, io, views, x, y)
 //
@@ -15,6 +18,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "capture/pass_case.h"
 #include "image/stored_texture.h"
@@ -55,7 +59,9 @@ struct Out {
   std::string_view name, sentence = "", unit = "1";
   std::array<double, 2> range{0, 1};
   std::string_view encoding = "none", colour_space = "none", alpha = "none";
-  std::string_view variant = "";  ///< the one that writes it; "": both
+  std::string_view variant = "";     ///< the one that writes it; "": both
+  std::string_view format_key = "";  ///< the scene key that chooses one of several formats
+  std::string_view record = "";      ///< of a list: the layout in EffectInfo::records
   bool operator==(const Out&) const = default;
 };
 
@@ -128,16 +134,31 @@ struct Declared {
   struct Stored : In {
     constexpr Stored(In in) : In(in) {}
   };
+  /// Channels of an image of one of these formats, each a plane by itself, loaded by integer texel; beyond the ends by the image's
+  /// address rule. No lanes are made of them.
+  template <Format...>
+  struct Planes : In {
+    static constexpr int reach = 0;
+    constexpr Planes(In in) : In(in) {}
+  };
   template <class Record>
   struct Records : In {
     constexpr Records(In in) : In(in) {}
   };
-  template <Format f>
-  struct Result {
+  struct Written {
     Out outs[2];  ///< as published, corrected: its meaning may differ
+    constexpr Written(Out both) : outs{both, both} {}
+    constexpr Written(Out as_published, Out corrected) : outs{as_published, corrected} {}
+  };
+  /// An image of this format, or of one of several.
+  template <Format f, Format...>
+  struct Result : Written {
     static constexpr Format format = f;
-    constexpr Result(Out both) : outs{both, both} {}
-    constexpr Result(Out as_published, Out corrected) : outs{as_published, corrected} {}
+    using Written::Written;
+  };
+  template <class Record>
+  struct List : Written {
+    using Written::Written;
   };
 };
 
@@ -170,7 +191,7 @@ constexpr int reach_of = [] {
 struct Host {
   template <Format f, int around = 0>
   struct Texels {
-    static constexpr Format format = f;
+    static constexpr std::array formats{f};
     In is;
     const Image* image = nullptr;
     constexpr Texels(In in) : is(in) {}
@@ -203,25 +224,46 @@ struct Host {
       levels = images;
     }
   };
+  /// Of a pass whose lanes are written by hand, as it is recorded.
+  template <Format...>
+  struct Planes {
+    In is;
+    const PassInput* input = nullptr;
+    constexpr Planes(In in) : is(in) {}
+  };
   template <class Record>
   struct Records {
     In is;
     std::span<const Record> records{};
     bool is_set = false;
-    constexpr Records(In in) : is(in) {}
+    std::vector<Record> near{};  ///< where records are those of a tile
+    Records(In in) : is(in) {}
     void operator=(std::span<const Record> all) {
       records = all;
       is_set = true;
     }
+    void choose(std::vector<Record> some) {
+      near = std::move(some);
+      records = near;
+    }
   };
-  template <Format f>
+  template <Format... f>
   struct Result {
-    static constexpr Format format = f;
+    static constexpr std::array formats{f...};
     Out is;
     Image* image = nullptr;
+    const BufferView* planes = nullptr;  ///< instead of an image, of a pass whose lanes are written by hand
     constexpr Result(Out both) : is(both) {}
     constexpr Result(Out, Out corrected) : is(corrected) {}
     void operator=(Image& i) { image = &i; }
+  };
+  /// Of a pass whose records are not computed one by one from a definition. Read when the run is finished.
+  template <class Record>
+  struct List {
+    Out is;
+    const std::vector<Record>* list = nullptr;
+    constexpr List(Out both) : is(both) {}
+    void operator=(const std::vector<Record>& all) { list = &all; }
   };
 };
 template <class P>

@@ -1,4 +1,4 @@
-// The text of display with every number but lanes: Plain, Enclosure and Perturbed; like puddle::every.
+// The text of display with every number but lanes: Plain, Enclosure and Perturbed; like puddle::scalar.
 #pragma once
 
 #include "math/perturbed.h"

@@ -62,20 +62,22 @@ capture::PassInfo info_of() {
 template <class P>
 std::vector<capture::BufferInfo> buffers_of() {
   std::vector<capture::BufferInfo> all;
-  const auto add = [&](const Out& o, Format format, std::string_view variant) {
+  const auto add = [&](const Out& o, std::string_view format, std::string_view variant) {
     if (o.sentence.empty()) return;
     const auto text = [](std::string_view s) { return std::string(s); };
-    all.push_back({text(o.name), text(info(format).name), text(o.sentence), text(o.unit), o.range, text(o.encoding), text(o.colour_space),
-                   text(o.alpha), "", "", text(variant)});
+    all.push_back({text(o.name), text(o.format_key.empty() ? format : o.format_key), text(o.sentence), text(o.unit), o.range,
+                   text(o.encoding), text(o.colour_space), text(o.alpha), "", text(o.record), text(variant)});
   };
   const bool published = P::about.as_published.revision != 0, corrected = P::about.corrected.revision != 0;
   const typename P::template Io<Declared> io;
   each<P>(io, [&](const auto& m) {
     if constexpr (requires { m.outs; }) {
-      if (!m.outs[0].variant.empty()) return add(m.outs[0], m.format, m.outs[0].variant);
-      if (published && corrected && m.outs[0] == m.outs[1]) return add(m.outs[0], m.format, "");
-      if (published) add(m.outs[0], m.format, "as-published");
-      if (corrected) add(m.outs[1], m.format, "corrected");
+      std::string_view format = "records";
+      if constexpr (requires { m.format; }) format = info(m.format).name;
+      if (!m.outs[0].variant.empty()) return add(m.outs[0], format, m.outs[0].variant);
+      if (published && corrected && m.outs[0] == m.outs[1]) return add(m.outs[0], format, "");
+      if (published) add(m.outs[0], format, "as-published");
+      if (corrected) add(m.outs[1], format, "corrected");
     }
   });
   return all;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "capture/bound_texture.h"
@@ -10,6 +12,7 @@
 #include "pass/fit.h"
 #include "pass/number_cursors.h"
 #include "rainref/error.h"
+#include "rainref/executor.h"
 #include "scene/uniform_block.h"
 
 namespace rainref::pass {
@@ -21,7 +24,7 @@ struct Captured {
     In is;
     std::vector<DecodedOf<f>> texels;  ///< row-major, `around` texels before and behind each row, where the nearest one stands again
     int width = 0, height = 0;
-    static constexpr Format format = f;
+    static constexpr std::array formats{f};
     static constexpr int channels = StorageOf<f>::channels;
 
     Texels(In in) : is(in) {}
@@ -59,29 +62,55 @@ struct Captured {
   };
   template <Format f>
   struct Stored : Sampled {
-    static constexpr Format format = f;
+    static constexpr std::array formats{f};
     using Sampled::Sampled;
+  };
+  template <Format... f>
+  struct Planes {
+    static constexpr std::array formats{f...};
+    In is;
+    pass::Planes planes;
+    Planes(In in) : is(in) {}
+    void read(const capture::CaseInput& input) { planes = pass::Planes(input); }
   };
   template <class Record>
   struct Records {
     In is;
     std::vector<Record> records;
+    std::vector<std::vector<Record>> near;  ///< those that may count in each block of texels; empty: all of them everywhere
+    int columns = 0;                        ///< of blocks
     Records(In in) : is(in) {}
     void read(const capture::CaseInput& input) { records = capture::records_of<Record>(input); }
+    template <class Near>
+    void choose(int width, int height, const Near& of_tile) {
+      columns = (width + block - 1) / block;
+      for (int y = 0; y < height; y += block)
+        for (int x = 0; x < width; x += block)
+          near.push_back(of_tile(parallel::Tile{x, y, std::min(x + block, width), std::min(y + block, height)}));
+    }
+    std::span<const Record> at(int x, int y) const {
+      if (near.empty()) return records;
+      return near[static_cast<std::size_t>(y / block) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x / block)];
+    }
+
+   private:
+    static constexpr int block = 8;  // texels a side
   };
-  template <Format f>
+  template <Format... f>
   struct Result {
-    static constexpr int channels = StorageOf<f>::channels;
+    static constexpr std::array formats{f...};
     Out is;
+    int channels = info(formats.front()).channels;
     bool is_given = true;
     Result(Out both) : is(both) {}
     Result(Out as_published, Out) : is(as_published) {}
   };
 };
 
-/// Throws Error(port_files) unless the image has the channels of this format, codes where it is loaded texel by texel as codes, and
-/// where it must the size of the outputs.
-void require_image(const capture::PassCase& c, const capture::CaseInput& image, Format format, bool is_loaded, bool has_size);
+/// Throws Error(port_files) unless the image has the channels of one of these formats, codes where it is loaded texel by texel as codes,
+/// and where it must the size of the outputs.
+void require_image(const capture::PassCase& c, const capture::CaseInput& image, std::span<const Format> formats, bool is_loaded,
+                   bool has_size);
 
 /// Text: the arithmetic of P in the namespace that holds every number but lanes.
 template <class P, class Text>
@@ -98,11 +127,15 @@ struct Bound {
     each<P>(captured, io, [&](const auto& from, auto& to) {
       if constexpr (requires { to.out; }) {
         to.out = out;
+        to.channels = from.channels;
         if (from.is_given) out += from.channels;
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
       } else if constexpr (requires { to.records; }) {
-        to.records = from.records.data();
+        to.records = from.at(x, y);
+      } else if constexpr (requires { to.planes; }) {
+        to.planes = &from.planes;
+        to.y = y;
       } else {
         to.x = x;
         if (from.width == 0) return;  // not of this variant
@@ -142,15 +175,27 @@ Bound<P, Text> bound(const capture::PassCase& c) {
         if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
       } else {
         const capture::CaseInput& image = capture::image_input(c, member.is.name);
-        if constexpr (requires { member.format; })
-          require_image(
-              c, image, member.format, requires { member.texels; }, member.is.same_size || requires { member.texels; });
+        if constexpr (requires { member.formats; }) {
+          constexpr bool is_loaded = requires { member.texels; }
+          || requires { member.planes; };
+          require_image(c, image, member.formats, is_loaded, member.is.same_size || is_loaded);
+        }
         member.read(image);
       }
     } else {
       member.is_given = is_of(member.is.variant, c.corrected());
+      if (const capture::CaseOutput* given = c.output(member.is.name); given && member.formats.size() > 1)
+        member.channels = info(given->array.format).channels;
       if (member.is_given) m.values += member.channels;
     }
+  });
+  if constexpr (requires { P::fault(m); }) {
+    const std::string fault = P::fault(m);
+    if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
+  }
+  each<P>(m.captured, [&](auto& member) {
+    if constexpr (requires { P::near(member.records, true, 0, parallel::Tile{}); })
+      member.choose(m.width, m.height, [&](const parallel::Tile& t) { return P::near(member.records, m.corrected, m.width, t); });
   });
   return m;
 }

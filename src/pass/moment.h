@@ -16,21 +16,22 @@ struct Moment {
   int frame, step;
   double time, dt;
   Rounding rounding;
+  int level = -1;  ///< the mip level, where the pass runs once for each
 
   template <class Uniforms>
-  void before(std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs, int level = -1) const {
+  void before(std::string_view pass, const Uniforms& uniforms, std::span<const PassInput> inputs) const {
     if (recorder)
       recorder->before({frame, step, pass, inputs, std::as_bytes(std::span(&uniforms, 1)), static_cast<float>(time), static_cast<float>(dt),
                         rounding, level});
   }
   template <class Uniforms>
-  void before(std::string_view pass, const Uniforms& uniforms, std::initializer_list<PassInput> inputs, int level = -1) const {
-    before(pass, uniforms, std::span<const PassInput>(inputs.begin(), inputs.size()), level);
+  void before(std::string_view pass, const Uniforms& uniforms, std::initializer_list<PassInput> inputs) const {
+    before(pass, uniforms, std::span<const PassInput>(inputs.begin(), inputs.size()));
   }
-  void after(std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds, int level = -1) const {
-    after(pass, std::span<const PassOutput>(outputs.begin(), outputs.size()), seconds, level);
+  void after(std::string_view pass, std::initializer_list<PassOutput> outputs, double seconds) const {
+    after(pass, std::span<const PassOutput>(outputs.begin(), outputs.size()), seconds);
   }
-  void after(std::string_view pass, std::span<const PassOutput> outputs, double seconds, int level = -1) const {
+  void after(std::string_view pass, std::span<const PassOutput> outputs, double seconds) const {
     if (recorder) recorder->pass({frame, step, pass, outputs, seconds, level});
   }
   bool is_read(std::string_view pass) const { return recorder && recorder->reads(frame, pass); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/plain.h"
+#include "pass/planes.h"
 #include "pass/row_pointers.h"
 
 namespace rainref::pass {
@@ -28,14 +29,23 @@ struct NumberCursors {
   using Sampled = SampledPointer;
   template <Format>
   using Stored = SampledPointer;
+  template <Format...>
+  using Planes = PlanesPointer;
   template <class Record>
   using Records = RecordPointer<Record>;
-  template <Format f>
+  template <Format...>
   struct Result {
     N* out = nullptr;
+    int channels = 0;
     Result(Out) {}
     Result(Out, Out) {}
     void operator()(N v) const { out[0] = v; }
+    /// The first two channels of a format that may have more; those are 0.
+    void operator()(N first, N second) const {
+      out[0] = first;
+      out[1] = second;
+      for (int c = 2; c < channels; ++c) out[c] = N(0.0f);
+    }
     void operator()(const plain::Vec3<N>& v, N w) const {
       out[0] = v.x;
       out[1] = v.y;

@@ -60,14 +60,19 @@ struct StoredPointer {
 };
 template <class Record>
 struct RecordPointer {
-  const Record* records = nullptr;
+  std::span<const Record> records{};
   constexpr RecordPointer(In) {}
-  const Record* data() const { return records; }
+  const Record* data() const { return records.data(); }
+  int size() const { return static_cast<int>(records.size()); }
 };
-template <class Storage_, int channels_>
-struct ResultPointers {
-  using Storage = Storage_;
-  static constexpr int channels = channels_;
+struct OneFormat {};
+struct AnyFormat {
+  Format format = Format::r8;  ///< of the row
+};
+template <Format f, Format... others>
+struct ResultPointers : std::conditional_t<sizeof...(others) == 0, OneFormat, AnyFormat> {
+  using Storage = typename StorageOf<f>::type;
+  static constexpr int channels = StorageOf<f>::channels;
   Storage* row = nullptr;
   Rounding rounding = Rounding::rne;
   int x = 0, count = 0;
@@ -80,13 +85,14 @@ RAINREF_FLAT void begin_row(const HostIo<P>& host, Io& io, int y, Rounding round
   each<P>(host, io, [&](const auto& from, auto& to) RAINREF_FLAT_LAMBDA {
     if constexpr (requires { to.rounding; }) {
       if (from.image) to.row = from.image->template row<typename std::remove_reference_t<decltype(to)>::Storage>(y);
+      if constexpr (requires { to.format; }) to.format = from.image->format();
       to.rounding = rounding;
     } else if constexpr (requires { to.texture; }) {
       to.texture = from.texture;
     } else if constexpr (requires { to.stored; }) {
       to.stored = &from.view;
     } else if constexpr (requires { to.records; }) {
-      to.records = from.records.data();
+      to.records = from.records;
     } else {
       if (from.image) to.begin_row(*from.image, y);
     }

@@ -28,9 +28,9 @@ struct LaneCursors {
   template <class Record>
   using Records = pass::RecordPointer<Record>;
   /// Stores when it is called: to hold the lanes instead would need a constructor of this target.
-  template <Format f>
-  struct Result : pass::ResultPointers<typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels> {
-    using Base = pass::ResultPointers<typename pass::StorageOf<f>::type, pass::StorageOf<f>::channels>;
+  template <Format f, Format... others>
+  struct Result : pass::ResultPointers<f, others...> {
+    using Base = pass::ResultPointers<f, others...>;
     using Base::Base;
     HWY_INLINE HWY_ATTR void operator()(Lanes v) const {
       static_assert(Base::channels == 1);
@@ -39,7 +39,19 @@ struct LaneCursors {
     HWY_INLINE HWY_ATTR void operator()(const Vec3<Lanes>& v, Lanes w) const {
       static_assert(Base::channels == 4);
       const Lanes c[4] = {v.x, v.y, v.z, w};
-      store4(this->row + 4 * this->x, c, this->rounding);
+      if constexpr (sizeof...(others) == 0) {
+        store4(this->row + 4 * this->x, c, this->rounding);
+      } else {
+        store_as<f>(c);
+        (store_as<others>(c), ...);
+      }
+    }
+
+   private:
+    template <Format g>
+    HWY_INLINE HWY_ATTR void store_as(const Lanes (&c)[4]) const {
+      if (this->format != g) return;
+      store4(reinterpret_cast<typename pass::StorageOf<g>::type*>(this->row) + 4 * this->x, c, this->rounding);
     }
   };
 };

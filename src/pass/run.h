@@ -1,6 +1,7 @@
 // A run of a pass, from its definition: checked, computed tile by tile, timed and recorded.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,15 +47,23 @@ class Run {
         if (!member.is_set || member.is.count.empty()) return;
         const std::string fault = count_fault(P::uniforms(), std::as_bytes(std::span(&uniforms, 1)), member.is, member.records.size());
         if (!fault.empty()) misfit("does not fit: " + fault);
+      } else if constexpr (requires { member.input; }) {
+        if (is_needed && !member.input) misfit("is missing");
+      } else if constexpr (requires { member.list; }) {
+        if (is_needed && !member.list) misfit("is missing");
       } else if constexpr (requires { member.image; }) {
+        if constexpr (requires { member.planes; })
+          if (member.planes) return;
         if (!member.image) return is_needed ? misfit("is missing") : void();
         if (!first) first = member.image;
-        if (member.image->format() != member.format) misfit("has another format");
+        if (std::find(member.formats.begin(), member.formats.end(), member.image->format()) == member.formats.end())
+          misfit("has another format");
         if (member.image->width() != first->width() || member.image->height() != first->height()) misfit("has another size");
       } else if (is_needed && !member.texture && !member.recorded) {
         misfit("is missing");
       }
     });
+    if (!first) return;
     width_ = first->width();
     height_ = first->height();
     each<P>(io_, [&](const auto& member) {
@@ -66,18 +75,17 @@ class Run {
 
   /// Some of its texels; thread-safe.
   void tile(const parallel::Tile& t) {
-    clock_.add([&] { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
+    clock_.add([&] { compute(t); });
   }
   /// The same, by what computes them in the place of the pass's own rows; body() gives the same values.
   template <class Body>
   void tile(const Body& body) {
     clock_.add(body);
   }
-  /// All of them.
-  void tiles(const parallel::Executor& executor, int tile_rows) {
+  /// All of them. tile_columns 0: whole rows.
+  void tiles(const parallel::Executor& executor, int tile_rows, int tile_columns = 0) {
     const capture::Stopwatch watch;
-    executor.for_tiles(width_, height_, width_, tile_rows,
-                       [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
+    executor.for_tiles(width_, height_, tile_columns > 0 ? tile_columns : width_, tile_rows, [&](const parallel::Tile& t) { compute(t); });
     seconds_ += watch.seconds();
   }
   void start(const Moment& m) const {
@@ -98,6 +106,8 @@ class Run {
       } else if constexpr (requires { member.records; }) {
         if (member.is_set)
           inputs.push_back({member.is.name, RecordView{member.records.data(), member.records.size(), sizeof member.records[0]}});
+      } else if constexpr (requires { member.input; }) {
+        if (member.input) inputs.push_back(*member.input);
       } else if constexpr (requires { member.is.from; }) {
         if (member.image) inputs.push_back({member.is.name, BufferView(*member.image), member.is.filter, member.is.mip_filter});
       }
@@ -109,14 +119,28 @@ class Run {
     if (!m.recorder) return;
     std::vector<PassOutput> outputs;
     each<P>(io_, [&](const auto& member) {
-      if constexpr (requires { member.is.sentence; }) {
-        if (member.image) outputs.push_back({member.is.name, BufferView(*member.image)});
+      if constexpr (requires { member.list; }) {
+        outputs.push_back({member.is.name, capture::records(*member.list)});
+      } else if constexpr (requires { member.is.sentence; }) {
+        if (member.planes || member.image) outputs.push_back({member.is.name, member.planes ? *member.planes : BufferView(*member.image)});
       }
     });
     m.after(P::about.name, std::span<const PassOutput>(outputs), seconds_ + clock_.seconds(threads) + more);
   }
 
  private:
+  void compute(const parallel::Tile& t) const {
+    if constexpr (requires { &P::near; }) {
+      HostIo<P> io = io_;
+      each<P>(io, [&](auto& member) {
+        if constexpr (requires { P::near(member.records, true, 0, t); }) member.choose(P::near(member.records, corrected_, width_, t));
+      });
+      rows<P>(uniforms_, corrected_, rounding_, io, t);
+    } else {
+      rows<P>(uniforms_, corrected_, rounding_, io_, t);
+    }
+  }
+
   typename P::Uniforms uniforms_;
   bool corrected_;
   Rounding rounding_;

@@ -1,7 +1,10 @@
 // Shells of raindrops and wave_step; compiled once for each SIMD target.
 #include <algorithm>
 
+#include "pass/planes.h"
 #include "puddle/kernels.h"
+#include "puddle/raindrops.pass.h"
+#include "puddle/wave_step.pass.h"
 
 #define RAINREF_KERNELS "puddle/kernels_wave.cpp"
 #include "math/foreach_target.h"
@@ -13,25 +16,8 @@ RAINREF_TARGET_BEGIN(puddle)
 #include "puddle/wave_step.pass.h"
 #undef RAINREF_FN
 
-int row_index(int y, int height, Boundary boundary) {
-  if (0 <= y && y < height) return y;
-  if (boundary == Boundary::periodic) return ((y % height) + height) % height;
-  return y < 0 ? 0 : height - 1;
-}
-template <class Storage>
-const Storage* row_of(const WaveJob& job, int y) {
-  const Image& plane = *job.newest;
-  if (job.boundary == Boundary::fixed && (y < 0 || y >= plane.height())) return job.rest_row->row<Storage>(0);
-  return plane.row<Storage>(row_index(y, plane.height(), job.boundary));
-}
-
-template <class Storage>
-void fill_row_ghosts(Storage* row, int width, Boundary boundary, Storage rest) {
-  for (int k = 0; k < Image::left_margin; ++k) {
-    const int left = -1 - k, right = width + k;
-    row[left] = boundary == Boundary::fixed ? rest : row[boundary == Boundary::periodic ? ((left % width) + width) % width : 0];
-    row[right] = boundary == Boundary::fixed ? rest : row[boundary == Boundary::periodic ? right % width : width - 1];
-  }
+Address address_of(Boundary boundary) {
+  return boundary == Boundary::periodic ? Address::repeat : boundary == Boundary::fixed ? Address::border : Address::clamp;
 }
 template <class Storage>
 Storage encode_one(float x, Rounding rounding) {
@@ -41,13 +27,13 @@ Storage encode_one(float x, Rounding rounding) {
 }
 
 // The drops that reach into columns [x0, x1) of the row at centre height fy, in order.
-int near_drops(std::span<const Drop> drops, const std::vector<int>& in_row, int x0, int x1, std::vector<Drop>& out) {
+std::span<const Drop> near_drops(std::span<const Drop> drops, const std::vector<int>& in_row, int x0, int x1, std::vector<Drop>& out) {
   out.clear();
   for (const int i : in_row) {
     const Drop& d = drops[static_cast<std::size_t>(i)];
     if (d.x + d.radius >= static_cast<float>(x0) && d.x - d.radius <= static_cast<float>(x1)) out.push_back(d);
   }
-  return static_cast<int>(out.size());
+  return out;
 }
 void drops_in_row(std::span<const Drop> drops, int y, std::vector<int>& out) {
   out.clear();
@@ -60,41 +46,27 @@ void drops_in_row(std::span<const Drop> drops, int y, std::vector<int>& out) {
 template <class Storage>
 void step_rows(const WaveJob& job, const parallel::Tile& tile) {
   const int n = Lanes::size(), width = job.newest->width();
-  WaveRows<Storage> rows;
-  // With a whole offset r the neighbours are r away; with a fractional one between r and r + 1.
-  rows.reach = job.corrected ? 1 : static_cast<int>(job.uniforms.step);
-  rows.fraction = job.corrected ? 0.0f : job.uniforms.step - static_cast<float>(rows.reach);
+  const Address edge = address_of(job.boundary);
   std::vector<int> in_row;
   std::vector<Drop> near;
   for (int y = tile.y0; y < tile.y1; ++y) {
-    rows.here = job.newest->row<Storage>(y);
-    rows.below = row_of<Storage>(job, y - rows.reach);
-    rows.above = row_of<Storage>(job, y + rows.reach);
-    rows.below_next = row_of<Storage>(job, y - rows.reach - 1);
-    rows.above_next = row_of<Storage>(job, y + rows.reach + 1);
+    const auto newest = [&](int dy) { return pass::row_at<Storage>(*job.newest, *job.rest_row, edge, y + dy); };
     Storage* out = job.previous->row<Storage>(y);
-    rows.previous = out;
-    rows.shore = job.shore ? job.shore->row<float>(y) : nullptr;
+    const WaveRows<Storage> rows =
+        rows_around<Storage>(job.uniforms, job.corrected, newest, out, job.shore ? job.shore->row<float>(y) : nullptr);
     drops_in_row(job.drops, y, in_row);
     for (int x = 0; x < width; x += n) {
       const int count = std::min(n, width - x);
-      const int drop_count = in_row.empty() ? 0 : near_drops(job.drops, in_row, x, x + count, near);
-      const Lanes next = job.corrected ? wave_step_corrected<Lanes>(job.uniforms, rows, near.data(), drop_count, x, y)
-                                       : wave_step_as_published<Lanes>(job.uniforms, rows, near.data(), drop_count, x, y);
+      const std::span<const Drop> drops = in_row.empty() ? std::span<const Drop>() : near_drops(job.drops, in_row, x, x + count, near);
+      const Lanes next = job.corrected ? wave_step_corrected<Lanes>(job.uniforms, rows, drops, x, y)
+                                       : wave_step_as_published<Lanes>(job.uniforms, rows, drops, x, y);
       store(out + x, next, job.rounding, count);
     }
-    fill_row_ghosts(out, width, job.boundary, encode_one<Storage>(job.uniforms.rest, job.rounding));
+    pass::fill_margins(out, width, edge, encode_one<Storage>(job.uniforms.rest, job.rounding));
   }
 }
 void StepRows(const WaveJob& job, const parallel::Tile& tile) {
-  switch (info(job.newest->format()).kind) {
-    case FormatInfo::float16:
-      return step_rows<Half>(job, tile);
-    case FormatInfo::float32:
-      return step_rows<float>(job, tile);
-    default:
-      return step_rows<Unorm8>(job, tile);
-  }
+  pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR { step_rows<Storage>(job, tile); });
 }
 
 template <class Storage>
@@ -108,22 +80,16 @@ void previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile)
     Storage* row = plane.row<Storage>(y);
     const float* shore = job.shore ? job.shore->row<float>(y) : nullptr;
     for (int x = 0; x < width; x += n) {
-      const int count = std::min(n, width - x), drop_count = near_drops(job.drops, in_row, x, x + count, near);
-      if (drop_count == 0) continue;
-      store(row + x, wave_previous_corrected<Lanes>(row, shore, near.data(), drop_count, x, y), job.rounding, count);
+      const int count = std::min(n, width - x);
+      const std::span<const Drop> drops = near_drops(job.drops, in_row, x, x + count, near);
+      if (drops.empty()) continue;
+      store(row + x, wave_previous_corrected<Lanes>(row, shore, drops, x, y), job.rounding, count);
     }
-    fill_row_ghosts(row, width, job.boundary, encode_one<Storage>(job.uniforms.rest, job.rounding));
+    pass::fill_margins(row, width, address_of(job.boundary), encode_one<Storage>(job.uniforms.rest, job.rounding));
   }
 }
 void PreviousRows(const WaveJob& job, Image& plane, const parallel::Tile& tile) {
-  switch (info(plane.format()).kind) {
-    case FormatInfo::float16:
-      return previous_rows<Half>(job, plane, tile);
-    case FormatInfo::float32:
-      return previous_rows<float>(job, plane, tile);
-    default:
-      return previous_rows<Unorm8>(job, plane, tile);
-  }
+  pass::in_storage(plane.format(), [&]<class Storage>(Storage) HWY_ATTR { previous_rows<Storage>(job, plane, tile); });
 }
 
 template <class Storage>
@@ -137,18 +103,11 @@ void encode(const float* stored, Image& plane, Boundary boundary, float rest, Ro
       std::copy_n(stored + static_cast<std::size_t>(y) * width + x, count, block);
       store(row + x, Lanes::load(block), rounding, count);
     }
-    fill_row_ghosts(row, width, boundary, encode_one<Storage>(rest, rounding));
+    pass::fill_margins(row, width, address_of(boundary), encode_one<Storage>(rest, rounding));
   }
 }
 void EncodeRows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding) {
-  switch (info(plane.format()).kind) {
-    case FormatInfo::float16:
-      return encode<Half>(stored, plane, boundary, rest, rounding);
-    case FormatInfo::float32:
-      return encode<float>(stored, plane, boundary, rest, rounding);
-    default:
-      return encode<Unorm8>(stored, plane, boundary, rest, rounding);
-  }
+  pass::in_storage(plane.format(), [&]<class Storage>(Storage) HWY_ATTR { encode<Storage>(stored, plane, boundary, rest, rounding); });
 }
 
 template <class Storage>
@@ -161,14 +120,7 @@ void decode(const Image& plane, float* out, const parallel::Tile& tile) {
   }
 }
 void DecodeRows(const Image& plane, float* out, const parallel::Tile& tile) {
-  switch (info(plane.format()).kind) {
-    case FormatInfo::float16:
-      return decode<Half>(plane, out, tile);
-    case FormatInfo::float32:
-      return decode<float>(plane, out, tile);
-    default:
-      return decode<Unorm8>(plane, out, tile);
-  }
+  pass::in_storage(plane.format(), [&]<class Storage>(Storage) HWY_ATTR { decode<Storage>(plane, out, tile); });
 }
 
 // A maximum does not depend on the order of its operands, so lanes may hold partial ones.

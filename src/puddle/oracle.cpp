@@ -53,30 +53,22 @@ void ScalarWave<Storage>::step(std::span<const Drop> drops) {
   using N = Number<Storage>;
   fill_padded();
   WaveStepUniforms u = uniforms_;
-  const int drop_count = static_cast<int>(drops.size());
-  u.drop_count = drop_count;
+  u.drop_count = static_cast<int>(drops.size());
   const std::ptrdiff_t stride = width_ + 2 * ghosts_;
-  scalar::WaveRows<Storage> rows{};
-  rows.reach = corrected_ ? 1 : static_cast<int>(u.step);
-  rows.fraction = corrected_ ? 0.0f : u.step - static_cast<float>(rows.reach);
   for (int y = 0; y < height_; ++y) {
     const Storage* here = padded_.data() + (y + ghosts_) * stride + ghosts_;
     Storage* out = previous.data() + static_cast<std::size_t>(y) * width_;
-    rows.here = here;
-    rows.below = here - rows.reach * stride;
-    rows.above = here + rows.reach * stride;
-    rows.below_next = rows.below - stride;
-    rows.above_next = rows.above + stride;
-    rows.previous = out;
+    const auto rows = scalar::rows_around<Storage>(
+        u, corrected_, [&](int dy) { return here + dy * stride; }, out, nullptr);
     for (int x = 0; x < width_; ++x) {
-      const N next = corrected_ ? scalar::wave_step_corrected<N>(u, rows, drops.data(), drop_count, x, y)
-                                : scalar::wave_step_as_published<N>(u, rows, drops.data(), drop_count, x, y);
+      const N next =
+          corrected_ ? scalar::wave_step_corrected<N>(u, rows, drops, x, y) : scalar::wave_step_as_published<N>(u, rows, drops, x, y);
       store(out + x, next, rounding_);
     }
-    if (corrected_ && drop_count > 0) {
+    if (corrected_ && !drops.empty()) {
       Storage* level = newest.data() + static_cast<std::size_t>(y) * width_;
       for (int x = 0; x < width_; ++x) {
-        store(level + x, scalar::wave_previous_corrected<N>(level, nullptr, drops.data(), drop_count, x, y), rounding_);
+        store(level + x, scalar::wave_previous_corrected<N>(level, nullptr, drops, x, y), rounding_);
       }
     }
   }

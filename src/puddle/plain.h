@@ -1,13 +1,18 @@
-// The scalar evaluations of the puddle's passes: for the oracle and the tests. A namespace of their own, so that argument
-// types of this room do not pull them into the lanes.
+// The scalar evaluations of the puddle's passes: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// room do not pull them into the lanes.
 #pragma once
 
+#include "image/footprint.h"
 #include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
 #include "puddle/display.pass.h"
+#include "puddle/raindrops.pass.h"
 #include "puddle/shade.pass.h"
 #include "puddle/surface_hit.pass.h"
 #include "puddle/uniforms.h"
+#include "puddle/wave_step.pass.h"
 
 namespace rainref::puddle::scalar {
 using namespace rainref::plain;
@@ -15,7 +20,9 @@ using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
 #include "image/environment-inl.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/wave_step.pass.h"

@@ -2,7 +2,6 @@
 #include "rainref/puddle.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,14 +17,15 @@
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/memory.h"
+#include "puddle/raindrops.pass.h"
 #include "puddle/rainfall.h"
+#include "puddle/wave_step.pass.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
 
 namespace rainref::puddle {
 namespace {
 
-using capture::records;
 using capture::Stopwatch;
 
 constexpr int wave_tile_rows = 32, picture_tile_rows = 8;
@@ -125,6 +125,48 @@ struct Puddle::State {
   pass::Moment moment(Recorder* recorder, int step, double dt) const {
     return {recorder, frame, step, frame / settings.fps, dt, settings.rounding};
   }
+  /// Pass raindrops.
+  std::vector<Drop> fall(const pass::Moment& now) const {
+    std::vector<Drop> drops;
+    const auto run = [&](auto pass, const auto& fallen) {
+      pass.start(now);
+      pass.tile([&] { drops = fallen(); });
+      pass.finish(now);
+    };
+    if (corrected) {
+      pass::HostIo<RaindropsPass> io;
+      io.craters = rainfall.craters();
+      io.count_thresholds = rainfall.count_thresholds();
+      io.drops = drops;
+      run(pass::Run<RaindropsPass>(rainfall.uniforms(steps), true, settings.rounding, io), [&] { return rainfall.drops(steps); });
+    } else {
+      const RaindropsUniforms u = raindrops_uniforms(settings, frame);
+      pass::HostIo<PublishedRaindropsPass> io;
+      io.drops = drops;
+      run(pass::Run<PublishedRaindropsPass>(u, false, settings.rounding, io), [&] { return raindrops_as_published(u); });
+    }
+    return drops;
+  }
+  /// Pass wave_step. wave: what the planes are seen as from outside.
+  void make_wave(const pass::Moment& now, const std::vector<Drop>& drops, const BufferView& wave) {
+    WaveJob job{wave_step_uniforms(settings),     corrected, settings.rounding, settings.boundary, &newest, &previous, &rest_row,
+                shore.empty() ? nullptr : &shore, drops};
+    job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
+    pass::HostIo<WaveStepPass> io;
+    const PassInput loaded = loaded_wave(wave);
+    io.wave.input = &loaded;
+    io.drops = drops;
+    if (job.shore) io.shore = shore;
+    io.next.planes = &wave;
+    pass::Run<WaveStepPass> run(job.uniforms, corrected, settings.rounding, io);
+    run.start(now);
+    run.tile([&] {
+      wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
+      if (corrected && !drops.empty()) wave_tiles([&](const parallel::Tile& tile) { wave_previous_rows(job, newest, tile); });
+      std::swap(newest, previous);
+    });
+    run.finish(now);
+  }
   /// The wave as wave_step loads it: the boundary rule is an address rule, the border the stored rest value.
   PassInput loaded_wave(BufferView wave) const {
     constexpr Address rules[] = {Address::clamp, Address::repeat, Address::border};
@@ -148,33 +190,8 @@ void Puddle::simulate(Recorder* recorder) {
   const std::int64_t end = steps_until(s.settings, s.frame + 1);
   for (int step = 0; s.steps < end; ++step, ++s.steps) {
     const pass::Moment now = s.moment(recorder, step, s.step_time());
-    if (s.corrected) {
-      const std::vector<Drop>& craters = s.rainfall.craters();
-      const std::vector<std::uint32_t>& thresholds = s.rainfall.count_thresholds();
-      now.before("raindrops", s.rainfall.uniforms(s.steps),
-                 std::array{PassInput{"craters", records(craters)}, PassInput{"count_thresholds", records(thresholds)}});
-    } else {
-      now.before("raindrops", raindrops_uniforms(s.settings, s.frame), {});
-    }
-    Stopwatch rain_time;
-    const std::vector<Drop> drops =
-        s.corrected ? s.rainfall.drops(s.steps) : raindrops_as_published(raindrops_uniforms(s.settings, s.frame));
-    now.after("raindrops", std::array{PassOutput{"drops", records(drops)}}, rain_time.seconds());
-
-    WaveJob job{
-        wave_step_uniforms(s.settings),       s.corrected, s.settings.rounding, s.settings.boundary, &s.newest, &s.previous, &s.rest_row,
-        s.shore.empty() ? nullptr : &s.shore, drops};
-    job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
-    std::vector<PassInput> inputs{s.loaded_wave(wave()), {"drops", records(drops)}};
-    if (job.shore) inputs.push_back({"shore", s.shore});
-    now.before("wave_step", job.uniforms, inputs);
-    Stopwatch wave_time;
-    s.wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
-    if (s.corrected && !drops.empty()) {
-      s.wave_tiles([&](const parallel::Tile& tile) { wave_previous_rows(job, s.newest, tile); });
-    }
-    std::swap(s.newest, s.previous);
-    now.after("wave_step", std::array{PassOutput{"wave", wave()}}, wave_time.seconds());
+    const std::vector<Drop> drops = s.fall(now);
+    s.make_wave(now, drops, wave());
   }
   ++s.frame;
 }

@@ -1,5 +1,62 @@
-// Pass raindrops, as published: drop i of the frame (seed 003, getRaindrops; hash22 as printed, hash12 by Dave Hoskins,
-// which the article calls without printing it).
+// Pass raindrops. as published: drop i of the frame (seed 003, getRaindrops; hash22 as printed, hash12 by Dave Hoskins, which the
+// article calls without printing it). corrected: whole numbers, from rainfall.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_PUDDLE_RAINDROPS_PASS_H_
+#define RAINREF_PUDDLE_RAINDROPS_PASS_H_
+#include "pass/definition.h"
+#include "puddle/uniforms.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::puddle {
+
+inline constexpr std::string_view raindrops_sentence = "The drops that fall in this step.";
+inline constexpr pass::Out raindrops_out{.name = "drops", .sentence = "Drop records of this step.", .record = "Drop"};
+
+struct PublishedRaindropsPass {
+  static constexpr pass::About about{"raindrops", raindrops_sentence, {1, capture::Judge::input_only}, {}};
+  using Uniforms = RaindropsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("RaindropsUniforms",
+                                   {member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
+                                    member<&U::rain_speed>("rain_speed", "1/s", {0, 20}, "Pulses of each drop a second."),
+                                    member<&U::drop_intensity>("drop_intensity", "1", {0, 4}, "Strength of an impact."),
+                                    member<&U::width>("width", "texel", scene::whole(1, 65536), "Columns of the wave."),
+                                    member<&U::height>("height", "texel", scene::whole(1, 65536), "Rows of the wave."),
+                                    member<&U::drop_count>("drop_count", "1", {1, 10}, "Drops in the list.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template List<Drop> drops = raindrops_out;
+  };
+};
+struct RaindropsPass {
+  static constexpr pass::About about{"raindrops", raindrops_sentence, {}, {1, capture::Judge::bits}};
+  using Uniforms = RainfallUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "RainfallUniforms", {member<&U::seed>("seed", "1", scene::any_word, "Low and high word of the seed."),
+                             member<&U::step>("step", "1", scene::any_word, "Wave steps made before this one, modulo 2^32."),
+                             member<&U::first_count>("first_count", "1", {0, 16000}, "Drops where the word is below every threshold."),
+                             member<&U::columns>("columns", "texel", {1, 65536}, "Columns of the wave."),
+                             member<&U::rows>("rows", "texel", {1, 65536}, "Rows of the wave."),
+                             member<&U::boundary>("boundary", "1", {0, 2}, "0: reflecting, 1: periodic, 2: fixed."),
+                             member<&U::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Records<Drop> craters = pass::In{.name = "craters"};
+    typename B::template Records<std::uint32_t> count_thresholds = pass::In{.name = "count_thresholds", .count = "threshold_count"};
+    typename B::template List<Drop> drops = raindrops_out;
+  };
+};
+
+}  // namespace rainref::puddle
+#endif
+#else
 
 template <class N>
 struct Pair {
@@ -32,3 +89,4 @@ RAINREF_FN Vec3<N> raindrop_as_published(const RaindropsUniforms& u, int i) {
   const N activation = smoothstep(0.0f, 0.15f, pulse) * smoothstep(0.35f, 0.2f, pulse);
   return Vec3<N>(place.x * N(u.width), place.y * N(u.height), strength * activation);
 }
+#endif

@@ -2,6 +2,10 @@
 #ifndef RAINREF_FN
 #ifndef RAINREF_PUDDLE_SHADE_PASS_H_
 #define RAINREF_PUDDLE_SHADE_PASS_H_
+#include <string>
+
+#include <fmt/format.h>
+
 #include "math/constants.h"
 #include "pass/definition.h"
 #include "puddle/camera_members.h"
@@ -61,6 +65,13 @@ struct ShadePass {
              member<&U::background_level>("background_level", "1", scene::mip_level,
                                           "corrected: mip level of the environment behind the scene."),
              member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water.")}));
+  }
+  template <class Bound>
+  static std::string fault(const Bound& b) {
+    const Texture& around = b.captured.environment.texture;
+    if (b.uniforms.environment_is_cube == 0 || around.height[0] == 6 * around.width[0]) return "";
+    return fmt::format("uniform environment_is_cube is {}, but in.environment is {}x{}: six faces below each other were expected",
+                       b.uniforms.environment_is_cube, around.width[0], around.height[0]);
   }
   template <class B>
   struct Io {

@@ -14,7 +14,7 @@
 
 #include "capture/bound_texture.h"
 #include "math/whole.h"
-#include "puddle/every_evaluation.h"
+#include "puddle/plain.h"
 #include "puddle/evaluations.h"
 
 namespace rainref::puddle {
@@ -34,12 +34,12 @@ struct MarchedPass {
 
   template <class N>
   void operator()(int x, int y, N* out) const {
-    write(corrected ? every::surface_hit_corrected<N>(uniforms, wave.view(), bounds.view(), x, y)
-                    : every::surface_hit_as_published<N>(uniforms, wave.view(), x, y),
+    write(corrected ? scalar::surface_hit_corrected<N>(uniforms, wave.view(), bounds.view(), x, y)
+                    : scalar::surface_hit_as_published<N>(uniforms, wave.view(), x, y),
           out);
   }
   template <class N>
-  static void write(const every::SurfaceHit<N>& hit, N* out) {
+  static void write(const scalar::SurfaceHit<N>& hit, N* out) {
     const N all[8] = {hit.position.x, hit.position.y, hit.position.z, hit.iterations, hit.normal.x, hit.normal.y, hit.normal.z, hit.flag};
     std::copy(all, all + 8, out);
   }
@@ -79,7 +79,7 @@ class PublishedMarch {
       : u_(u),
         wave_(wave),
         origin_(u.camera.position),
-        d_(every::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
+        d_(scalar::camera_ray(u.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)))),
         lowest_(lowest - 1e-5 * std::max(1.0f, -lowest)) {}
 
   /// The ends that the march may have; empty: more than a port can be held to.
@@ -129,8 +129,8 @@ class PublishedMarch {
       return far(a) < far(b);
     });
   }
-  every::SurfaceHit<Enclosure> at(const End& end, const float* port) const {
-    every::SurfaceHit<Enclosure> out;
+  scalar::SurfaceHit<Enclosure> at(const End& end, const float* port) const {
+    scalar::SurfaceHit<Enclosure> out;
     out.position = origin_;
     if (end.hit) {
       const double off = off_ray(end.rounds, end.t.hi);
@@ -140,7 +140,7 @@ class PublishedMarch {
     out.flag = Enclosure(end.hit ? 1.0f : 0.0f);
     // The normal is taken at the port's own position, which is stored without rounding.
     const bool own = out.position.x.contains(port[0]) && out.position.y.contains(port[1]) && out.position.z.contains(port[2]);
-    out.normal = every::normal_as_published(u_, wave_, own ? Vector(port[0], port[1], port[2]) : out.position);
+    out.normal = scalar::normal_as_published(u_, wave_, own ? Vector(port[0], port[1], port[2]) : out.position);
     return out;
   }
 
@@ -161,7 +161,7 @@ class PublishedMarch {
     };
     return Vector(coordinate(origin_.x, d_.x), coordinate(origin_.y, d_.y), coordinate(origin_.z, d_.z));
   }
-  Enclosure distance(double low, double high, double off) const { return every::scene_distance(u_, wave_, point(low, high, off)); }
+  Enclosure distance(double low, double high, double off) const { return scalar::scene_distance(u_, wave_, point(low, high, off)); }
 
   /// Whether f stays at epsilon or more from t = low on: beside a face of the box and moving away from it.
   bool passed_for_good(double low, double off) const {
@@ -240,23 +240,23 @@ class CorrectedDescent {
   CorrectedDescent(const SurfaceHitUniforms& u, const Texture& wave)
       : u_(u), wave_(fixed_texture<Address::clamp, Address::clamp, 1>(wave)) {}
 
-  every::SurfaceHit<Enclosure> hit(const Texture& bounds, int px, int py, const float* port) const {
-    const every::Descent<Enclosure> ray = every::descent<Enclosure>(u_, px, py);
+  scalar::SurfaceHit<Enclosure> hit(const Texture& bounds, int px, int py, const float* port) const {
+    const scalar::Descent<Enclosure> ray = scalar::descent<Enclosure>(u_, px, py);
     const Enclosure zero(0.0f);
     if (!ray.down) {
-      every::SurfaceHit<Enclosure> out;
+      scalar::SurfaceHit<Enclosure> out;
       out.position = ray.origin;
       out.iterations = out.flag = zero;
       out.normal = Vector(zero, Enclosure(1.0f), zero);
       return out;
     }
-    const every::Stretch<Enclosure> over = every::stretch(u_, ray, bounds_of(bounds, ray));
-    every::DescentState<Enclosure> state{ray.t_plane, zero, zero, zero};
+    const scalar::Stretch<Enclosure> over = scalar::stretch(u_, ray, bounds_of(bounds, ray));
+    scalar::DescentState<Enclosure> state{ray.t_plane, zero, zero, zero};
     if (over.enters) {
       const std::vector<Landing> landings = landings_of(ray, over);
       if (landings.empty() || landings.size() > static_cast<std::size_t>(enclosed::PathEnumeration::max_runs)) {
         enclosed::give_up();
-        return every::SurfaceHit<Enclosure>();
+        return scalar::SurfaceHit<Enclosure>();
       }
       const Landing& chosen =
           landings[landings.size() == 1 ? 0 : static_cast<std::size_t>(enclosed::choose(static_cast<int>(landings.size())))];
@@ -264,7 +264,7 @@ class CorrectedDescent {
       state.t = chosen.t;
       state.above = min(chosen.above, stopping());
     }
-    every::SurfaceHit<Enclosure> out = every::landed(u_, wave_, ray, over, state);
+    scalar::SurfaceHit<Enclosure> out = scalar::landed(u_, wave_, ray, over, state);
     out.position = common_part(out.position, plane_point(px, py, ray));
     return out;
   }
@@ -273,12 +273,12 @@ class CorrectedDescent {
   /// Where the ray meets y = 0: o + (o_y / f) d with f = -d_y. So o_y / f d_y is -o_y but for the roundings of a
   /// division and two products, and d_x / f = v_x / -v_y for v the ray before it was normalized, but for those of two
   /// components.
-  Vector plane_point(int px, int py, const every::Descent<Enclosure>& ray) const {
+  Vector plane_point(int px, int py, const scalar::Descent<Enclosure>& ray) const {
     const enclosed::Profile& p = enclosed::profile();
     const double unit = p.basic == enclosed::BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
     const double division = std::max(unit, p.division.ulp * 0x1p-23 + p.division.relative), many = 1 + 1e-6;
     const double of_t = (division + 2 * unit) * many, of_ratio = (division + 2 * unit + 2 * std::max(unit, division)) * many;
-    const Vector v = every::to_image_plane(u_.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)));
+    const Vector v = scalar::to_image_plane(u_.camera, Enclosure::index(px), Enclosure(static_cast<float>(py)));
     const double height = ray.origin.y.lo;
     // o + height * ratio (1 + e), |e| <= error.
     const auto coordinate = [&](Enclosure o, double low, double high, double error) {
@@ -306,20 +306,20 @@ class CorrectedDescent {
   };
 
   /// Top and slope from every texel of `bounds` that may be read, and from the uniforms where they may hold instead.
-  every::WaterBounds<Enclosure> bounds_of(const Texture& bounds, const every::Descent<Enclosure>& ray) const {
+  scalar::WaterBounds<Enclosure> bounds_of(const Texture& bounds, const scalar::Descent<Enclosure>& ray) const {
     enclosed::PathEnumeration paths;
-    every::WaterBounds<Enclosure> all{Enclosure(u_.surface_top), Enclosure(u_.surface_slope)};
+    scalar::WaterBounds<Enclosure> all{Enclosure(u_.surface_top), Enclosure(u_.surface_slope)};
     bool first = true;
     const bool settled = paths.for_each_alternative([&] {
-      const every::WaterBounds<Enclosure> one = every::water_bounds(u_, bounds, ray);
-      all = first ? one : every::WaterBounds<Enclosure>{hull(all.top, one.top), hull(all.slope, one.slope)};
+      const scalar::WaterBounds<Enclosure> one = scalar::water_bounds(u_, bounds, ray);
+      all = first ? one : scalar::WaterBounds<Enclosure>{hull(all.top, one.top), hull(all.slope, one.slope)};
       first = false;
     });
     if (!settled) return {Enclosure(0.0f, u_.surface_top), Enclosure(0.0f, u_.surface_slope)};
     return all;
   }
 
-  std::vector<Landing> landings_of(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over) const {
+  std::vector<Landing> landings_of(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over) const {
     std::vector<Landing> found;
     // Steps of a quarter of a cell: within one the gap is nearly linear.
     const double run = std::max(1e-6, static_cast<double>(ray.run.hi));
@@ -330,11 +330,11 @@ class CorrectedDescent {
     bool crossed = false;
     for (double t = begin; t < end && !crossed; t += step) {
       const Enclosure piece = around(t, std::min(t + step, end));
-      const Enclosure gap = every::gap_above(u_, wave_, ray, piece);
+      const Enclosure gap = scalar::gap_above(u_, wave_, ray, piece);
       if (gap.is_vacuous()) return {};
       if (gap.lo < u_.epsilon) {
         // Once under the water for sure, no march gets further, but by the steps whose proof allows for rounding.
-        const Enclosure after = every::gap_above(u_, wave_, ray, Enclosure(piece.hi));
+        const Enclosure after = scalar::gap_above(u_, wave_, ray, Enclosure(piece.hi));
         crossed = after.hi < -std::min(0.5 * u_.epsilon, 4 * width_of(after) + 1e-5 * u_.surface_top);
         if (!found.empty() && found.back().t.hi >= piece.lo) {
           found.back().t = hull(found.back().t, piece);
@@ -350,13 +350,13 @@ class CorrectedDescent {
     return found;
   }
   /// Cuts off the ends of a stretch where no march stops: too high above, or surely under the water.
-  void refine(const every::Descent<Enclosure>& ray, Landing& l) const {
+  void refine(const scalar::Descent<Enclosure>& ray, Landing& l) const {
     constexpr int pieces = 32;
     const double begin = l.t.lo, step = width_of(l.t) / pieces;
     double low = l.t.hi, high = l.t.lo;
     Enclosure above = Enclosure::vacuous();
     for (int k = 0; k < pieces; ++k) {
-      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, piece);
+      const Enclosure piece = around(begin + k * step, begin + (k + 1) * step), gap = scalar::gap_above(u_, wave_, ray, piece);
       if (gap.lo >= u_.epsilon || gap.hi < -0.5 * u_.epsilon) continue;
       above = above.is_vacuous() ? gap : hull(above, gap);
       low = std::min(low, static_cast<double>(piece.lo));
@@ -368,8 +368,8 @@ class CorrectedDescent {
   }
   /// The hit of a march that stopped in this stretch: of those pieces whose last step may end where the port's did,
   /// each by itself, because t and the gap depend on each other. All of the stretch where no piece does.
-  every::SurfaceHit<Enclosure> hit_near(const every::Descent<Enclosure>& ray, const every::Stretch<Enclosure>& over, const float* port,
-                                        const Landing& stretch) const {
+  scalar::SurfaceHit<Enclosure> hit_near(const scalar::Descent<Enclosure>& ray, const scalar::Stretch<Enclosure>& over, const float* port,
+                                         const Landing& stretch) const {
     const Enclosure zero(0.0f), own = along(ray.origin, ray.d, port);
     const double longest = 2 * static_cast<double>(over.stride.hi) * std::max(0.0f, std::min(stretch.above.hi, u_.epsilon));
     double low = stretch.t.lo, high = stretch.t.hi;
@@ -377,7 +377,7 @@ class CorrectedDescent {
       low = std::max<double>(low, own.lo - longest);
       high = std::min<double>(high, own.hi);
     }
-    every::SurfaceHit<Enclosure> out;
+    scalar::SurfaceHit<Enclosure> out;
     bool found = false;
     for (const int pieces : {16, 48}) {
       if (low > high) break;
@@ -385,27 +385,27 @@ class CorrectedDescent {
       double first = high, last = low;
       found = false;
       for (int k = 0; k < pieces; ++k) {
-        const Enclosure t = around(begin + k * step, begin + (k + 1) * step), gap = every::gap_above(u_, wave_, ray, t);
+        const Enclosure t = around(begin + k * step, begin + (k + 1) * step), gap = scalar::gap_above(u_, wave_, ray, t);
         if (gap.lo >= u_.epsilon) continue;
-        const every::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
+        const scalar::DescentState<Enclosure> part{t, min(gap, stopping()), zero, zero};
         enclosed::PathEnumeration paths;
         const bool settled = paths.for_each_alternative([&] {
-          const every::SurfaceHit<Enclosure> end = every::landed(u_, wave_, ray, over, part);
+          const scalar::SurfaceHit<Enclosure> end = scalar::landed(u_, wave_, ray, over, part);
           if (!(end.position.x.contains(port[0]) && end.position.y.contains(port[1]) && end.position.z.contains(port[2]))) return;
           out = found ? hull_of(out, end) : end;
           found = true;
           first = std::min(first, static_cast<double>(t.lo));
           last = std::max(last, static_cast<double>(t.hi));
         });
-        if (!settled) return every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+        if (!settled) return scalar::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
       }
       if (!found) break;
       low = first;
       high = last;
     }
-    return found ? out : every::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
+    return found ? out : scalar::landed(u_, wave_, ray, over, {stretch.t, min(stretch.above, stopping()), zero, zero});
   }
-  static every::SurfaceHit<Enclosure> hull_of(every::SurfaceHit<Enclosure> a, const every::SurfaceHit<Enclosure>& b) {
+  static scalar::SurfaceHit<Enclosure> hull_of(scalar::SurfaceHit<Enclosure> a, const scalar::SurfaceHit<Enclosure>& b) {
     const auto add = [](Vector& to, const Vector& v) { to = Vector(hull(to.x, v.x), hull(to.y, v.y), hull(to.z, v.z)); };
     add(a.position, b.position);
     add(a.normal, b.normal);

@@ -1,4 +1,55 @@
 // Pass wave_step: the next level of the wave from the newest and the previous one.
+#ifndef RAINREF_FN
+#ifndef RAINREF_PUDDLE_WAVE_STEP_PASS_H_
+#define RAINREF_PUDDLE_WAVE_STEP_PASS_H_
+#include <cmath>
+#include <ranges>
+#include <span>
+
+#include "pass/definition.h"
+#include "puddle/host.h"
+#include "puddle/uniforms.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::puddle {
+
+/// Its lanes are written by hand, in place over one plane of each level: see kernels_wave.cpp.
+struct WaveStepPass {
+  static constexpr pass::About about{
+      "wave_step", "The next level of the water from the newest and the previous one.", {1}, {1}, {"the four neighbours", "length"}};
+  using Uniforms = WaveStepUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "WaveStepUniforms",
+        {member<&U::damping>("damping", "1", scene::share, "as-published: factor of the new level; corrected: gamma of a step."),
+         member<&U::step>("step", "texel", {1, 8}, "as-published: offset of the neighbours."),
+         member<&U::courant_sq>("courant_sq", "1", {0, 0.5}, "corrected: Courant number squared, times (1 + gamma) / 2."),
+         member<&U::drop_count>("drop_count", "1", {0, 1 << 20}, "Drops in the list."),
+         member<&U::rest>("rest", "1", scene::share, "Stored value of level water.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Planes<Format::rg16f, Format::rg32f, Format::rgba8> wave =
+        pass::In{.name = "wave", .from = "wave_step", .previous = true};
+    typename B::template Records<Drop> drops = pass::In{.name = "drops", .from = "raindrops"};
+    typename B::template Texels<Format::r32f> shore = pass::In{.name = "shore", .variant = "corrected", .optional = true};
+    typename B::template Result<Format::rg16f, Format::rg32f, Format::rgba8> next = {
+        pass::Out{
+            .name = "wave", .sentence = "Newest level, previous level.", .encoding = "u = 2 (s - 1/2)", .format_key = "puddle.storage"},
+        pass::Out{.name = "wave",
+                  .sentence = "Newest level, previous level.",
+                  .unit = "m",
+                  .range = {-rgba8_range, rgba8_range},
+                  .encoding = "floats: height = s; rgba8: height = 0.04 (s - 128/255)",
+                  .format_key = "puddle.storage"}};
+  };
+};
+
+}  // namespace rainref::puddle
+#endif
+#else
 
 /// Rows of stored values. here, below and above are the newest level, readable `reach` texels to both sides.
 template <class Storage>
@@ -8,6 +59,15 @@ struct WaveRows {
   float fraction;      ///< what is left of a fractional offset; *_next are the rows one texel further out
   const float* shore;  ///< corrected: share of the wave that the shore leaves; null: all of it
 };
+/// newest(dy) and previous: the row dy rows away.
+template <class Storage, class Newest>
+WaveRows<Storage> rows_around(const WaveStepUniforms& u, bool corrected, const Newest& newest, const Storage* previous,
+                              const float* shore) {
+  // With a whole offset r the neighbours are r away; with a fractional one between r and r + 1.
+  const int r = corrected ? 1 : static_cast<int>(u.step);
+  const float fraction = corrected ? 0.0f : u.step - static_cast<float>(r);
+  return {newest(0), newest(-r), newest(r), newest(-r - 1), newest(r + 1), previous, r, fraction, shore};
+}
 
 // ---- as published --------------------------------------------------------------------------------------------------
 //   d = -(s0 - 1/2) 2 + (s1 + s2 + s3 + s4 - 2),   d *= damping,   d += drops,   stored as d / 2 + 1/2
@@ -17,9 +77,8 @@ RAINREF_FN N drop_as_published(const Drop& drop, N x, N y) {
   const N distance = length(N(drop.x) - x, N(drop.y) - y);
   return N(drop.amplitude) * smoothstep(4.0f, 0.5f, distance);
 }
-template <class N, class Storage>
-RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, const Drop* drops, int drop_count, int x,
-                                    int y) {
+template <class N, class Storage, class Drops>
+RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops&& drops, int x, int y) {
   const int r = in.reach;
   N left = N::load(in.here + x - r), right = N::load(in.here + x + r), down = N::load(in.below + x), up = N::load(in.above + x);
   if (in.fraction != 0.0f) {
@@ -34,8 +93,8 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<St
   N d = velocity + (sum_any_order(down, left, right, up) - N(2.0f));
   d = d * N(u.damping);
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
-  for (int i = 0; i < drop_count; ++i) {
-    if (drops[i].amplitude > 0.01f) d = d + drop_as_published(drops[i], fx, fy);
+  for (const Drop& drop : drops) {
+    if (drop.amplitude > 0.01f) d = d + drop_as_published(drop, fx, fy);
   }
   return d * N(0.5f) + N(0.5f);
 }
@@ -54,26 +113,50 @@ RAINREF_FN N drop_corrected(const Drop& drop, N x, N y) {
   const N rim = max(N(1.0f) - s, N(0.0f));
   return N(drop.amplitude) * (square(rim) * (N(1.0f) - N(4.0f) * s));
 }
-template <class N>
-RAINREF_FN N impulse_corrected(const Drop* drops, int drop_count, int x, int y) {
+template <class N, class Drops>
+RAINREF_FN N impulse_corrected(Drops&& drops, int x, int y) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
   N sum(0.0f);
-  for (int i = 0; i < drop_count; ++i) sum = sum + drop_corrected(drops[i], fx, fy);
+  for (const Drop& drop : drops) sum = sum + drop_corrected(drop, fx, fy);
   return sum;
 }
-template <class N, class Storage>
-RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Storage>& in, const Drop* drops, int drop_count, int x, int y) {
+template <class N, class Storage, class Drops>
+RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops&& drops, int x, int y) {
   const N here = N::load(in.here + x);
   // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
   const N around = sum_any_order_in_pairs(N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.below + x), N::load(in.above + x));
   const N laplacian = around - N(4.0f) * here;
   const N moving = here + N(u.damping) * (here - N::load(in.previous + x));
-  const N next = (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, drop_count, x, y);
+  const N next = (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, x, y);
   return in.shore ? N(u.rest) + N::load(in.shore + x) * (next - N(u.rest)) : next;
 }
 /// The second output: what becomes the previous level.
-template <class N, class Storage>
-RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, const Drop* drops, int drop_count, int x, int y) {
-  const N impulse = impulse_corrected<N>(drops, drop_count, x, y);
+template <class N, class Storage, class Drops>
+RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, Drops&& drops, int x, int y) {
+  const N impulse = impulse_corrected<N>(drops, x, y);
   return N::load(here + x) + (shore ? N::load(shore + x) * impulse : impulse);
 }
+
+struct WaveStepPassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const WaveStepUniforms& u, const Io& io, int x, int y) {
+    // The others add exactly nothing here; a GPU may leave them out, and so do the lanes.
+    const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
+    auto near = io.drops.records | std::views::filter([=](const Drop& d) {
+                  const float reach = (corrected ? d.radius : 4.0f) + 1.5f;
+                  return std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach;
+                });
+    io.wave.in_storage([&]<class Storage>(Storage) {
+      const auto newest = [&](int dy) { return io.wave.template row<Storage>(0, dy); };
+      const WaveRows<Storage> rows = rows_around(u, corrected, newest, io.wave.template row<Storage>(1, 0), io.shore.row[0]);
+      if constexpr (corrected) {
+        const N next = wave_step_corrected<N>(u, rows, near, x, y);
+        io.next(next, near.empty() ? N::load(rows.here + x) : wave_previous_corrected<N>(rows.here, rows.shore, near, x, y));
+      } else {
+        const N next = wave_step_as_published<N>(u, rows, near, x, y);
+        io.next(next, N::load(rows.here + x));
+      }
+    });
+  }
+};
+#endif

@@ -1,11 +1,112 @@
 // Passes bake_raindrops and bake_rivulets: the maps of water on a tile of glass. u and v run from 0 to 1 over the tile and
 // join at its edges; v points up the glass.
+#ifndef RAINREF_FN
+#ifndef RAINREF_RAINY_GLASS_BAKE_PASS_H_
+#define RAINREF_RAINY_GLASS_BAKE_PASS_H_
+#include <string>
+
+#include <fmt/format.h>
+
+#include "pass/definition.h"
+#include "rainref/executor.h"
+#include "rainy_glass/host.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::rainy_glass {
+
+/// A map: the formats that maps.storage chooses from, and what its channels mean.
+template <class B>
+using Map = typename B::template Result<Format::rgba8, Format::rgba16f>;
+constexpr pass::Out map_of(std::string_view name, std::string_view channels, std::string_view encoding) {
+  return {.name = name, .sentence = channels, .encoding = encoding, .format_key = "maps.storage"};
+}
+
+struct BakeRaindropsPass {
+  static constexpr pass::About about{"bake_raindrops",
+                                     "The raindrop map: normals, time offsets and heights of droplets on a tile. Once, before frame 0.",
+                                     {1},
+                                     {1},
+                                     {"1 + slope squared"}};
+  using Uniforms = BakeRaindropsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "BakeRaindropsUniforms",
+        {member<&U::inverse_size>("inverse_size", "1", scene::share, "1 over the map's columns and rows."),
+         member<&U::droplet_count>("droplet_count", "1", {0, 1 << 16}, "Droplets in the list."),
+         member<&U::normal_scale>("normal_scale", "1", {0, 10}, "Slope of the water over the gradient of the height."),
+         member<&U::neutral>("neutral", "1", scene::share, "Stored value of a flat surface's normal."),
+         member<&U::span>("span", "1", scene::share, "Stored value of a unit less neutral.")});
+  }
+  static std::vector<Droplet> near(std::span<const Droplet> all, bool corrected, int columns, const parallel::Tile& t) {
+    return droplets_near(all, corrected, columns, t.x0, t.y0, t.x1, t.y1);
+  }
+  template <class Bound>
+  static std::string fault(const Bound& b) {
+    return b.width == b.height ? "" : "expected a square output raindrops";
+  }
+  template <class B>
+  struct Io {
+    static constexpr std::string_view channels = "Normal x, normal y, time offset, height.";
+    typename B::template Records<Droplet> droplets = pass::In{.name = "droplets"};
+    Map<B> map = {map_of("raindrops", channels, "normals: n = 2 s - 1"),
+                  map_of("raindrops", channels, "normals: n = 2 s - 1; rgba8: (255 s - 128) / 127")};
+  };
+};
+
+struct BakeRivuletsPass {
+  static constexpr pass::About about{
+      "bake_rivulets", "The rivulet map: normals of rivulets, and their flow. Once, before frame 0.", {1}, {1}, {"1 + slope squared"}};
+  using Uniforms = BakeRivuletsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "BakeRivuletsUniforms",
+        {member<&U::inverse_size>("inverse_size", "1", scene::share, "1 over the map's columns and rows."),
+         member<&U::trail_count>("trail_count", "1", {0, 1 << 16}, "Rivulets in the list."),
+         member<&U::normal_scale>("normal_scale", "1", {0, 1e4}, "Slope of the water over the gradient of the height."),
+         member<&U::neutral>("neutral", "1", scene::share, "Stored value of 0."),
+         member<&U::span>("span", "1", scene::share, "Stored value of 1 less neutral."),
+         member<&U::flow_cells>("flow_cells", "1", {1, 256}, "Cells of the flow's coarser octave along a side."),
+         member<&U::flow_gain>("flow_gain", "1", {0, 10}, "Factor of the noise before it is held in [-1, 1].")});
+  }
+  static std::vector<Trail> near(std::span<const Trail> all, bool, int columns, const parallel::Tile& t) {
+    return trails_near(all, columns, t.x0, t.y0, t.x1, t.y1);
+  }
+  template <class Bound>
+  static std::string fault(const Bound& b) {
+    if (b.width != b.height) return "expected a square output rivulets";
+    const Texture& lattice = b.captured.lattice.texture;
+    const std::int64_t side = 2 * std::int64_t{b.uniforms.flow_cells};
+    if (side < 2) return fmt::format("flow_cells: expected 1 or more, found {}", b.uniforms.flow_cells);
+    if (lattice.width[0] >= side && lattice.height[0] >= side) return "";
+    return fmt::format("in.lattice: expected {} texels a side, found {}x{}", side, lattice.width[0], lattice.height[0]);
+  }
+  template <class B>
+  struct Io {
+    static constexpr std::string_view channels = "Normal x, normal y, flow across, flow along.";
+    typename B::template Records<Trail> trails = pass::In{.name = "trails"};
+    typename B::Sampled lattice = pass::In{.name = "lattice"};
+    Map<B> map = {map_of("rivulets", channels, "normals: n = 2 s - 1; flow unsigned"),
+                  map_of("rivulets", channels, "all n = 2 s - 1; rgba8: (255 s - 128) / 127")};
+  };
+};
+
+}  // namespace rainref::rainy_glass
+#endif
+#else
 
 /// Four channels of a map as stored values.
 template <class N>
 struct Baked {
   N r, g, b, a;
 };
+template <class N, class Result>
+RAINREF_FN void give_map(const Baked<N>& b, const Result& map) {
+  map(Vec3<N>(b.r, b.g, b.b), b.a);
+}
 
 template <class N>
 RAINREF_FN N texel_centre_x(const float* inverse_size, int x) {
@@ -56,6 +157,12 @@ RAINREF_FN Baked<N> bake_raindrops(const BakeRaindropsUniforms& u, bool correcte
   const Two<N> normal = stored_normal(gx, gy, u.normal_scale, u.neutral, u.span);
   return {normal.a, normal.b, offset, height};
 }
+struct BakeRaindropsPassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const BakeRaindropsUniforms& u, const Io& io, int x, int y) {
+    give_map(bake_raindrops<N>(u, corrected, io.droplets.data(), io.droplets.size(), x, y), io.map);
+  }
+};
 
 // ---- bake_rivulets -------------------------------------------------------------------------------------------------
 /// Gradient noise of `cells` cells along a side: gradients of the lattice's channels First and First + 1, Perlin's fade.
@@ -112,3 +219,10 @@ RAINREF_FN Baked<N> bake_rivulets(const BakeRivuletsUniforms& u, const Trail* tr
   const Two<N> normal = stored_normal(gx, gy, u.normal_scale, u.neutral, u.span);
   return {normal.a, normal.b, stored_flow<0>(u, lattice, px, py), stored_flow<2>(u, lattice, px, py)};
 }
+struct BakeRivuletsPassText {
+  template <class N, bool, class Io>
+  static RAINREF_FN void run(const BakeRivuletsUniforms& u, const Io& io, int x, int y) {
+    give_map(bake_rivulets<N>(u, io.trails.data(), io.trails.size(), io.lattice, x, y), io.map);
+  }
+};
+#endif

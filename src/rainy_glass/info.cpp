@@ -2,6 +2,7 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
+#include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 
 namespace rainref::rainy_glass {
@@ -13,24 +14,6 @@ using namespace rainref::capture;
 constexpr const char *published = "as-published", *correct = "corrected";
 
 EffectInfo make() {
-  using D = BakeRaindropsUniforms;
-  const UniformBlock bake_raindrops =
-      uniform_block<D>("BakeRaindropsUniforms",
-                       {member<&D::inverse_size>("inverse_size", "1", share, "1 over the map's columns and rows."),
-                        member<&D::droplet_count>("droplet_count", "1", {0, 1 << 16}, "Droplets in the list."),
-                        member<&D::normal_scale>("normal_scale", "1", {0, 10}, "Slope of the water over the gradient of the height."),
-                        member<&D::neutral>("neutral", "1", share, "Stored value of a flat surface's normal."),
-                        member<&D::span>("span", "1", share, "Stored value of a unit less neutral.")});
-  using R = BakeRivuletsUniforms;
-  const UniformBlock bake_rivulets =
-      uniform_block<R>("BakeRivuletsUniforms",
-                       {member<&R::inverse_size>("inverse_size", "1", share, "1 over the map's columns and rows."),
-                        member<&R::trail_count>("trail_count", "1", {0, 1 << 16}, "Rivulets in the list."),
-                        member<&R::normal_scale>("normal_scale", "1", {0, 1e4}, "Slope of the water over the gradient of the height."),
-                        member<&R::neutral>("neutral", "1", share, "Stored value of 0."),
-                        member<&R::span>("span", "1", share, "Stored value of 1 less neutral."),
-                        member<&R::flow_cells>("flow_cells", "1", {1, 256}, "Cells of the flow's coarser octave along a side."),
-                        member<&R::flow_gain>("flow_gain", "1", {0, 10}, "Factor of the noise before it is held in [-1, 1].")});
   const UniformBlock droplet = record<Droplet>(
       "Droplet", {member<&Droplet::x>("x", "1", "Centre, in tiles."), member<&Droplet::y>("y", "1", "Centre."),
                   member<&Droplet::radius>("radius", "1", "Of a disc that holds it, in tiles."),
@@ -45,29 +28,11 @@ EffectInfo make() {
                 member<&Trail::wiggle_rate>("wiggle_rate", "1", "Turns of the winding in a tile."),
                 member<&Trail::wiggle_phase>("wiggle_phase", "1", "At the head, in turns.")});
 
-  constexpr auto envelope = Judge::envelope;
-  const auto both = [](const char* block) {
-    return std::vector<PassVariant>{{published, 1, envelope, block}, {correct, 1, envelope, block}};
-  };
   EffectInfo info;
   info.name = "rainy_glass";
   info.passes = {
-      {"bake_raindrops",
-       "The raindrop map: normals, time offsets and heights of droplets on a tile. Once, before frame 0.",
-       both("BakeRaindropsUniforms"),
-       {{"droplets"}},
-       {"raindrops"},
-       {bake_raindrops},
-       "gather",
-       {"1 + slope squared"}},
-      {"bake_rivulets",
-       "The rivulet map: normals of rivulets, and their flow. Once, before frame 0.",
-       both("BakeRivuletsUniforms"),
-       {{"trails"}, {"lattice"}},
-       {"rivulets"},
-       {bake_rivulets},
-       "gather",
-       {"1 + slope squared"}},
+      pass::info_of<BakeRaindropsPass>(),
+      pass::info_of<BakeRivuletsPass>(),
       pass::info_of<RainOnGlassPass>(),
       pass::display_info("rain_on_glass"),
   };
@@ -77,14 +42,11 @@ EffectInfo make() {
        "Droplet"},
       {"trails", "records", "Rivulets of the rivulet map.", "1", one, "none", "none", "none", "", "Trail"},
       {"lattice", "rgba32f", "Unit gradients of the flow across (x, y) and along (z, w) the glass.", "1", signed_one},
-      {"raindrops", "maps.storage", "Normal x, normal y, time offset, height.", "1", one, "normals: n = 2 s - 1", "none", "none", "", "",
-       published},
-      {"raindrops", "maps.storage", "Normal x, normal y, time offset, height.", "1", one,
-       "normals: n = 2 s - 1; rgba8: (255 s - 128) / 127", "none", "none", "", "", correct},
-      {"rivulets", "maps.storage", "Normal x, normal y, flow across, flow along.", "1", one, "normals: n = 2 s - 1; flow unsigned", "none",
-       "none", "", "", published},
-      {"rivulets", "maps.storage", "Normal x, normal y, flow across, flow along.", "1", one, "all n = 2 s - 1; rgba8: (255 s - 128) / 127",
-       "none", "none", "", "", correct},
+  };
+  const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
+  append(pass::buffers_of<BakeRaindropsPass>());
+  append(pass::buffers_of<BakeRivuletsPass>());
+  append({
       {"surface", "rgba32f", "Place on the glass u, v; distance along the view axis, 0 beside the glass; 0.", "m, m, m, 1", {-10, 10}},
       {"orientation", "rgba16f", "World normal toward the rain; 1 on the glass.", "1", signed_one},
       {"scene", "rgba16f", "The scene without the glass, linear radiance.", "1", one, "none", "linear Rec. 709", "unused"},
@@ -102,8 +64,8 @@ EffectInfo make() {
        correct},
       {"probe", "rgba32f", "Radiance by direction, with mips.", "1", one, "none", "linear Rec. 709", "unused",
        "latitude/longitude: u = 1/2 + atan2(z, x) / (2 pi), v = 1/2 + atan2(y, sqrt(x^2 + z^2)) / pi, row 0 looks straight down"},
-  };
-  for (const BufferInfo& written : pass::buffers_of<RainOnGlassPass>()) info.buffers.push_back(written);
+  });
+  append(pass::buffers_of<RainOnGlassPass>());
   info.buffers.push_back(
       {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"});
   info.records = {droplet, trail};

@@ -7,6 +7,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/uniforms.h"
 

@@ -8,20 +8,16 @@
 #include <vector>
 
 #include "base/floating_point.h"
-#include "capture/pass_clock.h"
 #include "pass/display.h"
 #include "rainref/error.h"
+#include "rainy_glass/bake.pass.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/kernels.h"
 #include "rainy_glass/memory.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/storage.h"
 
 namespace rainref::rainy_glass {
 namespace {
-
-using capture::records;
-using capture::Stopwatch;
 
 constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 8;
 
@@ -86,25 +82,25 @@ struct RainyGlass::State {
   }
 
   void bake(const pass::Moment& now) {
+    const auto run = [&](auto bake) {
+      bake.start(now);
+      bake.tiles(executor, bake_rows, bake_tile);
+      bake.finish(now);
+    };
     if (bakes_raindrops) {
+      pass::HostIo<BakeRaindropsPass> io;
+      io.droplets = droplets;
+      io.map = raindrops;
       const BakeRaindropsUniforms u = bake_raindrops_uniforms(settings, static_cast<int>(droplets.size()));
-      now.before("bake_raindrops", u, {{"droplets", records(droplets)}});
-      const Stopwatch watch;
-      executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
-        const std::vector<Droplet> near = droplets_near(droplets, corrected, settings.map_size, t.x0, t.y0, t.x1, t.y1);
-        bake_raindrops_rows(u, corrected, settings.rounding, near, raindrops, t);
-      });
-      now.after("bake_raindrops", {{"raindrops", raindrops}}, watch.seconds());
+      run(pass::Run<BakeRaindropsPass>(u, corrected, settings.rounding, io));
     }
     if (bakes_rivulets) {
+      pass::HostIo<BakeRivuletsPass> io;
+      io.trails = trails;
+      io.lattice = lattice.view();
+      io.map = rivulets;
       const BakeRivuletsUniforms u = bake_rivulets_uniforms(settings, static_cast<int>(trails.size()));
-      now.before("bake_rivulets", u, {{"trails", records(trails)}, {"lattice", &lattice.view()}});
-      const Stopwatch watch;
-      executor.for_tiles(settings.map_size, settings.map_size, bake_tile, bake_rows, [&](const parallel::Tile& t) {
-        const std::vector<Trail> near = trails_near(trails, settings.map_size, t.x0, t.y0, t.x1, t.y1);
-        bake_rivulets_rows(u, settings.rounding, near, lattice.view(), rivulets, t);
-      });
-      now.after("bake_rivulets", {{"rivulets", rivulets}}, watch.seconds());
+      run(pass::Run<BakeRivuletsPass>(u, corrected, settings.rounding, io));
     }
     if (raindrops.format() == Format::rgba16f && rivulets.format() == Format::rgba16f) return;
     raindrop_texture = TextureData(raindrops, Address::repeat, Address::repeat);

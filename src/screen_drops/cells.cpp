@@ -50,14 +50,10 @@ void cells_rows(const CellsUniforms& u, std::span<DrawnCell> drawn, Image& cells
     const CellLine line(u, y);
     DrawnCell* cell = drawn.data() + static_cast<std::ptrdiff_t>(y) * cells.width();
     float* out = cells.row<float>(y);
-    for (int x = 0; x < cells.width(); ++x, out += 4) {
-      const CellState s = line.at(x, cell[x]);
-      const auto share = [](std::uint32_t of_65536) { return N(static_cast<float>(of_65536) * 0x1p-16f); };
-      const auto d = s.holds_drop ? scalar::cell_drop<N>(u, share(s.size), share(s.x), share(s.y), share(s.phase)) : scalar::CellDrop<N>{};
-      out[0] = d.x.v;
-      out[1] = d.y.v;
-      out[2] = d.radius.v;
-      out[3] = d.phase.v;
+    for (int x = 0; x < cells.width(); ++x) {
+      scalar::give_cell<N>(u, line.at(x, cell[x]), [&](const plain::Vec3<N>& drop, N phase) {
+        for (const N n : {drop.x, drop.y, drop.z, phase}) *out++ = n.v;
+      });
     }
   }
 }

@@ -1,4 +1,52 @@
 // Pass cells, corrected: the drop that a cell holds now, from whole numbers of 16 bits that cells.h draws, as shares.
+#ifndef RAINREF_FN
+#ifndef RAINREF_SCREEN_DROPS_CELLS_PASS_H_
+#define RAINREF_SCREEN_DROPS_CELLS_PASS_H_
+#include <string>
+
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+#include "screen_drops/cells.h"
+
+namespace rainref::screen_drops {
+
+/// No lanes: whole numbers are drawn one cell at a time, which cells_rows keeps from frame to frame.
+struct CellsPass {
+  static constexpr pass::About about{"cells", "The drop that each cell of four grids holds now.", {}, {1}};
+  using Uniforms = CellsUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>("CellsUniforms",
+                                   {member<&U::seed>("seed", "1", scene::any_word, "Low and high word of the seed."),
+                                    member<&U::tick>("tick", "ms", scene::any_word, "The frame's time, modulo 2^32."),
+                                    member<&U::keep>("keep", "1", {0, 65536}, "Of 65536 cells hold a drop."),
+                                    member<&U::columns>("columns", "cell", {1, 65536}, "Columns of each layer."),
+                                    member<&U::rows>("rows", "cell", {1, 65536}, "Rows of each layer."),
+                                    member<&U::first_row>("first_row", "texel", {0, 1 << 24}, "Row of the buffer where each layer begins."),
+                                    member<&U::shortest>("shortest", "ms", {1, 65535}, "Shortest cycle."),
+                                    member<&U::span>("span", "ms", {0, 65535}, "Longest cycle less shortest."),
+                                    member<&U::largest>("largest", "cell", scene::share, "Radius of a layer's largest drop."),
+                                    member<&U::impact>("impact", "1", scene::share, "Share of the cycle in which a drop spreads.")});
+  }
+  template <class Bound>
+  static std::string fault(const Bound& b) {
+    return b.uniforms.shortest == 0 ? "shortest: expected a cycle of 1 ms or more, found 0" : "";
+  }
+  template <class B>
+  struct Io {
+    typename B::template Result<Format::rgba32f> cells =
+        pass::Out{.name = "cells",
+                  .sentence =
+                      "Of a cell's drop: centre x, y and radius, in cells; how far its cycle has come. Radius 0: none. Layers above "
+                      "each other, coarsest first.",
+                  .unit = "cell, cell, cell, 1"};
+  };
+};
+
+}  // namespace rainref::screen_drops
+#endif
+#else
 
 /// In cells: centre, radius of the base; and how far its cycle has come. Radius 0: none.
 template <class N>
@@ -16,3 +64,19 @@ RAINREF_FN CellDrop<N> cell_drop(const CellsUniforms& c, N size, N x, N y, N pha
   const N room = one - N(2.0f) * reach;
   return {half + (x - half) * room, half + (y - half) * room, reach * sqrt(max(share, N(0.0f))), phase};
 }
+/// What a texel holds of a cell that drew this.
+template <class N, class Result>
+RAINREF_FN void give_cell(const CellsUniforms& u, const CellState& s, const Result& cells) {
+  const auto share = [](std::uint32_t of_65536) { return N(static_cast<float>(of_65536) * 0x1p-16f); };
+  const N none(0.0f);
+  if (!s.holds_drop) return cells(Vec3<N>(none, none, none), none);
+  const CellDrop<N> d = cell_drop<N>(u, share(s.size), share(s.x), share(s.y), share(s.phase));
+  cells(Vec3<N>(d.x, d.y, d.radius), d.phase);
+}
+struct CellsPassText {
+  template <class N, bool, class Io>
+  static RAINREF_FN void run(const CellsUniforms& u, const Io& io, int column, int row) {
+    give_cell<N>(u, CellLine(u, row).at(column), io.cells);
+  }
+};
+#endif

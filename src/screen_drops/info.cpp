@@ -3,6 +3,7 @@
 #include "pass/display.h"
 #include "pass/info.h"
 #include "screen_drops/background.pass.h"
+#include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
 #include "screen_drops/flow_info.h"
 
@@ -15,28 +16,15 @@ using namespace rainref::capture;
 constexpr const char *published = "as-published", *correct = "corrected";
 
 EffectInfo make() {
-  using C = CellsUniforms;
-  const UniformBlock cells = uniform_block<C>(
-      "CellsUniforms", {member<&C::seed>("seed", "1", any_word, "Low and high word of the seed."),
-                        member<&C::tick>("tick", "ms", any_word, "The frame's time, modulo 2^32."),
-                        member<&C::keep>("keep", "1", {0, 65536}, "Of 65536 cells hold a drop."),
-                        member<&C::columns>("columns", "cell", {1, 65536}, "Columns of each layer."),
-                        member<&C::rows>("rows", "cell", {1, 65536}, "Rows of each layer."),
-                        member<&C::first_row>("first_row", "texel", {0, 1 << 24}, "Row of the buffer where each layer begins."),
-                        member<&C::shortest>("shortest", "ms", {1, 65535}, "Shortest cycle."),
-                        member<&C::span>("span", "ms", {0, 65535}, "Longest cycle less shortest."),
-                        member<&C::largest>("largest", "cell", share, "Radius of a layer's largest drop."),
-                        member<&C::impact>("impact", "1", share, "Share of the cycle in which a drop spreads.")});
   const UniformBlock tap = record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
                                                member<&Tap::y>("y", "1", "See x.")});
 
-  constexpr auto envelope = Judge::envelope;
   EffectInfo info;
   info.name = "screen_drops";
   info.passes = flow_passes();
   for (const PassInfo& pass : std::vector<PassInfo>{
            pass::info_of<BackgroundPass>(),
-           {"cells", "The drop that each cell of four grids holds now.", {{correct, 1, envelope, "CellsUniforms"}}, {}, {"cells"}, {cells}},
+           pass::info_of<CellsPass>(),
            pass::info_of<PublishedDropsPass, DropsPass>(),
            pass::display_info("drops"),
        }) {
@@ -54,11 +42,8 @@ EffectInfo make() {
   append({
       {"noise", "rgba8", "Noise, a tile: x and y displace the grid; x keeps a cell's drop, y is its time offset, z its rate.", "1", one,
        "none", "none", "none", "", "", published},
-      {"cells", "rgba32f",
-       "Of a cell's drop: centre x, y and radius, in cells; how far its cycle has come. Radius 0: none. Layers above each other, coarsest "
-       "first.",
-       "cell, cell, cell, 1", one, "none", "none", "none", "", "", correct},
   });
+  append(pass::buffers_of<CellsPass>());
   append(pass::buffers_of<PublishedDropsPass, DropsPass>());
   append({
       {"picture", "rgba8", "Display code, alpha 1. Row 0 is the bottom of the picture.", "1", one, "sRGB (IEC 61966-2-1)", "sRGB", "1"},

@@ -9,6 +9,7 @@
 #include "math/in_parts.h"
 #include "math/plain.h"
 #include "screen_drops/background.pass.h"
+#include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
 #include "screen_drops/uniforms.h"
 

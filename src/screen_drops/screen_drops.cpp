@@ -11,12 +11,11 @@
 
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
-#include "capture/pass_clock.h"
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "screen_drops/background.pass.h"
-#include "screen_drops/cells.h"
+#include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
 #include "screen_drops/flow.h"
 #include "screen_drops/host.h"
@@ -25,8 +24,6 @@
 
 namespace rainref::screen_drops {
 namespace {
-
-using capture::Stopwatch;
 
 constexpr int tile_rows = 8, cell_rows = 4;
 
@@ -93,12 +90,16 @@ struct ScreenDrops::State {
   }
   void fill_cells(const pass::Moment& now) {
     const CellsUniforms u = cells_uniforms(settings, grids, shown());
-    now.before("cells", u, {});
-    const Stopwatch watch;
-    executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
-      cells_rows(u, drawn_cells, cells, static_cast<int>(begin), static_cast<int>(end));
+    pass::HostIo<CellsPass> io;
+    io.cells = cells;
+    pass::Run<CellsPass> run(u, true, settings.rounding, io);
+    run.start(now);
+    run.tile([&] {
+      executor.for_range(cells.height(), cell_rows, [&](std::int64_t begin, std::int64_t end) {
+        cells_rows(u, drawn_cells, cells, static_cast<int>(begin), static_cast<int>(end));
+      });
     });
-    now.after("cells", {{"cells", cells}}, watch.seconds());
+    run.finish(now);
   }
 };
 

@@ -1,10 +1,11 @@
 #include "windshield/evaluations.h"
 
+#include "blur_pyramid/blur_pyramid.h"
 #include "drops/evaluations.h"
 #include "pass/display.h"
 #include "pass/model.h"
-#include "windshield/every_evaluation.h"
-#include "windshield/surface_every_evaluation.h"
+#include "windshield/plain.h"
+#include "windshield/surface_plain.h"
 
 namespace rainref::windshield {
 
@@ -15,10 +16,10 @@ const std::vector<capture::PassEvaluations>& evaluations() {
                                                          {"wipe_drops", bind_wipe_drops},
                                                          {"merge", drops::bind_merge},
                                                          {"splat", drops::bind_splat},
-                                                         {"wipe_texture", pass::bind<WipeTexturePass, every::WipeTexturePassText>},
-                                                         {"normals", pass::bind<NormalsPass, every::NormalsPassText>},
-                                                         {"blur_pyramid", bind_blur_pyramid},
-                                                         {"composite", pass::bind<CompositePass, every::CompositePassText>},
+                                                         {"wipe_texture", pass::bind<WipeTexturePass, scalar::WipeTexturePassText>},
+                                                         {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
+                                                         {"blur_pyramid", blur_pyramid::bind_blur},
+                                                         {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
                                                          {"display", pass::bind_display}};
   return all;
 }

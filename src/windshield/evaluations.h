@@ -13,6 +13,5 @@ const std::vector<capture::PassEvaluations>& evaluations();
 
 std::unique_ptr<capture::PassModel> bind_windshield_frame(const capture::PassCase& c);
 std::unique_ptr<capture::PassModel> bind_wipe_drops(const capture::PassCase& c);
-std::unique_ptr<capture::PassModel> bind_blur_pyramid(const capture::PassCase& c);
 
 }  // namespace rainref::windshield

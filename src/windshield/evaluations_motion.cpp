@@ -11,7 +11,7 @@
 #include "drops/evaluations.h"
 #include "math/whole.h"
 #include "rainref/error.h"
-#include "windshield/motion_every_evaluation.h"
+#include "windshield/motion_plain.h"
 #include "windshield/evaluations.h"
 #include "windshield/wipe_drops.h"
 
@@ -49,8 +49,9 @@ class Frame : public capture::KeyedModel {
 
  private:
   template <class N>
-  motion_every::GlassForces<N> forces() const {
-    return corrected_ ? motion_every::windshield_frame_corrected<N>(uniforms_) : motion_every::windshield_frame_as_published<N>(uniforms_);
+  motion_scalar::GlassForces<N> forces() const {
+    return corrected_ ? motion_scalar::windshield_frame_corrected<N>(uniforms_)
+                      : motion_scalar::windshield_frame_as_published<N>(uniforms_);
   }
   template <class N>
   std::vector<std::byte> list() const {
@@ -75,8 +76,8 @@ class Frame : public capture::KeyedModel {
 
 // ---- wipe_drops ----------------------------------------------------------------------------------------------------
 template <class N>
-motion_every::WipedDrop<N> loaded(const Drop& d) {
-  motion_every::WipedDrop<N> w;
+motion_scalar::WipedDrop<N> loaded(const Drop& d) {
+  motion_scalar::WipedDrop<N> w;
   w.u = N::load(&d.position[0]);
   w.v = N::load(&d.position[1]);
   w.velocity_u = N::load(&d.velocity[0]);
@@ -86,7 +87,7 @@ motion_every::WipedDrop<N> loaded(const Drop& d) {
   return w;
 }
 template <class N>
-ListedDrop<N> listed(const motion_every::WipedDrop<N>& w) {
+ListedDrop<N> listed(const motion_scalar::WipedDrop<N>& w) {
   return {w.u, w.v, w.velocity_u, w.velocity_v, w.mass, w.life, w.life > N(0.0f)};
 }
 
@@ -96,7 +97,7 @@ struct WipePublished {
 
   template <class N>
   ListedDrop<N> operator()(const Drop& drop) const {
-    return listed(motion_every::wipe_drop_as_published<N>(uniforms, wipers.data(), loaded<N>(drop)));
+    return listed(motion_scalar::wipe_drop_as_published<N>(uniforms, wipers.data(), loaded<N>(drop)));
   }
 };
 
@@ -110,12 +111,12 @@ struct Sweep {
   int column(int texel) const { return texel % uniforms.columns; }
   int row(int texel) const { return texel / uniforms.columns; }
   template <class N>
-  motion_every::WipedDrop<N> wiped(const Drop& drop) const {
-    return motion_every::wipe_drop_corrected<N>(uniforms, wipers.data(), loaded<N>(drop));
+  motion_scalar::WipedDrop<N> wiped(const Drop& drop) const {
+    return motion_scalar::wipe_drop_corrected<N>(uniforms, wipers.data(), loaded<N>(drop));
   }
   template <class N>
-  motion_every::SweptTexel<N> swept(int texel) const {
-    return motion_every::swept_texel<N>(uniforms, wipers.data(), column(texel), row(texel));
+  motion_scalar::SweptTexel<N> swept(int texel) const {
+    return motion_scalar::swept_texel<N>(uniforms, wipers.data(), column(texel), row(texel));
   }
   /// Texels with water that a record may sweep.
   std::vector<int> wet_texels() const {
@@ -178,7 +179,7 @@ class SweptDrops : public capture::KeyedModel {
     const std::size_t first = out.size();
     for (const std::size_t i : groups_[static_cast<std::size_t>(group)]) {
       const Drop& drop = s_->drops[i];
-      const motion_every::WipedDrop<Enclosure> d = s_->wiped<Enclosure>(drop);
+      const motion_scalar::WipedDrop<Enclosure> d = s_->wiped<Enclosure>(drop);
       const Place place = decided_place(s_->uniforms, d);
       // That the others of this place are in the group was settled beforehand.
       if (!std::binary_search(places_[i].begin(), places_[i].end(), place)) enclosed::give_up();
@@ -274,14 +275,14 @@ class SweptDrops : public capture::KeyedModel {
   std::vector<std::byte> list() const {
     std::map<Place, std::uint64_t> film;
     for (const int texel : s_->wet_texels()) {
-      const motion_every::SweptTexel<N> swept = s_->swept<N>(texel);
+      const motion_scalar::SweptTexel<N> swept = s_->swept<N>(texel);
       const Place place = place_of(s_->uniforms, swept.wiper.v, swept.bin.v);
       if (place != none) film[place] += quanta_of(s_->film[static_cast<std::size_t>(texel)]);
     }
     std::vector<Drop> out;
     std::map<Place, std::size_t> takers;
     for (const Drop& drop : s_->drops) {
-      const motion_every::WipedDrop<N> d = s_->wiped<N>(drop);
+      const motion_scalar::WipedDrop<N> d = s_->wiped<N>(drop);
       const ListedDrop<N> given = listed(d);
       if (!given.lives) continue;
       out.push_back(drops::stored(given, drop.id));
@@ -310,10 +311,10 @@ struct SweptFilm {
     const WipeDropsUniforms& u = sweep->uniforms;
     const int texel = y * width + x;
     const N here = N::load(&sweep->film[static_cast<std::size_t>(texel)]);
-    const motion_every::Plane<N> p = motion_every::texel_centre<N>(u, x, y);
+    const motion_scalar::Plane<N> p = motion_scalar::texel_centre<N>(u, x, y);
     typename N::Mask swept = false;
     for (const Wiper& w : sweep->wipers)
-      if (w.direction != 0) swept = swept | motion_every::in_sweep(w, p.x, p.y);
+      if (w.direction != 0) swept = swept | motion_scalar::in_sweep(w, p.x, p.y);
     out[0] = select(swept, N(0.0f), here);
   }
 };

@@ -52,7 +52,7 @@ HWY_ATTR void wiped_rows(const WipeTextureUniforms& uniforms, Rounding rounding,
   for (int y = tile.y0; y < tile.y1; ++y) {
     WipeTexturePass::Io<LaneCursors> io;
     pass::begin_row<WipeTexturePass>(host, io, y, rounding);
-    io.wipers.records = near.data();
+    io.wipers.records = near;
     const float row = static_cast<float>(y) + 0.5f, py = u.frame[2] * row;
     of_row.clear();
     for (std::size_t i = 0; i < reaches.size(); ++i)

@@ -1,7 +1,9 @@
-// The scalar evaluations of windshield_frame and wipe_drops: for the tests. A namespace of their own, so that argument
+// The scalar evaluations of windshield_frame and wipe_drops: Plain, Enclosure and Perturbed. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
 #include "windshield/motion.h"
 #include "windshield/uniforms.h"

@@ -1,8 +1,11 @@
-// The scalar evaluations of the windshield's passes: for the oracle and the tests. A namespace of their own, so that argument
-// types of this room do not pull them into the lanes.
+// The scalar evaluations of the picture: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// room do not pull them into the lanes.
 #pragma once
 
+#include "image/footprint.h"
 #include "image/texture.h"
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
 #include "windshield/composite.pass.h"
 
@@ -12,7 +15,9 @@ using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
+#include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_enclosed-inl.h"
 #include "windshield/composite.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -6,7 +6,7 @@
 
 #include "math/enclosure.h"
 
-namespace rainref::windshield::every {
+namespace rainref::windshield::scalar {
 
 /// Bounds of |from x along| / |along|, in double: each factor is one number, so nothing counts twice but the length.
 struct Perpendicular {
@@ -53,4 +53,4 @@ inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::En
   return {std::max(written.lo, tight.lo), std::min(written.hi, tight.hi)};
 }
 
-}  // namespace rainref::windshield::every
+}  // namespace rainref::windshield::scalar

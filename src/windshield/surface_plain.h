@@ -1,8 +1,11 @@
-// The scalar evaluations of wipe_texture and normals, in a namespace of their own, so that argument types of this room do not
-// pull them into the lanes.
+// The scalar evaluations of wipe_texture and normals: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of
+// this room do not pull them into the lanes.
 #pragma once
 
+#include "math/perturbed.h"
+#include "math/enclosure.h"
 #include "math/plain.h"
+#include "windshield/segment_distance_enclosed.h"
 #include "windshield/surface.h"
 
 namespace rainref::windshield::scalar {

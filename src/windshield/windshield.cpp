@@ -241,15 +241,17 @@ void Windshield::render(Recorder* recorder) {
   for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
     const std::size_t l = static_cast<std::size_t>(level);
     const blur_pyramid::BlurUniforms blur = blur_pyramid::blur_uniforms(settings.blur, width, height, level);
-    if (level == 0) {
-      now.before("blur_pyramid", blur, {{"scene_colour", s.scene.colour}, {"scene_depth", s.scene.depth}}, 0);
-    } else {
-      now.before("blur_pyramid", blur, {{"blurred", s.levels[l - 1]}}, level);
-    }
-    Stopwatch blur_clock;
-    if (anew && level == 0) blur_pyramid::fog_level(executor, blur, rounding, s.scene.colour, s.scene.depth, s.levels[0]);
-    if (anew && level > 0) blur_pyramid::halve_level(executor, blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]);
-    now.after("blur_pyramid", {{"blurred", s.levels[l]}}, blur_clock.seconds(), level);
+    pass::Moment at_level = now;
+    at_level.level = level;
+    const auto run = [&](auto pass) {
+      pass.start(at_level);
+      if (anew) pass.tiles(executor, blur_pyramid::tile_rows);
+      pass.finish(at_level);
+    };
+    if (level == 0)
+      run(blur_pyramid::fog_run(blur, rounding, s.scene.colour, s.scene.depth, s.levels[0]));
+    else
+      run(blur_pyramid::halve_run(blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]));
   }
   Stopwatch pyramid_clock;
   if (anew) s.pyramid->refresh(executor, s.levels);

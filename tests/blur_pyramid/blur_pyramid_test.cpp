@@ -12,6 +12,7 @@
 #include "math/half.h"
 #include "math/half_array.h"
 #include "math/simd_target.h"
+#include "pass/same_as_definition.h"
 
 namespace rainref::blur_pyramid::sampled {
 using namespace rainref::plain;
@@ -63,7 +64,8 @@ std::vector<Image> pyramid(const BlurSettings& s, Image base, const parallel::Ex
   std::vector<Image> levels = make_levels(s, width, height);
   levels[0] = std::move(base);
   for (std::size_t l = 1; l < levels.size(); ++l) {
-    halve_level(executor, blur_uniforms(s, width, height, static_cast<int>(l)), s.corrected, s.rounding, levels[l - 1], levels[l]);
+    const BlurUniforms u = blur_uniforms(s, width, height, static_cast<int>(l));
+    halve_run(u, s.corrected, s.rounding, levels[l - 1], levels[l]).tiles(executor, tile_rows);
   }
   return levels;
 }
@@ -238,7 +240,7 @@ TEST(BlurPyramid, Fog) {
   Image colour = image_of(3, 1, [](int, int) { return 1; }), depth(Format::r32f, 3, 1), out(Format::rgba16f, 3, 1);
   depth.row<float>(0)[1] = 50;
   depth.row<float>(0)[2] = 1e30f;
-  fog_level(two_threads(), u, Rounding::rne, colour, depth, out);
+  fog_run(u, Rounding::rne, colour, depth, out).tiles(two_threads(), tile_rows);
   for (int c = 0; c < 3; ++c) {
     const double fog = s.fog_colour[static_cast<std::size_t>(c)], own = c + 1;
     EXPECT_EQ(at(out, 0, 0, c), own);
@@ -270,6 +272,10 @@ Image noise(int width, int height) {
 }
 
 TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBits) {
+  capture::EffectInfo info;
+  info.name = "blur";
+  info.passes = {blur_info("", "")};
+  info.buffers = blur_buffers();
   parallel::Executor executors[] = {parallel::Executor(1), parallel::Executor(2), parallel::Executor(3), parallel::Executor(8)};
   for (int width = 1; width <= 33; ++width) {
     const int height = 1 + width * 7 % 29;
@@ -285,40 +291,24 @@ TEST(BlurPyramidDeterminism, EveryTargetThreadCountOrderAndWidthGivesThePlainBit
         for (parallel::Executor& executor : executors) {
           const int threads = executor.threads();
           executor.shuffle_tiles(static_cast<std::uint64_t>(threads + width));
-          Image fogged(Format::rgba16f, width, height);
-          const BlurUniforms fog = blur_uniforms(s, width, height, 0);
-          fog_level(executor, fog, s.rounding, colour, depth, fogged);
-          for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-              const Half* c = colour.row<Half>(y) + 4 * x;
-              const scalar::Vec3<F> f =
-                  scalar::fogged(fog, scalar::Vec3<F>(F::load(c), F::load(c + 1), F::load(c + 2)), F::load(depth.row<float>(y) + x));
-              Half expected[3];
-              store(&expected[0], f.x, s.rounding);
-              store(&expected[1], f.y, s.rounding);
-              store(&expected[2], f.z, s.rounding);
-              for (int k = 0; k < 3; ++k)
-                ASSERT_EQ(fogged.row<Half>(y)[4 * x + k].bits, expected[k].bits) << target << " " << x << " " << y;
+          std::vector<Image> levels = make_levels(s, width, height);
+          const auto cases = rainref::test::captured(info, corrected, "", [&](Recorder& recorder) {
+            for (std::size_t l = 0; l < levels.size(); ++l) {
+              const pass::Moment now{&recorder, 0, 0, 0, 0, s.rounding, static_cast<int>(l)};
+              const BlurUniforms u = blur_uniforms(s, width, height, now.level);
+              const auto run = [&](auto level) {
+                level.start(now);
+                level.tiles(executor, tile_rows);
+                level.finish(now);
+              };
+              if (l == 0)
+                run(fog_run(u, s.rounding, colour, depth, levels[0]));
+              else
+                run(halve_run(u, corrected, s.rounding, levels[l - 1], levels[l]));
             }
-          }
-          const std::vector<Image> levels = pyramid(s, std::move(fogged), executor);
-          for (std::size_t l = 1; l < levels.size(); ++l) {
-            const Image &above = levels[l - 1], &here = levels[l];
-            const BlurUniforms u = blur_uniforms(s, width, height, static_cast<int>(l));
-            for (int y = 0; y < here.height(); ++y) {
-              for (int x = 0; x < here.width(); ++x) {
-                for (int k = 0; k < 4; ++k) {
-                  const auto tap = [&](int i, int j) {
-                    return F::load(above.row<Half>(std::min(2 * y + j, above.height() - 1)) + 4 * std::min(2 * x + i, above.width() - 1) +
-                                   k);
-                  };
-                  Half expected;
-                  store(&expected, corrected ? scalar::halved_corrected<F>(u, tap, x, y) : scalar::halved_as_published<F>(tap), s.rounding);
-                  ASSERT_EQ(here.row<Half>(y)[4 * x + k].bits, expected.bits) << target << " level " << l << " at " << x << " " << y;
-                }
-              }
-            }
-          }
+          });
+          ASSERT_EQ(cases.size(), levels.size());
+          for (const capture::PassCase& c : cases) ASSERT_TRUE(rainref::test::is_as_defined(c, *bind_blur(c))) << target << " " << width;
         }
       }
     }

@@ -1,15 +1,15 @@
 // The texts of this room in every evaluation: they compile, agree, and enclose.
 #include <gtest/gtest.h>
 
-#include "drops/every_evaluation.h"
+#include "drops/plain.h"
 #include "support.h"
 
 namespace rainref::drops {
 namespace {
 
 template <class N>
-every::DropState<N> every_state(const Drop& d) {
-  every::DropState<N> s;
+scalar::DropState<N> every_state(const Drop& d) {
+  scalar::DropState<N> s;
   s.u = N(d.position[0]);
   s.v = N(d.position[1]);
   s.velocity_u = N(d.velocity[0]);
@@ -39,11 +39,11 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
   published.corrected = false;
   const auto d = every_state<N>(drop), o = every_state<N>(other);
   const GlassFrame glass = busy_glass();
-  const auto p = every::integrate_as_published<N>(integrate_uniforms(published, {}, dt), glass, d);
-  const auto c = every::integrate_corrected<N>(integrate_uniforms(Settings(), test::frame, dt), glass, d);
+  const auto p = scalar::integrate_as_published<N>(integrate_uniforms(published, {}, dt), glass, d);
+  const auto c = scalar::integrate_corrected<N>(integrate_uniforms(Settings(), test::frame, dt), glass, d);
   const MergeUniforms merge = merge_uniforms(Settings(), test::frame, dt, 8, 8, 3);
-  const auto both = every::absorb<N>(d, o);
-  const auto left = every::trail<N>(merge, d);
+  const auto both = scalar::absorb<N>(d, o);
+  const auto left = scalar::trail<N>(merge, d);
   motion = {p.u,
             p.v,
             p.velocity_u,
@@ -60,8 +60,8 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
             both.velocity_v,
             left.u,
             left.v,
-            every::base_radius<N>(merge, d.mass)};
-  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.quanta, every::dried<N>(merge, N(drop.mass))};
+            scalar::base_radius<N>(merge, d.mass)};
+  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.quanta, scalar::dried<N>(merge, N(drop.mass))};
 }
 
 class DropsEvaluations : public testing::Test {

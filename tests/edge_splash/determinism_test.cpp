@@ -3,11 +3,12 @@
 #include <bit>
 
 #include "capture/hash_of_frames.h"
+#include "edge_splash/evaluations.h"
+#include "edge_splash/info.h"
 #include "edge_splash/shapes.h"
 #include "edge_splash/support.h"
 #include "math/simd_target.h"
-#include "pass/display.h"
-#include "pass/display_every_evaluation.h"
+#include "pass/same_as_definition.h"
 #include "settings.h"
 
 namespace rainref::edge_splash {
@@ -128,26 +129,10 @@ TEST_P(Determinism, LanesEqualTheScalarEvaluation) {
     select_simd_target(target);
     const parallel::Executor executor(2);
     EdgeSplash effect(evaluation.s, evaluation.in, executor);
-    for (int frame = 0; frame < 5; ++frame) effect.next_frame();
-    for (int y = 0; y < 29; ++y) {
-      for (int x = 0; x < 37; ++x) {
-        const auto s = evaluation.at<F>(4, x, y);
-        ASSERT_EQ(code(effect.edge(), x, y), to_unorm8(s.edge.v).code) << target << " " << x << "," << y;
-        ASSERT_EQ(code(effect.angle(), x, y), to_unorm8(s.angle.v).code) << target << " " << x << "," << y;
-        ASSERT_EQ(code(effect.noise(), x, y), to_unorm8(s.noise.v).code) << target << " " << x << "," << y;
-        for (int k = 0; k < 4; ++k) {
-          Half stored;
-          store(&stored, s.colour[k], Rounding::rne);
-          ASSERT_EQ(effect.colour().row<Half>(y)[4 * x + k].bits, stored.bits) << target << " " << x << "," << y;
-        }
-        const Half* colour = effect.colour().row<Half>(y) + 4 * x;
-        const auto shown = pass::every::display<F>(pass::display_uniforms(evaluation.s.exposure),
-                                                   {F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))});
-        ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x].code, to_unorm8(shown.x.v).code);
-        ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code);
-        ASSERT_EQ(effect.picture().row<Unorm8>(y)[4 * x + 2].code, to_unorm8(shown.z.v).code);
-      }
-    }
+    const auto cases = rainref::test::captured(effect_info(), GetParam() == Variant::corrected, "", [&](Recorder& recorder) {
+      for (int frame = 0; frame < 5; ++frame) effect.next_frame(&recorder);
+    });
+    ASSERT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target;
   }
 }
 

@@ -16,26 +16,11 @@
 #include "puddle/captured_scene.h"
 #include "puddle/checkerboard.h"
 #include "puddle/host.h"
+#include "puddle/plain.h"
 #include "puddle/uniforms.h"
 
 namespace rainref::puddle {
-namespace scalar_evaluations {
-using namespace rainref::plain;
-#define RAINREF_FN inline
-#define RAINREF_LAMBDA
-#include "math/optics-inl.h"
-#include "image/sampling-inl.h"
-#include "image/sampling_enclosed-inl.h"
-#include "image/environment-inl.h"
-#include "puddle/raindrops.pass.h"
-#include "puddle/wave_step.pass.h"
-#include "puddle/surface_hit.pass.h"
-#include "puddle/shade.pass.h"
-#include "puddle/display.pass.h"
-#undef RAINREF_FN
-#undef RAINREF_LAMBDA
-}  // namespace scalar_evaluations
-namespace text = scalar_evaluations;
+namespace text = scalar;
 
 namespace {
 
@@ -161,19 +146,14 @@ TEST(PuddleEnclosure, WaveStepHoldsTheReferenceAndEveryGpu) {
       Account account{.channels = s.corrected ? 2 : 1};
       for (int i = 0; i < 400; ++i) {
         const int x = 2 + i * 37 % (width - 4), y = 2 + i * 11 % (height - 4);
-        text::WaveRows<float> rows{};
-        rows.here = s.newest.data() + static_cast<std::ptrdiff_t>(y) * width;
-        rows.below = rows.here - width;
-        rows.above = rows.here + width;
-        rows.below_next = rows.below - width;
-        rows.above_next = rows.above + width;
-        rows.previous = s.previous.data() + static_cast<std::ptrdiff_t>(y) * width;
-        rows.reach = 1;
+        const float* here = s.newest.data() + static_cast<std::ptrdiff_t>(y) * width;
+        const auto newest = [&](int dy) { return here + static_cast<std::ptrdiff_t>(dy) * width; };
+        const auto rows =
+            text::rows_around<float>(u, s.corrected, newest, s.previous.data() + static_cast<std::ptrdiff_t>(y) * width, nullptr);
         judge(account, [&]<class N>(N) -> Values<N> {
-          const int drops = static_cast<int>(s.drops.size());
-          if (!s.corrected) return {text::wave_step_as_published<N>(u, rows, s.drops.data(), drops, x, y), N(0.0f), N(0.0f)};
-          return {text::wave_step_corrected<N>(u, rows, s.drops.data(), drops, x, y),
-                  text::wave_previous_corrected<N>(rows.here, nullptr, s.drops.data(), drops, x, y), N(0.0f)};
+          if (!s.corrected) return {text::wave_step_as_published<N>(u, rows, s.drops, x, y), N(0.0f), N(0.0f)};
+          return {text::wave_step_corrected<N>(u, rows, s.drops, x, y), text::wave_previous_corrected<N>(here, nullptr, s.drops, x, y),
+                  N(0.0f)};
         });
       }
       expect_inside(account, "wave_step " + name.substr(7), p.name);
@@ -269,12 +249,9 @@ TEST(PuddleEnclosure, WhatTheMarchesAreJudgedByHoldsTheReference) {
 }  // namespace
 
 // The whole texts instantiate.
-template scalar_evaluations::SurfaceHit<Enclosure> scalar_evaluations::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&,
-                                                                                                           const Texture&, int, int);
-template scalar_evaluations::SurfaceHit<Enclosure> scalar_evaluations::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&,
-                                                                                                        const Texture&, const Texture&, int,
-                                                                                                        int);
-template Enclosure scalar_evaluations::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&,
-                                                                            int, int);
+template scalar::SurfaceHit<Enclosure> scalar::surface_hit_as_published<Enclosure>(const SurfaceHitUniforms&, const Texture&, int, int);
+template scalar::SurfaceHit<Enclosure> scalar::surface_hit_corrected<Enclosure>(const SurfaceHitUniforms&, const Texture&, const Texture&,
+                                                                                int, int);
+template Enclosure scalar::ground_noise_as_published<Enclosure>(const GroundNoiseUniforms&, const text::Surface<Enclosure>&, int, int);
 
 }  // namespace rainref::puddle

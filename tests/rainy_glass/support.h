@@ -13,7 +13,6 @@
 #include "rainref/executor.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/kernels.h"
 #include "rainy_glass/plain.h"
 #include "settings.h"
 

@@ -3,6 +3,9 @@
 #include <map>
 #include <set>
 
+#include "pass/same_as_definition.h"
+#include "screen_drops/evaluations.h"
+#include "screen_drops/info.h"
 #include "screen_drops/support.h"
 
 namespace rainref::screen_drops {
@@ -204,6 +207,18 @@ TEST(ScreenDropsCells, KeptDrawsAreFreshDraws) {
     }
   }
   EXPECT_GT(cycles.size(), 20u);
+}
+// The rows that keep what cells drew, against the definition, which draws every cell anew.
+TEST(ScreenDropsCells, RowsAreAsDefined) {
+  for (const int width : {17, 64, 133}) {
+    ScreenDrops window(test::settings(Variant::corrected, width, 40), test::inputs(test::settings(Variant::corrected, width, 40)),
+                       test::executor());
+    const auto cases = rainref::test::captured(effect_info(), true, "cells", [&](Recorder& recorder) {
+      for (int frame = 0; frame < 40; ++frame) window.next_frame(&recorder);
+    });
+    ASSERT_EQ(cases.size(), 40u);
+    ASSERT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << width;
+  }
 }
 TEST(ScreenDropsCells, EveryCellHasAPeriodOfItsOwn) {
   Settings s = test::settings(Variant::corrected, 400, 400);

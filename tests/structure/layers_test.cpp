@@ -29,7 +29,7 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"night_street", {"scene"}},
                                                                  {"pass", {"capture", "scene"}},
                                                                  {"drops", {"capture", "pass", "rain", "scene"}},
-                                                                 {"blur_pyramid", {"capture", "scene"}},
+                                                                 {"blur_pyramid", {"capture", "pass", "scene"}},
                                                                  {"effect", {"capture", "image_io", "scene"}},
                                                                  {"faults", {"judge"}},
                                                                  {"reports", {"faults", "judge"}}};

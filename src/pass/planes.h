@@ -1,0 +1,65 @@
+// Channels of an image as planes of their own, readable beyond the ends by the image's address rule.
+#pragma once
+
+#include <vector>
+
+#include "capture/pass_case.h"
+#include "math/half.h"
+#include "math/unorm.h"
+#include "pass/definition.h"
+
+namespace rainref::pass {
+
+/// f(Storage()) with the type of a format's channels: halves, floats or codes.
+template <class F>
+void in_storage(Format format, const F& f) {
+  const FormatInfo::Kind kind = info(format).kind;
+  return kind == FormatInfo::float16 ? f(Half()) : kind == FormatInfo::float32 ? f(float()) : f(Unorm8());
+}
+/// Fills the margins of a row with what stands beyond its ends; a mirrored image counts as a clamped one.
+template <class Storage>
+void fill_margins(Storage* row, int width, Address address, Storage border) {
+  const auto wrapped = [&](int x) { return ((x % width) + width) % width; };
+  for (int k = 0; k < Image::left_margin; ++k) {
+    const int left = -1 - k, right = width + k;
+    row[left] = address == Address::border ? border : row[address == Address::repeat ? wrapped(left) : 0];
+    row[right] = address == Address::border ? border : row[address == Address::repeat ? wrapped(right) : width - 1];
+  }
+}
+/// The row that stands for row y. border_row: one row of the border's value.
+template <class Storage>
+const Storage* row_at(const Image& plane, const Image& border_row, Address address, int y) {
+  const int height = plane.height();
+  if (0 <= y && y < height) return plane.row<Storage>(y);
+  if (address == Address::border) return border_row.row<Storage>(0);
+  if (address == Address::repeat) return plane.row<Storage>(((y % height) + height) % height);
+  return plane.row<Storage>(y < 0 ? 0 : height - 1);
+}
+
+/// The channels of a captured image in their storage type, margins filled.
+struct Planes {
+  std::vector<Image> channels;
+  Image border_row;
+  Address address = Address::clamp;
+
+  Planes() = default;
+  explicit Planes(const capture::CaseInput& input);
+};
+/// What a text sees of them from row y.
+struct PlanesPointer {
+  const Planes* planes = nullptr;
+  int y = 0;
+  PlanesPointer(In) {}
+  /// The row dy rows away, readable Image::left_margin texels beyond both ends.
+  template <class Storage>
+  const Storage* row(int channel, int dy) const {
+    return row_at<Storage>(planes->channels[static_cast<std::size_t>(channel)], planes->border_row, planes->address, y + dy);
+  }
+  /// f(Storage()) with the type of the channels.
+  template <class F>
+  void in_storage(const F& f) const {
+    pass::in_storage(planes->channels.front().format(), f);
+  }
+};
+
+}  // namespace rainref::pass
