@@ -50,7 +50,7 @@ void step_rows(const WaveJob& job, const parallel::Tile& tile) {
   std::vector<int> in_row;
   std::vector<Drop> near;
   for (int y = tile.y0; y < tile.y1; ++y) {
-    const auto newest = [&](int dy) { return pass::row_at<Storage>(*job.newest, *job.rest_row, edge, y + dy); };
+    const auto newest = [&](int dy) HWY_ATTR { return pass::row_at<Storage>(*job.newest, *job.rest_row, edge, y + dy); };
     Storage* out = job.previous->row<Storage>(y);
     const WaveRows<Storage> rows =
         rows_around<Storage>(job.uniforms, job.corrected, newest, out, job.shore ? job.shore->row<float>(y) : nullptr);

@@ -61,8 +61,8 @@ struct WaveRows {
 };
 /// newest(dy) and previous: the row dy rows away.
 template <class Storage, class Newest>
-WaveRows<Storage> rows_around(const WaveStepUniforms& u, bool corrected, const Newest& newest, const Storage* previous,
-                              const float* shore) {
+RAINREF_FN WaveRows<Storage> rows_around(const WaveStepUniforms& u, bool corrected, const Newest& newest, const Storage* previous,
+                                         const float* shore) {
   // With a whole offset r the neighbours are r away; with a fractional one between r and r + 1.
   const int r = corrected ? 1 : static_cast<int>(u.step);
   const float fraction = corrected ? 0.0f : u.step - static_cast<float>(r);
@@ -78,7 +78,7 @@ RAINREF_FN N drop_as_published(const Drop& drop, N x, N y) {
   return N(drop.amplitude) * smoothstep(4.0f, 0.5f, distance);
 }
 template <class N, class Storage, class Drops>
-RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops&& drops, int x, int y) {
+RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops drops, int x, int y) {
   const int r = in.reach;
   N left = N::load(in.here + x - r), right = N::load(in.here + x + r), down = N::load(in.below + x), up = N::load(in.above + x);
   if (in.fraction != 0.0f) {
@@ -114,14 +114,14 @@ RAINREF_FN N drop_corrected(const Drop& drop, N x, N y) {
   return N(drop.amplitude) * (square(rim) * (N(1.0f) - N(4.0f) * s));
 }
 template <class N, class Drops>
-RAINREF_FN N impulse_corrected(Drops&& drops, int x, int y) {
+RAINREF_FN N impulse_corrected(Drops drops, int x, int y) {
   const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
   N sum(0.0f);
   for (const Drop& drop : drops) sum = sum + drop_corrected(drop, fx, fy);
   return sum;
 }
 template <class N, class Storage, class Drops>
-RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops&& drops, int x, int y) {
+RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops drops, int x, int y) {
   const N here = N::load(in.here + x);
   // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
   const N around = sum_any_order_in_pairs(N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.below + x), N::load(in.above + x));
@@ -132,7 +132,7 @@ RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Stora
 }
 /// The second output: what becomes the previous level.
 template <class N, class Storage, class Drops>
-RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, Drops&& drops, int x, int y) {
+RAINREF_FN N wave_previous_corrected(const Storage* here, const float* shore, Drops drops, int x, int y) {
   const N impulse = impulse_corrected<N>(drops, x, y);
   return N::load(here + x) + (shore ? N::load(shore + x) * impulse : impulse);
 }
