@@ -1,7 +1,6 @@
 // All that rainref knows of an effect: what the registry holds, and what a new effect's room offers.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "effect/inputs.h"
-#include "scene/camera.h"
 
 namespace rainref::effect {
 

@@ -2,7 +2,7 @@
 #include "pass/display.h"
 
 #include "math/real64.h"
-#include "pass/display_every_evaluation.h"
+#include "pass/display_plain.h"
 #include "pass/info.h"
 #include "pass/model.h"
 
@@ -48,7 +48,7 @@ capture::PassInfo display_info(const std::string& from) {
   info.reads.front().from = from;
   return info;
 }
-std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, every::DisplayPassText>(c); }
+std::unique_ptr<capture::PassModel> bind_display(const capture::PassCase& c) { return bind<DisplayPass, scalar::DisplayPassText>(c); }
 
 }  // namespace rainref::pass
 #endif

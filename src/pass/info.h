@@ -21,14 +21,16 @@ capture::PassInfo info_of() {
   add("corrected", P::about.corrected);
   const typename P::template Io<Declared> io;
   each<P>(io, [&](const auto& m) {
-    if constexpr (requires { m.outs; })
+    constexpr bool is_per_texel = requires { m.reach; };
+    if constexpr (requires { m.outs; }) {
       all.writes.emplace_back(m.outs[0].name);
-    else all.reads.push_back({std::string(m.name), std::string(m.from), m.previous, std::string(m.variant), m.same_size || requires { m.reach; }
-});
-});
-for (const std::string_view sum : P::about.order_free_sums)
-  if (!sum.empty()) all.order_free_sums.emplace_back(sum);
-return all;
+    } else {
+      all.reads.push_back({std::string(m.name), std::string(m.from), m.previous, std::string(m.variant), m.same_size || is_per_texel});
+    }
+  });
+  for (const std::string_view sum : P::about.order_free_sums)
+    if (!sum.empty()) all.order_free_sums.emplace_back(sum);
+  return all;
 }
 
 /// Of a pass that each variant defines by itself: as published, corrected.

@@ -1,5 +1,8 @@
 #include "windshield/instance.h"
 
+#include <initializer_list>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
@@ -46,10 +49,12 @@ Instance::Instance(const scene::Config& config, Surroundings surroundings, bool 
 
 std::vector<PassOutput> Instance::buffers() {
   const Windshield& w = running();
-  drops_.clear();
-  for (const DropView& d : w.drops())
-    drops_.push_back(
-        {.position = {d.u, d.v}, .velocity = {d.velocity_u, d.velocity_v}, .mass = d.mass, .life = d.life, .id = d.id, .padding0 = 0});
+  if (std::exchange(drops_frame_, frame()) != frame()) {
+    drops_.clear();
+    for (const DropView& d : w.drops())
+      drops_.push_back(
+          {.position = {d.u, d.v}, .velocity = {d.velocity_u, d.velocity_v}, .mass = d.mass, .life = d.life, .id = d.id, .padding0 = 0});
+  }
   std::vector<PassOutput> all{{"drops", RecordView{drops_.data(), drops_.size(), sizeof(drops::Drop)}}};
   if (settings_.corrected) all.push_back({"film", w.film()});
   for (const PassOutput& image : std::initializer_list<PassOutput>{

@@ -23,7 +23,8 @@ class Instance final : public effect::InstanceOf<Windshield> {
  private:
   Settings settings_;
   bool has_street_;
-  std::vector<drops::Drop> drops_;  // as buffers() gave them
+  std::vector<drops::Drop> drops_;  // of frame drops_frame_, as buffers() gave them
+  int drops_frame_ = -1;
 };
 
 }  // namespace rainref::windshield

@@ -15,13 +15,13 @@
 #include "scene/member_parameter.h"
 
 namespace rainref::breath {
-namespace every {
+namespace scalar {
 using namespace rainref::plain;
 #define RAINREF_FN inline
 #include "breath/condense.pass.h"
 #include "breath/veil.pass.h"
 #undef RAINREF_FN
-}  // namespace every
+}  // namespace scalar
 
 struct Settings {
   Variant variant = Variant::corrected;
@@ -122,8 +122,8 @@ inline const capture::EffectInfo& info() {
 /// What a registry holds.
 inline effect::Effect entry() {
   static const std::vector<scene::Parameter> parameters = scene::parameters_of(members());
-  static const std::vector<capture::PassEvaluations> evaluations{{"condense", pass::bind<CondensePass, every::CondensePassText>},
-                                                                 {"veil", pass::bind<VeilPass, every::VeilPassText>}};
+  static const std::vector<capture::PassEvaluations> evaluations{{"condense", pass::bind<CondensePass, scalar::CondensePassText>},
+                                                                 {"veil", pass::bind<VeilPass, scalar::VeilPassText>}};
   return {"breath",
           {"as-published", "corrected"},
           parameters,

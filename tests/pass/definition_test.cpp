@@ -16,7 +16,7 @@
 #include "pass/run.h"
 
 namespace rainref::frost {
-namespace every {
+namespace scalar {
 using namespace rainref::plain;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
@@ -26,7 +26,7 @@ using namespace rainref::plain;
 #include "pass/frost.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
-}  // namespace every
+}  // namespace scalar
 namespace {
 
 using testing::ElementsAre;
@@ -223,7 +223,7 @@ TEST(Definition, TheJudgesEvaluationsAreOfTheSameText) {
   for (const bool corrected : {false, true}) {
     Pane p(9, 5);
     const std::vector<capture::PassCase> cases = captured(p, corrected);
-    const auto grow = pass::bind<GrowPass, every::GrowPassText>(cases[0]);
+    const auto grow = pass::bind<GrowPass, scalar::GrowPassText>(cases[0]);
     ASSERT_EQ(grow->width(), 9);
     ASSERT_EQ(grow->height(), 5);
     ASSERT_EQ(grow->values(), 1);
@@ -245,7 +245,7 @@ TEST(Definition, TheJudgesEvaluationsAreOfTheSameText) {
       }
     }
     if (!corrected) continue;
-    const auto shine = pass::bind<ShinePass, every::ShinePassText>(cases[1]);
+    const auto shine = pass::bind<ShinePass, scalar::ShinePassText>(cases[1]);
     ASSERT_EQ(shine->values(), 5);
     plain::Plain<float> out[5];
     shine->evaluate(3, 2, out);
@@ -261,7 +261,7 @@ TEST(Definition, ACodeIsLoadedAsDevicesMayLoadIt) {
   Pane p(9, 5);
   p.grow.gain = 0;
   p.grow.rate = 0;
-  const auto model = pass::bind<GrowPass, every::GrowPassText>(captured(p, false)[0]);
+  const auto model = pass::bind<GrowPass, scalar::GrowPassText>(captured(p, false)[0]);
   enclosed::Profile loose;
   loose.reference = false;
   loose.unorm_load.ulp = 1;
@@ -280,11 +280,11 @@ TEST(Definition, ACaseWithoutItsInputsIsRefused) {
   capture::PassCase c = captured(p, true)[0];
   capture::PassCase fewer = c;
   fewer.inputs.erase(fewer.inputs.begin());
-  EXPECT_THROW((pass::bind<GrowPass, every::GrowPassText>(fewer)), Error);
+  EXPECT_THROW((pass::bind<GrowPass, scalar::GrowPassText>(fewer)), Error);
   // The uniform counts a third seed.
   reinterpret_cast<GrowUniforms*>(c.uniforms.data())->seed_count = 3;
   try {
-    pass::bind<GrowPass, every::GrowPassText>(c);
+    pass::bind<GrowPass, scalar::GrowPassText>(c);
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(std::string(e.what()), "frost.grow/0005.0: uniform seed_count: expected 0 to 2, the records of in.seeds, found 3");
@@ -292,7 +292,7 @@ TEST(Definition, ACaseWithoutItsInputsIsRefused) {
   // What is optional may be missing.
   capture::PassCase bare = captured(p, true)[1];
   bare.inputs.pop_back();
-  EXPECT_NO_THROW((pass::bind<ShinePass, every::ShinePassText>(bare)));
+  EXPECT_NO_THROW((pass::bind<ShinePass, scalar::ShinePassText>(bare)));
 }
 
 TEST(Definition, ARunWithoutItsImagesIsRefused) {

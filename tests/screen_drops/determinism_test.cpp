@@ -3,7 +3,7 @@
 #include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "pass/display.h"
-#include "pass/display_every_evaluation.h"
+#include "pass/display_plain.h"
 #include "screen_drops/support.h"
 
 namespace rainref::screen_drops {
@@ -130,8 +130,8 @@ TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluationWhichIsNearDouble) {
         expect_same(stored[2], w.colour.z, "colour.b", x, y);
         ASSERT_EQ(window.water().row<Unorm8>(y)[x].code, to_unorm8(w.water.v).code) << target << " " << x << "," << y;
         const auto shown =
-            pass::every::display<Single>(pass::display_uniforms(s.exposure),
-                                         plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+            pass::scalar::display<Single>(pass::display_uniforms(s.exposure),
+                                          plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         ASSERT_EQ(window.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code) << target << " " << x << "," << y;
         const auto exact = window_of(Double());
         wet += w.water.v > 0;

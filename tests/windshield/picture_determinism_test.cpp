@@ -13,7 +13,7 @@
 #include "math/unorm.h"
 #include "pass/run.h"
 #include "pass/display.h"
-#include "pass/display_every_evaluation.h"
+#include "pass/display_plain.h"
 #include "windshield/picture.h"
 #include "windshield/plain.h"
 #include "windshield/street.h"
@@ -160,7 +160,7 @@ TEST_P(PictureDeterminism, LanesEqualTheScalarEvaluation) {
         const float rgba[4] = {c.x.v, c.y.v, c.z.v, 1};
         for (int k = 0; k < 4; ++k) colour[k] = to_half(rgba[k] + 0.0f);
         const plain::Vec3<F> code =
-            pass::every::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
+            pass::scalar::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
         const float codes[4] = {code.x.v, code.y.v, code.z.v, 1};
         for (int k = 0; k < 4; ++k) plain.picture.row<Unorm8>(y)[4 * x + k] = to_unorm8(codes[k], Rounding::rne);
       }

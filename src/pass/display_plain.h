@@ -6,7 +6,7 @@
 #include "math/plain.h"
 #include "pass/display.pass.h"
 
-namespace rainref::pass::every {
+namespace rainref::pass::scalar {
 using namespace rainref::plain;
 
 #define RAINREF_FN inline
@@ -16,4 +16,4 @@ using namespace rainref::plain;
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-}  // namespace rainref::pass::every
+}  // namespace rainref::pass::scalar
