@@ -37,6 +37,8 @@ class KeyedModel {
   /// Appends a record for every id that the group may give, under the profile and the enumeration in force; the same ids in
   /// every alternative. No id is in two groups.
   virtual void enclose(int group, std::vector<KeyedRecord>& out) const = 0;
+  /// As enclose(), of every rearrangement that the profile in force allows. False where there is no such evaluation.
+  virtual bool rearrange(int, std::vector<KeyedRecord>&) const { return false; }
   /// The bytes of the whole list, in any order: what the reference gives, and what Perturbeds give under the behaviour in
   /// force (perturbed.h). Nothing where the model cannot say.
   virtual std::optional<std::vector<std::byte>> reference() const { return std::nullopt; }

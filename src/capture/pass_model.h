@@ -12,6 +12,7 @@
 #include "capture/pass_case.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
+#include "math/rearranged.h"
 #include "math/plain.h"
 
 namespace rainref::capture {
@@ -32,6 +33,9 @@ class PassModel {
   /// Under the profile and the enumeration in force. `port` holds the values that the port stored for this invocation: a pass
   /// whose result is judged by what it must satisfy (a march by the gap at its end) may take them, others do not.
   virtual void enclose(int x, int y, const float* port, enclosed::Enclosure* out) const = 0;
+  /// As enclose(), of every rearrangement that the profile in force allows. False where the pass has no such evaluation: it is
+  /// judged as it is written.
+  virtual bool rearrange(int, int, const float*, enclosed::Enclosure*) const { return false; }
   /// Whether enclose() depends on `port`.
   virtual bool needs_port() const { return false; }
   /// Whether the pass itself rounds to binary16 on its way, as its outputs are stored.
@@ -57,6 +61,12 @@ class ModelOf : public PassModel {
   void evaluate(int x, int y, plain::Plain<double>* out) const override { pass_(x, y, out); }
   void evaluate(int x, int y, perturbed::Perturbed* out) const override { pass_(x, y, out); }
   void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { pass_(x, y, out); }
+  bool rearrange(int x, int y, const float*, enclosed::Enclosure* out) const override {
+    std::vector<enclosed::Rearranged> all(static_cast<std::size_t>(values()));
+    pass_(x, y, all.data());
+    for (const enclosed::Rearranged& r : all) *out++ = r.settled();
+    return true;
+  }
 
  protected:
   const Pass& pass() const { return pass_; }

@@ -1,16 +1,26 @@
 // `rainref pack`.
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/memory.h"
 #include "capture/capture_recorder.h"
+#include "capture/pack_read.h"
 #include "capture/pack_write.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
+#include "judge/evaluations.h"
+#include "judge/null_ports.h"
+#include "judge/profiles.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "simulation/opened.h"
@@ -34,40 +44,155 @@ std::vector<std::string> chosen_passes(const capture::EffectInfo& info, const st
   return chosen;
 }
 
+void require_lossless(const effect::Inputs& inputs) {
+  for (const effect::InputFile& input : inputs.files)
+    if (input.lossy)
+      throw Error(
+          ExitCode::usage,
+          fmt::format("{}: '{}' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR",
+                      input.key, input.path));
+}
+
+/// The frames to take of each pass: those asked for in which it runs; where there is none, the first in which it does.
+class Frames : public Recorder {
+ public:
+  /// Runs the scene beforehand: to the last frame asked for, and on to the end of its run while some of the passes have not run.
+  Frames(simulation::Opened scene, const std::vector<int>& asked, const std::vector<std::string>& passes) : asked_(asked) {
+    const int longest = std::max(asked.back() + 1, static_cast<int>(scene.config().integer("run.frames")));
+    const auto has_run = [&](const std::string& pass) { return first_.contains(pass); };
+    for (int frame = 0; frame < longest; ++frame) {
+      if (frame > asked.back() && std::all_of(passes.begin(), passes.end(), has_run)) break;
+      scene.next_frame(this);
+    }
+    for (const std::string& pass : passes) {
+      if (!has_run(pass))
+        say("left out: {} does not run in the first {}\n", pass, counted(longest, "frame"));
+      else if (!runs_when_asked_.contains(pass))
+        say("added: frame {}, the first in which {} runs\n", first_.at(pass), pass);
+    }
+  }
+  bool reads(int, std::string_view) const override { return false; }
+  void pass(const PassCall& call) override {
+    first_.try_emplace(std::string(call.pass), call.frame);
+    if (is_asked(call.frame)) runs_when_asked_.emplace(call.pass);
+  }
+
+  bool has(std::string_view pass) const { return first_.find(pass) != first_.end(); }
+  void add(const std::string& pass, int frame) { added_[pass] = frame; }
+  bool are_wanted(int frame, std::string_view pass) const {
+    if (const auto added = added_.find(pass); added != added_.end() && added->second == frame) return true;
+    return runs_when_asked_.find(pass) != runs_when_asked_.end() ? is_asked(frame) : has(pass) && first_.find(pass)->second == frame;
+  }
+  /// Of all passes.
+  int last(const std::vector<std::string>& passes) const {
+    int last = 0;
+    for (const std::string& pass : passes) last = std::max(last, runs_when_asked_.contains(pass) ? asked_.back() : first_.at(pass));
+    for (const auto& [pass, frame] : added_) last = std::max(last, frame);
+    return last;
+  }
+
+ private:
+  bool is_asked(int frame) const { return std::binary_search(asked_.begin(), asked_.end(), frame); }
+
+  const std::vector<int>& asked_;
+  std::map<std::string, int, std::less<>> first_, added_;
+  std::set<std::string, std::less<>> runs_when_asked_;
+};
+
+/// Binds a case, and whether a port that does nothing passes it too.
+void try_null_ports(const std::string& effect, const capture::PassCase& c, judge::NullPorts& ports) {
+  const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(effect, c.pass), c);
+  ports.judge(c, model.get(), judge::profile("vulkan"), judge::HalfMode::either);
+}
+/// The passes of a pack that a port passes which does nothing, and which.
+std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path& folder) {
+  const capture::Pack pack(folder);
+  std::map<std::string, judge::NullPorts> idle;
+  for (const capture::PackCase& entry : pack.cases) try_null_ports(pack.effect, pack.read(entry), idle[entry.pass]);
+  std::erase_if(idle, [](const auto& pass) { return pass.second.passing().empty(); });
+  return idle;
+}
+
+/// A pack of the frames, and what it holds.
+class Packing {
+ public:
+  Packing(const scene::Config& config, const PackOptions& options, const parallel::Executor& executor, std::vector<std::string> passes,
+          Frames& frames)
+      : config_(config),
+        options_(options),
+        executor_(executor),
+        info_(*registry::find(config.effect())->info),
+        passes_(std::move(passes)),
+        frames_(frames) {}
+
+  capture::PackWriter::Total write() const {
+    const auto wanted = [&](int frame, std::string_view pass) {
+      return frames_.are_wanted(frame, pass) && std::find(passes_.begin(), passes_.end(), pass) != passes_.end();
+    };
+    capture::PackWriter writer(options_.output, info_, config_, options_.scene.scene.filename().string(), true, passes_);
+    capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) { writer.add(c); });
+    const int count = frames_.last(passes_) + 1;
+    simulation::Opened opened(config_, executor_);
+    Progress progress(config_.effect(), count);
+    for (int frame = 0; frame < count; ++frame) {
+      opened.next_frame(&recorder);
+      progress.advance();
+    }
+    return writer.finish();
+  }
+  /// Looks on for frames in which these passes do more than nothing; takes those out that have one. False where there is none.
+  bool add_frames(std::map<std::string, judge::NullPorts>& idle) const {
+    const int end = static_cast<int>(config_.integer("run.frames"));
+    std::map<std::string, int> found;
+    const auto wanted = [&](int frame, std::string_view pass) {
+      return !frames_.are_wanted(frame, pass) && idle.contains(std::string(pass)) && !found.contains(std::string(pass));
+    };
+    capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
+      judge::NullPorts with_this_frame = idle.at(c.pass);
+      try_null_ports(config_.effect(), c, with_this_frame);
+      if (with_this_frame.passing().empty()) found.emplace(c.pass, c.frame);
+    });
+    simulation::Opened opened(config_, executor_);
+    for (int frame = 0; frame < end && found.size() < idle.size(); ++frame) opened.next_frame(&recorder);
+    for (const auto& [pass, frame] : found) {
+      say("added: frame {}, the first in which {} does more than a port that does nothing\n", frame, pass);
+      frames_.add(pass, frame);
+      idle.erase(pass);
+    }
+    return !found.empty();
+  }
+
+ private:
+  const scene::Config& config_;
+  const PackOptions& options_;
+  const parallel::Executor& executor_;
+  const capture::EffectInfo& info_;
+  std::vector<std::string> passes_;
+  Frames& frames_;
+};
+
 }  // namespace
 
 int pack(const PackOptions& options) {
   const scene::Config config = simulation::config_of_passes(load_scene(options.scene));
   const capture::EffectInfo& info = *registry::find(config.effect())->info;
-  const std::vector<std::string> passes = chosen_passes(info, config.variant(), options.passes);
+  std::vector<std::string> passes = chosen_passes(info, config.variant(), options.passes);
   const parallel::Executor executor(options.scene.threads);
-  capture::PackWriter writer(options.output, info, config, options.scene.scene.filename().string(), true, passes);
   effect::RunMemory memory = simulation::memory_of(config);
   add_captures(memory);
   require_memory(memory);
-  simulation::Opened opened = open_scene(config, executor);
-  for (const effect::InputFile& input : opened.inputs().files) {
-    if (input.lossy) {
-      throw Error(
-          ExitCode::usage,
-          fmt::format("{}: '{}' is coded with loss, and machines may decode it differently; a pack takes PNG or losslessly coded EXR",
-                      input.key, input.path));
-    }
-  }
-  const auto wanted = [&](int frame, std::string_view pass) {
-    return std::binary_search(options.frames.begin(), options.frames.end(), frame) &&
-           std::find(passes.begin(), passes.end(), pass) != passes.end();
-  };
-  capture::CaptureRecorder recorder(info, config.variant(), true, wanted, [&](const capture::PassCase& c) { writer.add(c); });
-  const int frames = options.frames.back() + 1;
-  {
-    Progress progress(config.effect(), frames);
-    for (int frame = 0; frame < frames; ++frame) {
-      opened.next_frame(&recorder);
-      progress.advance();
-    }
-  }
-  const capture::PackWriter::Total total = writer.finish();
+  simulation::Opened first = open_scene(config, executor);
+  require_lossless(first.inputs());
+  Frames frames(std::move(first), options.frames, passes);
+  std::erase_if(passes, [&](const std::string& pass) { return !frames.has(pass); });
+  if (passes.empty()) throw Error(ExitCode::usage, "--passes: expected one that runs in this scene, found none");
+  const Packing packing(config, options, executor, passes, frames);
+  capture::PackWriter::Total total = packing.write();
+  std::map<std::string, judge::NullPorts> idle = idle_passes(options.output);
+  if (!idle.empty() && packing.add_frames(idle)) total = packing.write();
+  for (const auto& [pass, ports] : idle)
+    say("warning: this pack says nothing of {}: a port that does nothing passes ({}); take other frames, or a scene with more in it\n",
+        pass, ports.passing());
   say("{} of {} in {}, {}, in {}\n", counted(total.cases, "case"), fmt::join(passes, " "), counted(total.files, "file"),
       memory_text(total.bytes), options.output.string());
   return 0;

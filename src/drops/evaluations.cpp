@@ -34,6 +34,7 @@ bool is_ended(N life) {
   return life.v == 0;
 }
 bool is_ended(Enclosure life) { return life.lo == 0 && life.hi == 0; }
+bool is_ended(const enclosed::Rearranged& life) { return is_ended(life.settled()); }
 
 struct Integrate {
   IntegrateUniforms uniforms;

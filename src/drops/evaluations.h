@@ -25,6 +25,10 @@ Drop stored(const ListedDrop<N>& d, std::uint32_t id) {
 inline capture::KeyedRecord enclosed_record(const ListedDrop<enclosed::Enclosure>& d, std::uint32_t id) {
   return {id, d.lives, {d.u, d.v, d.velocity_u, d.velocity_v, d.mass, d.life}, {}};
 }
+inline capture::KeyedRecord enclosed_record(const ListedDrop<enclosed::Rearranged>& d, std::uint32_t id) {
+  return {
+      id, d.lives, {d.u.settled(), d.v.settled(), d.velocity_u.settled(), d.velocity_v.settled(), d.mass.settled(), d.life.settled()}, {}};
+}
 std::vector<std::byte> bytes_of(const std::vector<Drop>& drops);
 
 /// A pass that treats each drop by itself: Pass gives ListedDrop<N> operator()<N>(const Drop&). A group is one drop.
@@ -38,6 +42,11 @@ class DropByDrop : public capture::KeyedModel {
   void enclose(int group, std::vector<capture::KeyedRecord>& out) const override {
     const Drop& d = drops_[static_cast<std::size_t>(group)];
     out.push_back(enclosed_record(pass_.template operator()<enclosed::Enclosure>(d), d.id));
+  }
+  bool rearrange(int group, std::vector<capture::KeyedRecord>& out) const override {
+    const Drop& d = drops_[static_cast<std::size_t>(group)];
+    out.push_back(enclosed_record(pass_.template operator()<enclosed::Rearranged>(d), d.id));
+    return true;
   }
   std::optional<std::vector<std::byte>> reference() const override { return list<plain::Plain<float>>(); }
   std::optional<std::vector<std::byte>> perturbed() const override { return list<perturbed::Perturbed>(); }

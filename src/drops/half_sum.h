@@ -6,6 +6,7 @@
 #include "math/enclosure.h"
 #include "math/half.h"
 #include "math/plain.h"
+#include "math/rearranged.h"
 
 namespace rainref::drops {
 
@@ -24,6 +25,7 @@ inline enclosed::Enclosure half_of(enclosed::Enclosure x, Rounding own) {
   const auto value = [](std::int64_t code) { return static_cast<float>(enclosed::code_value(FormatInfo::float16, code)); };
   return Enclosure::checked(value(codes.lo), value(codes.hi));
 }
+inline enclosed::Rearranged half_of(const enclosed::Rearranged& x, Rounding own) { return enclosed::Rearranged(half_of(x.settled(), own)); }
 /// As the variations' profile stores; where it leaves the rounding open, either neighbour at random.
 inline perturbed::Perturbed half_of(perturbed::Perturbed x, Rounding own) {
   perturbed::Behaviour& b = perturbed::behaviour();

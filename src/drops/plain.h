@@ -7,6 +7,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "math/rearranged.h"
 
 namespace rainref::drops::scalar {
 using namespace rainref::plain;

@@ -21,6 +21,7 @@ namespace {
 
 using capture::Array;
 using capture::PassCase;
+using judge::Accepted;
 using judge::Bind;
 using judge::binder;
 using judge::check_pack;
@@ -75,26 +76,31 @@ void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const captur
                   const enclosed::Profile& profile, const std::vector<Stores>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
   if (slots.empty() || d.alter_list) return;
-  std::int64_t fewest = -1, first_differing = 0;
+  std::int64_t fewest = -1, fewest_rearranged = 0, first_differing = 0;
   for (const Stores& stores : all_stores) {
     const DeviatedPass deviated(d, c, bind, model, stores.mode, stores.finished);
     if (!deviated.applies()) return;
     std::vector<Array> stored = stores.finished;
     // A device that rounds the other way is judged as such, where a profile leaves it open.
     const InvocationJudge judge(c, model, profile, d.stores && all_stores.size() > 1 ? *d.stores : stores.mode);
-    std::int64_t outside = 0, differing = 0;
+    std::int64_t outside = 0, rearranged = 0, differing = 0;
     for (const Texel t : texels) {
       deviated.store(t, stored);
       if (!differs(slots, stored, stores.finished, t)) continue;
       ++differing;
-      outside += !judge.accepts(t.x, t.y, stored);
+      const Accepted accepted = judge.accepts(t.x, t.y, stored);
+      outside += accepted == Accepted::no;
+      rearranged += accepted == Accepted::rearranged;
     }
     if (fewest < 0) first_differing = differing;
-    fewest = fewest < 0 ? outside : std::min(fewest, outside);
+    if (fewest >= 0 && outside + rearranged >= fewest + fewest_rearranged) continue;
+    fewest = outside;
+    fewest_rearranged = rearranged;
   }
   out.compared += static_cast<std::int64_t>(texels.size());
   out.differing += first_differing;
   out.outside += fewest;
+  out.rearranged += fewest_rearranged;
 }
 
 /// Records by id.
@@ -123,6 +129,7 @@ void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::Pa
     for (const auto* list : {&j.events.missing, &j.events.extra, &j.events.duplicate, &j.events.outside})
       outside.insert(list->begin(), list->end());
     out.outside += static_cast<std::int64_t>(outside.size());
+    out.rearranged += j.rearranged;
   }
 }
 

@@ -14,9 +14,10 @@ namespace rainref::faults {
 struct MutantJudgement {
   std::string pass, name, sentence;
   bool legal = false;
-  std::int64_t compared = 0;   ///< invocations, and ids of lists
-  std::int64_t differing = 0;  ///< that store other bits than the reference
-  std::int64_t outside = 0;    ///< that no alternative accepts
+  std::int64_t compared = 0;    ///< invocations, and ids of lists
+  std::int64_t differing = 0;   ///< that store other bits than the reference
+  std::int64_t outside = 0;     ///< that no alternative accepts, of the formula as written or rearranged
+  std::int64_t rearranged = 0;  ///< that only a rearrangement accepts: a port with these alone gets a warning
   bool caught() const { return outside > 0; }
 };
 struct MutationReport {

@@ -1,5 +1,6 @@
 #include "judge/alternatives.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace rainref::judge {
@@ -42,12 +43,32 @@ void Alternatives::run(const PassModel& model, int x, int y, const float* port, 
     model.enclose(x, y, port, out.data());
   });
 }
+void Alternatives::rearrange(const PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile) {
+  const enclosed::ProfileScope scope(profile);
+  enclosed::PathEnumeration paths;
+  bool is_known = true;
+  count = 0;
+  gave_up = !paths.for_each_alternative([&] {
+    std::vector<Enclosure>& out = values[static_cast<std::size_t>(count++)];
+    out.assign(static_cast<std::size_t>(model.values()), Enclosure());
+    is_known = model.rearrange(x, y, port, out.data());
+  });
+  gave_up |= !is_known;
+}
 
 void code_ranges(const std::vector<Slot>& slots, const std::vector<Enclosure>& values, const enclosed::Profile& profile, HalfMode mode,
                  std::vector<CodeRange>& out) {
   out.resize(slots.size());
   for (std::size_t v = 0; v < slots.size(); ++v)
     out[v] = enclosed::code_range(slots[v].kind, values[v], rules_of(profile, mode, slots[v].store_rounding));
+}
+
+Bound bound_of(const Slot& slot, const Enclosure& value, const CodeRange& codes) {
+  const double width = static_cast<double>(value.hi) - value.lo;
+  // Of a value beyond the declared range (a lamp in a radiance) its own size counts.
+  const double scale = std::max(slot.range, value.magnitude());
+  const bool vacuous = codes.is_vacuous() || width > scale / 16;
+  return {vacuous, vacuous || width > scale / 256};
 }
 
 std::uint64_t distance(std::int64_t code, const CodeRange& r) {

@@ -30,11 +30,19 @@ struct Alternatives {
   void only(const std::vector<float>& expected);
   /// What the profile allows. `port`: what the port stored for the invocation.
   void run(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
+  /// What the rearrangements give that it allows; nothing, as if given up, where the pass has no evaluation for them.
+  void rearrange(const capture::PassModel& model, int x, int y, const float* port, const enclosed::Profile& profile);
 };
 
 /// The codes of one alternative under one rounding, into `out`.
 void code_ranges(const std::vector<Slot>& slots, const std::vector<enclosed::Enclosure>& values, const enclosed::Profile& profile,
                  HalfMode mode, std::vector<enclosed::CodeRange>& out);
+
+/// Whether a bound says little of a value, or less than it should.
+struct Bound {
+  bool vacuous, loose;
+};
+Bound bound_of(const Slot& slot, const enclosed::Enclosure& value, const enclosed::CodeRange& codes);
 
 /// Codes between a code and a range; 0 inside.
 std::uint64_t distance(std::int64_t code, const enclosed::CodeRange& range);

@@ -6,23 +6,32 @@
 
 namespace rainref::judge {
 
-void conclude(CaseJudgement& j) {
-  std::int64_t elements = 0, vacuous = 0, free = 0, atypical = 0;
+void conclude(CaseJudgement& j, const enclosed::Profile& profile) {
+  std::int64_t elements = 0, unbounded = 0, free = 0, atypical = 0;
   for (const OutputJudgement& o : j.outputs) {
     elements += o.elements;
-    vacuous += o.vacuous;
+    unbounded += o.unbounded;
     free += o.free;
     atypical += o.atypical;
   }
   if (j.failing > 0) {
     j.status = Status::fail;
+    if (j.expanded > 0)
+      j.reason = fmt::format(
+          "for {} of {} invocations only multiplying out a product of two sums would explain it; no compiler is seen "
+          "to do that{}",
+          j.expanded, j.failing, profile.rearrangement_remedy.empty() ? "" : ", and " + profile.rearrangement_remedy);
   } else if (elements == 0 && j.outputs.empty()) {
     j.status = Status::untested;
     j.reason = "nothing to judge";
-  } else if (vacuous * 100 > elements - free && elements > free) {
+  } else if (unbounded * 2 > elements - free && elements > free) {
     j.status = Status::untested;
-    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, more than 1 %",
-                           100.0 * static_cast<double>(vacuous) / static_cast<double>(elements - free));
+    j.reason = fmt::format("{:.2f} % of the elements have no useful bound, neither from the profile nor from what real devices do",
+                           100.0 * static_cast<double>(unbounded) / static_cast<double>(elements - free));
+  } else if (j.rearranged > 0) {
+    j.status = Status::warn;
+    j.reason = fmt::format("{} invocations lie outside the formula as written, inside its rearrangements ({}){}", j.rearranged,
+                           name(profile.rearrangement), profile.rearrangement_remedy.empty() ? "" : "; " + profile.rearrangement_remedy);
   } else if (atypical > 0) {
     j.status = Status::warn;
     j.reason = fmt::format("{} elements lie inside the profile but outside what real devices do", atypical);

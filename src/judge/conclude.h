@@ -2,11 +2,13 @@
 #pragma once
 
 #include "judge/verdict.h"
+#include "math/profile.h"
 
 namespace rainref::judge {
 
-/// Status and reason of a case from its counts.
-void conclude(CaseJudgement& judgement);
+/// Status and reason of a case from its counts under a profile. UNTESTED where less than half of the elements have a bound, by the
+/// profile or by what real devices do.
+void conclude(CaseJudgement& judgement, const enclosed::Profile& profile);
 /// Those of a pass from its cases. Its reason so far is a doubt about the rounding that was found, which warns.
 void conclude(PassJudgement& judgement);
 /// The status of the whole from its passes, and the first that is bad.

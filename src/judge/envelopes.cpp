@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "judge/alternatives.h"
-#include "judge/bits.h"
+#include "judge/failures.h"
+#include "judge/second_tier.h"
 #include "judge/slots.h"
 #include "judge/stored.h"
 #include "judge/widths.h"
@@ -20,20 +21,10 @@ using capture::PassModel;
 using enclosed::CodeRange;
 using enclosed::Enclosure;
 
-bool better(const Failure& a, const Failure& b) {
-  if (a.distance != b.distance) return a.distance > b.distance;
-  if (a.y != b.y) return a.y < b.y;
-  return a.x != b.x ? a.x < b.x : a.channel < b.channel;
-}
-void keep_worst(std::vector<Failure>& worst) {
-  std::sort(worst.begin(), worst.end(), better);
-  if (worst.size() > OutputJudgement::max_failures) worst.resize(OutputJudgement::max_failures);
-}
-
 /// Counts of some rows under one rounding.
 struct Part {
   CaseJudgement counts;
-  std::vector<Widths> widths;  // of each output
+  std::vector<Widths> widths, rearranged;  // of each output
 };
 
 class CaseJudge {
@@ -55,23 +46,31 @@ class CaseJudge {
       for (OutputJudgement& o : j.outputs)
         o.map.assign(o.records ? 0 : static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
-      Scratch scratch;
+      Scratch scratch(SecondTier(slots_, model_, *options_.profile));
       for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, scratch, parts[static_cast<std::size_t>(tile.y0 / rows)], whole);
     });
     for (std::size_t m = 0; m < modes_.size(); ++m) {
-      std::vector<Widths> widths(case_.outputs.size());
-      for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths);
-      for (std::size_t o = 0; o < widths.size(); ++o) widths[o].summarize(whole[m].outputs[o]);
+      std::vector<Widths> widths(case_.outputs.size()), rearranged(case_.outputs.size());
+      for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths, rearranged);
+      for (std::size_t o = 0; o < widths.size(); ++o) {
+        OutputJudgement& out = whole[m].outputs[o];
+        widths[o].summarize(out.median_width, out.p99_width);
+        rearranged[o].summarize(out.rearranged_median_width, out.rearranged_p99_width);
+      }
     }
     return whole;
   }
 
  private:
   struct Scratch {
-    Alternatives alternatives, typical;
+    Alternatives alternatives, others;
     Stored stored;
-    std::vector<CodeRange> ranges, nearest;
+    std::vector<CodeRange> ranges, nearest, other_ranges;
+    std::vector<char> vacuous;  ///< of each value
+    SecondTier second;
+
+    explicit Scratch(const SecondTier& tier) : second(tier) {}
   };
 
   Part empty_part() const {
@@ -86,6 +85,7 @@ class CaseJudge {
       o.height = out.array.height;
       p.counts.outputs.push_back(o);
       p.widths.emplace_back();
+      p.rearranged.emplace_back();
     }
     return p;
   }
@@ -150,13 +150,17 @@ class CaseJudge {
     counts.gave_up += s.alternatives.gave_up;
 
     const Choice choice = choose(s, mode);
-    const bool failed = s.stored.any_impossible || (!s.alternatives.gave_up && choice.accepted < 0);
+    bool failed = s.stored.any_impossible || (!s.alternatives.gave_up && choice.accepted < 0);
+    const bool is_rearranged = failed && !s.stored.any_impossible && s.second.exists() && only_rearranged(x, y, s, mode, counts);
+    failed &= !is_rearranged;
     counts.failing += failed;
-    counts.other_branch += !failed && choice.reference >= 0 && choice.accepted != choice.reference;
+    counts.rearranged += is_rearranged;
+    counts.other_branch += !failed && choice.reference >= 0 && choice.accepted >= 0 && choice.accepted != choice.reference;
     const int shown = choice.accepted >= 0 ? choice.accepted : choice.nearest;
     if (shown >= 0) ranges_of(s, shown, mode);
 
-    bool differs = false;
+    bool differs = false, any_vacuous = false;
+    s.vacuous.assign(n, 0);
     for (std::size_t v = 0; v < n; ++v) {
       const Slot& slot = slots_[v];
       OutputJudgement& out = counts.outputs[static_cast<std::size_t>(slot.output)];
@@ -170,24 +174,46 @@ class CaseJudge {
         continue;
       }
       differs |= different;
-      if (s.alternatives.gave_up) {
-        ++out.vacuous;
-        ++out.loose;
-      } else {
-        const Enclosure& e = s.alternatives.values[static_cast<std::size_t>(shown)][v];
-        const CodeRange& r = s.ranges[v];
-        const double width = static_cast<double>(e.hi) - e.lo;
-        // Of a value beyond the declared range (a lamp in a radiance) its own size counts.
-        const double scale = std::max(slot.range, e.magnitude());
-        const bool vacuous = r.is_vacuous() || width > scale / 16;
-        out.vacuous += vacuous;
-        out.loose += vacuous || width > scale / 256;
-        part.widths[static_cast<std::size_t>(slot.output)].add(r);
+      Bound bound{true, true};
+      if (!s.alternatives.gave_up) {
+        bound = bound_of(slot, s.alternatives.values[static_cast<std::size_t>(shown)][v], s.ranges[v]);
+        part.widths[static_cast<std::size_t>(slot.output)].add(s.ranges[v]);
       }
-      if (failed && (impossible || (!s.alternatives.gave_up && !holds(*options_.profile, s.stored, v, s.nearest[v]))))
+      out.vacuous += bound.vacuous;
+      out.loose += bound.loose;
+      s.vacuous[v] = bound.vacuous;
+      any_vacuous |= bound.vacuous;
+      if (impossible && failed) {
         add_failure(x, y, v, s, part, whole);
+      } else if (!s.alternatives.gave_up && (failed || is_rearranged) && !holds(*options_.profile, s.stored, v, s.nearest[v])) {
+        if (failed) {
+          add_failure(x, y, v, s, part, whole);
+        } else {
+          ++out.rearranged;
+          mark(whole, slot.output, x, y, 2);
+        }
+      }
     }
-    if (!failed && differs && options_.typical && !s.alternatives.gave_up) check_typical(x, y, s, mode, counts, whole);
+    if (!failed && !is_rearranged && (differs || any_vacuous)) check_typical(x, y, s, mode, counts, whole);
+    if (s.second.exists() && (static_cast<std::int64_t>(y) * model_.width() + x) % 64 == 0) sample_rearranged(x, y, s, mode, part);
+  }
+
+  /// The profile that an evaluation of one invocation takes.
+  enclosed::Profile as_stored(const enclosed::Profile& profile, HalfMode mode) const {
+    return model_.rounds_inside() ? narrowed(profile, mode) : profile;
+  }
+
+  /// Asked about an invocation that the formula as written does not hold.
+  bool only_rearranged(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts) const {
+    const enclosed::Rearrangement own = options_.profile->rearrangement, most = enclosed::Rearrangement::expanded;
+    if (s.second.accepts(own, x, y, s.stored, s.nearest, mode)) return true;
+    if (own != most) counts.expanded += s.second.accepts(most, x, y, s.stored, s.nearest, mode);
+    return false;
+  }
+  void sample_rearranged(int x, int y, Scratch& s, HalfMode mode, Part& part) const {
+    const std::vector<CodeRange>* codes = s.second.codes(x, y, s.stored, mode);
+    for (std::size_t v = 0; codes && v < slots_.size(); ++v)
+      if (!s.stored.free[v]) part.rearranged[static_cast<std::size_t>(slots_[v].output)].add((*codes)[v]);
   }
 
   void add_failure(int x, int y, std::size_t v, const Scratch& s, Part& part, CaseJudgement& whole) const {
@@ -196,25 +222,13 @@ class CaseJudge {
     OutputJudgement& out = part.counts.outputs[o];
     ++out.failing;
     mark(whole, slot.output, x, y, 3);
-    Failure f;
-    f.x = x;
-    f.y = y;
-    f.channel = slot.channel;
-    set_unequal(slot.kind, slot.at(case_.outputs[o].array, x, y), slot.at(port_[o], x, y), f);
-    if (!options_.profile->reference) {
-      f.low = f.high = 0;
-      if (const auto range = free_range(model_, v, *options_.profile)) {
-        const CodeRange free = enclosed::code_range(slot.kind, Enclosure(static_cast<float>((*range)[0]), static_cast<float>((*range)[1])),
-                                                    rules_of(*options_.profile, HalfMode::rne, slot.store_rounding));
-        f.low = free.lo;
-        f.high = free.hi;
-      } else if (!s.alternatives.gave_up) {
-        f.low = s.nearest[v].lo;
-        f.high = s.nearest[v].hi;
-      }
-      if (!f.not_a_number) f.distance = distance(f.got, {f.low, f.high});
-    }
-    out.worst.push_back(f);
+    CodeRange accepted{0, 0};
+    if (const auto range = free_range(model_, v, *options_.profile))
+      accepted = enclosed::code_range(slot.kind, Enclosure(static_cast<float>((*range)[0]), static_cast<float>((*range)[1])),
+                                      rules_of(*options_.profile, HalfMode::rne, slot.store_rounding));
+    else if (!s.alternatives.gave_up)
+      accepted = s.nearest[v];
+    out.worst.push_back(failure_of(slot, x, y, case_.outputs[o].array, port_[o], options_.profile->reference ? nullptr : &accepted));
     if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
   }
 
@@ -226,44 +240,55 @@ class CaseJudge {
     for (const std::int64_t code : s.stored.expected) s.ranges.push_back({code, code});
   }
 
+  /// What the profile leaves without a useful bound is held to what real devices do; what it bounds only warns by it.
   void check_typical(int x, int y, Scratch& s, HalfMode mode, CaseJudgement& counts, CaseJudgement& whole) const {
-    s.typical.run(model_, x, y, s.stored.got_values.data(), model_.rounds_inside() ? narrowed(*options_.typical, mode) : *options_.typical);
-    if (s.typical.gave_up) return;
     int best = -1;
-    std::size_t fewest = slots_.size() + 1;
-    for (int a = 0; a < s.typical.count; ++a) {
-      code_ranges(slots_, s.typical.values[static_cast<std::size_t>(a)], *options_.typical, mode, s.nearest);
-      std::size_t outside = 0;
-      for (std::size_t v = 0; v < slots_.size(); ++v) outside += !s.stored.free[v] && !s.nearest[v].contains(s.stored.got[v]);
-      if (outside < fewest) {
+    if (options_.typical) {
+      s.others.run(model_, x, y, s.stored.got_values.data(), as_stored(*options_.typical, mode));
+      std::size_t fewest = slots_.size() + 1;
+      for (int a = 0; a < s.others.count && !s.others.gave_up; ++a) {
+        code_ranges(slots_, s.others.values[static_cast<std::size_t>(a)], *options_.typical, mode, s.other_ranges);
+        std::size_t outside = 0;
+        for (std::size_t v = 0; v < slots_.size(); ++v) outside += !s.stored.free[v] && !s.other_ranges[v].contains(s.stored.got[v]);
+        if (outside >= fewest) continue;
         fewest = outside;
         best = a;
       }
     }
-    if (fewest == 0) return;
-    code_ranges(slots_, s.typical.values[static_cast<std::size_t>(best)], *options_.typical, mode, s.nearest);
+    if (best >= 0) code_ranges(slots_, s.others.values[static_cast<std::size_t>(best)], *options_.typical, mode, s.other_ranges);
     for (std::size_t v = 0; v < slots_.size(); ++v) {
-      if (s.stored.free[v] || s.nearest[v].contains(s.stored.got[v])) continue;
-      ++counts.outputs[static_cast<std::size_t>(slots_[v].output)].atypical;
-      mark(whole, slots_[v].output, x, y, 2);
+      if (s.stored.free[v]) continue;
+      OutputJudgement& out = counts.outputs[static_cast<std::size_t>(slots_[v].output)];
+      const bool is_bounded =
+          best >= 0 && !bound_of(slots_[v], s.others.values[static_cast<std::size_t>(best)][v], s.other_ranges[v]).vacuous;
+      if (best >= 0 && !s.other_ranges[v].contains(s.stored.got[v])) {
+        ++out.atypical;
+        mark(whole, slots_[v].output, x, y, 2);
+      } else if (s.vacuous[v]) {
+        ++(is_bounded ? out.typical : out.unbounded);
+      }
     }
   }
 
-  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths) {
+  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths, std::vector<Widths>& rearranged) {
     whole.invocations += part.counts.invocations;
     whole.failing += part.counts.failing;
     whole.ambiguous += part.counts.ambiguous;
     whole.other_branch += part.counts.other_branch;
     whole.gave_up += part.counts.gave_up;
+    whole.rearranged += part.counts.rearranged;
+    whole.expanded += part.counts.expanded;
     for (std::size_t o = 0; o < whole.outputs.size(); ++o) {
       OutputJudgement& to = whole.outputs[o];
       const OutputJudgement& from = part.counts.outputs[o];
       for (auto counter : {&OutputJudgement::elements, &OutputJudgement::failing, &OutputJudgement::differing, &OutputJudgement::vacuous,
-                           &OutputJudgement::loose, &OutputJudgement::atypical, &OutputJudgement::free})
+                           &OutputJudgement::loose, &OutputJudgement::atypical, &OutputJudgement::typical, &OutputJudgement::unbounded,
+                           &OutputJudgement::rearranged, &OutputJudgement::free})
         to.*counter += from.*counter;
       to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
       keep_worst(to.worst);
       widths[o].append(part.widths[o]);
+      rearranged[o].append(part.rearranged[o]);
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "judge/alternatives.h"
+#include "judge/second_tier.h"
 #include "judge/slots.h"
 #include "judge/stored.h"
 
@@ -16,21 +17,30 @@ using enclosed::CodeRange;
 InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, const enclosed::Profile& profile, HalfMode mode)
     : case_(c), model_(model), profile_(profile), mode_(mode) {}
 
-bool InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
+Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
   const std::vector<Slot> slots = slots_of(case_);
   Stored stored;
   stored.read(slots, case_, model_, profile_, port, x, y);
-  if (stored.any_impossible) return false;
-  if (profile_.reference) return std::all_of(stored.same.begin(), stored.same.end(), [](char same) { return same; });
+  if (stored.any_impossible) return Accepted::no;
+  if (profile_.reference)
+    return std::all_of(stored.same.begin(), stored.same.end(), [](char same) { return same; }) ? Accepted::as_written : Accepted::no;
   Alternatives alternatives;
   alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
-  if (alternatives.gave_up) return true;
-  std::vector<CodeRange> ranges;
+  if (alternatives.gave_up) return Accepted::as_written;
+  std::vector<CodeRange> ranges, nearest;
+  std::uint64_t least = ~std::uint64_t{0};
   for (int a = 0; a < alternatives.count; ++a) {
     code_ranges(slots, alternatives.values[static_cast<std::size_t>(a)], profile_, mode_, ranges);
-    if (inside(profile_, ranges, stored)) return true;
+    if (inside(profile_, ranges, stored)) return Accepted::as_written;
+    std::uint64_t far = 0;
+    for (std::size_t v = 0; v < slots.size(); ++v)
+      if (!stored.free[v]) far = std::max(far, distance(stored.got[v], ranges[v]));
+    if (far >= least && !nearest.empty()) continue;
+    least = far;
+    nearest = ranges;
   }
-  return false;
+  SecondTier second(slots, model_, profile_);
+  return second.exists() && second.accepts(profile_.rearrangement, x, y, stored, nearest, mode_) ? Accepted::rearranged : Accepted::no;
 }
 
 }  // namespace rainref::judge

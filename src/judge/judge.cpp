@@ -58,12 +58,13 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
     j.ambiguous += k.ambiguous;
     j.other_branch += k.other_branch;
     j.gave_up += k.gave_up;
+    j.rearranged += k.rearranged;
     outputs.push_back(std::move(k.output));
     if (const std::string text = k.events.text(); !text.empty())
       events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);
   }
   j.outputs = std::move(outputs);
-  conclude(j);
+  conclude(j, *options.profile);
   if (!events.empty()) j.reason = events;
   if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) {
     j.status = Status::data;

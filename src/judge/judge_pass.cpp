@@ -8,6 +8,7 @@
 #include "judge/evaluations.h"
 #include "judge/half_votes.h"
 #include "judge/keyed.h"
+#include "judge/null_ports.h"
 
 namespace rainref::judge {
 namespace {
@@ -79,6 +80,18 @@ std::vector<Cause> causes_of(const PassTask& task, const PassJudgement& judged, 
   return task.runs.explain({*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged.half_mode, options});
 }
 
+/// A port that does nothing and passes all of these runs; "": none.
+std::string null_port_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+  NullPorts ports;
+  for (std::size_t k = 0; k < task.runs.count; ++k) {
+    PortRun run = task.runs.load(k);
+    if (!run.untested.empty()) continue;
+    const std::unique_ptr<PassModel> model = prepare(*task.pass, task.bind, task.runs, run);
+    ports.judge(run.c, model.get(), *options.profile, judged.half_mode);
+  }
+  return ports.passing();
+}
+
 /// Every run of a pass, under each rounding that may be its port's.
 std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options) {
   const PassRuns& runs = task.runs;
@@ -120,6 +133,13 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     judged.formula = task.pass->formula;
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged);
+    if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {
+      judged.null_port = null_port_of(task, judged, options);
+      if (!judged.null_port.empty()) {
+        judged.status = Status::untested;
+        judged.reason = "a port that does nothing passes: " + judged.null_port;
+      }
+    }
     if (task.runs.explain && judged.status == Status::fail) judged.causes = causes_of(task, judged, options);
   }
   return all;

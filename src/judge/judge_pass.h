@@ -47,6 +47,7 @@ struct PassRuns {
   SettleRun settle;
   std::function<void()> done_one;  ///< after each run; may be null
   Explain explain;                 ///< asked about a pass that fails; may be null
+  bool tries_null_ports = false;   ///< a pass that a port passes which does nothing is UNTESTED
 };
 
 /// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records

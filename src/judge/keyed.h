@@ -28,6 +28,7 @@ struct KeyedJudgement {
   OutputJudgement output;
   KeyedEvents events;
   std::int64_t groups = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
+  std::int64_t rearranged = 0;  ///< groups that only a rearrangement accepts
 };
 
 /// Whether a record has a key: the member `id`, one uint.

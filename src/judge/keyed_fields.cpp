@@ -135,6 +135,7 @@ void FieldCounts::add_field(bool differs, const CodeRange& range, bool is_vacuou
   ++out_.elements;
   out_.differing += differs;
   out_.vacuous += is_vacuous;
+  out_.unbounded += is_vacuous;
   out_.loose += is_loose;
   widths_.add(range);
 }

@@ -47,7 +47,7 @@ class FieldCounts {
   /// Of a record that one list has and the other must not lack.
   void add_whole_record();
   /// When all are counted.
-  void finish() { widths_.summarize(out_); }
+  void finish() { widths_.summarize(out_.median_width, out_.p99_width); }
 
  private:
   void add_field(bool differs, const enclosed::CodeRange& range, bool is_vacuous, bool is_loose);

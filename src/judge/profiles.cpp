@@ -53,7 +53,7 @@ using Set = std::function<void(Profile&, const RawEntry&)>;
 
 /// Members with one value each.
 const std::map<std::string, Set>& values() {
-  using enclosed::BasicRounding, enclosed::Flush, enclosed::StoreOverflow, enclosed::StoreRounding;
+  using enclosed::BasicRounding, enclosed::Flush, enclosed::Rearrangement, enclosed::StoreOverflow, enclosed::StoreRounding;
   static const std::map<std::string, Set> all{
       {"name", [](Profile& p, const RawEntry& e) { p.name = text(e); }},
       {"reference", [](Profile& p, const RawEntry& e) { p.reference = boolean(e); }},
@@ -66,6 +66,13 @@ const std::map<std::string, Set>& values() {
        [](Profile& p, const RawEntry& e) {
          p.flush = choice<Flush>(e, {{"never", Flush::never}, {"may", Flush::may}, {"must", Flush::must}});
        }},
+      {"rearrangement",
+       [](Profile& p, const RawEntry& e) {
+         p.rearrangement = choice<Rearrangement>(
+             e,
+             {{"none", Rearrangement::none}, {"reassociated", Rearrangement::reassociated}, {"distributed", Rearrangement::distributed}});
+       }},
+      {"rearrangement_remedy", [](Profile& p, const RawEntry& e) { p.rearrangement_remedy = text(e); }},
       {"sqrt_is_inherited", [](Profile& p, const RawEntry& e) { p.sqrt_is_inherited = boolean(e); }},
       {"pow_is_inherited", [](Profile& p, const RawEntry& e) { p.pow_is_inherited = boolean(e); }},
       {"sin_cos_domain", [](Profile& p, const RawEntry& e) { p.sin_cos_domain = number(e); }},
@@ -143,7 +150,7 @@ enclosed::Profile parse_profile(std::string_view toml, const std::string& file) 
       continue;
     }
     set_part(p, member, part, e);
-    if (member != "name" && member != "reference") without_source.emplace(member, e);
+    if (member != "name" && member != "reference" && member != "rearrangement_remedy") without_source.emplace(member, e);
   }
   for (const auto& [member, e] : without_source)
     if (!sourced.contains(member)) throw Error(ExitCode::usage, e.at, fmt::format("{}: expected a source beside it", member));

@@ -63,13 +63,18 @@ struct OutputJudgement {
   std::int64_t differing = 0;              ///< not the reference's bits
   std::int64_t vacuous = 0;                ///< envelope wider than 1/16 of the declared range; of a record's field of its own
   std::int64_t loose = 0;                  ///< wider than 1/256
-  std::int64_t atypical = 0;               ///< inside the profile, outside what real devices do
+  std::int64_t atypical = 0;               ///< inside the profile, as far as it bounds them, but outside what real devices do
+  std::int64_t typical = 0;                ///< of the vacuous: inside what real devices do, which bounds them
+  std::int64_t unbounded = 0;              ///< of the vacuous: not bounded by that either, or not judged by it
+  std::int64_t rearranged = 0;             ///< outside the formula as written, inside the rearrangements that the profile allows
   std::int64_t free = 0;                   ///< declared as not reproducible: held to a range of its own
   std::string known;                       ///< why the baseline lets it fail; "": it does not
   double median_width = 0, p99_width = 0;  ///< of the accepted codes, in codes: 0 where one code is accepted
-  std::vector<Failure> worst;              ///< in order of distance, then of place; at most max_failures
+  /// The same of every rearrangement, of each 64th invocation; below 0 where the profile or the pass has none.
+  double rearranged_median_width = -1, rearranged_p99_width = -1;
+  std::vector<Failure> worst;  ///< in order of distance, then of place; at most max_failures
   static constexpr std::size_t max_failures = 100;
-  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical), 3 (outside); row 0 first. Empty for records.
+  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical or rearranged), 3 (outside); row 0 first. Empty for records.
   std::vector<std::uint8_t> map;
 };
 
@@ -84,6 +89,8 @@ struct CaseJudgement {
   std::int64_t ambiguous = 0;     ///< invocations with more than one alternative
   std::int64_t other_branch = 0;  ///< of these, accepted only by an alternative that is not the reference's
   std::int64_t gave_up = 0;       ///< invocations with too many alternatives
+  std::int64_t rearranged = 0;    ///< invocations that only a rearrangement accepts
+  std::int64_t expanded = 0;      ///< of the failing: accepted if products of sums were multiplied out, which no compiler is seen to do
   std::vector<OutputJudgement> outputs;
 };
 
@@ -106,6 +113,7 @@ struct PassJudgement {
   bool half_mode_voted = false;
   std::vector<CaseJudgement> cases;
   std::vector<Cause> causes;  ///< best first; empty: unknown
+  std::string null_port;      ///< a port that does nothing and passes, which makes the pass UNTESTED: "zeros"; "": none
 };
 
 struct PortJudgement {

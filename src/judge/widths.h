@@ -14,8 +14,8 @@ class Widths {
  public:
   void add(const enclosed::CodeRange& range);
   void append(const Widths& more);
-  /// The median and what 99 % stay below; nothing where there are none.
-  void summarize(OutputJudgement& out);
+  /// The median and what 99 % stay below; leaves both as they are where there are none.
+  void summarize(double& median, double& p99);
 
  private:
   std::vector<std::uint32_t> codes_;

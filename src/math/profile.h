@@ -27,6 +27,25 @@ enum class Flush : std::uint8_t {
   may,  ///< any subnormal operand or result may count as zero
   must  ///< as may: where a device must flush, moving data must not
 };
+/// What a compiler may make of sums and products (rearranged.h). `expanded` is more than any was seen to do: it words a failure.
+enum class Rearrangement : std::uint8_t {
+  none,
+  reassociated,  ///< sums in any order; a product of sums stays as it is
+  distributed,   ///< a factor may move into a sum and out of it; products of two sums are not multiplied out
+  expanded       ///< anything that real arithmetic makes equal by multiplying out
+};
+inline const char* name(Rearrangement r) {
+  switch (r) {
+    case Rearrangement::reassociated:
+      return "reassociated";
+    case Rearrangement::distributed:
+      return "distributed";
+    case Rearrangement::expanded:
+      return "expanded";
+    default:
+      return "none";
+  }
+}
 /// What a store may do with a value between two codes. `either` is the set of both neighbours.
 enum class StoreRounding : std::uint8_t { rne, rtz, either };
 /// What a store may make of a value beyond the largest finite half. `either` is the set of both.
@@ -41,6 +60,8 @@ struct Profile {
   /// A product may reach the addition that takes it before it is rounded (FMA contraction).
   bool contraction = false;
   Flush flush = Flush::never;
+  Rearrangement rearrangement = Rearrangement::none;
+  std::string rearrangement_remedy;  ///< how a port forbids it, a clause; "": nothing is known
 
   Accuracy division, sqrt, inverse_sqrt;
   bool sqrt_is_inherited = false;  ///< sqrt is 1 / inverse_sqrt; `sqrt` does not count

@@ -4,6 +4,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "math/rearranged.h"
 #include "pass/display.pass.h"
 
 namespace rainref::pass::scalar {

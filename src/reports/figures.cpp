@@ -20,9 +20,9 @@ using judge::PortJudgement;
 using judge::Status;
 
 void add(Figures& to, const Figures& f) {
-  for (auto sum :
-       {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up, &Figures::elements,
-        &Figures::outside, &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical, &Figures::free})
+  for (auto sum : {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up,
+                   &Figures::elements, &Figures::outside, &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical,
+                   &Figures::free, &Figures::typical, &Figures::unbounded, &Figures::rearranged})
     to.*sum += f.*sum;
   to.median_width = std::max(to.median_width, f.median_width);
   to.p99_width = std::max(to.p99_width, f.p99_width);
@@ -41,6 +41,9 @@ Figures figures_of(const OutputJudgement& o) {
   f.loose = o.loose;
   f.atypical = o.atypical;
   f.free = o.free;
+  f.typical = o.typical;
+  f.unbounded = o.unbounded;
+  f.rearranged = o.rearranged;
   f.median_width = o.median_width;
   f.p99_width = o.p99_width;
   return f;

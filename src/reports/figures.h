@@ -13,6 +13,7 @@ namespace rainref::reports {
 struct Figures {
   std::int64_t invocations = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
   std::int64_t elements = 0, outside = 0, differing = 0, vacuous = 0, loose = 0, atypical = 0, free = 0;
+  std::int64_t typical = 0, unbounded = 0, rearranged = 0;
   double median_width = 0, p99_width = 0;
 
   /// Elements that a bound was asked for.

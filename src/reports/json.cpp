@@ -41,7 +41,7 @@ Json failure_json(const OutputJudgement& o, const Failure& f) {
   return out;
 }
 
-/// Pairs of a verdict (0 equal, 1 inside, 2 atypical, 3 outside) and how many texels in a row have it, row 0 first.
+/// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside) and how many texels in a row have it, row 0 first.
 Json map_json(const std::vector<std::uint8_t>& map) {
   Json runs = Json::array();
   for (std::size_t begin = 0; begin < map.size();) {
@@ -68,13 +68,18 @@ Json output_json(const OutputJudgement& o) {
   out["vacuous"] = o.vacuous;
   out["loose"] = o.loose;
   out["atypical"] = o.atypical;
+  out["typical"] = o.typical;
+  out["unbounded"] = o.unbounded;
+  out["rearranged"] = o.rearranged;
   out["free"] = o.free;
   out["median_width"] = o.median_width;
   out["p99_width"] = o.p99_width;
+  out["rearranged_median_width"] = o.rearranged_median_width < 0 ? Json() : Json(o.rearranged_median_width);
+  out["rearranged_p99_width"] = o.rearranged_p99_width < 0 ? Json() : Json(o.rearranged_p99_width);
   out["known"] = o.known.empty() ? Json() : Json(o.known);
   out["worst"] = Json::array();
   for (const Failure& f : o.worst) out["worst"].push_back(failure_json(o, f));
-  if ((o.failing > 0 || o.atypical > 0) && !o.map.empty()) out["map"] = map_json(o.map);
+  if ((o.failing > 0 || o.atypical > 0 || o.rearranged > 0) && !o.map.empty()) out["map"] = map_json(o.map);
   return out;
 }
 
@@ -88,6 +93,8 @@ Json case_json(const CaseJudgement& c) {
            {"ambiguous", c.ambiguous},
            {"other_branch", c.other_branch},
            {"gave_up", c.gave_up},
+           {"rearranged", c.rearranged},
+           {"expanded", c.expanded},
            {"outputs", Json::array()}};
   for (const OutputJudgement& o : c.outputs) out["outputs"].push_back(output_json(o));
   return out;

@@ -69,6 +69,10 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
     out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
   if (f.atypical > 0 && p.status != Status::warn)
     out.push_back(fmt::format("{} elements inside the profile but outside what real devices do", f.atypical));
+  if (f.typical > 0)
+    out.push_back(
+        fmt::format("{} elements have no useful bound from the profile; what real devices do bounds {} of them, {} stay unbounded",
+                    f.vacuous, f.typical, f.unbounded));
   if (f.other_branch > 0)
     out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
   if (f.gave_up > 0) out.push_back(fmt::format("{} invocations with too many open decisions to bound", f.gave_up));
@@ -160,22 +164,29 @@ std::string report_text(const PortJudgement& j) {
 
 std::string report_text(const MutationReport& r, bool all) {
   std::string out;
-  std::int64_t caught = 0, equivalent = 0, bugs = 0;
+  std::int64_t caught = 0, equivalent = 0, bugs = 0, warned = 0;
   for (const MutantJudgement& m : r.mutants) {
     if (m.differing == 0) {
       ++equivalent;
     } else if (!m.legal) {
       ++bugs;
       caught += m.caught();
+      warned += !m.caught() && m.rearranged > 0;
     }
-    const char* verdict = m.differing == 0 ? "equivalent" : m.caught() ? "caught" : m.legal ? "legal" : "MISSED";
+    const char* verdict = m.differing == 0   ? "equivalent"
+                          : m.caught()       ? "caught"
+                          : m.legal          ? "legal"
+                          : m.rearranged > 0 ? "WARNED"
+                                             : "MISSED";
     if (all || (!m.caught() && m.differing > 0 && !m.legal))
-      out += fmt::format("{:<10} {:<12} {}: {} of {} invocations differ, {} outside\n", verdict, m.pass, m.name, m.differing, m.compared,
-                         m.outside);
+      out += fmt::format("{:<10} {:<12} {}: {} of {} invocations differ, {} outside, {} only rearranged\n", verdict, m.pass, m.name,
+                         m.differing, m.compared, m.outside, m.rearranged);
   }
   for (const std::string& u : r.unjudged) out += fmt::format("not judged: {}\n", u);
-  out += fmt::format("{} of {} deviations that change something would be caught under {} ({} change nothing on this pack)\n", caught, bugs,
-                     r.profile, equivalent);
+  out += fmt::format(
+      "{} of {} deviations that change something would be caught under {} ({} more would warn, as rearrangements; {} change nothing on "
+      "this pack)\n",
+      caught, bugs, r.profile, warned, equivalent);
   return out;
 }
 

@@ -1,6 +1,7 @@
 // windshield_frame and wipe_drops bound to captured cases.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -34,15 +35,11 @@ class Frame : public capture::KeyedModel {
   int groups() const override { return 1; }
   const std::vector<capture::FieldRange>& ranges() const override { return drops::frame_ranges(); }
   void enclose(int, std::vector<KeyedRecord>& out) const override {
-    const auto f = forces<Enclosure>();
-    KeyedRecord r;
-    const auto put = [&](const Enclosure* from, int count) { r.floats.insert(r.floats.end(), from, from + count); };
-    put(f.gravity, 2);
-    put(f.wind, 2);
-    put(f.acceleration, 2);
-    put(f.spin, 4);
-    put(f.coriolis, 4);
-    out.push_back(std::move(r));
+    out.push_back(record_of(forces<Enclosure>(), [](const Enclosure& e) { return e; }));
+  }
+  bool rearrange(int, std::vector<KeyedRecord>& out) const override {
+    out.push_back(record_of(forces<enclosed::Rearranged>(), [](const enclosed::Rearranged& r) { return r.settled(); }));
+    return true;
   }
   std::optional<std::vector<std::byte>> reference() const override { return list<Number>(); }
   std::optional<std::vector<std::byte>> perturbed() const override { return list<Perturbed>(); }
@@ -52,6 +49,17 @@ class Frame : public capture::KeyedModel {
   motion_scalar::GlassForces<N> forces() const {
     return corrected_ ? motion_scalar::windshield_frame_corrected<N>(uniforms_)
                       : motion_scalar::windshield_frame_as_published<N>(uniforms_);
+  }
+  template <class N, class F>
+  static KeyedRecord record_of(const motion_scalar::GlassForces<N>& f, const F& enclosure_of) {
+    KeyedRecord r;
+    const auto put = [&](const N* from, int count) { std::transform(from, from + count, std::back_inserter(r.floats), enclosure_of); };
+    put(f.gravity, 2);
+    put(f.wind, 2);
+    put(f.acceleration, 2);
+    put(f.spin, 4);
+    put(f.coriolis, 4);
+    return r;
   }
   template <class N>
   std::vector<std::byte> list() const {

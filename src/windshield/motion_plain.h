@@ -5,6 +5,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "math/rearranged.h"
 #include "windshield/motion.h"
 #include "windshield/uniforms.h"
 

@@ -7,6 +7,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/plain.h"
+#include "math/rearranged.h"
 #include "windshield/composite.pass.h"
 
 namespace rainref::windshield::scalar {
@@ -18,6 +19,7 @@ using namespace rainref::plain;
 #include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
+#include "image/sampling_rearranged-inl.h"
 #include "windshield/composite.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -17,6 +17,7 @@ using namespace rainref::plain;
 #define RAINREF_LAMBDA
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
+#include "image/sampling_rearranged-inl.h"
 #include "image/environment-inl.h"
 #include "image/sampling_lookup-inl.h"
 #undef RAINREF_FN

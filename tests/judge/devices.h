@@ -92,7 +92,9 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
     }
     ++tally.judged;
     tally.differing += !is_reference(b, x, y, values);
-    if (holds_values(b, x, y, stored, values, p, tally) && InvocationJudge(*b.c, *b.model, p, mode).accepts(x, y, stored)) continue;
+    if (holds_values(b, x, y, stored, values, p, tally) &&
+        InvocationJudge(*b.c, *b.model, p, mode).accepts(x, y, stored) == Accepted::as_written)
+      continue;
     if (tally.outside++ == 0) {
       const std::lock_guard lock(tally.mutex);
       tally.first = described(b, x, y, stored, values, p);

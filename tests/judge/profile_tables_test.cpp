@@ -35,6 +35,7 @@ Profile vulkan() {
   p.basic = BasicRounding::either;                       // "Correctly Rounded": without a rounding mode either neighbour
   p.contraction = true;                                  // "Evaluation of Expressions": AllowContract by default
   p.flush = Flush::may;                                  // "Denormalized Values": may be flushed unless DenormPreserve
+  p.rearrangement = Rearrangement::distributed;          // "Evaluation of Expressions" allows at least that; more is a choice against
   p.division = ulp(2.5);                                 // core instructions, OpFDiv, |y| in [2^-126, 2^126]
   p.inverse_sqrt = ulp(2);                               // GLSL.std.450, InverseSqrt
   p.sqrt_is_inherited = true;                            // Sqrt: from 1.0 / inversesqrt()
@@ -62,6 +63,7 @@ Profile webgpu() {
   p.basic = BasicRounding::either;                       // "Differences from IEEE-754": up or down
   p.contraction = true;                                  // "Reassociation and Fusion"
   p.flush = Flush::may;                                  // "Differences from IEEE-754": inputs and outputs may be flushed
+  p.rearrangement = Rearrangement::distributed;          // "Reassociation and Fusion"; that factors are distributed too is a choice
   p.division = ulp(2.5);                                 // x / y, |y| in [2^-126, 2^126]
   p.inverse_sqrt = ulp(2);                               // inverseSqrt
   p.sqrt_is_inherited = true;                            // sqrt: from 1.0 / inverseSqrt(x)
@@ -86,20 +88,21 @@ Profile webgpu() {
 Profile d3d() {
   const double reciprocal = 1, product = 0.5;  // 3.1.3.1, x / y in two steps: ULP of each
   Profile p = inexact("d3d");
-  p.basic = BasicRounding::nearest;            // 3.1.3.1: add, subtract, multiply 0.5 ULP to nearest even
-  p.contraction = true;                        // 3.1.3.1: fused operations no worse than unfused ones
-  p.flush = Flush::must;                       // 3.1.3.1: denorms are flushed
-  p.division = ulp(2 * reciprocal + product);  // an ULP of 1/y is up to 2 of the quotient
-  p.inverse_sqrt = relative(0x1p-21);          // 22.10.19, rsq
-  p.sqrt = ulp(1);                             // 3.1.3.1
-  p.exp2 = relative(0x1p-21);                  // 22.10.6, exp: 2^x
-  p.exp = {0, 2, 0x1p-21, 0};                  // HLSL's exp: 2^(x log2 e), two roundings of the exponent
-  p.log2 = relative(0x1p-21);                  // 22.10.11, log outside [0.5, 2]
-  p.log2_near_one = absolute(0x1p-21);         // inside
-  p.log = {2, 0, 0x1p-21, 0};                  // HLSL's log: log2(x) ln 2, two roundings
-  p.log_near_one = {2, 0, 0, 0x1p-21 * ln2};   // the same
-  p.pow_is_inherited = true;                   // HLSL's pow: exp2(y log2(x))
-  p.sin_cos = absolute(0.0008);                // 22.10.21, sincos in [-100 pi, 100 pi]; nothing beyond
+  p.basic = BasicRounding::nearest;              // 3.1.3.1: add, subtract, multiply 0.5 ULP to nearest even
+  p.contraction = true;                          // 3.1.3.1: fused operations no worse than unfused ones
+  p.flush = Flush::must;                         // 3.1.3.1: denorms are flushed
+  p.rearrangement = Rearrangement::distributed;  // 22.3.2: b*c+b*d+b*e+b*f may become b*(c+d+e+f)
+  p.division = ulp(2 * reciprocal + product);    // an ULP of 1/y is up to 2 of the quotient
+  p.inverse_sqrt = relative(0x1p-21);            // 22.10.19, rsq
+  p.sqrt = ulp(1);                               // 3.1.3.1
+  p.exp2 = relative(0x1p-21);                    // 22.10.6, exp: 2^x
+  p.exp = {0, 2, 0x1p-21, 0};                    // HLSL's exp: 2^(x log2 e), two roundings of the exponent
+  p.log2 = relative(0x1p-21);                    // 22.10.11, log outside [0.5, 2]
+  p.log2_near_one = absolute(0x1p-21);           // inside
+  p.log = {2, 0, 0x1p-21, 0};                    // HLSL's log: log2(x) ln 2, two roundings
+  p.log_near_one = {2, 0, 0, 0x1p-21 * ln2};     // the same
+  p.pow_is_inherited = true;                     // HLSL's pow: exp2(y log2(x))
+  p.sin_cos = absolute(0.0008);                  // 22.10.21, sincos in [-100 pi, 100 pi]; nothing beyond
   p.sin_cos_domain = 100 * pi;
   p.atan2 = ulp(4096);                         // a choice: there is no atan instruction
   p.subtexel_bits = 8;                         // 7.18.16: at least 8 bits of subtexel precision
@@ -142,10 +145,11 @@ Profile cuda() {
 Profile metal() {
   const double rsqrt = 2, quotient = 2.5, atan = 5;  // rsqrt(x), x / y, atan(x) [ULP]
   Profile p = inexact("metal");
-  p.basic = BasicRounding::either;  // correctly rounded; that the direction is open is a choice
-  p.contraction = true;             // 1.6.5
-  p.flush = Flush::may;             // 8.1
-  p.division = ulp(quotient);       // y in [2^-126, 2^126]
+  p.basic = BasicRounding::either;               // correctly rounded; that the direction is open is a choice
+  p.contraction = true;                          // 1.6.5
+  p.flush = Flush::may;                          // 8.1
+  p.rearrangement = Rearrangement::distributed;  // a choice: MTLMathMode fast makes "aggressive" assumptions
+  p.division = ulp(quotient);                    // y in [2^-126, 2^126]
   p.inverse_sqrt = ulp(rsqrt);
   p.sqrt = ulp(2 * rsqrt + 1);          // x rsqrt(x): an ULP of rsqrt is up to 2 of the product, which is rounded
   p.exp = p.exp2 = growing(3, 2);       // 3 + floor(|2 x|)
@@ -198,6 +202,7 @@ std::map<std::string, double> figures(const Profile& p) {
                                     {"basic", static_cast<double>(p.basic)},
                                     {"contraction", p.contraction},
                                     {"flush", static_cast<double>(p.flush)},
+                                    {"rearrangement", static_cast<double>(p.rearrangement)},
                                     {"sqrt_is_inherited", p.sqrt_is_inherited},
                                     {"pow_is_inherited", p.pow_is_inherited},
                                     {"sin_cos_domain", p.sin_cos_domain},
@@ -271,7 +276,7 @@ TEST(ProfileTables, EveryKeyIsCompared) {
     int keys = 0;
     for (std::string line; std::getline(text, line);) {
       std::smatch found;
-      if (!std::regex_search(line, found, key) || found[1] == "name") continue;
+      if (!std::regex_search(line, found, key) || found[1] == "name" || found[1] == "rearrangement_remedy") continue;  // words
       ++keys;
       EXPECT_TRUE(compared.contains(found[1]) || compared.contains(found[1].str() + ".ulp")) << name << ": " << found[1];
     }

@@ -116,7 +116,7 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       if (pass.is_of_quanta()) continue;
       EXPECT_TRUE(pass.is_of_masks() || m.ratios.size() > 10) << pass.name() << ' ' << name;
       // Most of its elements have no bound there: sines of hundreds.
-      if (pass.name() == "screen_drops-as-published drops" && is_known_loose(pass.pass, name)) continue;
+      if (pass.name() == "screen_drops-as-published drops" && (name == "webgpu" || name == "metal")) continue;
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
       // the weights of a lookup between two levels.
       EXPECT_LE(at(m.ratios, 0.5), pass.name() == "screen_drops-corrected background" ? 7 : 4) << pass.name() << ' ' << name;

@@ -26,10 +26,6 @@ inline std::vector<std::string> inexact_profiles() {
   names.push_back("typical");
   return names;
 }
-/// Where more than 1 % of a pass's elements have no useful bound; docs/conformance.md names them.
-inline bool is_known_loose(const std::string& pass, const std::string& profile) {
-  return (pass == "rain_on_glass" || pass == "drops") && (profile == "webgpu" || profile == "metal");
-}
 inline std::filesystem::path pack_folder(const std::string& name) { return rainref::test::source_folder() + "/tests/packs/" + name; }
 
 /// A case that some envelope judges.

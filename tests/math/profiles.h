@@ -57,7 +57,7 @@ inline enclosed::Profile read_profile(const std::string& name) {
   std::map<std::string, int> seen;
   for (std::string line; std::getline(file, line);) {
     std::smatch m;
-    if (line.empty() || line[0] == '#') continue;
+    if (line.empty() || line[0] == '#' || line.starts_with("rearrangement_remedy = ")) continue;
     if (std::regex_match(line, m, top)) {
       if (m[1] == "name")
         p.name = m[2].str().substr(1, m[2].length() - 2);
@@ -94,6 +94,8 @@ inline enclosed::Profile read_profile(const std::string& name) {
       p.basic = value == "\"either\"" ? BasicRounding::either : BasicRounding::nearest;
     else if (key == "flush")
       p.flush = value == "\"never\"" ? Flush::never : value == "\"may\"" ? Flush::may : Flush::must;
+    else if (key == "rearrangement")
+      p.rearrangement = value == "\"distributed\"" ? Rearrangement::distributed : Rearrangement::none;
     else if (key == "half_store")
       p.half_store = roundings.at(value);
     else if (key == "half_overflow")

@@ -12,7 +12,11 @@ namespace {
 TEST(SimdTarget, TheBestComesFirstAndScalarIsAlwaysThere) {
   const std::vector<std::string> targets = simd_targets();
   ASSERT_FALSE(targets.empty());
+#ifdef HWY_COMPILE_ONLY_STATIC  // as the sanitizers' presets are built: the compiler's own target alone
+  EXPECT_EQ(targets.size(), 1u);
+#else
   EXPECT_EQ(targets.back() == "scalar" || targets.back() == "neon", true) << targets.back();
+#endif
   EXPECT_EQ(std::count(targets.begin(), targets.end(), targets.front()), 1);
   select_simd_target("");
   EXPECT_EQ(selected_simd_target(), targets.front());

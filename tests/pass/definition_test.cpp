@@ -23,6 +23,7 @@ using namespace rainref::plain;
 #include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"
 #include "image/sampling_enclosed-inl.h"
+#include "image/sampling_rearranged-inl.h"
 #include "pass/frost.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

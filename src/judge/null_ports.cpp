@@ -1,0 +1,84 @@
+#include "judge/null_ports.h"
+
+#include <algorithm>
+
+#include "judge/bits.h"
+#include "judge/invocation_judge.h"
+#include "judge/keyed.h"
+#include "judge/slots.h"
+
+namespace rainref::judge {
+namespace {
+
+using capture::Array;
+using capture::PassCase;
+
+Array zeros(const Array& like) {
+  Array out = like;
+  if (out.is_records) {
+    out.width = 0;
+    out.levels = {{}};
+  }
+  for (std::vector<std::byte>& level : out.levels) std::fill(level.begin(), level.end(), std::byte{0});
+  return out;
+}
+bool is_interchangeable(const Array& in, const Array& out) {
+  if (in.is_records != out.is_records) return false;
+  if (in.is_records) return in.record.name == out.record.name && in.record.size == out.record.size;
+  return in.format == out.format && in.width == out.width && in.height == out.height && !in.levels.empty();
+}
+/// The first levels of an input, as many as the output has.
+Array copied(const Array& in, const Array& out) {
+  Array copy = out;
+  if (in.is_records) copy.width = in.width;
+  copy.levels.assign(in.levels.begin(), in.levels.begin() + static_cast<std::ptrdiff_t>(std::min(in.levels.size(), out.levels.size())));
+  return copy.levels.size() == out.levels.size() ? copy : zeros(out);
+}
+
+bool passes(const PassCase& c, const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
+            HalfMode mode) {
+  for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+    const capture::CaseOutput& out = c.outputs[o];
+    if (out.judge == capture::Judge::bits && judge_bits(out, port[o]).failing > 0) return false;
+    if (out.judge == capture::Judge::keyed && judge_keyed(out, port[o], model ? model->keyed(out.name) : nullptr, profile).failing > 0)
+      return false;
+  }
+  if (slots_of(c).empty()) return true;
+  const InvocationJudge judge(c, *model, profile, mode);
+  for (int y = 0; y < model->height(); ++y)
+    for (int x = 0; x < model->width(); ++x)
+      if (judge.accepts(x, y, port) != Accepted::as_written) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<NullPort> null_ports(const PassCase& c) {
+  std::vector<NullPort> all(1, {"zeros", {}});
+  for (const capture::CaseOutput& out : c.outputs) all.front().outputs.push_back(zeros(out.array));
+  for (const capture::CaseInput& in : c.inputs) {
+    NullPort port{"a copy of its input " + in.name, all.front().outputs};
+    bool is_one = false;
+    for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+      if (!is_interchangeable(in.array, c.outputs[o].array)) continue;
+      port.outputs[o] = copied(in.array, c.outputs[o].array);
+      is_one = true;
+    }
+    if (is_one) all.push_back(std::move(port));
+  }
+  return all;
+}
+
+void NullPorts::judge(const PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile, HalfMode mode) {
+  if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return;
+  if (judged_ && passing_.empty()) return;
+  std::vector<std::string> still;
+  for (const NullPort& port : null_ports(c)) {
+    if (judged_ && std::find(passing_.begin(), passing_.end(), port.what) == passing_.end()) continue;
+    if (passes(c, model, port.outputs, profile, mode)) still.push_back(port.what);
+  }
+  passing_ = std::move(still);
+  judged_ = true;
+}
+
+}  // namespace rainref::judge

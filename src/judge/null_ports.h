@@ -1,0 +1,34 @@
+// Ports that do nothing. A pack whose pass one of them passes says nothing of that pass.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/pass_model.h"
+#include "judge/judge.h"
+
+namespace rainref::judge {
+
+/// What such a port stores for a case, in the order of its outputs.
+struct NullPort {
+  std::string what;  ///< "zeros", "a copy of its input wave"
+  std::vector<capture::Array> outputs;
+};
+/// Zeros, and of each input that has the format and size of an output its copy there, zeros elsewhere; of lists none and each input's.
+std::vector<NullPort> null_ports(const capture::PassCase& c);
+
+/// Which of them pass all cases of a pass. They are given up at the first invocation that fails.
+class NullPorts {
+ public:
+  /// `model` may be null where no output is judged by envelope. Cases that are taken as data say nothing.
+  void judge(const capture::PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile, HalfMode mode);
+  /// One that passes every case; "" where none does, or nothing was judged.
+  std::string passing() const { return judged_ && !passing_.empty() ? passing_.front() : ""; }
+
+ private:
+  bool judged_ = false;
+  std::vector<std::string> passing_;
+};
+
+}  // namespace rainref::judge
