@@ -6,6 +6,7 @@
 
 #include "judge/alternatives.h"
 #include "judge/bits.h"
+#include "judge/quantities.h"
 #include "judge/slots.h"
 #include "judge/stored.h"
 #include "judge/widths.h"
@@ -166,6 +167,7 @@ class CaseJudge {
       if (different) mark(whole, slot.output, x, y, 1);
       if (s.stored.free[v]) {
         ++out.free;
+        part.widths[static_cast<std::size_t>(slot.output)].add_free(slot.channel);
         if (impossible) add_failure(x, y, v, s, part, whole);
         continue;
       }
@@ -173,6 +175,7 @@ class CaseJudge {
       if (s.alternatives.gave_up) {
         ++out.vacuous;
         ++out.loose;
+        part.widths[static_cast<std::size_t>(slot.output)].add_unbounded(slot.channel);
       } else {
         const Enclosure& e = s.alternatives.values[static_cast<std::size_t>(shown)][v];
         const CodeRange& r = s.ranges[v];
@@ -182,7 +185,7 @@ class CaseJudge {
         const bool vacuous = r.is_vacuous() || width > scale / 16;
         out.vacuous += vacuous;
         out.loose += vacuous || width > scale / 256;
-        part.widths[static_cast<std::size_t>(slot.output)].add(r);
+        part.widths[static_cast<std::size_t>(slot.output)].add(slot.channel, r, width, vacuous, width > scale / 256);
       }
       if (failed && (impossible || (!s.alternatives.gave_up && !holds(*options_.profile, s.stored, v, s.nearest[v]))))
         add_failure(x, y, v, s, part, whole);
@@ -214,6 +217,7 @@ class CaseJudge {
       }
       if (!f.not_a_number) f.distance = distance(f.got, {f.low, f.high});
     }
+    part.widths[o].add_failing(slot.channel, value_distance(slot.kind, f));
     out.worst.push_back(f);
     if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
   }
