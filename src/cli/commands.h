@@ -39,10 +39,12 @@ struct ValidateRequest {
   std::filesystem::path pack, port;
   std::filesystem::path shadow;  ///< dumps of a port's own run, judged instead of `port`; "": a pack is judged
   SceneOptions scene;            ///< with `shadow`: the scene that the port ran; empty: a manifest lies beside the dumps
-  std::string profile = "vulkan", only;
-  std::string exec;        ///< the port's own command, run first; "": `port` holds its outputs
-  double timeout_s = 600;  ///< of each run of it
-  int repeat = 1;          ///< runs of it
+  std::string profile = "vulkan";
+  std::vector<std::string> only;  ///< these passes alone; empty: all
+  bool partial = false;           ///< a pass without files of the port is not judged, and nothing of it is missing
+  std::string exec;               ///< the port's own command, run first; "": `port` holds its outputs
+  double timeout_s = 600;         ///< of each run of it
+  int repeat = 1;                 ///< runs of it
   bool allow_untested = false;
   int threads = 0;
   std::string command;  ///< as typed, for the report
@@ -50,7 +52,8 @@ struct ValidateRequest {
 };
 struct MutateRequest {
   std::filesystem::path pack;
-  std::string profile = "vulkan", only;
+  std::string profile = "vulkan";
+  std::vector<std::string> only;
   bool all = false;
   int threads = 0;
 };

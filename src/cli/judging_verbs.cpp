@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,6 +28,18 @@ void add_profile(CLI::App& verb, std::string& profile) {
 }
 void add_threads(CLI::App& verb, std::optional<std::string>& threads) {
   verb.add_option("--threads", threads, "Threads; the result does not depend on them")->type_name("N");
+}
+/// Passes, "a,b" or the option again and again.
+void add_only(CLI::App& verb, std::vector<std::string>& only, const char* sentence) {
+  verb.add_option_function<std::vector<std::string>>(
+          "--only",
+          [&only](const std::vector<std::string>& lists) {
+            for (const std::string& list : lists)
+              for (std::string& pass : list_of(list)) only.push_back(std::move(pass));
+          },
+          sentence)
+      ->type_name("PASS,...")
+      ->allow_extra_args(false);
 }
 int threads_of(const std::optional<std::string>& text) {
   return text ? whole_number(*text, "--threads", 1, parallel::Executor::max_threads) : 0;
@@ -54,14 +68,16 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   add_profile(verb, f.request.profile);
-  verb.add_option("--only", f.request.only, "Judge this pass alone")->type_name("PASS");
-  verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive what could not be judged, beside at least one PASS");
+  add_only(verb, f.request.only, "Judge these passes alone");
+  verb.add_flag("--partial", f.request.partial, "A port in progress: passes that it has no files of are NOT JUDGED, and not missing");
+  verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive UNTESTED and NOT JUDGED, beside at least one PASS");
   add_threads(verb, f.threads);
   add_report_options(verb, f.request.reports);
   for (CLI::Option* option : verb.get_options([](const CLI::Option* o) { return o->get_type_name() == "TEXT"; })) option->type_name("FILE");
   verb.footer(
       "Examples: rainref validate out/pack --port out/port --profile vulkan\n          rainref validate out/pack --exec './port {pack} "
-      "{out}' --repeat 3\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
+      "{out}' --repeat 3\n          rainref validate out/pack --port out/port --only wave_step,shade\n          rainref validate out/pack "
+      "--port out/port --partial --allow-untested\n          rainref validate --shadow out/dump scenes/puddle/default.toml");
 }
 
 bool changes_scene(const ValidateFlags& f) { return f.scene.size || !f.scene.set.empty(); }
@@ -139,7 +155,7 @@ Verb mutate_verb(CLI::App& app) {
   const auto f = std::make_shared<Flags>();
   verb.add_option("PACK", f->pack, "Folder of the pack")->type_name("DIR")->required();
   add_profile(verb, f->request.profile);
-  verb.add_option("--only", f->request.only, "Of this pass alone")->type_name("PASS");
+  add_only(verb, f->request.only, "Of these passes alone");
   verb.add_flag("--all", f->request.all, "List every deviation, not only those missed");
   add_threads(verb, f->threads);
   verb.footer("Example: rainref mutate out/pack --profile vulkan");

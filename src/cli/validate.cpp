@@ -19,6 +19,7 @@
 #include "cli/terminal.h"
 #include "faults/diagnose.h"
 #include "faults/mutate.h"
+#include "judge/port_files.h"
 #include "judge/profiles.h"
 #include "judge/races.h"
 #include "judge/shadow.h"
@@ -86,9 +87,10 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
   judge::ValidateOptions options;
   options.profile = request.profile;
   options.only = request.only;
+  options.partial = request.partial;
   // What is wrong with the request shows before the port is run.
   static_cast<void>(judge::judging_profile(options.profile));
-  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+  for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
   std::vector<std::string> ids;
   for (const capture::PackCase& c : pack.cases) ids.push_back(c.id);
   reports.check(pack.passes, ids);
@@ -112,13 +114,19 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
   options.executor = &executor;
   options.explain = faults::diagnose;
   try {
-    Progress progress("judging", static_cast<int>(pack.cases.size()));
+    Progress progress("judging", static_cast<int>(std::count_if(pack.cases.begin(), pack.cases.end(),
+                                                                [&](const capture::PackCase& c) { return options.wants(c.pass); })));
     options.progress = [&](int, int) { progress.advance(); };
     const std::string shown = judgement.port;
     judgement = judge::validate(pack, runs.front(), options);
     if (!shown.empty()) judgement.port = shown;
     if (runs.size() > 1) {
-      judge::add_races(judge::find_races(pack, runs, request.only), judgement);
+      std::vector<std::string> judged;
+      for (const judge::PassJudgement& pass : judgement.passes)
+        if (!pass.cases.empty()) judged.push_back(pass.pass);
+      const judge::Races races = judge::find_races(pack, runs, judged);
+      judge::add_races(races.found, judgement);
+      judgement.files.insert(judgement.files.end(), races.files.begin(), races.files.end());
       judgement.notes.push_back(fmt::format("the port ran {} times; the first run was judged", runs.size()));
     }
   } catch (const Error& e) {
@@ -126,6 +134,8 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
     if (e.code() != ExitCode::port_files || last_line.empty()) throw;
     throw Error(e.code(), fmt::format("{}; the port's command ended with exit code 0 and printed last: {}", e.what(), last_line));
   }
+  if (!judgement.files.empty() && !last_line.empty())
+    judgement.notes.push_back("the port's command ended with exit code 0 and printed last: " + last_line);
   reports::PageSource source = reports::page_source(opened, runs.front());
   source.read = [temporary, read = source.read](const std::string& id, const std::string& output) { return read(id, output); };
   return {std::move(judgement), std::move(source)};
@@ -184,9 +194,10 @@ Judged judge_shadow(const ValidateRequest& request, const Reports& reports, cons
   const judge::ShadowPlan& plan = *planned;
   std::vector<std::string> passes;
   for (const capture::PackPass& pass : plan.passes) passes.push_back(pass.name);
-  if (!request.only.empty() && std::find(passes.begin(), passes.end(), request.only) == passes.end()) {
-    throw Error(ExitCode::usage, fmt::format("--only: expected one of the passes {}, found '{}'{}", fmt::join(passes, ", "), request.only,
-                                             did_you_mean(request.only, passes)));
+  for (const std::string& pass : request.only) {
+    if (std::find(passes.begin(), passes.end(), pass) != passes.end()) continue;
+    throw Error(ExitCode::usage, fmt::format("--only: expected one of the passes {}, found '{}'{}", fmt::join(passes, ", "), pass,
+                                             did_you_mean(pass, passes)));
   }
   const std::vector<judge::DumpedRun> dumped = judge::dumped_runs(request.shadow, plan.effect, passes);
   if (dumped.empty()) {
@@ -208,26 +219,30 @@ Judged judge_shadow(const ValidateRequest& request, const Reports& reports, cons
   return {std::move(judgement), reports::page_source(planned, request.shadow, dumped, options)};
 }
 
-int validate(const ValidateRequest& request, Reports& reports) {
+/// Judges, prints and writes the reports; the judgement, whose files may still be an error.
+judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) {
   const parallel::Executor executor(request.threads);
   Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
   judged.judgement.command = request.command;
   reports.apply_baseline(judged.judgement);
   print_text(reports::report_text(judged.judgement));
   reports.write(judged.judgement, judged.source);
-  return reports::exit_code(judged.judgement, request.allow_untested);
+  return std::move(judged.judgement);
 }
 
 }  // namespace
 
 int validate(const ValidateRequest& request) {
   Reports reports(request.reports, request.allow_untested);
+  judge::PortJudgement judgement;
   try {
-    return validate(request, reports);
+    judgement = validate(request, reports);
   } catch (const Error& e) {
     if (e.code() == ExitCode::port_files) reports.write_error(e, request);
     throw;
   }
+  if (!judgement.files.empty()) throw judge::files_error(judgement.files);
+  return reports::exit_code(judgement, request.allow_untested);
 }
 
 int mutate(const MutateRequest& request) {

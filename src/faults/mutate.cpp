@@ -137,14 +137,14 @@ void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::Pa
 
 MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options, int invocations) {
   const enclosed::Profile& chosen = profile(options.profile);
-  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+  for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
   check_pack(pack);
   MutationReport report;
   report.pack = pack.folder().string();
   report.profile = options.profile;
   int done = 0;
   for (const capture::PackPass& pass : pack.passes) {
-    if (!options.only.empty() && pass.name != options.only) continue;
+    if (!options.wants(pass.name)) continue;
     const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, pass.name);
     const Bind bind = binder(pack.effect, pass.name);
     std::map<std::string, std::size_t> places;  // of a deviation among the mutants

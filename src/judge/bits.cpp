@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "image/code_range.h"
+#include "judge/quantities.h"
 #include "judge/slots.h"
 
 namespace rainref::judge {
@@ -31,6 +32,19 @@ void set_first_difference(const scene::UniformBlock& record, const std::byte* wa
     if (m.scalar == scene::Scalar::float32) f.field_kind = FormatInfo::float32;
   }
   set_unequal(f.field_kind, want + at, have + at, f);
+}
+
+/// Counts the numbers of a texel or a record whose bits differ.
+void count_differing(const std::vector<Quantity>& quantities, const std::byte* want, const std::byte* have,
+                     std::vector<QuantityJudgement>& counts) {
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    const Quantity& q = quantities[k];
+    if (std::memcmp(want + q.offset, have + q.offset, q.bytes) == 0) continue;
+    Failure f;
+    set_unequal(q.kind, want + q.offset, have + q.offset, f);
+    ++counts[k].failing;
+    counts[k].farthest = std::max(counts[k].farthest, value_distance(q.kind, f));
+  }
 }
 
 }  // namespace
@@ -67,11 +81,18 @@ OutputJudgement judge_bits(const capture::CaseOutput& expected, const capture::A
   const std::size_t count = want.size() / size, found = have.size() / size;
   out.elements = static_cast<std::int64_t>(std::max(count, found));
   if (!out.records) out.map.assign(count, 0);
+  const std::vector<Quantity> quantities = quantities_of(expected);
+  name_quantities(quantities, out);
+  for (QuantityJudgement& q : out.quantities) q.elements = out.elements;
   for (std::size_t i = 0; i < std::max(count, found); ++i) {
     if (i < count && i < found && std::memcmp(want.data() + i * size, have.data() + i * size, size) == 0) continue;
     ++out.failing;
     ++out.differing;
     if (!out.records) out.map[i] = 3;
+    if (i < count && i < found)
+      count_differing(quantities, want.data() + i * size, have.data() + i * size, out.quantities);
+    else
+      for (QuantityJudgement& q : out.quantities) ++q.failing;
     if (out.worst.size() >= OutputJudgement::max_failures) continue;
     Failure f;
     f.x = static_cast<int>(out.records ? i : i % static_cast<std::size_t>(out.width));

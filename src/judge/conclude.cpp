@@ -70,6 +70,7 @@ void conclude(PortJudgement& j) {
     j.status = Status::untested;
     j.reason = j.passes.empty() ? "nothing was judged" : "nothing was judged: all is taken as data";
   }
+  if (j.status == Status::not_judged) j.status = Status::untested;  // of the whole, something may well have been judged
 }
 
 }  // namespace rainref::judge

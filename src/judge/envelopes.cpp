@@ -6,6 +6,7 @@
 
 #include "judge/alternatives.h"
 #include "judge/failures.h"
+#include "judge/quantities.h"
 #include "judge/second_tier.h"
 #include "judge/slots.h"
 #include "judge/stored.h"
@@ -24,7 +25,8 @@ using enclosed::Enclosure;
 /// Counts of some rows under one rounding.
 struct Part {
   CaseJudgement counts;
-  std::vector<Widths> widths, rearranged;  // of each output
+  std::vector<Widths> widths;                          // of each output
+  std::vector<std::vector<std::uint32_t>> rearranged;  // widths of the sampled invocations
 };
 
 class CaseJudge {
@@ -51,12 +53,15 @@ class CaseJudge {
         for (int x = tile.x0; x < tile.x1; ++x) invocation(x, y, scratch, parts[static_cast<std::size_t>(tile.y0 / rows)], whole);
     });
     for (std::size_t m = 0; m < modes_.size(); ++m) {
-      std::vector<Widths> widths(case_.outputs.size()), rearranged(case_.outputs.size());
+      std::vector<Widths> widths(case_.outputs.size());
+      std::vector<std::vector<std::uint32_t>> rearranged(case_.outputs.size());
       for (std::vector<Part>& tile : parts) add(whole[m], tile[m], widths, rearranged);
       for (std::size_t o = 0; o < widths.size(); ++o) {
         OutputJudgement& out = whole[m].outputs[o];
-        widths[o].summarize(out.median_width, out.p99_width);
-        rearranged[o].summarize(out.rearranged_median_width, out.rearranged_p99_width);
+        widths[o].summarize(out);
+        if (rearranged[o].empty()) continue;
+        out.rearranged_median_width = quantile(rearranged[o], 0.5);
+        out.rearranged_p99_width = quantile(rearranged[o], 0.99);
       }
     }
     return whole;
@@ -170,6 +175,7 @@ class CaseJudge {
       if (different) mark(whole, slot.output, x, y, 1);
       if (s.stored.free[v]) {
         ++out.free;
+        part.widths[static_cast<std::size_t>(slot.output)].add_free(slot.channel);
         if (impossible) add_failure(x, y, v, s, part, whole);
         continue;
       }
@@ -177,7 +183,11 @@ class CaseJudge {
       Bound bound{true, true};
       if (!s.alternatives.gave_up) {
         bound = bound_of(slot, s.alternatives.values[static_cast<std::size_t>(shown)][v], s.ranges[v]);
-        part.widths[static_cast<std::size_t>(slot.output)].add(s.ranges[v]);
+        const Enclosure& e = s.alternatives.values[static_cast<std::size_t>(shown)][v];
+        part.widths[static_cast<std::size_t>(slot.output)].add(slot.channel, s.ranges[v], static_cast<double>(e.hi) - e.lo, bound.vacuous,
+                                                               bound.loose);
+      } else {
+        part.widths[static_cast<std::size_t>(slot.output)].add_unbounded(slot.channel);
       }
       out.vacuous += bound.vacuous;
       out.loose += bound.loose;
@@ -213,7 +223,7 @@ class CaseJudge {
   void sample_rearranged(int x, int y, Scratch& s, HalfMode mode, Part& part) const {
     const std::vector<CodeRange>* codes = s.second.codes(x, y, s.stored, mode);
     for (std::size_t v = 0; codes && v < slots_.size(); ++v)
-      if (!s.stored.free[v]) part.rearranged[static_cast<std::size_t>(slots_[v].output)].add((*codes)[v]);
+      if (!s.stored.free[v]) part.rearranged[static_cast<std::size_t>(slots_[v].output)].push_back(width_of((*codes)[v]));
   }
 
   void add_failure(int x, int y, std::size_t v, const Scratch& s, Part& part, CaseJudgement& whole) const {
@@ -229,6 +239,7 @@ class CaseJudge {
     else if (!s.alternatives.gave_up)
       accepted = s.nearest[v];
     out.worst.push_back(failure_of(slot, x, y, case_.outputs[o].array, port_[o], options_.profile->reference ? nullptr : &accepted));
+    part.widths[o].add_failing(slot.channel, value_distance(slot.kind, out.worst.back()));
     if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
   }
 
@@ -270,7 +281,8 @@ class CaseJudge {
     }
   }
 
-  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths, std::vector<Widths>& rearranged) {
+  static void add(CaseJudgement& whole, const Part& part, std::vector<Widths>& widths,
+                  std::vector<std::vector<std::uint32_t>>& rearranged) {
     whole.invocations += part.counts.invocations;
     whole.failing += part.counts.failing;
     whole.ambiguous += part.counts.ambiguous;
@@ -288,7 +300,7 @@ class CaseJudge {
       to.worst.insert(to.worst.end(), from.worst.begin(), from.worst.end());
       keep_worst(to.worst);
       widths[o].append(part.widths[o]);
-      rearranged[o].append(part.rearranged[o]);
+      rearranged[o].insert(rearranged[o].end(), part.rearranged[o].begin(), part.rearranged[o].end());
     }
   }
 

@@ -8,6 +8,7 @@
 #include "judge/conclude.h"
 #include "judge/envelopes.h"
 #include "judge/keyed.h"
+#include "judge/quantities.h"
 #include "judge/slots.h"
 #include "rainref/error.h"
 
@@ -45,7 +46,10 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
   std::vector<OutputJudgement> outputs;  // each judged output once, in the case's order
   std::string events;
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
-    if (c.outputs[o].judge == capture::Judge::envelope && enveloped) outputs.push_back(std::move(j.outputs[o]));
+    if (c.outputs[o].judge == capture::Judge::envelope && enveloped) {
+      outputs.push_back(std::move(j.outputs[o]));
+      name_quantities(quantities_of(c.outputs[o]), outputs.back());
+    }
     if (c.outputs[o].judge == capture::Judge::bits) {
       outputs.push_back(judge_bits(c.outputs[o], port[o]));
       j.invocations = std::max(j.invocations, outputs.back().elements);

@@ -28,7 +28,7 @@ ModeJudgements not_judged(const PortRun& run) {
   out.judgements.resize(1);
   CaseJudgement& j = out.judgements.front();
   j.id = run.c.folder();
-  j.status = run.broken.empty() ? Status::untested : Status::fail;
+  j.status = !run.broken.empty() ? Status::fail : run.has_no_files ? Status::not_judged : Status::untested;
   j.reason = run.broken.empty() ? run.untested : run.broken;
   j.broken = !run.broken.empty();
   return out;

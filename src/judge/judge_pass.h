@@ -19,6 +19,7 @@ struct PortRun {
   std::vector<capture::Array> stored;  ///< what the port gave, in the order of c.outputs
   std::string broken;                  ///< why the run fails whatever its outputs are; "": it does not
   std::string untested;                ///< why it cannot be judged; "": it can
+  bool has_no_files = false;           ///< it cannot be judged because the port's files are missing or cannot be used
 };
 
 /// Run k of a pass, in the order of execution.

@@ -9,6 +9,7 @@
 #include "image/code_range.h"
 #include "judge/bits.h"
 #include "judge/keyed_fields.h"
+#include "judge/quantities.h"
 #include "judge/slots.h"
 #include "math/path_enumeration.h"
 #include "rainref/error.h"
@@ -140,12 +141,6 @@ bool is_rearranged(const capture::KeyedModel& model, int group, const RecordTabl
   });
 }
 
-void add_failures(const std::vector<Failure>& failures, OutputJudgement& out) {
-  out.failing += static_cast<std::int64_t>(failures.size());
-  for (const Failure& f : failures)
-    if (out.worst.size() < OutputJudgement::max_failures) out.worst.push_back(f);
-}
-
 void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) { to.insert(to.end(), from.begin(), from.end()); }
 void settle(std::vector<std::uint32_t>& ids) {
   std::sort(ids.begin(), ids.end());
@@ -202,6 +197,9 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
   const std::vector<double> extents =
       rules.by_bits ? std::vector<double>(layout.floats.size(), 0.0) : extents_of(expected.array.record, *model);
   if (rules.by_bits) model = &exactly;
+  name_quantities(quantities_of(expected), j.output);
+  for (std::size_t k = 0; k < extents.size(); ++k)
+    j.output.quantities[static_cast<std::size_t>(layout.float_fields[k])].extent = extents[k];
 
   RecordTable unknown = have;
   FieldCounts counts(have, want, layout, extents, j.output);
@@ -227,7 +225,7 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
       const std::vector<Failure> failures = not_numbers(alternatives.front(), have, layout);
       j.failing += !failures.empty();
       for (const Failure& f : failures) j.events.outside.push_back(static_cast<std::uint32_t>(f.x));
-      add_failures(failures, j.output);
+      counts.add_failures(failures);
       continue;
     }
     // The alternative that accepts what was stored, the reference's if it does; else the nearest.
@@ -255,7 +253,7 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
     append(j.events.missing, least.missing);
     append(j.events.extra, least.extra);
     append(j.events.outside, least.outside);
-    add_failures(least.failures, j.output);
+    counts.add_failures(least.failures);
   }
   for (const auto& [id, bytes] : unknown) j.events.extra.push_back(id);
   for (std::size_t k = 0; k < unknown.size() + j.events.duplicate.size(); ++k) counts.add_whole_record();

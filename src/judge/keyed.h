@@ -31,7 +31,9 @@ struct KeyedJudgement {
   std::int64_t rearranged = 0;  ///< groups that only a rearrangement accepts
 };
 
-/// Whether a record has a key: the member `id`, one uint.
+/// Whether a member is the key of its record: `id`, one uint.
+bool is_key(const scene::Member& member);
+/// Whether a record has one.
 bool has_key(const scene::UniformBlock& record);
 
 /// Outputs of the case that are matched by id.

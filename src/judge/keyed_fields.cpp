@@ -7,6 +7,7 @@
 
 #include "image/code_range.h"
 #include "judge/keyed.h"
+#include "judge/quantities.h"
 #include "judge/slots.h"
 #include "rainref/error.h"
 
@@ -17,10 +18,9 @@ using capture::Array;
 using capture::KeyedRecord;
 using enclosed::CodeRange;
 
-bool is_key(const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; }
-
 }  // namespace
 
+bool is_key(const scene::Member& m) { return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1; }
 bool has_key(const scene::UniformBlock& record) { return std::any_of(record.members.begin(), record.members.end(), is_key); }
 std::vector<std::size_t> keyed_outputs(const capture::PassCase& c) {
   std::vector<std::size_t> out;
@@ -117,10 +117,11 @@ void FieldCounts::add(const std::vector<KeyedRecord>& alternative, bool gave_up)
       const CodeRange range = gave_up ? CodeRange::vacuous() : enclosed::code_range(FormatInfo::float32, r.floats[k], {});
       const double width = gave_up ? 0 : static_cast<double>(r.floats[k].hi) - r.floats[k].lo,
                    scale = gave_up ? 0 : std::max(extents_[k], r.floats[k].magnitude());
-      add_field(differs(layout_.floats[k]), range, range.is_vacuous() || width > scale / 16, range.is_vacuous() || width > scale / 256);
+      add_field(layout_.float_fields[k], differs(layout_.floats[k]), range, width, range.is_vacuous() || width > scale / 16,
+                range.is_vacuous() || width > scale / 256);
     }
-    for (const std::size_t offset : layout_.words)
-      add_field(differs(offset), gave_up ? CodeRange::vacuous() : CodeRange{0, 0}, gave_up, gave_up);
+    for (std::size_t k = 0; k < layout_.words.size(); ++k)
+      add_field(layout_.word_fields[k], differs(layout_.words[k]), gave_up ? CodeRange::vacuous() : CodeRange{0, 0}, 0, gave_up, gave_up);
   }
 }
 
@@ -129,15 +130,27 @@ void FieldCounts::add_whole_record() {
   out_.elements += fields;
   out_.differing += fields;
   out_.failing += fields;
+  for (QuantityJudgement& q : out_.quantities) {
+    ++q.elements;
+    ++q.failing;
+  }
 }
 
-void FieldCounts::add_field(bool differs, const CodeRange& range, bool is_vacuous, bool is_loose) {
+void FieldCounts::add_failures(const std::vector<Failure>& failures) {
+  out_.failing += static_cast<std::int64_t>(failures.size());
+  for (const Failure& f : failures) {
+    widths_.add_failing(f.channel, value_distance(f.field_kind, f));
+    if (out_.worst.size() < OutputJudgement::max_failures) out_.worst.push_back(f);
+  }
+}
+
+void FieldCounts::add_field(int field, bool differs, const CodeRange& range, double width, bool is_vacuous, bool is_loose) {
   ++out_.elements;
   out_.differing += differs;
   out_.vacuous += is_vacuous;
   out_.unbounded += is_vacuous;
   out_.loose += is_loose;
-  widths_.add(range);
+  widths_.add(field, range, width, is_vacuous, is_loose);
 }
 
 }  // namespace rainref::judge

@@ -37,7 +37,7 @@ std::vector<Failure> not_numbers(const std::vector<capture::KeyedRecord>& record
 /// Counts fields: how many there are, how many differ, how well they are bounded.
 class FieldCounts {
  public:
-  /// `extents`: of each float's declared range. Whatever is referred to must outlive it.
+  /// `extents`: of each float's declared range. `out` has the fields' names. Whatever is referred to must outlive it.
   FieldCounts(const RecordTable& port, const RecordTable& expected, const RecordLayout& layout, std::vector<double> extents,
               OutputJudgement& out)
       : port_(port), expected_(expected), layout_(layout), extents_(std::move(extents)), out_(out) {}
@@ -46,11 +46,13 @@ class FieldCounts {
   void add(const std::vector<capture::KeyedRecord>& alternative, bool gave_up);
   /// Of a record that one list has and the other must not lack.
   void add_whole_record();
+  /// Of fields that were counted and are outside.
+  void add_failures(const std::vector<Failure>& failures);
   /// When all are counted.
-  void finish() { widths_.summarize(out_.median_width, out_.p99_width); }
+  void finish() { widths_.summarize(out_); }
 
  private:
-  void add_field(bool differs, const enclosed::CodeRange& range, bool is_vacuous, bool is_loose);
+  void add_field(int field, bool differs, const enclosed::CodeRange& range, double width, bool is_vacuous, bool is_loose);
 
   const RecordTable &port_, &expected_;
   const RecordLayout& layout_;

@@ -11,20 +11,32 @@ namespace rainref::judge {
 
 namespace fs = std::filesystem;
 
-void FileErrors::raise() const {
-  if (errors_.empty()) return;
+void FileFaults::require_files() const {
+  if (std::any_of(faults_.begin(), faults_.end(),
+                  [](const FileFault& f) { return f.code == ExitCode::usage || f.code == ExitCode::internal; }))
+    throw files_error(faults_);
+}
+
+Error files_error(const std::vector<FileFault>& faults) {
   constexpr std::size_t shown = 8;
   const auto rank = [](ExitCode code) {
     constexpr ExitCode order[] = {ExitCode::internal, ExitCode::io, ExitCode::usage, ExitCode::port_files, ExitCode::fail};
     return std::find(std::begin(order), std::end(order), code) - std::begin(order);
   };
-  std::vector<Error> all = errors_;
-  std::stable_sort(all.begin(), all.end(), [&](const Error& a, const Error& b) { return rank(a.code()) < rank(b.code()); });
-  if (all.size() == 1) throw Error(all.front());
+  std::vector<FileFault> all = faults;
+  std::stable_sort(all.begin(), all.end(), [&](const FileFault& a, const FileFault& b) { return rank(a.code) < rank(b.code); });
+  if (all.size() == 1) return {all.front().code, all.front().text};
   std::vector<std::string> first;
-  for (std::size_t i = 0; i < std::min(shown, all.size()); ++i) first.emplace_back(all[i].what());
+  for (std::size_t i = 0; i < std::min(shown, all.size()); ++i) first.push_back(all[i].text);
   const std::string more = all.size() > shown ? fmt::format("; and {} more", all.size() - shown) : "";
-  throw Error(all.front().code(), fmt::format("{} files are missing or cannot be used: {}{}", all.size(), fmt::join(first, "; "), more));
+  return {all.front().code, fmt::format("{} files are missing or cannot be used: {}{}", all.size(), fmt::join(first, "; "), more)};
+}
+
+std::string unusable_text(const std::vector<FileFault>& faults, const std::string& id) {
+  std::vector<std::string> buffers;
+  for (const FileFault& f : faults)
+    if (f.id == id) buffers.push_back(f.output);
+  return fmt::format("{}", fmt::join(buffers, ", "));
 }
 
 PortFiles::PortFiles(fs::path folder) : folder_(std::move(folder)) {

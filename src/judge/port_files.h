@@ -1,4 +1,4 @@
-// The files of a port, and one error for all that is wrong with them.
+// The files of a port, and all that is wrong with them.
 #pragma once
 
 #include <cstdint>
@@ -7,29 +7,38 @@
 #include <vector>
 
 #include "capture/array.h"
+#include "judge/verdict.h"
 #include "port_dump/port_info.h"
 #include "rainref/error.h"
 
 namespace rainref::judge {
 
-/// What is wrong with some files: gathered, so that whoever has to mend them sees all of it at once.
-class FileErrors {
+/// What is wrong with some files: gathered, so that whoever has to mend them sees all of it at once, and the rest is judged.
+class FileFaults {
  public:
-  /// Runs `read`; an Error is kept.
+  /// Runs `read`; an Error is kept. Whether there was none.
   template <class Read>
-  void attempt(const Read& read) {
+  bool attempt(const std::string& pass, const std::string& id, const std::string& output, const Read& read) {
     try {
       read();
+      return true;
     } catch (const Error& e) {
-      errors_.push_back(e);
+      faults_.push_back({e.code(), pass, id, output, e.what()});
+      return false;
     }
   }
-  /// Throws an Error with the most serious code of all, naming the first few; nothing when there is none.
-  void raise() const;
+  const std::vector<FileFault>& all() const { return faults_; }
+  /// Throws when one of them is no fault of a file alone (the pack's own is among them, a defect): nothing is judged then.
+  void require_files() const;
 
  private:
-  std::vector<Error> errors_;
+  std::vector<FileFault> faults_;
 };
+
+/// All of them as one Error with the most serious code, naming the first few. There is at least one.
+Error files_error(const std::vector<FileFault>& faults);
+/// "out.colour, out.mask": the buffers of one run whose files cannot be used; "" where there are none.
+std::string unusable_text(const std::vector<FileFault>& faults, const std::string& id);
 
 /// A port's folder.
 class PortFiles {

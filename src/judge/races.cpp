@@ -30,21 +30,23 @@ std::string Race::text() const {
                      differing, of, records ? "records" : "elements");
 }
 
-std::vector<Race> find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::string& only) {
+Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes) {
   std::vector<PortFiles> ports;
   for (const std::filesystem::path& folder : runs) ports.emplace_back(folder);
   std::vector<Race> races;
-  FileErrors errors;
+  FileFaults first_run, later_runs;
   for (const capture::PackCase& entry : pack.cases) {
-    if (!only.empty() && entry.pass != only) continue;
+    if (std::find(passes.begin(), passes.end(), entry.pass) == passes.end()) continue;
     for (const capture::PackOutput& output : entry.outputs) {
       if (output.rules.judge == capture::Judge::input_only) continue;
       Array shape = output.shape;
       shape.levels.resize(output.levels.size());
       std::vector<Array> found;
-      errors.attempt([&] {
-        for (PortFiles& port : ports) found.push_back(port.read(entry.id, "out." + output.name, shape));
-      });
+      for (PortFiles& port : ports) {
+        FileFaults& faults = &port == &ports.front() ? first_run : later_runs;
+        const std::string stem = "out." + output.name;
+        if (!faults.attempt(entry.pass, entry.id, stem, [&] { found.push_back(port.read(entry.id, stem, shape)); }) && found.empty()) break;
+      }
       if (found.size() < ports.size()) continue;
       const std::size_t size = shape.is_records ? shape.element_bytes() : static_cast<std::size_t>(info(shape.format).channel_bytes);
       std::size_t elements = 0;
@@ -69,8 +71,7 @@ std::vector<Race> find_races(const capture::Pack& pack, const std::vector<std::f
       races.push_back(race);
     }
   }
-  errors.raise();
-  return races;
+  return {races, later_runs.all()};
 }
 
 void add_races(const std::vector<Race>& races, PortJudgement& judgement) {

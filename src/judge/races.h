@@ -19,9 +19,15 @@ struct Race {
   std::string text() const;
 };
 
-/// Compares what runs of a port wrote, each in a folder of its own, bit for bit, for all outputs that are judged. Throws
-/// Error(port_files) as validate does.
-std::vector<Race> find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::string& only);
+/// What runs of a port tell.
+struct Races {
+  std::vector<Race> found;
+  std::vector<FileFault> files;  ///< of the runs after the first: those of the first are validate's
+};
+
+/// Compares what runs of a port wrote, each in a folder of its own, bit for bit, for all outputs of these passes that are
+/// judged and that the first run has.
+Races find_races(const capture::Pack& pack, const std::vector<std::filesystem::path>& runs, const std::vector<std::string>& passes);
 
 /// Makes each pass with a race fail; concludes anew.
 void add_races(const std::vector<Race>& races, PortJudgement& judgement);

@@ -34,6 +34,7 @@ struct Run {
   const PlannedRun* plan = nullptr;  ///< null: the plan does not know it
   const PlannedRun* like = nullptr;  ///< what says how its buffers are
   bool is_dumped = false;
+  std::string unusable = "";  ///< buffers whose files cannot be used
   auto order() const { return std::tie(frame, step, level); }
 };
 
@@ -78,6 +79,7 @@ class Shadow {
     result.passes =
         judge_passes(tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())});
     for (PassJudgement& judged : result.passes) settle(judged);
+    result.files = faults_.all();
     set_first_bad(result);
     result.notes.insert(result.notes.end(), files_.notes().begin(), files_.notes().end());
     for (const Tally* tally : {&differing_, &unchecked_})
@@ -92,7 +94,7 @@ class Shadow {
   }
   /// The name of an input's mip level in DumpedContents.
   static std::string input_level(const capture::CaseInput& input, std::size_t level) { return fmt::format("in.{}.L{}", input.name, level); }
-  bool is_wanted(const std::string& pass) const { return options_.only.empty() || pass == options_.only; }
+  bool is_wanted(const std::string& pass) const { return options_.wants(pass); }
 
   const PlannedRun* like(const DumpedRun& d) const {
     const PlannedRun* example = plan_.example(d.pass);
@@ -164,29 +166,30 @@ class Shadow {
     throw Error(ExitCode::internal, fmt::format("no buffer {}", buffer));
   }
 
-  /// Reads every file once: whatever is wrong with them is one error, before anything is judged. Of passes that are not
-  /// wanted only what can be had is read, for the links.
+  /// Reads every file once, before anything is judged. Of passes that are not wanted only what can be had is read, for the
+  /// links.
   void read_all() {
-    FileErrors errors;
-    for (const Run& run : runs_) {
+    for (Run& run : runs_) {
       if (!run.is_dumped) continue;
-      FileErrors unwanted;
-      FileErrors& own = is_wanted(run.pass) ? errors : unwanted;
-      own.attempt([&] { read_uniforms(run); });
+      FileFaults unwanted;
+      FileFaults& own = is_wanted(run.pass) ? faults_ : unwanted;
+      own.attempt(run.pass, run.id, "uniforms", [&] { read_uniforms(run); });
       for (std::size_t i = 0; i < run.like->c.inputs.size(); ++i) {
-        own.attempt([&] {
+        const capture::CaseInput& input = run.like->c.inputs[i];
+        own.attempt(run.pass, run.id, "in." + input.name, [&] {
           const Array array = read_input(run, i);
-          const capture::CaseInput& input = run.like->c.inputs[i];
           contents_.add(fmt::format("{}/in.{}", run.id, input.name), content_hash(array));
           for (std::size_t level = 0; array.levels.size() > 1 && level < array.levels.size(); ++level)
             contents_.add(fmt::format("{}/{}", run.id, input_level(input, level)), content_hash(level_of(array, static_cast<int>(level))));
         });
       }
-      for (std::size_t o = 0; o < run.like->c.outputs.size(); ++o)
-        own.attempt(
-            [&] { contents_.add(fmt::format("{}/out.{}", run.id, run.like->c.outputs[o].name), content_hash(read_output(run, o))); });
+      for (std::size_t o = 0; o < run.like->c.outputs.size(); ++o) {
+        const std::string stem = "out." + run.like->c.outputs[o].name;
+        own.attempt(run.pass, run.id, stem, [&] { contents_.add(run.id + "/" + stem, content_hash(read_output(run, o))); });
+      }
+      run.unusable = unusable_text(own.all(), run.id);
     }
-    errors.raise();
+    faults_.require_files();
   }
 
   // ---- a pass --------------------------------------------------------------------------------------------------------
@@ -214,6 +217,7 @@ class Shadow {
   /// What the passes before it mean for a pass; they come in the order of execution.
   void settle(PassJudgement& judged) {
     if (judged.cases.empty()) {
+      judged.status = Status::not_judged;
       judged.reason = "the port has dumped no run of this pass";
       return;
     }
@@ -230,7 +234,13 @@ class Shadow {
     out.c.step = run.step;
     out.c.level = run.level;
     if (!run.is_dumped) {
+      out.has_no_files = true;
       out.untested = "the port has not dumped this run";
+      return out;
+    }
+    if (!run.unusable.empty()) {
+      out.has_no_files = true;
+      out.untested = fmt::format("{}: missing, or cannot be used", run.unusable);
       return out;
     }
     out.c.uniforms = read_uniforms(run);
@@ -337,6 +347,7 @@ class Shadow {
   PortFiles files_;
   const ValidateOptions& options_;
   std::vector<Run> runs_;
+  FileFaults faults_;
   DumpedContents contents_;
   Tally differing_, unchecked_;
   std::set<std::string> loaded_, links_broken_, not_good_;

@@ -19,10 +19,10 @@ namespace rainref::judge {
 /// A run fails when an output lies outside what the profile allows for its inputs, when an input is not the output that
 /// the graph names, or when its uniforms cannot be its own (a number that is none, another frame's time, another run's
 /// counter). Other uniforms and the host's inputs that differ from the plan's are notes. A planned run that was not
-/// dumped is UNTESTED. Outputs of Judge::input_only are taken as they are.
+/// dumped is not judged. Outputs of Judge::input_only are taken as they are.
 ///
-/// Throws Error(port_files) when files are missing or cannot be what they should be, naming all of them, and for a run that
-/// the plan does not know.
+/// Files that are missing or cannot be what they should be are in PortJudgement::files; the runs that need them are not
+/// judged, all others are. Throws Error(port_files) for a run that the plan does not know.
 PortJudgement shadow(const ShadowPlan& plan, const std::filesystem::path& folder, const std::vector<DumpedRun>& dumped,
                      const ValidateOptions& options);
 

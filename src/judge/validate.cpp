@@ -1,6 +1,7 @@
 #include "judge/validate.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -47,35 +48,78 @@ std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
   return out;
 }
 
-/// Reads every file of the port once: whatever is wrong with them is one error, before anything is judged.
-void check_files(const Pack& pack, const std::string& only, PortFiles& port) {
-  FileErrors errors;
-  const auto is_wanted = [&](const PackCase& c) {
-    return (only.empty() || c.pass == only) &&
-           std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.rules.judge != capture::Judge::input_only; });
-  };
+bool is_judged(const capture::PackOutput& output) { return output.rules.judge != capture::Judge::input_only; }
+bool is_judged(const PackCase& c) {
+  return std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return is_judged(o); });
+}
+
+/// What there is of a port's outputs.
+struct FoundFiles {
+  std::set<std::string> absent;  ///< passes without any file, where these may be
+  FileFaults faults;
+};
+
+/// Whether anything like an output lies in the folder of a pass, under whatever run: a name that is wrong is no reason to
+/// believe that nothing was meant.
+bool has_output(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) return false;
+  for (std::filesystem::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    if (i->path().filename().string().starts_with("out")) return true;
+    if (i.depth() > 0) i.disable_recursion_pending();
+  }
+  return static_cast<bool>(error);  // what cannot be looked into is refused later, by name
+}
+
+/// Passes whose outputs are judged and of which the port has no file.
+std::set<std::string> passes_without_files(const Pack& pack, const PortFiles& port) {
+  std::set<std::string> judged, found;
+  for (const PackCase& c : pack.cases) {
+    if (!is_judged(c)) continue;
+    judged.insert(c.pass);
+    if (!found.contains(c.pass) && has_output((port.folder() / c.id).parent_path())) found.insert(c.pass);
+  }
+  for (const std::string& pass : found) judged.erase(pass);
+  return judged;
+}
+
+/// Reads every file of the port once, before anything is judged.
+FoundFiles check_files(const Pack& pack, const ValidateOptions& options, PortFiles& port) {
+  FoundFiles found;
+  if (options.partial) found.absent = passes_without_files(pack, port);
   // Of a folder where nothing is one sentence says more than one for each file.
-  const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), is_wanted);
+  const auto may_be_there = [&](const PackCase& c) { return is_judged(c) && (options.partial || options.wants(c.pass)); };
+  const auto first = std::find_if(pack.cases.begin(), pack.cases.end(), may_be_there);
   std::error_code ignored;
   if (first != pack.cases.end() && std::none_of(pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) {
-        return is_wanted(c) && std::filesystem::is_directory(port.folder() / c.id, ignored);
+        return may_be_there(c) && !found.absent.contains(c.pass) && std::filesystem::is_directory(port.folder() / c.id, ignored);
       }))
     throw Error(ExitCode::port_files,
                 fmt::format("{}: expected folders such as {} with the port's outputs, found none", port.folder().string(), first->id));
   for (const PackCase& entry : pack.cases) {
-    if (!only.empty() && entry.pass != only) continue;
+    if (!options.wants(entry.pass) || found.absent.contains(entry.pass)) continue;
     for (const capture::PackOutput& output : entry.outputs) {
-      if (output.rules.judge == capture::Judge::input_only) continue;
+      if (!is_judged(output)) continue;
       capture::Array shape = output.shape;
       shape.levels.resize(output.levels.size());
-      errors.attempt([&] {
-        require_apart(pack.folder() / output.levels.front().path,
-                      port_dump::find_dump_file(port.folder() / entry.id, "out." + output.name).path);
-        port.read(entry.id, "out." + output.name, shape);
+      const std::string stem = "out." + output.name;
+      found.faults.attempt(entry.pass, entry.id, stem, [&] {
+        require_apart(pack.folder() / output.levels.front().path, port_dump::find_dump_file(port.folder() / entry.id, stem).path);
+        port.read(entry.id, stem, shape);
       });
     }
   }
-  errors.raise();
+  found.faults.require_files();
+  return found;
+}
+
+PassJudgement without_files(const PackPass& pass) {
+  PassJudgement out;
+  out.pass = pass.name;
+  out.formula = pass.formula;
+  out.status = Status::not_judged;
+  out.reason = "the port has no files of this pass";
+  return out;
 }
 
 }  // namespace
@@ -93,13 +137,13 @@ std::optional<HalfMode> declared_mode(const port_dump::PortInfo& port) {
 
 PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, const ValidateOptions& options) {
   const enclosed::Profile& chosen = profile(options.profile);
-  if (!options.only.empty()) static_cast<void>(pack.pass(options.only));
+  for (const std::string& pass : options.only) static_cast<void>(pack.pass(pass));
   if (!pack.with_inputs)
     throw Error(ExitCode::usage, fmt::format("{}: a capture without inputs cannot judge a port; make a pack", pack.folder().string()));
   check_pack(pack);
   require_apart(pack.folder(), folder);
   PortFiles port(folder);
-  check_files(pack, options.only, port);
+  const FoundFiles found = check_files(pack, options, port);
 
   PortJudgement result;
   result.pack = pack.folder().string();
@@ -112,9 +156,11 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
 
   const JudgeOptions how{&chosen, chosen.reference ? nullptr : &profile("typical"), options.executor, declared_mode(port.info())};
   int done = 0;
+  const auto wanted = static_cast<int>(std::count_if(
+      pack.cases.begin(), pack.cases.end(), [&](const PackCase& c) { return options.wants(c.pass) && !found.absent.contains(c.pass); }));
   std::vector<PassTask> tasks;
   for (const PackPass& pass : pack.passes) {
-    if (!options.only.empty() && pass.name != options.only) continue;
+    if (!options.wants(pass.name) || found.absent.contains(pass.name)) continue;
     std::vector<const PackCase*> cases;
     for (const PackCase& entry : pack.cases)
       if (entry.pass == pass.name) cases.push_back(&entry);
@@ -125,6 +171,11 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     runs.load = [&, cases](std::size_t k) {
       PortRun run;
       run.c = read_case(pack, *cases[k]);
+      if (const std::string unusable = unusable_text(found.faults.all(), cases[k]->id); !unusable.empty()) {
+        run.has_no_files = true;
+        run.untested = fmt::format("{}: missing, or cannot be used", unusable);
+        return run;
+      }
       run.stored = read_outputs(port, run.c);
       return run;
     };
@@ -132,11 +183,15 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
       if (model) require_reference(pack, run.c, *model, *options.executor);
     };
     runs.done_one = [&] {
-      if (options.progress) options.progress(++done, static_cast<int>(pack.cases.size()));
+      if (options.progress) options.progress(++done, wanted);
     };
     tasks.push_back({&pass, binder(pack.effect, pass.name), std::move(runs)});
   }
-  result.passes = judge_passes(tasks, how);
+  std::vector<PassJudgement> judged = judge_passes(tasks, how);
+  auto next = judged.begin();
+  for (const PackPass& pass : pack.passes)
+    if (options.wants(pass.name)) result.passes.push_back(found.absent.contains(pass.name) ? without_files(pass) : std::move(*next++));
+  result.files = found.faults.all();
   result.notes = port.notes();
   conclude(result);
   return result;

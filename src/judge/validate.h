@@ -1,6 +1,7 @@
 // From a pack and a port's files to a judgement.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -17,15 +18,19 @@ namespace rainref::judge {
 
 struct ValidateOptions {
   std::string profile = "vulkan";
-  std::string only;  ///< judge this pass alone; "": all
+  std::vector<std::string> only;  ///< judge these passes alone; empty: all
+  bool partial = false;           ///< a pass without any file of the port is not judged, and its files are not missing
   const parallel::Executor* executor = nullptr;
   std::function<void(int done, int of)> progress;  ///< after each case; may be null
   Explain explain;                                 ///< asked about each pass that fails; may be null
+
+  bool wants(const std::string& pass) const { return only.empty() || std::find(only.begin(), only.end(), pass) != only.end(); }
 };
 
-/// Judges the outputs in `port`, laid out as the pack. Throws Error(port_files) when files are missing or cannot be what
-/// they should be, naming all of them, and when the pack's expected outputs are not this version's; Error(usage) when
-/// `port` is the pack's own folder.
+/// Judges the outputs in `port`, laid out as the pack. Files that are missing or cannot be what they should be are in
+/// PortJudgement::files; the cases that need them are not judged, all others are. Throws Error(port_files) when there is
+/// nothing of the pack in the folder at all, and when the pack's expected outputs are not this version's; Error(usage) when
+/// `port` or a file in it is the pack's own.
 PortJudgement validate(const capture::Pack& pack, const std::filesystem::path& port, const ValidateOptions& options);
 
 /// What the port says of itself, for reports, and of its stores to binary16.

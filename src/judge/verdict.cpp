@@ -1,9 +1,12 @@
 #include "judge/verdict.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace rainref::judge {
 
 const char* name(Status status) {
-  constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA"};
+  constexpr const char* names[] = {"PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA", "NOT JUDGED"};
   return names[static_cast<int>(status)];
 }
 const char* name(Counted counted) {
@@ -16,7 +19,9 @@ const char* name(HalfMode mode) {
 }
 Status worse(Status a, Status b) {
   const auto rank = [](Status s) {
-    return s == Status::fail ? 4 : s == Status::untested ? 3 : s == Status::known ? 2 : s == Status::warn ? 1 : s == Status::pass ? 0 : -1;
+    constexpr Status ascending[] = {Status::data,     Status::pass,       Status::warn, Status::known,
+                                    Status::untested, Status::not_judged, Status::fail};
+    return std::find(std::begin(ascending), std::end(ascending), s) - std::begin(ascending);
   };
   return rank(a) >= rank(b) ? a : b;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rainref/error.h"
 #include "rainref/image.h"
 
 namespace rainref::judge {
@@ -16,11 +17,13 @@ enum class Status : std::uint8_t {
   fail,      ///< an element outside, a NaN, a crash
   untested,  ///< nothing was judged, or too much of it was vacuous
   known,     ///< fails, and the baseline says why it may
-  data       ///< taken as it is, because no GPU can reproduce it: neither judged nor a failure
+  data,      ///< taken as it is, because no GPU can reproduce it: neither judged nor a failure
+  /// The port gave no files that could be judged.
+  not_judged
 };
-/// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA".
+/// "PASS", "WARN", "FAIL", "UNTESTED", "KNOWN", "DATA", "NOT JUDGED".
 const char* name(Status status);
-/// The worse: fail over untested over known over warn over pass over data.
+/// The worse: fail over not judged over untested over known over warn over pass over data.
 Status worse(Status a, Status b);
 
 /// How a device rounds its stores to binary16, voted over all elements.
@@ -51,6 +54,17 @@ enum class Counted : std::uint8_t {
 /// "values", "texels", "fields", "records".
 const char* name(Counted counted);
 
+/// What has one name and one unit in an output: a channel of its texels, or a field of its records.
+struct QuantityJudgement {
+  std::string name, unit;     ///< "x" to "w", or "velocity.y"; "1" is the unit of pure numbers
+  double extent = 0;          ///< of its declared range, in its unit; 0: it has none
+  std::int64_t elements = 0;  ///< of these `free` ones no bound was asked for
+  std::int64_t failing = 0, vacuous = 0, loose = 0, free = 0;
+  double median_codes = 0, p99_codes = 0;  ///< of its envelopes, as OutputJudgement::median_width
+  double median_width = 0, p99_width = 0;  ///< the same in its unit
+  double farthest = 0;                     ///< an element outside from what is accepted, in its unit; infinity where that has no end
+};
+
 /// One output of a pass over one case.
 struct OutputJudgement {
   std::string name;
@@ -76,6 +90,8 @@ struct OutputJudgement {
   static constexpr std::size_t max_failures = 100;
   /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical or rearranged), 3 (outside); row 0 first. Empty for records.
   std::vector<std::uint8_t> map;
+  /// In order of channels, or of fields without the id.
+  std::vector<QuantityJudgement> quantities;
 };
 
 /// One case of a pass.
@@ -116,6 +132,13 @@ struct PassJudgement {
   std::string null_port;      ///< a port that does nothing and passes, which makes the pass UNTESTED: "zeros"; "": none
 };
 
+/// A file of the port that is missing or cannot be used.
+struct FileFault {
+  ExitCode code = ExitCode::port_files;
+  std::string pass, id, output;  ///< of the case, and the buffer that the file is to hold
+  std::string text;              ///< the file, what was expected and what was found
+};
+
 struct PortJudgement {
   std::string pack, port, profile, effect, variant, scene;
   std::string api, device, driver;
@@ -124,6 +147,7 @@ struct PortJudgement {
   std::string reason;
   std::string first_bad_pass;         ///< in the order of dataflow
   std::vector<PassJudgement> passes;  ///< in the order of execution
+  std::vector<FileFault> files;       ///< in the order of execution; the cases that need them are not judged
   std::vector<std::string> notes;
   std::vector<std::string> stale;  ///< what the baseline lists and did not fail: each a sentence, each fails the run
 };

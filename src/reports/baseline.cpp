@@ -141,10 +141,11 @@ void Baseline::apply(PortJudgement& j) const {
   }
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const bool judged = std::any_of(j.passes.begin(), j.passes.end(), [&](const PassJudgement& p) {
-      return p.pass == entries_[k].pass &&
-             (entries_[k].id.empty() ? !p.cases.empty() : std::any_of(p.cases.begin(), p.cases.end(), [&](const CaseJudgement& c) {
-               return c.id == entries_[k].id;
-             }));
+      if (p.pass != entries_[k].pass) return false;
+      const std::string& id = entries_[k].id;
+      const auto was_judged = [&](const CaseJudgement& c) { return c.status != Status::not_judged; };
+      return id.empty() ? !p.cases.empty() && std::all_of(p.cases.begin(), p.cases.end(), was_judged)
+                        : std::any_of(p.cases.begin(), p.cases.end(), [&](const CaseJudgement& c) { return c.id == id && was_judged(c); });
     });
     if (!used[k] && judged)
       j.stale.push_back(

@@ -1,10 +1,14 @@
 #include "reports/figures.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "image/code_range.h"
+#include "judge/port_files.h"
+#include "judge/quantities.h"
 
 namespace rainref::reports {
 namespace {
@@ -17,20 +21,64 @@ using judge::HalfMode;
 using judge::OutputJudgement;
 using judge::PassJudgement;
 using judge::PortJudgement;
+using judge::QuantityJudgement;
 using judge::Status;
+
+constexpr double no_bound = 4e9;
+/// More codes than this are more than an eighth of a float's size, mostly because they span 0: they say nothing.
+constexpr double most_codes = 0x1p20;
+
+bool is_vacuous(const Width& w) { return w.is_vacuous || w.codes >= no_bound; }
+const Width& wider(const Width& a, const Width& b) {
+  if (is_vacuous(a) != is_vacuous(b)) return is_vacuous(a) ? a : b;
+  return b.codes > a.codes ? b : a;
+}
+
+/// Whether so many vacuous envelopes reach what a share of them stays below.
+bool reaches(std::int64_t vacuous, std::int64_t of, double share) {
+  return vacuous > 0 && static_cast<double>(vacuous) > (1 - share) * static_cast<double>(of);
+}
+Width width_of(const QuantityJudgement& q, double codes, double value, double share) {
+  return {codes, reaches(q.vacuous, q.elements - q.free, share), value, q.unit};
+}
+Width width_of(const OutputJudgement& o, double codes, double share, Width (*of_quantity)(const QuantityJudgement&)) {
+  Width w{codes, reaches(o.vacuous, o.elements - o.free, share), -1, ""};
+  if (codes < most_codes || is_vacuous(w)) return w;
+  for (const QuantityJudgement& q : o.quantities)
+    if (const Width own = of_quantity(q); w.value < 0 || own.codes > w.codes) w = {own.codes, false, own.value, own.unit};
+  return w;
+}
+
+/// How far off a quantity is, as a share of its declared range; of one without a range infinitely far.
+double share_off(const QuantityJudgement& q) { return q.extent > 0 ? q.farthest / q.extent : std::numeric_limits<double>::infinity(); }
+bool fails_worse(const QuantityJudgement& a, const QuantityJudgement& b) {
+  return std::pair(share_off(a), a.failing) > std::pair(share_off(b), b.failing);
+}
 
 void add(Figures& to, const Figures& f) {
   for (auto sum : {&Figures::invocations, &Figures::failing, &Figures::ambiguous, &Figures::other_branch, &Figures::gave_up,
                    &Figures::elements, &Figures::outside, &Figures::differing, &Figures::vacuous, &Figures::loose, &Figures::atypical,
                    &Figures::free, &Figures::typical, &Figures::unbounded, &Figures::rearranged})
     to.*sum += f.*sum;
-  to.median_width = std::max(to.median_width, f.median_width);
-  to.p99_width = std::max(to.p99_width, f.p99_width);
+  to.median_width = wider(to.median_width, f.median_width);
+  to.p99_width = wider(to.p99_width, f.p99_width);
+}
+
+/// What a failure is of; null where that has no name.
+const QuantityJudgement* quantity_at(const OutputJudgement& o, const Failure& f) {
+  const auto found = std::find_if(o.quantities.begin(), o.quantities.end(),
+                                  [&](const QuantityJudgement& q) { return q.name == (o.records ? f.field : channel_name(f.channel)); });
+  return found == o.quantities.end() ? nullptr : &*found;
 }
 
 const char* negative_zero_text(FormatInfo::Kind kind) { return kind == FormatInfo::float16 ? "-0 (0x8000)" : "-0 (0x80000000)"; }
 
 }  // namespace
+
+Width median_width(const QuantityJudgement& q) { return width_of(q, q.median_codes, q.median_width, 0.5); }
+Width p99_width(const QuantityJudgement& q) { return width_of(q, q.p99_codes, q.p99_width, 0.99); }
+Width median_width(const OutputJudgement& o) { return width_of(o, o.median_width, 0.5, median_width); }
+Width p99_width(const OutputJudgement& o) { return width_of(o, o.p99_width, 0.99, p99_width); }
 
 Figures figures_of(const OutputJudgement& o) {
   Figures f;
@@ -44,8 +92,8 @@ Figures figures_of(const OutputJudgement& o) {
   f.typical = o.typical;
   f.unbounded = o.unbounded;
   f.rearranged = o.rearranged;
-  f.median_width = o.median_width;
-  f.p99_width = o.p99_width;
+  f.median_width = median_width(o);
+  f.p99_width = p99_width(o);
   return f;
 }
 Figures figures_of(const CaseJudgement& c) {
@@ -70,7 +118,15 @@ std::string share_text(std::int64_t part, std::int64_t of) {
   if (part >= of) return "100 %";
   return fmt::format("{:.2f} %", std::clamp(100.0 * static_cast<double>(part) / static_cast<double>(of), 0.01, 99.99));
 }
-std::string width_text(double codes) { return codes >= 4e9 ? "none" : fmt::format("{:.0f}", codes); }
+std::string quantity_text(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}{}", value, unit.empty() || unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+}
+std::string in_unit(const Width& w) { return is_vacuous(w) ? "vacuous" : quantity_text(w.value, w.unit); }
+std::string width_text(const Width& w) {
+  if (is_vacuous(w)) return "vacuous";
+  if (w.codes >= most_codes && w.value >= 0) return quantity_text(w.value, w.unit);
+  return fmt::format("{:.0f} code{}", w.codes, w.codes == 1 ? "" : "s");
+}
 std::string shape_text(const OutputJudgement& o) {
   const std::int64_t records = o.counted == Counted::fields ? o.width : o.elements;
   return o.records ? fmt::format("{} record{}", records, records == 1 ? "" : "s")
@@ -94,7 +150,48 @@ FailureText failure_text(const OutputJudgement& o, const Failure& f) {
                : f.low == f.high                      ? enclosed::code_text(kind, f.low)
                                  : fmt::format("{} to {}", enclosed::code_text(kind, f.low), enclosed::code_text(kind, f.high));
   t.distance = f.not_a_number ? "is not a number" : fmt::format("off by {} code{}", f.distance, f.distance == 1 ? "" : "s");
+  const QuantityJudgement* quantity = quantity_at(o, f);
+  const double value = judge::value_distance(kind, f);
+  if (kind == FormatInfo::uint32 || !(value <= std::numeric_limits<double>::max()) || value == 0) return t;
+  t.value = quantity_text(value, quantity ? quantity->unit : "");
+  t.distance += fmt::format(" ({})", t.value);
   return t;
+}
+
+const QuantityJudgement* worst_quantity(const OutputJudgement& o) {
+  const QuantityJudgement* worst = nullptr;
+  for (const QuantityJudgement& q : o.quantities)
+    if (q.failing > 0 && (!worst || fails_worse(q, *worst))) worst = &q;
+  return worst;
+}
+bool fails_worse(const OutputJudgement& a, const OutputJudgement& b) {
+  const QuantityJudgement *of_a = worst_quantity(a), *of_b = worst_quantity(b);
+  if (of_a && of_b) return fails_worse(*of_a, *of_b);
+  return !of_b && (of_a || a.failing > b.failing);
+}
+
+std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
+  std::vector<QuantitiesOfOutput> all;
+  for (const CaseJudgement& c : p.cases) {
+    for (const OutputJudgement& o : c.outputs) {
+      auto found = std::find_if(all.begin(), all.end(), [&](const QuantitiesOfOutput& q) { return q.output == o.name; });
+      if (found == all.end()) {
+        all.push_back({o.name, o.counted, o.quantities});
+        continue;
+      }
+      for (std::size_t k = 0; k < std::min(found->quantities.size(), o.quantities.size()); ++k) {
+        QuantityJudgement& to = found->quantities[k];
+        const QuantityJudgement& from = o.quantities[k];
+        for (auto count : {&QuantityJudgement::elements, &QuantityJudgement::failing, &QuantityJudgement::vacuous,
+                           &QuantityJudgement::loose, &QuantityJudgement::free})
+          to.*count += from.*count;
+        for (auto figure : {&QuantityJudgement::median_codes, &QuantityJudgement::p99_codes, &QuantityJudgement::median_width,
+                            &QuantityJudgement::p99_width, &QuantityJudgement::farthest})
+          to.*figure = std::max(to.*figure, from.*figure);
+      }
+    }
+  }
+  return all;
 }
 
 std::string cause_text(const Cause& c) {
@@ -118,18 +215,25 @@ std::string half_text(const PassJudgement& p) {
                      either);
 }
 
+std::vector<std::string> not_judged(const PortJudgement& j) {
+  std::vector<std::string> out;
+  for (const PassJudgement& p : j.passes)
+    if (p.status == Status::not_judged) out.push_back(p.pass);
+  return out;
+}
 bool forgives_untested(const PortJudgement& j, bool allow_untested) {
   return allow_untested && std::any_of(j.passes.begin(), j.passes.end(),
                                        [](const PassJudgement& p) { return p.status == Status::pass || p.status == Status::warn; });
 }
 int exit_code(const PortJudgement& j, bool allow_untested) {
+  if (!j.files.empty()) return static_cast<int>(judge::files_error(j.files).code());
   if (j.status == Status::fail) return 1;
   return j.status == Status::untested && !forgives_untested(j, allow_untested) ? 1 : 0;
 }
 
 std::string count_text(const PortJudgement& j) {
   std::string out;
-  for (const Status s : {Status::fail, Status::untested, Status::known, Status::warn, Status::pass, Status::data}) {
+  for (const Status s : {Status::fail, Status::not_judged, Status::untested, Status::known, Status::warn, Status::pass, Status::data}) {
     const auto count = std::count_if(j.passes.begin(), j.passes.end(), [&](const PassJudgement& p) { return p.status == s; });
     if (count > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, name(s));
   }

@@ -4,17 +4,32 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "judge/verdict.h"
 
 namespace rainref::reports {
+
+/// How wide envelopes are.
+struct Width {
+  double codes = 0;         ///< accepted besides the first; 4e9 and more: no bound
+  bool is_vacuous = false;  ///< wider than says anything, whatever its codes are
+  double value = -1;        ///< in the unit; below 0: not known
+  std::string unit = "";
+};
+/// What half of the envelopes, or 99 % of them, stay below: of an output that of its widest quantity where codes would say
+/// nothing.
+Width median_width(const judge::QuantityJudgement& quantity);
+Width p99_width(const judge::QuantityJudgement& quantity);
+Width median_width(const judge::OutputJudgement& output);
+Width p99_width(const judge::OutputJudgement& output);
 
 /// How much a verdict is worth: sums over outputs and cases, and the widest median and 99th percentile among them.
 struct Figures {
   std::int64_t invocations = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
   std::int64_t elements = 0, outside = 0, differing = 0, vacuous = 0, loose = 0, atypical = 0, free = 0;
   std::int64_t typical = 0, unbounded = 0, rearranged = 0;
-  double median_width = 0, p99_width = 0;
+  Width median_width, p99_width;
 
   /// Elements that a bound was asked for.
   std::int64_t judged() const { return elements - free; }
@@ -26,8 +41,12 @@ Figures figures_of(const judge::PassJudgement& pass);
 
 /// A share that never rounds to all or to nothing: "0 %", "0.01 %", "99.99 %", "100 %"; "-" of nothing.
 std::string share_text(std::int64_t part, std::int64_t of);
-/// A width in codes: "0", "3113", or "none" where there is no bound.
-std::string width_text(double codes);
+/// A number and its unit: "0.0021 m"; of pure numbers the number alone.
+std::string quantity_text(double value, const std::string& unit);
+/// A width of the quantity in its unit, or "vacuous".
+std::string in_unit(const Width& width);
+/// "11 codes"; "0.0021 m" where codes say nothing, because floats between -0.001 and 0.001 are two thousand million; "vacuous".
+std::string width_text(const Width& width);
 /// "rgba16f 35x21", "6 records".
 std::string shape_text(const judge::OutputJudgement& output);
 /// "elements", "fields" or "records": what its counts count.
@@ -41,9 +60,22 @@ std::string channel_name(int channel);
 struct FailureText {
   std::string place;  ///< "(12, 3).x", "record 4, amplitude", "record 4"
   std::string got, accepted, expected;
-  std::string distance;  ///< "off by 3 codes", "is not a number", "is in one of the lists alone"
+  std::string distance;    ///< "off by 3 codes (0.0029 m)", "is not a number", "is in one of the lists alone"
+  std::string value = "";  ///< of the distance alone, "0.0029 m"; "" where it has none, or codes are the values
 };
 FailureText failure_text(const judge::OutputJudgement& output, const judge::Failure& failure);
+
+/// The quantity that fails worst: by how far it is off in its declared range, then by how often; null where none fails.
+const judge::QuantityJudgement* worst_quantity(const judge::OutputJudgement& output);
+/// Whether one output fails worse than another, by the same measure.
+bool fails_worse(const judge::OutputJudgement& a, const judge::OutputJudgement& b);
+/// The quantities of one output over all cases of a pass: counts are sums, widths and distances the largest.
+struct QuantitiesOfOutput {
+  std::string output;
+  judge::Counted counted = judge::Counted::values;
+  std::vector<judge::QuantityJudgement> quantities;
+};
+std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 
 /// "upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
 std::string cause_text(const judge::Cause& cause);
@@ -57,9 +89,11 @@ bool has_unknown_cause(const judge::PassJudgement& pass);
 /// How stores to half were found to round, as a sentence; "" where the pass stores no half or the profile settles it.
 std::string half_text(const judge::PassJudgement& pass);
 
-/// Whether UNTESTED is no failure: it was asked for, and something passed.
+/// Passes that are NOT JUDGED, in the order of execution.
+std::vector<std::string> not_judged(const judge::PortJudgement& judgement);
+/// Whether UNTESTED and NOT JUDGED are no failure: that was asked for, and something passed.
 bool forgives_untested(const judge::PortJudgement& judgement, bool allow_untested);
-/// 0 for PASS, WARN and KNOWN, 1 for FAIL and for UNTESTED that is not forgiven.
+/// 0 for PASS, WARN and KNOWN, 1 for FAIL and for UNTESTED that is not forgiven; more where files cannot be used.
 int exit_code(const judge::PortJudgement& judgement, bool allow_untested);
 
 /// How many passes have each status, worst first: "1 FAIL, 4 PASS".

@@ -1,6 +1,7 @@
 #include "reports/html.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -14,14 +15,43 @@
 namespace rainref::reports {
 namespace {
 
+using judge::CaseJudgement;
 using judge::Cause;
+using judge::OutputJudgement;
 using judge::PassJudgement;
 using judge::PortJudgement;
+using judge::QuantityJudgement;
 using judge::Status;
 
 const PassJudgement* pass_named(const PortJudgement& j, const std::string& name) {
   const auto found = std::find_if(j.passes.begin(), j.passes.end(), [&](const PassJudgement& p) { return p.pass == name; });
   return found == j.passes.end() ? nullptr : &*found;
+}
+
+/// What of a pass fails worst, with the way there: the first thing to look at.
+std::string opening_html(const PassJudgement& p) {
+  const std::vector<const CaseJudgement*> cases = pictured_cases(p);
+  if (cases.empty() || cases[0]->failing == 0) return "";
+  const std::vector<const OutputJudgement*> outputs = shown_outputs(*cases[0]);
+  const QuantityJudgement* worst = outputs.empty() ? nullptr : worst_quantity(*outputs[0]);
+  if (!worst) return "";
+  const std::string off = worst->farthest <= std::numeric_limits<double>::max()
+                              ? fmt::format(", off by up to {}", quantity_text(worst->farthest, worst->unit))
+                              : ", not a finite number";
+  return fmt::format(" Worst in <a href=\"#{}\">{} of out.{}</a>{}.", marked_up(place_of(*cases[0], *outputs[0])),
+                     marked_up(outputs[0]->records ? worst->name : "channel " + worst->name), marked_up(outputs[0]->name), marked_up(off));
+}
+
+/// What could not be judged for want of files; "" where all was there.
+std::string open_html(const PortJudgement& j) {
+  std::string out;
+  if (!j.files.empty())
+    out +=
+        fmt::format(" <a href=\"#files\">{} file{}</a> missing, or cannot be used.", j.files.size(), j.files.size() == 1 ? " is" : "s are");
+  std::string passes;
+  for (const std::string& pass : not_judged(j))
+    passes += fmt::format("{0}<a href=\"#pass-{1}\">{1}</a>", passes.empty() ? "" : ", ", marked_up(pass));
+  return passes.empty() ? out : out + " Not judged: " + passes + ".";
 }
 
 /// The one sentence that a reader in a hurry needs.
@@ -47,6 +77,7 @@ std::string summary_html(const PortJudgement& j) {
       if (p.status == Status::fail && &p != bad)
         others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
     if (!others.empty()) others += ".";
+    out += opening_html(*bad);
     if (bad->causes.empty()) return out + (has_unknown_cause(*bad) ? " The cause is unknown." : "") + others;
     const Cause& c = bad->causes[0];
     return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing {} bit for bit, comes near {}).{}", marked_up(c.name),
@@ -67,9 +98,9 @@ std::string summary_html(const PortJudgement& j) {
   }
   std::string out;
   for (const PassJudgement& p : j.passes)
-    if (p.status == Status::untested)
+    if (p.status == Status::untested && !p.reason.empty())
       out += fmt::format("{0}<a href=\"#pass-{1}\">{1}</a>: {2}.", out.empty() ? "" : " ", marked_up(p.pass), marked_up(p.reason));
-  return "Too little could be judged. " + out;
+  return out.empty() ? "" : "Too little could be judged. " + out;
 }
 
 std::string facts_html(const PortJudgement& j) {
@@ -104,9 +135,9 @@ std::string overview_html(const PortJudgement& j) {
                       share_text(f.bounded(), f.judged()), width_text(f.median_width), width_text(f.p99_width),
                       fmt::format("{}", f.ambiguous), share_text(f.vacuous, f.judged()), share_text(f.loose, f.judged())});
   }
-  return table_html("figures",
-                    {"verdict", "pass", "invocations outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"},
-                    rows, 2);
+  return table_html(
+      "figures", {"verdict", "pass", "invocations outside", "differ", "bounded", "median width", "99 %", "ambiguous", "vacuous", "loose"},
+      rows, 2);
 }
 
 /// Everything between the banner and the help. Pictures of failing passes are drawn first, so that these get them.
@@ -121,6 +152,14 @@ std::string body_html(const PortJudgement& j, const PageSource& source) {
   }
   std::string out;
   for (const std::string& s : j.stale) out += fmt::format("<p class=\"stale\"><b>Baseline:</b> {}</p>\n", marked_up(s));
+  if (!j.files.empty()) {
+    out += "<section id=\"files\"><h2>Missing, or cannot be used</h2>\n<ul>\n";
+    for (const judge::FileFault& f : j.files) out += fmt::format("<li>{}</li>\n", marked_up(f.text));
+    out += "</ul></section>\n";
+  }
+  // What went wrong first stands first.
+  for (std::size_t k = 0; k < sections.size(); ++k)
+    if (j.passes[k].pass == j.first_bad_pass) out += sections[k];
   if (!j.notes.empty()) {
     out += "<section><h2>Notes</h2>\n<ul>\n";
     for (const std::string& n : j.notes) out += fmt::format("<li>{}</li>\n", marked_up(n));
@@ -130,7 +169,8 @@ std::string body_html(const PortJudgement& j, const PageSource& source) {
     out += "<section id=\"dataflow\"><h2>Dataflow</h2>\n" + graph_html(j, source.edges) + "</section>\n";
     out += "<section id=\"overview\"><h2>How much each verdict is worth</h2>\n" + overview_html(j) + "</section>\n";
   }
-  for (const std::string& s : sections) out += s;
+  for (std::size_t k = 0; k < sections.size(); ++k)
+    if (j.passes[k].pass != j.first_bad_pass) out += sections[k];
   return out;
 }
 
@@ -149,7 +189,7 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
 }  // namespace
 
 std::string status_class(Status status) {
-  constexpr const char* names[] = {"is-pass", "is-warn", "is-fail", "is-untested", "is-known", "is-data"};
+  constexpr const char* names[] = {"is-pass", "is-warn", "is-fail", "is-untested", "is-known", "is-data", "is-not-judged"};
   return names[static_cast<int>(status)];
 }
 std::string status_pill(Status status) { return fmt::format("<span class=\"pill {}\">{}</span>", status_class(status), name(status)); }
@@ -177,7 +217,7 @@ std::string report_html(const PortJudgement& j, const PageSource& source) {
                                                       {"js", std::string(detail::report_asset("report.js"))},
                                                       {"class", status_class(j.status)},
                                                       {"verdict", name(j.status)},
-                                                      {"summary", summary_html(j)},
+                                                      {"summary", summary_html(j) + open_html(j)},
                                                       {"counts", count_text(j)},
                                                       {"facts", facts_html(j)},
                                                       {"body", body_html(j, source)}});

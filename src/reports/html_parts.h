@@ -34,6 +34,11 @@ struct ViewerHtml {
 ViewerHtml viewer_html(const judge::CaseJudgement& c, const judge::OutputJudgement& output, const OutputBuffers& buffers,
                        bool with_pictures);
 
+/// Where the pictures and worst elements of an output stand on the page.
+std::string place_of(const judge::CaseJudgement& c, const judge::OutputJudgement& output);
+/// The outputs of a case that are shown, what fails worst first: of a case that fails, what fails; of another, all.
+std::vector<const judge::OutputJudgement*> shown_outputs(const judge::CaseJudgement& c);
+
 /// The cases of a pass that get pictures: see pictured_failures.
 std::vector<const judge::CaseJudgement*> pictured_cases(const judge::PassJudgement& pass);
 

@@ -1,5 +1,6 @@
 // The section of one pass.
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +17,7 @@ using judge::Cause;
 using judge::OutputJudgement;
 using judge::PassJudgement;
 using judge::PortJudgement;
+using judge::QuantityJudgement;
 using judge::Status;
 
 constexpr std::size_t shown_bad_rows = 200, shown_good_rows = 24;  // of the table of cases
@@ -65,8 +67,8 @@ std::vector<std::string> row_of(const CaseJudgement& c, const OutputJudgement& o
           fmt::format("{} of {}", o.failing, o.elements),
           share_text(f.differing, f.elements),
           share_text(f.bounded(), f.judged()),
-          width_text(o.median_width),
-          width_text(o.p99_width),
+          width_text(f.median_width),
+          width_text(f.p99_width),
           fmt::format("{}", c.ambiguous),
           share_text(f.vacuous, f.judged()),
           share_text(f.loose, f.judged()),
@@ -88,11 +90,43 @@ std::string cases_html(const PassJudgement& p) {
   }
   if (rows.empty()) return "";
   std::string out = table_html("figures",
-                               {"verdict", "output", "shape", "outside", "differ", "bounded", "codes wide", "99 %", "ambiguous", "vacuous",
-                                "loose", "atypical", "free"},
+                               {"verdict", "output", "shape", "outside", "differ", "bounded", "median width", "99 %", "ambiguous",
+                                "vacuous", "loose", "atypical", "free"},
                                rows, 3);
   if (skipped > 0) out += fmt::format("<p class=\"remark\">{} more outputs are not shown; --json lists all.</p>\n", skipped);
   return out;
+}
+
+/// A width without its unit, which has a column of its own.
+std::string value_text(Width w) {
+  w.unit.clear();
+  return in_unit(w);
+}
+
+/// Each channel and field in its own unit, over all cases.
+std::string quantities_html(const PassJudgement& p) {
+  std::vector<std::vector<std::string>> rows;
+  bool has_list = false;
+  for (const QuantitiesOfOutput& o : quantities_of(p)) {
+    has_list |= o.counted == judge::Counted::fields;
+    for (const QuantityJudgement& q : o.quantities) {
+      const std::int64_t judged = q.elements - q.free;
+      const bool is_list = o.counted == judge::Counted::fields || o.counted == judge::Counted::records;
+      rows.push_back({marked_up(o.output), marked_up(q.name), marked_up(q.unit), is_list ? "field" : "channel",
+                      fmt::format("{} of {}", q.failing, q.elements),
+                      q.failing == 0                                     ? ""
+                      : q.farthest <= std::numeric_limits<double>::max() ? quantity_text(q.farthest, "")
+                                                                         : "no number",
+                      judged == 0 ? "-" : value_text(median_width(q)), judged == 0 ? "-" : value_text(p99_width(q)),
+                      q.extent > 0 ? quantity_text(q.extent, "") : "-", share_text(q.vacuous, judged), share_text(q.loose, judged)});
+    }
+  }
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<details{}><summary>Each channel and field in its own unit</summary>\n{}</details>\n", has_list ? " open" : "",
+      table_html("figures",
+                 {"output", "name", "unit", "", "outside", "farthest off", "median width", "99 %", "declared range", "vacuous", "loose"},
+                 rows, 4));
 }
 
 /// Cases that fail, or could not be judged, for a reason that no output shows.
@@ -100,7 +134,8 @@ std::string broken_html(const PassJudgement& p) {
   std::string rows;
   std::size_t count = 0;
   for (const CaseJudgement& c : p.cases) {
-    if (!c.broken && (c.status != Status::untested || !c.outputs.empty())) continue;
+    const bool is_open = c.status == Status::untested || c.status == Status::not_judged;
+    if (!c.broken && (!is_open || !c.outputs.empty())) continue;
     if (++count <= shown_bad_rows) rows += fmt::format("<li>{} {}: {}</li>\n", status_pill(c.status), marked_up(c.id), marked_up(c.reason));
   }
   if (count > shown_bad_rows) rows += fmt::format("<li>{} more; --json lists all.</li>\n", count - shown_bad_rows);
@@ -128,7 +163,7 @@ std::vector<const CaseJudgement*> pictured_cases(const PassJudgement& p) {
   for (const CaseJudgement& c : p.cases) {
     if (c.status == Status::fail || c.status == Status::known)
       failing.push_back(&c);
-    else if (!sample || differing(c) >= differing(*sample))
+    else if (!c.outputs.empty() && (!sample || differing(c) >= differing(*sample)))
       sample = &c;  // what differs most shows most; of equals the last
   }
   if (!failing.empty()) out.push_back(failing[0]);
@@ -136,6 +171,16 @@ std::vector<const CaseJudgement*> pictured_cases(const PassJudgement& p) {
   for (const CaseJudgement* c : failing)
     if (out.size() < pictured_failures && c != out[0]) out.push_back(c);
   if (sample) out.push_back(sample);
+  return out;
+}
+
+std::string place_of(const CaseJudgement& c, const OutputJudgement& o) { return fmt::format("at-{}/out.{}", c.id, o.name); }
+
+std::vector<const OutputJudgement*> shown_outputs(const CaseJudgement& c) {
+  std::vector<const OutputJudgement*> out;
+  for (const OutputJudgement& o : c.outputs)
+    if (c.failing == 0 || o.failing > 0) out.push_back(&o);
+  std::stable_sort(out.begin(), out.end(), [](const auto* a, const auto* b) { return fails_worse(*a, *b); });
   return out;
 }
 
@@ -158,16 +203,15 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
                        f.ambiguous);
   if (f.gave_up > 0) out += fmt::format("<p class=\"dim\">{} invocations had too many open decisions to bound.</p>\n", f.gave_up);
   out += cases_html(p);
+  out += quantities_html(p);
 
-  // Of a case that fails, what fails; of the one that passes, all.
   std::size_t unpictured = 0;
   for (const CaseJudgement* c : pictured_cases(p)) {
-    for (const OutputJudgement& o : c->outputs) {
-      if (c->failing > 0 && o.failing == 0) continue;
-      const std::optional<OutputBuffers> buffers = source.read ? source.read(c->id, o.name) : std::nullopt;
+    for (const OutputJudgement* o : shown_outputs(*c)) {
+      const std::optional<OutputBuffers> buffers = source.read ? source.read(c->id, o->name) : std::nullopt;
       if (!buffers) continue;
-      const ViewerHtml viewer = viewer_html(*c, o, *buffers, budget > 0);
-      unpictured += budget == 0 && !o.map.empty();
+      const ViewerHtml viewer = viewer_html(*c, *o, *buffers, budget > 0);
+      unpictured += budget == 0 && !o->map.empty();
       budget -= std::min(budget, viewer.bytes);
       out += viewer.html;
     }

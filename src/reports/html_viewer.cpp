@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "capture/difference.h"
+#include "image/code_range.h"
+#include "judge/quantities.h"
 #include "reports/figures.h"
 #include "reports/html_parts.h"
 #include "reports/markup.h"
@@ -19,7 +21,7 @@ using judge::CaseJudgement;
 using judge::Failure;
 using judge::OutputJudgement;
 
-constexpr std::size_t shown_outliers = 12;
+constexpr std::size_t shown_outliers = 12, shown_fields = 40;
 constexpr int small_columns = 320;  // wider pictures stand two in a row, where a browser would leave out pixels of four
 
 std::string base64(const std::vector<std::byte>& bytes) {
@@ -70,11 +72,19 @@ std::string verdict_legend(const OutputJudgement& o) {
   return out;
 }
 
-std::string view_html(const View& v, const OutputJudgement& o) {
+/// Whether a view shows a channel.
+bool shows(const View& v, const std::string& channel) {
+  const std::string label = v.label.substr(0, v.label.find(','));
+  return label == channel || (label == "alpha" && channel == "w") || (label == "colour" && channel != "w");
+}
+
+std::string view_html(const View& v, const OutputJudgement& o, bool opens) {
   std::string out = fmt::format(
-      "<div class=\"view\" data-label=\"{}\" data-x0=\"{}\" data-y0=\"{}\" data-width=\"{}\" data-height=\"{}\" data-thinned=\"{}\">\n<div "
+      "<div class=\"view\"{} data-label=\"{}\" data-x0=\"{}\" data-y0=\"{}\" data-width=\"{}\" data-height=\"{}\" "
+      "data-thinned=\"{}\">\n<div "
       "class=\"panes{}\">\n",
-      marked_up(v.label), v.x0, v.y0, v.width, v.height, v.thinned, v.width / v.thinned > small_columns ? " large" : "");
+      opens ? " data-open" : "", marked_up(v.label), v.x0, v.y0, v.width, v.height, v.thinned,
+      v.width / v.thinned > small_columns ? " large" : "");
   const std::string scale = marked_up(v.scale) + (v.has_nan ? "; <span class=\"nan\">magenta: not a number</span>" : "");
   out += pane("reference", v.reference, v, "<b>reference</b> " + scale);
   out += pane("port", v.port, v, "<b>port</b> same scale");
@@ -92,12 +102,17 @@ std::string view_html(const View& v, const OutputJudgement& o) {
 std::string outliers_html(const OutputJudgement& o) {
   if (o.failing == 0) return "";
   std::vector<std::vector<std::string>> rows;
+  const judge::QuantityJudgement* worst = worst_quantity(o);
+  bool is_marked = false;
   for (const Failure& f : o.worst) {
     const FailureText t = failure_text(o, f);
-    rows.push_back({fmt::format("<button class=\"place\" data-x=\"{}\" data-y=\"{}\">{}</button>", f.x, f.y, marked_up(t.place)), t.got,
-                    t.accepted, t.expected, f.not_a_number ? "not a number" : fmt::format("{}", f.distance)});
+    const bool opens = !is_marked && worst && worst->name == channel_name(f.channel);
+    is_marked |= opens;
+    rows.push_back({fmt::format("<button class=\"place\"{} data-x=\"{}\" data-y=\"{}\">{}</button>", opens ? " data-open" : "", f.x, f.y,
+                                marked_up(t.place)),
+                    t.got, t.accepted, t.expected, f.not_a_number ? "not a number" : fmt::format("{}", f.distance), marked_up(t.value)});
   }
-  const std::vector<std::string> head{"place (column, row).channel", "got", "accepted", "expected", "codes off"};
+  const std::vector<std::string> head{"place (column, row).channel", "got", "accepted", "expected", "codes off", "off by"};
   const auto part = [&](std::size_t begin, std::size_t end) {
     return table_html("outliers", head,
                       {rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.begin() + static_cast<std::ptrdiff_t>(end)}, 1);
@@ -123,17 +138,36 @@ const std::byte* record_at(const capture::Array& a, bool keyed, std::uint32_t in
   return nullptr;
 }
 
+/// Of a keyed list: the fields that are outside, by how far.
+std::string fields_html(const OutputJudgement& o, const OutputBuffers& b) {
+  const std::vector<judge::Quantity> fields = judge::quantities_of(b.expected);
+  std::vector<std::vector<std::string>> rows;
+  for (const Failure& f : o.worst) {
+    const FailureText t = failure_text(o, f);
+    const std::byte* want = record_at(b.expected.array, true, static_cast<std::uint32_t>(f.x));
+    const auto field = std::find_if(fields.begin(), fields.end(), [&](const judge::Quantity& q) { return q.name == f.field; });
+    const bool is_expected = want && field != fields.end();
+    rows.push_back({fmt::format("{}", static_cast<std::uint32_t>(f.x)), marked_up(f.field), t.got, t.accepted,
+                    is_expected ? enclosed::code_text(field->kind, enclosed::ordered_code(field->kind, want + field->offset)) : "",
+                    f.not_a_number ? "not a number" : fmt::format("{}", f.distance), marked_up(t.value)});
+  }
+  const std::size_t shown = std::min<std::size_t>(rows.size(), shown_fields);
+  std::string out = fmt::format("<h4>{} of {} fields outside, of {}</h4>\n", o.failing, o.elements, shape_text(o));
+  if (!rows.empty())
+    out += table_html("outliers", {"record", "field", "got", "accepted", "expected", "codes off", "off by"},
+                      {rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(shown)}, 2);
+  if (rows.size() > shown) out += fmt::format("<p class=\"remark\">{} more fields are not shown.</p>\n", rows.size() - shown);
+  return out;
+}
+
 /// Records have no picture: the fields that differ, record by record.
 std::string records_html(const OutputJudgement& o, const OutputBuffers& b) {
   if (o.failing == 0) return "";
+  if (o.counted == judge::Counted::fields) return fields_html(o, b);
   std::vector<std::vector<std::string>> rows;
-  std::int64_t before = -1;
   for (const Failure& f : o.worst) {
-    if (f.x == before) continue;  // a keyed record has a failure for each field
-    before = f.x;
-    const bool keyed = b.expected.judge == capture::Judge::keyed;
     const auto index = static_cast<std::uint32_t>(f.x);
-    const std::byte *want = record_at(b.expected.array, keyed, index), *have = record_at(b.port, keyed, index);
+    const std::byte *want = record_at(b.expected.array, false, index), *have = record_at(b.port, false, index);
     if (!want || !have) {
       rows.push_back({fmt::format("{}", index), "", want ? "missing" : "not expected", ""});
       continue;
@@ -147,7 +181,7 @@ std::string records_html(const OutputJudgement& o, const OutputBuffers& b) {
       }
     }
   }
-  const std::size_t shown = std::min<std::size_t>(rows.size(), 40);
+  const std::size_t shown = std::min<std::size_t>(rows.size(), shown_fields);
   std::string out =
       fmt::format("<h4>Records that differ: {} of {}</h4>\n", o.failing, o.elements) +
       table_html("outliers", {"record", "field", "got", "expected"}, {rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(shown)}, 2);
@@ -159,8 +193,8 @@ std::string records_html(const OutputJudgement& o, const OutputBuffers& b) {
 
 ViewerHtml viewer_html(const CaseJudgement& c, const OutputJudgement& o, const OutputBuffers& buffers, bool with_pictures) {
   ViewerHtml out;
-  const std::string title =
-      fmt::format("<h3>{}/out.{} <span class=\"dim\">{}</span></h3>\n", marked_up(c.id), marked_up(o.name), shape_text(o));
+  const std::string title = fmt::format("<h3 id=\"{}\">{}/out.{} <span class=\"dim\">{}</span></h3>\n", marked_up(place_of(c, o)),
+                                        marked_up(c.id), marked_up(o.name), shape_text(o));
   if (o.records) {
     const std::string differing = records_html(o, buffers);
     if (!differing.empty()) out.html = title + differing;
@@ -171,8 +205,10 @@ ViewerHtml viewer_html(const CaseJudgement& c, const OutputJudgement& o, const O
   if (views.empty() && outliers.empty()) return out;
   out.html = title + fmt::format("<div class=\"viewer\" tabindex=\"0\" role=\"group\" aria-label=\"Pictures of {}/out.{}\">\n",
                                  marked_up(c.id), marked_up(o.name));
+  const judge::QuantityJudgement* worst = worst_quantity(o);
+  const auto opening = std::find_if(views.begin(), views.end(), [&](const View& v) { return worst && shows(v, worst->name); });
   for (const View& v : views) {
-    out.html += view_html(v, o);
+    out.html += view_html(v, o, opening != views.end() && &v == &*opening);
     out.bytes += v.bytes();
   }
   out.html += outliers + "</div>\n";

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/code_range.h"
+#include "judge/quantities.h"
 #include "rainref/version.h"
 #include "reports/figures.h"
 
@@ -16,6 +17,7 @@ using judge::Failure;
 using judge::OutputJudgement;
 using judge::PassJudgement;
 using judge::PortJudgement;
+using judge::QuantityJudgement;
 using Json = nlohmann::ordered_json;
 
 /// Value, bits and ordered code; the library writes null for what is not finite.
@@ -37,8 +39,26 @@ Json failure_json(const OutputJudgement& o, const Failure& f) {
   out["high"] = bounded ? code_json(kind, f.high) : Json();
   if (!o.records) out["expected"] = code_json(kind, f.expected, f.expected_is_negative_zero);
   out["distance"] = f.not_a_number ? Json() : Json(f.distance);
+  out["value_distance"] = judge::value_distance(kind, f);
   out["not_a_number"] = f.not_a_number;
   return out;
+}
+
+/// The library writes null for a distance without end.
+Json quantity_json(const QuantityJudgement& q) {
+  return {{"name", q.name},
+          {"unit", q.unit},
+          {"extent", q.extent},
+          {"elements", q.elements},
+          {"failing", q.failing},
+          {"vacuous", q.vacuous},
+          {"loose", q.loose},
+          {"free", q.free},
+          {"median_codes", q.median_codes},
+          {"p99_codes", q.p99_codes},
+          {"median_width", q.median_width},
+          {"p99_width", q.p99_width},
+          {"farthest", q.farthest}};
 }
 
 /// Pairs of a verdict (0 equal, 1 inside, 2 warned of, 3 outside) and how many texels in a row have it, row 0 first.
@@ -76,6 +96,8 @@ Json output_json(const OutputJudgement& o) {
   out["p99_width"] = o.p99_width;
   out["rearranged_median_width"] = o.rearranged_median_width < 0 ? Json() : Json(o.rearranged_median_width);
   out["rearranged_p99_width"] = o.rearranged_p99_width < 0 ? Json() : Json(o.rearranged_p99_width);
+  out["quantities"] = Json::array();
+  for (const QuantityJudgement& q : o.quantities) out["quantities"].push_back(quantity_json(q));
   out["known"] = o.known.empty() ? Json() : Json(o.known);
   out["worst"] = Json::array();
   for (const Failure& f : o.worst) out["worst"].push_back(failure_json(o, f));
@@ -135,9 +157,14 @@ std::string report_json(const PortJudgement& j, int exit_code) {
            {"scene", j.scene},
            {"device", {{"api", j.api}, {"name", j.device}, {"driver", j.driver}}},
            {"command", j.command},
+           {"not_judged", not_judged(j)},
+           {"files", Json::array()},
            {"notes", j.notes},
            {"stale", j.stale},
            {"passes", Json::array()}};
+  for (const judge::FileFault& f : j.files)
+    out["files"].push_back(
+        {{"pass", f.pass}, {"case", f.id}, {"buffer", f.output}, {"exit_code", static_cast<int>(f.code)}, {"error", f.text}});
   for (const PassJudgement& p : j.passes) out["passes"].push_back(pass_json(p));
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -51,6 +51,15 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   return out;
 }
 
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+/// What is wrong with the files of a run.
+std::string files_text(const PortJudgement& j, const std::string& id) {
+  std::string out;
+  for (const judge::FileFault& f : j.files)
+    if (f.id == id) out += f.text + "\n";
+  return out;
+}
+
 Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgement& o, Test::Outcome untested) {
   Test t;
   t.name = fmt::format("{}/out.{}", c.id, o.name);
@@ -72,13 +81,17 @@ Test test_of(const PassJudgement& p, const CaseJudgement& c, const OutputJudgeme
 Suite suite_of(const PortJudgement& j, const PassJudgement& p, Test::Outcome untested) {
   Suite suite;
   suite.name = fmt::format("{}.{}", j.effect, p.pass);
-  if (p.status == Status::untested && p.cases.empty())
-    suite.tests.push_back({untested, p.pass, fmt::format("UNTESTED: {}", p.reason), "", "not judged"});
+  if ((p.status == Status::untested || p.status == Status::not_judged) && p.cases.empty())
+    suite.tests.push_back({untested, p.pass, fmt::format("{}: {}", name(p.status), p.reason), "", "not judged"});
   for (const CaseJudgement& c : p.cases) {
     if (c.broken) suite.tests.push_back({Test::failed, c.id, c.reason, c.reason, "broken"});
     for (const OutputJudgement& o : c.outputs) suite.tests.push_back(test_of(p, c, o, untested));
-    if (!c.outputs.empty() || c.broken) continue;
-    const Test::Outcome outcome = c.status == Status::untested ? untested : c.status == Status::data ? Test::skipped : Test::passed;
+    const std::string files = files_text(j, c.id);
+    // Of a run that was judged they are of another run of the port.
+    if (!files.empty()) suite.tests.push_back({Test::error, c.id, first_line(files), files, "not judged"});
+    if (!c.outputs.empty() || c.broken || !files.empty()) continue;
+    const bool is_open = c.status == Status::untested || c.status == Status::not_judged;
+    const Test::Outcome outcome = is_open ? untested : c.status == Status::data ? Test::skipped : Test::passed;
     suite.tests.push_back({outcome, c.id, outcome == Test::passed ? "" : fmt::format("{}: {}", name(c.status), c.reason),
                            outcome == Test::passed ? c.reason : "", "not judged"});
   }
@@ -152,7 +165,8 @@ std::string report_junit(const PortJudgement& j, bool allow_untested) {
     suites.push_back(std::move(baseline));
   }
   // What fails the run but lies in no pass: nothing was judged, or the port itself failed.
-  const bool shown = std::any_of(suites.begin(), suites.end(), [](const Suite& s) { return s.count(Test::failed) > 0; });
+  const bool shown =
+      std::any_of(suites.begin(), suites.end(), [](const Suite& s) { return s.count(Test::failed) + s.count(Test::error) > 0; });
   if (exit_code(j, allow_untested) != 0 && !shown)
     suites.push_back({"validate", {{Test::error, "validate", j.reason, fmt::format("{}", fmt::join(j.notes, "\n"))}}, ""});
 

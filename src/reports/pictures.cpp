@@ -12,6 +12,7 @@
 #include "image/code_range.h"
 #include "image/colour.h"
 #include "image_io/write.h"
+#include "judge/quantities.h"
 #include "judge/slots.h"
 #include "math/real64.h"
 #include "reports/figures.h"
@@ -104,16 +105,6 @@ Display colour_display(const Array& expected) {
           }};
 }
 
-std::string unit_of(const std::string& units, int channel) {
-  std::string rest = units;
-  for (int k = 0; k < channel; ++k) {
-    const std::size_t comma = rest.find(',');
-    if (comma == std::string::npos) return units.find(',') == std::string::npos ? units : "";
-    rest = rest.substr(rest.find_first_not_of(' ', comma + 1));
-  }
-  return rest.substr(0, rest.find(','));
-}
-
 Display channel_display(const Array& expected, int channel, const std::string& label, const std::string& unit) {
   const std::vector<double> ends = quantiles(Texels(expected), expected, channel, {0.01, 0.99});
   double low = ends[0], high = ends[1];
@@ -136,7 +127,7 @@ std::vector<Display> displays_of(const capture::CaseOutput& output, const Array&
   std::vector<Display> out;
   const bool colour = channels >= 3 && !output.color_space.empty() && output.color_space != "none";
   if (!colour) {
-    for (int c = 0; c < channels; ++c) out.push_back(channel_display(expected, c, channel_name(c), unit_of(output.unit, c)));
+    for (int c = 0; c < channels; ++c) out.push_back(channel_display(expected, c, channel_name(c), judge::unit_of(output.unit, c)));
     return out;
   }
   out.push_back(colour_display(expected));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "reports/figures.h"
 
@@ -17,6 +18,7 @@ using judge::Cause;
 using judge::OutputJudgement;
 using judge::PassJudgement;
 using judge::PortJudgement;
+using judge::QuantityJudgement;
 using judge::Status;
 
 constexpr std::size_t shown_outputs = 4;   // of a pass that fails
@@ -55,6 +57,26 @@ std::vector<std::string> row_of(const PassJudgement& p) {
           share_text(f.loose, f.judged())};
 }
 
+/// How a list's fields are bounded: those with a width, then how many have one value.
+std::string fields_text(const QuantitiesOfOutput& o) {
+  std::string wide;
+  std::size_t exact = 0;
+  for (const QuantityJudgement& q : o.quantities) {
+    if (q.p99_codes == 0 && q.vacuous == 0) {
+      ++exact;
+      continue;
+    }
+    Width median = median_width(q);
+    median.unit.clear();  // it follows the other number
+    wide += fmt::format("{}{} {}, 99 % {}", wide.empty() ? "" : "; ", q.name, in_unit(median), in_unit(p99_width(q)));
+    if (q.vacuous > 0) wide += fmt::format(", {} vacuous", q.vacuous);
+    if (q.loose > q.vacuous) wide += fmt::format(", {} loose", q.loose - q.vacuous);
+  }
+  if (wide.empty()) return "";
+  const std::string others = exact == 0 ? "" : fmt::format("; the other {}: one value each", exact);
+  return fmt::format("{}, median width by field: {}{}", o.output, wide, others);
+}
+
 /// What the columns do not say of a pass.
 std::vector<std::string> remarks_on(const PassJudgement& p) {
   const Figures f = figures_of(p);
@@ -64,7 +86,8 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
   std::string open;
   std::size_t count = 0;
   for (const CaseJudgement& c : p.cases)
-    if (c.status == Status::untested && c.outputs.empty() && ++count <= shown_outputs) open += (open.empty() ? "" : ", ") + c.id;
+    if ((c.status == Status::untested || c.status == Status::not_judged) && c.outputs.empty() && ++count <= shown_outputs)
+      open += (open.empty() ? "" : ", ") + c.id;
   if (count > 0)
     out.push_back(fmt::format("not judged: {}{}", open, count > shown_outputs ? fmt::format(" and {} more", count - shown_outputs) : ""));
   if (f.atypical > 0 && p.status != Status::warn)
@@ -76,6 +99,8 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
   if (f.other_branch > 0)
     out.push_back(fmt::format("{} of {} ambiguous invocations took another branch than the reference", f.other_branch, f.ambiguous));
   if (f.gave_up > 0) out.push_back(fmt::format("{} invocations with too many open decisions to bound", f.gave_up));
+  for (const QuantitiesOfOutput& o : quantities_of(p))
+    if (const std::string fields = o.counted == judge::Counted::fields ? fields_text(o) : ""; !fields.empty()) out.push_back(fields);
   if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
   if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
   return out;
@@ -83,7 +108,7 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
 
 /// Columns as wide as their widest cell; the first two are words, the others numbers.
 std::string table_text(const PortJudgement& j) {
-  std::vector<std::vector<std::string>> rows{{"", "pass", "outside", "bounded", "codes wide", "99 %", "ambiguous", "vacuous", "loose"}};
+  std::vector<std::vector<std::string>> rows{{"", "pass", "outside", "bounded", "median width", "99 %", "ambiguous", "vacuous", "loose"}};
   for (const PassJudgement& p : j.passes) rows.push_back(row_of(p));
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows)
@@ -154,12 +179,17 @@ std::string report_text(const PortJudgement& j) {
   for (const PassJudgement& p : j.passes)
     if ((p.status == Status::fail || p.status == Status::known) && !p.cases.empty()) out += failures_text(p, j);
   for (const std::string& s : j.stale) out += fmt::format("\nbaseline: {}\n", s);
+  if (!j.files.empty()) out += "\nmissing, or cannot be used:\n";
+  for (const judge::FileFault& f : j.files) out += wrapped("  " + f.text, 4);
   for (const std::string& note : j.notes) out += fmt::format("note: {}\n", note);
   out += fmt::format("\n{}: {} against {}, profile {}", name(j.status), j.port, j.pack, j.profile);
   if (!j.device.empty()) out += fmt::format(", {} {}", j.api, j.device);
   if (const std::string counts = count_text(j); !counts.empty()) out += fmt::format(" ({})", counts);
   if (!j.reason.empty()) out += fmt::format("\n  {}", j.reason);
-  return out + "\n";
+  out += "\n";
+  if (const std::vector<std::string> without = not_judged(j); !without.empty())
+    out += wrapped(fmt::format("  not judged: {}", fmt::join(without, ", ")), 4);
+  return out;
 }
 
 std::string report_text(const MutationReport& r, bool all) {

@@ -60,6 +60,67 @@ TEST_F(Validate, ExitCodes) {
   expect_refusal({"validate", "none", "--port", "none", "--profile", "none"}, 4, HasSubstr("no such folder"));
 }
 
+// A port in progress says which passes it has.
+TEST_F(Validate, SomePassesAlone) {
+  copy_to("port");
+  std::filesystem::remove_all(folder / "port/puddle.wave_step");
+  for (const std::vector<std::string>& only : {std::vector<std::string>{"--only", "shade,display"},
+                                               {"--only", "shade", "--only", "display"},
+                                               {"--only=display", "--only=shade"}}) {
+    std::vector<std::string> arguments{pack, "--port", "port"};
+    arguments.insert(arguments.end(), only.begin(), only.end());
+    const Outcome o = validate(arguments);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_THAT(o.out, AllOf(HasSubstr("(2 PASS)"), Not(HasSubstr("raindrops"))));
+  }
+  EXPECT_EQ(validate({"--only", "shade", pack, "--port", "port"}).code, 0);  // it takes no PACK for a pass
+  before = folder.names();
+  expect_refusal({"validate", pack, "--port", "port", "--only", "shade,shad"}, 2, HasSubstr("found 'shad'; did you mean 'shade'?"));
+  expect_refusal({"validate", pack, "--port", "port", "--only", "shade,"}, 2, HasSubstr("found ''"));
+  expect_refusal({"mutate", pack, "--only", "shade", "--only", "shad"}, 2, HasSubstr("found 'shad'"));
+}
+
+TEST_F(Validate, WhatAPartialPortHasNotIsNotJudged) {
+  copy_to("port");
+  for (const char* pass : {"shade", "display"}) std::filesystem::remove_all(folder / "port" / (std::string("puddle.") + pass));
+  EXPECT_EQ(validate({pack, "--port", "port"}).code, 3);
+  Outcome o = validate({pack, "--port", "port", "--partial"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_EQ(o.err, "");
+  EXPECT_THAT(o.out, AllOf(HasSubstr("(2 NOT JUDGED, 3 PASS)\n  not judged: shade, display\n"), HasSubstr("\nUNTESTED: port against")));
+  EXPECT_EQ(validate({pack, "--port", "port", "--partial", "--allow-untested"}).code, 0);
+  // Not what is missing or wrong beside it, and not without a PASS.
+  EXPECT_EQ(validate({pack, "--port", "port", "--partial", "--allow-untested", "--only", "shade,display"}).code, 1);
+  std::filesystem::remove(folder / "port/puddle.surface_hit/0011.0/out.hit.npy");
+  EXPECT_EQ(validate({pack, "--port", "port", "--partial", "--allow-untested"}).code, 3);
+  // The command of a port in progress, run twice.
+  o = exec("cp -r {pack}/. {out}; rm -r {out}/puddle.shade", {"--partial", "--allow-untested", "--repeat", "2"});
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+}
+
+// Whatever is wrong with files, what can be judged is, and is told; the exit code is that of the files.
+TEST_F(Validate, ABadFileHidesNoVerdict) {
+  copy_to("port");
+  put(folder / "port/puddle.wave_step/0011.0/out.wave.npy", "no array");
+  std::filesystem::remove(folder / "port/puddle.shade/0012.0/out.colour.npy");
+  Outcome o = validate({pack, "--port", "port", "--allow-untested", "--json", "r.json"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("PASS        display"), HasSubstr("NOT JUDGED  wave_step"),
+                           HasSubstr("\nmissing, or cannot be used:\n  'port/puddle.wave_step/0011.0/out.wave.npy'"),
+                           HasSubstr("(2 NOT JUDGED, 3 PASS)\n  not judged: wave_step, shade\n")));
+  EXPECT_THAT(o.err, AllOf(StartsWith("rainref: 2 files are missing or cannot be used: 'port/puddle.wave_step/0011.0/out.wave.npy'"),
+                           HasSubstr("no 'out.colour' as .npy")));
+  EXPECT_THAT(contents(folder / "r.json"), AllOf(HasSubstr("\"exit_code\": 3"), HasSubstr("\"status\": \"PASS\"")));
+  put(folder / "port/puddle.display/0011.0/out.picture.npy", contents(folder / "port/puddle.display/0012.0/out.picture.npy"));
+  o = validate({pack, "--port", "port"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL        display"), HasSubstr("FAIL: port against")));
+  // Of the second run of a port, too.
+  o = exec("cp -r {pack}/. {out}; case {out} in *run.2) rm {out}/puddle.shade/0012.0/out.*;; esac; echo said", {"--repeat", "2"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.out, AllOf(HasSubstr("(5 PASS)"), HasSubstr("ended with exit code 0 and printed last: said")));
+}
+
 // Nothing is judged of the article's march where its rays have no bound: not 0 unless that is forgiven, beside a PASS.
 TEST_F(Validate, UntestedIsForgivenOnlyBesideAPass) {
   copy_to("port");
@@ -307,8 +368,10 @@ TEST_F(Validate, ShadowsThatCannotBeJudgedAreRefused) {
   expect_refusal({"validate", "--shadow", "none"}, 3, HasSubstr("found none"));
   expect_refusal({"validate", "--shadow", "empty", "corrected.toml"}, 3,
                  HasSubstr("expected folders such as puddle.raindrops/0000.0, found none"));
-  expect_refusal({"validate", "--shadow", "dump", "corrected.toml"}, 3,
-                 AllOf(HasSubstr("uniforms.bin' is missing"), HasSubstr("in.hit"), HasSubstr("out.colour")));
+  const Outcome o = validate({"--shadow", "dump", "corrected.toml"});
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, AllOf(HasSubstr("uniforms.bin' is missing"), HasSubstr("in.hit"), HasSubstr("out.colour")));
+  EXPECT_THAT(o.out, HasSubstr("(5 NOT JUDGED)"));
   expect_refusal({"validate", "--shadow", "dump", "corrected.toml", "--only", "shde"}, 2, HasSubstr("did you mean 'shade'?"));
   expect_refusal({"validate", pack, "--shadow", "dump"}, 2,
                  HasSubstr("--shadow: expected the scene that the port ran, found the folder '" + pack));

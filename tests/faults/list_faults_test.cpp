@@ -133,7 +133,7 @@ TEST_P(ListFaults, MutateCountsThemAlikeForEveryNumberOfThreads) {
     const capture::Pack pack(pack_folder(GetParam()));
     if (std::none_of(pack.passes.begin(), pack.passes.end(), [&](const capture::PackPass& p) { return p.name == pass; })) continue;
     ValidateOptions options;
-    options.only = pass;
+    options.only = {pass};
     std::array<std::string, 2> lines;
     int applicable = 0, bugs = 0, caught = 0;
     for (const int threads : {1, 3}) {

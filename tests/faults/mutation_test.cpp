@@ -62,7 +62,7 @@ TEST(Mutate, AWrongPassGetsTheNearest) {
   const parallel::Executor executor(1);
   ValidateOptions options;
   options.executor = &executor;
-  options.only = "shad";
+  options.only = {"wave_step", "shad"};
   try {
     static_cast<void>(mutate(capture::Pack(pack_folder("puddle-corrected")), options, 1));
     FAIL() << "0 of 0 would be caught";

@@ -248,6 +248,41 @@ TEST_F(Keyed, ABoundIsVacuousByItsFieldsOwnRange) {
   EXPECT_EQ(counts(18.0f / 16 * 0.99f), std::pair(std::int64_t{0}, records));
   EXPECT_EQ(counts(18.0f / 16 * 1.01f), std::pair(records, records));
 }
+// The figures of each field, in its unit: of the speed what it was widened by, of the flag nothing.
+TEST_F(Keyed, EachFieldHasFiguresOfItsOwn) {
+  constexpr float extent = 18.0f / 16 * 1.01f;
+  const Uncertain wide(some_beads(200), extent);
+  with_id(port[3].id).is_large ^= 1;
+  with_id(port[5].id).speed += 2 * extent;
+  const OutputJudgement o = judge_keyed(expected, array_of(port), &wide, profile("vulkan")).output;
+  const auto records = static_cast<std::int64_t>(port.size());
+  ASSERT_EQ(o.quantities.size(), 4u);
+  const QuantityJudgement &x = o.quantities[0], &speed = o.quantities[1], &mass = o.quantities[2], &flag = o.quantities[3];
+  EXPECT_EQ(std::tuple(x.name, x.unit, x.extent), std::tuple("x", "texel", 100));
+  EXPECT_EQ(std::tuple(speed.name, speed.unit, speed.extent), std::tuple("speed", "texel/s", 18));
+  EXPECT_EQ(std::tuple(mass.name, mass.unit, mass.extent), std::tuple("mass", "1", 4));
+  EXPECT_EQ(std::tuple(flag.name, flag.unit), std::tuple("is_large", "1"));
+  for (const QuantityJudgement& q : o.quantities) EXPECT_EQ(q.elements, records) << q.name;
+  EXPECT_EQ(std::tuple(x.failing, speed.failing, mass.failing, flag.failing), std::tuple(0, 1, 0, 1));
+  EXPECT_EQ(std::tuple(x.vacuous, speed.vacuous, mass.vacuous, flag.vacuous), std::tuple(0, records, 0, 0));
+  EXPECT_EQ(std::tuple(x.loose, speed.loose, mass.loose, flag.loose), std::tuple(0, records, 0, 0));
+  // Both ends of the speed are rounded to float, to 2^-21 below 16.
+  EXPECT_NEAR(speed.median_width, extent, 0x1p-20);
+  EXPECT_NEAR(speed.p99_width, extent, 0x1p-20);
+  EXPECT_NEAR(speed.farthest, 1.5 * extent, 0x1p-20);
+  EXPECT_EQ(std::tuple(flag.median_width, flag.p99_width, flag.farthest), std::tuple(0, 0, 1));
+  // x + 0.1 speed: rounded twice, and fused, near 100.
+  EXPECT_GT(x.p99_width, 0);
+  EXPECT_LT(x.p99_width, 4 * 0x1p-17);
+}
+
+// A record that is in one list alone is outside in every field.
+TEST_F(Keyed, ALostRecordCountsInEveryField) {
+  port.pop_back();
+  const OutputJudgement o = judged().output;
+  for (const QuantityJudgement& q : o.quantities) EXPECT_EQ(q.failing, 1) << q.name;
+}
+
 /// Nobody follows its decisions.
 class Hopeless : public Beads {
  public:

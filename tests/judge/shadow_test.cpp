@@ -3,6 +3,7 @@
 
 #include "faults/diagnose.h"
 #include "judge/mini_port.h"
+#include "judge/port_files.h"
 #include "judge/rearrange.h"
 
 #include <cstring>
@@ -23,11 +24,11 @@ class ShadowTest : public testing::Test {
  protected:
   explicit ShadowTest(const std::string& name = "puddle-corrected") : port(name) { port.free_running = true; }
 
-  PortJudgement shadow_of(const std::string& only = "") {
+  PortJudgement shadow_of(const std::vector<std::string>& only = {}) {
     port.run(folder.path());
     return judge_dump(only);
   }
-  PortJudgement judge_dump(const std::string& only = "") const {
+  PortJudgement judge_dump(const std::vector<std::string>& only = {}) const {
     const ShadowPlan plan = ShadowPlan::of_manifest(port.pack, false);
     std::vector<std::string> passes;
     for (const capture::PackPass& p : plan.passes) passes.push_back(p.name);
@@ -202,24 +203,32 @@ TEST_F(ShadowTest, AUniformThatIsNoNumberFails) {
   EXPECT_EQ(pass_of(j, "display").reason, "uniform exposure is nan, expected 0 to 1.04858e+06");
 }
 
-TEST_F(ShadowTest, WhatIsNotThereIsRefusedOrUntested) {
+TEST_F(ShadowTest, WhatIsNotThereIsNotJudgedAndTheRestIs) {
   port.run(folder.path());
   std::filesystem::remove(file("puddle.display/0012.0/uniforms.bin"));
-  auto [code, text] = error_of([&] { judge_dump(); });
-  EXPECT_EQ(code, ExitCode::port_files);
-  EXPECT_THAT(text, HasSubstr("uniforms.bin' is missing"));
+  PortJudgement j = judge_dump();
+  ASSERT_EQ(j.files.size(), 1u);
+  EXPECT_THAT(j.files[0].text, HasSubstr("uniforms.bin' is missing"));
   std::filesystem::remove(file("puddle.shade/0011.0/in.hit.npy"));
-  std::tie(code, text) = error_of([&] { judge_dump(); });
-  EXPECT_EQ(code, ExitCode::port_files);
-  EXPECT_THAT(text, AllOf(HasSubstr("2 files are missing"), HasSubstr("in.hit")));
-  EXPECT_EQ(pass_of(judge_dump("wave_step"), "wave_step").status, Status::pass);  // its own files are there
+  j = judge_dump();
+  ASSERT_EQ(j.files.size(), 2u);
+  EXPECT_EQ(std::tuple(j.files[0].id, j.files[0].output), std::tuple("puddle.shade/0011.0", "in.hit"));
+  EXPECT_EQ(files_error(j.files).code(), ExitCode::port_files);
+  EXPECT_EQ(j.status, Status::untested) << why(j);
+  for (const char* pass : {"shade", "display"}) EXPECT_EQ(pass_of(j, pass).status, Status::not_judged) << why(j);
+  EXPECT_EQ(pass_of(j, "shade").reason, "in.hit: missing, or cannot be used");
+  EXPECT_EQ(pass_of(j, "shade").cases.at(1).status, Status::pass);  // the other frame
+  for (const char* pass : {"raindrops", "wave_step", "surface_hit"}) EXPECT_EQ(pass_of(j, pass).status, Status::pass) << why(j);
+  EXPECT_TRUE(judge_dump({"wave_step", "surface_hit"}).files.empty());  // its own files are there
 
   std::filesystem::remove_all(file("puddle.display"));
   std::filesystem::remove_all(file("puddle.shade/0011.0"));
-  const PortJudgement j = judge_dump();
+  j = judge_dump();
+  EXPECT_TRUE(j.files.empty());
   EXPECT_EQ(j.status, Status::untested) << why(j);
+  EXPECT_EQ(pass_of(j, "display").status, Status::not_judged);
   EXPECT_EQ(pass_of(j, "display").reason, "the port has dumped no run of this pass");
-  EXPECT_EQ(pass_of(j, "shade").status, Status::untested);
+  EXPECT_EQ(pass_of(j, "shade").status, Status::not_judged);
   EXPECT_EQ(pass_of(j, "shade").reason, "the port has not dumped this run");
 }
 

@@ -1,5 +1,6 @@
 // A port judged against a pack: what passes, what fails and is named, what is refused.
 #include "judge/mini_port.h"
+#include "judge/port_files.h"
 #include "judge/profiles.h"
 
 #include <cstring>
@@ -203,11 +204,75 @@ TEST(Outputs, EachIsListedOnce) {
   }
 }
 
+// The figures of channels and fields add up to those of their output.
+TEST(Outputs, QuantitiesAddUp) {
+  for (const char* pack : {"windshield-corrected", "puddle-corrected", "puddle-as-published"}) {
+    MiniPort port(pack);
+    port.after = [](const PassCase& c, std::vector<Array>& out) {
+      // A byte in every 97 of each output is wrong: of halves and floats, of integers and of lists.
+      for (std::size_t o = 0; o < out.size(); ++o)
+        for (std::size_t i = 0; i < out[o].levels[0].size(); i += 97) {
+          const bool is_id = c.outputs[o].judge == capture::Judge::keyed;
+          if (!is_id) out[o].levels[0][i] ^= std::byte{0x55};
+        }
+    };
+    TemporaryFolder folder;
+    port.run(folder.path());
+    const PortJudgement j = judge(port.pack, folder.path());
+    int outputs = 0;
+    for (const PassJudgement& p : j.passes) {
+      for (const CaseJudgement& c : p.cases) {
+        for (const OutputJudgement& o : c.outputs) {
+          ++outputs;
+          QuantityJudgement sum;
+          double widest = 0;
+          for (const QuantityJudgement& q : o.quantities) {
+            EXPECT_FALSE(q.name.empty() || q.unit.empty()) << c.id << ' ' << o.name;
+            sum.elements += q.elements;
+            sum.failing += q.failing;
+            sum.vacuous += q.vacuous;
+            sum.loose += q.loose;
+            sum.free += q.free;
+            widest = std::max(widest, q.median_codes);
+            EXPECT_EQ(q.failing > 0, q.farthest > 0) << c.id << ' ' << o.name << ' ' << q.name;
+          }
+          EXPECT_GE(widest, o.median_width) << c.id << ' ' << o.name;
+          EXPECT_EQ(std::tuple(sum.vacuous, sum.loose, sum.free), std::tuple(o.vacuous, o.loose, o.free)) << c.id << ' ' << o.name;
+          if (o.counted == Counted::values || o.counted == Counted::fields) {
+            EXPECT_EQ(std::tuple(sum.elements, sum.failing), std::tuple(o.elements, o.failing)) << c.id << ' ' << o.name;
+          } else {
+            EXPECT_GE(sum.failing, o.failing) << c.id << ' ' << o.name;  // of a texel or record one or more
+          }
+        }
+      }
+    }
+    EXPECT_GT(outputs, 5);
+    EXPECT_EQ(j.status, Status::fail);
+  }
+}
+
 class Files : public testing::Test {
  protected:
   Files() { port.run(folder.path()); }
+  /// What is refused before anything is judged, or what is wrong with files.
   std::pair<ExitCode, std::string> refusal() {
-    return error_of([&] { judge(port.pack, folder.path()); });
+    PortJudgement j;
+    const auto refused = error_of([&] { j = judge(port.pack, folder.path()); });
+    if (refused.first != ExitCode::pass || j.files.empty()) return refused;
+    const Error error = files_error(j.files);
+    return {error.code(), error.what()};
+  }
+  PortJudgement judged(const std::vector<std::string>& only = {}, bool partial = false) {
+    ValidateOptions options;
+    options.executor = &test_executor();
+    options.only = only;
+    options.partial = partial;
+    return validate(port.pack, folder.path(), options);
+  }
+  static std::string statuses(const PortJudgement& j) {
+    std::string out;
+    for (const PassJudgement& p : j.passes) out += p.pass + " " + name(p.status) + "\n";
+    return out;
   }
   std::filesystem::path file(const std::string& name) const { return folder / name; }
   const MiniPort port{"puddle-corrected"};
@@ -256,6 +321,77 @@ TEST_F(Files, ThePacksOwnAreRefused) {
   std::filesystem::remove(path);
   std::filesystem::create_symlink(own, path);
   EXPECT_EQ(refusal().first, ExitCode::usage);
+}
+
+// Every way in which a file can be bad, at once: each is named, and what does not need them is judged as ever.
+TEST_F(Files, OneThatIsBadHidesNoVerdict) {
+  put(file("puddle.wave_step/0011.0/out.wave.npy"), "not an array");
+  const std::string half = contents(file("puddle.surface_hit/0011.0/out.hit.npy"));
+  put(file("puddle.surface_hit/0011.0/out.hit.npy"), half.substr(0, half.size() / 2));
+  std::filesystem::remove(file("puddle.surface_hit/0011.0/out.normal.npy"));
+  std::filesystem::rename(file("puddle.shade/0011.0/out.colour.npy"), file("puddle.shade/0011.0/out.colour.jpg"));
+  // And a real failure beside them, in the same pass.
+  const std::filesystem::path path = file("puddle.wave_step/0012.1/out.wave.npy");
+  std::string bytes = contents(path);
+  bytes[bytes.size() - 2] = 0x55;
+  bytes[bytes.size() - 1] = 0x55;
+  put(path, bytes);
+  const PortJudgement j = judged();
+  EXPECT_EQ(statuses(j), "raindrops PASS\nwave_step FAIL\nsurface_hit NOT JUDGED\nshade NOT JUDGED\ndisplay PASS\n") << why(j);
+  EXPECT_EQ(j.status, Status::fail);
+  EXPECT_EQ(j.first_bad_pass, "wave_step");
+  std::vector<std::string> named;
+  for (const FileFault& f : j.files) named.push_back(f.pass + " " + f.id + "/" + f.output);
+  EXPECT_EQ(named, (std::vector<std::string>{"wave_step puddle.wave_step/0011.0/out.wave", "surface_hit puddle.surface_hit/0011.0/out.hit",
+                                             "surface_hit puddle.surface_hit/0011.0/out.normal", "shade puddle.shade/0011.0/out.colour"}));
+  EXPECT_THAT(j.files[3].text, HasSubstr("JPEG is lossy"));
+  EXPECT_EQ(files_error(j.files).code(), ExitCode::port_files);
+  // Case by case: what is whole was judged.
+  for (const PassJudgement& p : j.passes) {
+    for (const CaseJudgement& c : p.cases) {
+      const bool is_bad = std::any_of(j.files.begin(), j.files.end(), [&](const FileFault& f) { return f.id == c.id; });
+      EXPECT_EQ(c.status == Status::not_judged, is_bad) << c.id;
+      EXPECT_EQ(c.outputs.empty(), is_bad) << c.id;
+    }
+  }
+  EXPECT_EQ(pass_of(j, "surface_hit").cases.at(0).reason, "out.hit, out.normal: missing, or cannot be used");
+  EXPECT_TRUE(judged({"display", "raindrops"}).files.empty());
+}
+
+TEST_F(Files, OnlyTheNamedPassesAreJudged) {
+  std::filesystem::remove_all(file("puddle.wave_step"));
+  const PortJudgement j = judged({"display", "shade", "display"});
+  EXPECT_EQ(statuses(j), "shade PASS\ndisplay PASS\n") << why(j);
+  EXPECT_EQ(j.status, Status::pass);
+  EXPECT_THAT(error_of([&] { judged({"shade", "shad"}); }).second, HasSubstr("found 'shad'; did you mean 'shade'?"));
+}
+
+// A port in progress: what it does not have yet is not missing, what it has a part of is.
+TEST_F(Files, OfAPartialPortPassesWithoutFilesAreNotJudged) {
+  std::filesystem::remove_all(file("puddle.surface_hit"));
+  std::filesystem::remove(file("puddle.shade/0011.0/out.colour.npy"));  // the harness made the folders
+  std::filesystem::remove(file("puddle.shade/0012.0/out.colour.npy"));
+  put(file("puddle.shade/0012.0/in.hit.npy"), "an input that it copied");
+  PortJudgement j = judged({}, true);
+  EXPECT_EQ(statuses(j), "raindrops PASS\nwave_step PASS\nsurface_hit NOT JUDGED\nshade NOT JUDGED\ndisplay PASS\n") << why(j);
+  EXPECT_TRUE(j.files.empty());
+  EXPECT_EQ(j.status, Status::untested);
+  EXPECT_EQ(pass_of(j, "shade").reason, "the port has no files of this pass");
+  EXPECT_EQ(judged().files.size(), 6u);  // without --partial: hit and normal, colour, of two frames
+
+  put(file("puddle.shade/0012.0/out.color.npy"), "by another name");
+  j = judged({}, true);
+  EXPECT_EQ(pass_of(j, "surface_hit").status, Status::not_judged);
+  ASSERT_EQ(j.files.size(), 2u);
+  EXPECT_THAT(j.files[1].text, HasSubstr("did you mean 'out.color.npy'?"));
+  EXPECT_EQ(statuses(judged({"surface_hit", "display"}, true)), "surface_hit NOT JUDGED\ndisplay PASS\n");
+  EXPECT_EQ(judged({"surface_hit"}, true).status, Status::untested);
+
+  // Of an empty folder nothing is in progress: it is the wrong one.
+  for (const char* pass : {"raindrops", "wave_step", "shade", "display"}) std::filesystem::remove_all(file(std::string("puddle.") + pass));
+  const auto [code, text] = error_of([&] { judged({}, true); });
+  EXPECT_EQ(code, ExitCode::port_files);
+  EXPECT_THAT(text, HasSubstr("expected folders such as puddle.raindrops/0011.0 with the port's outputs, found none"));
 }
 
 // The worst of several errors counts: an unreadable file over a missing one.

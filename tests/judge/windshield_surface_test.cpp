@@ -25,7 +25,7 @@ void expect_own_outputs_pass(const std::string& profile_name, bool may_warn) {
     for (const std::string& pass : surface_names) {
       ValidateOptions options;
       options.profile = profile_name;
-      options.only = pass;
+      options.only = {pass};
       options.executor = &test_executor();
       options.explain = faults::diagnose;
       const PortJudgement j = validate(pack, folder.path(), options);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -142,7 +143,38 @@ std::set<std::string> documented_keys() {
   return keys;
 }
 
-// The keys are those of a real judgement: shade upside down, a drop that is moved, a texel of the water that is no number.
+TEST(ReportJson, QuantitiesAndWhatWasNotJudged) {
+  PortJudgement j = example_judgement();
+  QuantityJudgement q{"y", "m/s", 4, 40, 2, 5, 6, 1, 11, 12, 0.25, 0.5, std::numeric_limits<double>::infinity()};
+  j.passes[0].cases[0].outputs[0].quantities = {q};
+  j.passes.push_back(example_pass("display", Status::not_judged, {}));
+  j.files = {{ExitCode::io, "wave", "rain.wave/0001.0", "out.height", "cannot be read"}};
+  const Json out = Json::parse(report_json(j, 4));
+  EXPECT_EQ(out["passes"][0]["cases"][0]["outputs"][0]["quantities"], (Json{{{"name", "y"},
+                                                                             {"unit", "m/s"},
+                                                                             {"extent", 4.0},
+                                                                             {"elements", 40},
+                                                                             {"failing", 2},
+                                                                             {"vacuous", 5},
+                                                                             {"loose", 6},
+                                                                             {"free", 1},
+                                                                             {"median_codes", 11.0},
+                                                                             {"p99_codes", 12.0},
+                                                                             {"median_width", 0.25},
+                                                                             {"p99_width", 0.5},
+                                                                             {"farthest", nullptr}}}));
+  EXPECT_EQ(out["not_judged"], (Json{"display"}));
+  EXPECT_EQ(out["passes"][4]["status"], "NOT JUDGED");
+  EXPECT_EQ(
+      out["files"],
+      (Json{{{"pass", "wave"}, {"case", "rain.wave/0001.0"}, {"buffer", "out.height"}, {"exit_code", 4}, {"error", "cannot be read"}}}));
+  const Json& worst = out["passes"][3]["cases"][0]["outputs"][0]["worst"];
+  EXPECT_EQ(worst[0]["value_distance"], nullptr);  // a NaN
+  EXPECT_EQ(worst[1]["value_distance"], 3 * 0x1p-10);
+}
+
+// The keys are those of a real judgement: shade upside down, a drop that is moved, a texel of the water that is no number, a
+// file that is missing.
 TEST(ReportJson, TheDocumentNamesEveryKeyAndNoOther) {
   const TemporaryFolder folder;
   const capture::Pack pack(small_pack("puddle-corrected"));
@@ -151,6 +183,7 @@ TEST(ReportJson, TheDocumentNamesEveryKeyAndNoOther) {
     if (c.pass == "raindrops") a.levels[0][1] ^= std::byte{1};
     if (c.pass == "wave_step") a.levels[0][1] = std::byte{0x7e};
   });
+  std::filesystem::remove(folder / "puddle.display/0012.0/out.picture.npy");
   put(folder / "port.json", R"({"api": "Vulkan", "device": "none", "driver": "1"})");
   const parallel::Executor executor;
   ValidateOptions options;

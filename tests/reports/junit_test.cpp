@@ -66,8 +66,10 @@ TEST_F(ReportJunit, ASuiteForEachPassACaseForEachOutput) {
   EXPECT_EQ(asked(j, false, "string(//testsuite[4]/testcase[1]/@classname)"), "rain.shade");
   EXPECT_EQ(asked(j, false, "string(//testsuite[4]/testcase[1]/failure/@message)"), "6 of 32 elements outside");
   const std::string text = asked(j, false, "string(//testsuite[4]/testcase[1]/failure)");
-  EXPECT_THAT(text,
-              HasSubstr("(0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  expected 1 (0x3c00)  off by 3 codes\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "(0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  expected 1 (0x3c00)  off by 3 codes (0.00293)\n"));
   EXPECT_THAT(
       text,
       HasSubstr(
@@ -135,6 +137,33 @@ TEST_F(ReportJunit, NothingJudgedIsAnError) {
   j.status = Status::untested;
   EXPECT_EQ(bad(j, false), 1);
   EXPECT_EQ(asked(j, false, "string(//failure/@message)"), "UNTESTED: the pack has no case of this pass");
+}
+
+// A port in progress: its passes to come are named, and failures unless forgiven. A file that cannot be used is an error.
+TEST_F(ReportJunit, WhatWasNotJudgedIsNamed) {
+  PortJudgement j = example_judgement();
+  j.passes = {j.passes[0], example_pass("shade", Status::not_judged, {})};
+  j.passes[1].reason = "the port has no files of this pass";
+  j.first_bad_pass.clear();
+  j.status = Status::untested;
+  EXPECT_EQ(bad(j, false), 1);
+  EXPECT_EQ(asked(j, false, "string(//failure/@message)"), "NOT JUDGED: the port has no files of this pass");
+  EXPECT_EQ(bad(j, true), 0);
+  EXPECT_EQ(asked(j, true, "string(//testsuite[@name=\"rain.shade\"]/testcase/skipped/@message)"),
+            "NOT JUDGED: the port has no files of this pass");
+
+  CaseJudgement open = j.passes[0].cases[0];
+  open.outputs.clear();
+  open.id = "rain.wave/0001.0";
+  open.status = j.passes[0].status = Status::not_judged;
+  j.passes[0].cases.push_back(open);
+  j.files = {{ExitCode::port_files, "wave", open.id, "out.height", "'out.height.npy': expected 4x2, found 5x2"},
+             {ExitCode::port_files, "wave", open.id, "out.mask", "'out.mask.npy' is missing"}};
+  for (const bool allow : {false, true}) EXPECT_EQ(asked(j, allow, "count(//error)"), "1");
+  EXPECT_EQ(asked(j, true, "string(//error/../@name)"), open.id);
+  EXPECT_EQ(asked(j, true, "string(//error/@message)"), "'out.height.npy': expected 4x2, found 5x2");
+  EXPECT_EQ(asked(j, true, "string(//error)"), "'out.height.npy': expected 4x2, found 5x2\n'out.mask.npy' is missing");
+  EXPECT_EQ(bad(j, false), 2);
 }
 
 TEST_F(ReportJunit, WhatIsTakenAsDataIsSkipped) {

@@ -1,6 +1,8 @@
 // The HTML page: its text without a browser, its behaviour in one where Chromium is installed.
 #include "reports/html.h"
 
+#include <cstring>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,6 +67,73 @@ TEST_F(ReportPage, SaysWhatFailsAndWhy) {
   // Two failing cases of shade; a sample of each other pass: wave, hit in four channels, normal in four, picture.
   EXPECT_EQ(count(text, "<figure class=\"pane verdict\">"), 2u + 2 + 4 + 4 + 1);
   EXPECT_THAT(text, HasSubstr("The worst 100 of "));
+}
+
+// The first bad pass stands first, its worst output before its others, and the banner leads there.
+TEST_F(ReportPage, OpensOnWhatFailsWorst) {
+  const TemporaryFolder folder;
+  const capture::Pack pack(small_pack("puddle-corrected"));
+  // Of hit one texel is off by 0.1 of 4 m in y, of normal many in z, by up to 0.29 of 2.
+  write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string& name, Array& a) {
+    if (c.id != "puddle.surface_hit/0012.0") return;
+    const float y = 0.1f;
+    if (name == "hit") std::memcpy(&a.levels[0][16 * 40 + 4], &y, 4);
+    if (name == "normal")
+      for (std::size_t at = 4; at < a.levels[0].size(); at += 8) a.levels[0][at + 1] ^= std::byte{0x80};
+  });
+  const std::string text = page(pack, folder.path());
+  EXPECT_THAT(text, HasSubstr("Worst in <a href=\"#at-puddle.surface_hit/0012.0/out.normal\">channel z of out.normal</a>, off by up to "));
+  const auto at = [&](const std::string& what) { return text.find(what); };
+  EXPECT_LT(at("id=\"pass-surface_hit\""), at("id=\"dataflow\""));
+  EXPECT_LT(at("id=\"dataflow\""), at("id=\"pass-wave_step\""));
+  EXPECT_NE(at("id=\"at-puddle.surface_hit/0012.0/out.hit\""), std::string::npos);
+  EXPECT_LT(at("id=\"at-puddle.surface_hit/0012.0/out.normal\""), at("id=\"at-puddle.surface_hit/0012.0/out.hit\""));
+  EXPECT_EQ(count(text, "<section class=\"pass "), 5u);
+  EXPECT_EQ(count(text, "<div class=\"view\" data-open data-label=\"z\""), 1u);
+  EXPECT_EQ(count(text, "<div class=\"view\" data-open "), 2u);  // one of each output that fails
+  EXPECT_THAT(text, HasSubstr("<th class=\"n\">off by</th>"));
+  if (!Browser::is_installed()) return;
+  put(folder / "page.html", text);
+  Browser browser;
+  browser.open(folder / "page.html");
+  const std::string viewer = "document.querySelector('#pass-surface_hit .viewer')";
+  EXPECT_EQ(browser.value("[..." + viewer + ".querySelectorAll('.view:not([hidden])')].map(v => v.dataset.label).join()"), "z");
+  EXPECT_EQ(browser.value(viewer + ".querySelectorAll('.view:not([hidden]) .mark').length"), 4);  // in each picture
+}
+
+// What a port in progress has not, and files that cannot be used: in the banner and by name.
+TEST_F(ReportPage, SaysWhatWasNotJudged) {
+  const TemporaryFolder folder;
+  const capture::Pack pack(small_pack("puddle-corrected"));
+  write_port(pack, folder.path());
+  std::filesystem::remove_all(folder / "puddle.display");
+  std::filesystem::remove(folder / "puddle.shade/0012.0/out.colour.npy");
+  const parallel::Executor executor;
+  ValidateOptions options;
+  options.executor = &executor;
+  options.partial = true;
+  const PortJudgement j = validate(pack, folder.path(), options);
+  const std::string text = report_html(j, page_source(std::make_shared<const capture::Pack>(pack.folder()), folder.path()));
+  EXPECT_THAT(text,
+              HasSubstr("<a href=\"#files\">1 file is</a> missing, or cannot be used. Not judged: <a href=\"#pass-shade\">shade</a>, <a "
+                        "href=\"#pass-display\">display</a>."));
+  EXPECT_THAT(text, HasSubstr("<section id=\"files\">"));
+  EXPECT_THAT(text, HasSubstr("no 'out.colour' as .npy"));
+  EXPECT_THAT(text, HasSubstr("<section class=\"pass is-not-judged\" id=\"pass-display\">"));
+  EXPECT_THAT(text, HasSubstr("NOT JUDGED</span> puddle.shade/0012.0: out.colour: missing, or cannot be used"));
+  EXPECT_EQ(count(text, "id=\"at-puddle.shade/0011.0/out.colour\""), 1u);  // a sample of what was judged
+}
+
+TEST_F(ReportPage, TheFieldsOfAListHaveFigures) {
+  const TemporaryFolder folder;
+  const capture::Pack pack(small_pack("windshield-corrected"));
+  write_port(pack, folder.path(), [](const capture::PackCase& c, const std::string&, Array& a) {
+    if (c.id == "windshield.integrate/0012.0") a.levels[0][6] ^= std::byte{0x10};  // of the first drop's position
+  });
+  const std::string text = page(pack, folder.path());
+  EXPECT_THAT(text, HasSubstr("<td>drops</td><td>velocity.y</td><td>1/s</td><td>field</td>"));
+  EXPECT_THAT(text, HasSubstr("Worst in <a href=\"#at-windshield.integrate/0012.0/out.drops\">position.y of out.drops</a>"));
+  EXPECT_THAT(text, HasSubstr("fields outside, of "));
 }
 
 TEST_F(ReportPage, PassesWithoutFailures) {

@@ -1,6 +1,8 @@
 // The report for a terminal, and the figures that all reports share.
 #include "reports/text.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +33,7 @@ TEST(ReportFigures, APassSumsItsCasesAndTakesTheWidestOutput) {
   EXPECT_EQ(shade.outside, 6);
   EXPECT_EQ(shade.failing, 2);
   EXPECT_EQ(shade.invocations, 16);
-  EXPECT_EQ(shade.median_width, 2);
+  EXPECT_EQ(shade.median_width.codes, 2);
   EXPECT_EQ(figures_of(j.passes[1]).bounded(), 7);
 }
 
@@ -62,12 +64,13 @@ TEST(ReportFigures, HowHalvesRound) {
 
 TEST(ReportText, OneAlignedLineForEachPass) {
   const std::string text = report_text(example_judgement());
-  EXPECT_THAT(text, HasSubstr("          pass   outside  bounded  codes wide  99 %  ambiguous  vacuous    loose\n"
-                              "PASS      wave    0 of 8    100 %           0     0          0      0 %      0 %\n"
-                              "WARN      hit     0 of 8  87.50 %           7  none          4  12.50 %  25.00 %\n"));
+  EXPECT_THAT(text, HasSubstr("          pass   outside  bounded  median width     99 %  ambiguous  vacuous    loose\n"
+                              "PASS      wave    0 of 8    100 %       0 codes  0 codes          0      0 %      0 %\n"
+                              "WARN      hit     0 of 8  87.50 %       7 codes  vacuous          4  12.50 %  25.00 %\n"));
   EXPECT_THAT(text, HasSubstr("          1 of 4 ambiguous invocations took another branch than the reference\n"));
-  EXPECT_THAT(text, HasSubstr("UNTESTED  noise   0 of 8      0 %           0     0          0    100 %      0 %\n          100 % of the "
-                              "elements have no useful bound\n"));
+  EXPECT_THAT(text,
+              HasSubstr("UNTESTED  noise   0 of 8      0 %       vacuous  vacuous          0    100 %      0 %\n          100 % of the "
+                        "elements have no useful bound\n"));
 }
 
 TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
@@ -78,7 +81,7 @@ TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
                 "  first bad pass, its inputs are good\n"
                 "  rain.shade/0000.0/out.colour (rgba16f 4x2): 6 of 32 elements outside (18.75 %)\n"
                 "    (2, 0).y  got nan (0x7e01)  accepted 0.125 (0x3000) to 0.125122 (0x3001)  is not a number\n"
-                "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes\n"
+                "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes (0.00293)\n"
                 "    (4 more not shown)\n"
                 "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes\n"
                 "    near 1)\n"));
@@ -165,9 +168,10 @@ TEST(ReportText, ARecordsFirstWrongFieldIsShown) {
   moved.distance = 2;
   lost.x = 6;
   o.worst = {moved, lost};
-  EXPECT_THAT(report_text(j), HasSubstr("out.colour (7 records): 2 of 7 records outside (28.57 %)\n"
-                                        "    record 4, velocity.y  got 1.00000024 (0x3f800002)  accepted 1 (0x3f800000)  off by 2 codes\n"
-                                        "    record 6  is in one of the lists alone\n"));
+  EXPECT_THAT(report_text(j),
+              HasSubstr("out.colour (7 records): 2 of 7 records outside (28.57 %)\n"
+                        "    record 4, velocity.y  got 1.00000024 (0x3f800002)  accepted 1 (0x3f800000)  off by 2 codes (2.38e-07)\n"
+                        "    record 6  is in one of the lists alone\n"));
 }
 
 TEST(ReportText, OfAKeyedListRecordsAreRecordsAndFieldsAreFields) {
@@ -181,6 +185,112 @@ TEST(ReportText, OfAKeyedListRecordsAreRecordsAndFieldsAreFields) {
   o.failing = 8;
   o.worst.clear();
   EXPECT_THAT(report_text(j), HasSubstr("out.colour (167 records): 8 of 1002 fields outside (0.80 %)\n"));
+}
+
+QuantityJudgement quantity(const std::string& name, const std::string& unit, double codes, double width) {
+  QuantityJudgement q;
+  q.name = name;
+  q.unit = unit;
+  q.extent = 2;
+  q.elements = 100;
+  q.median_codes = q.p99_codes = codes;
+  q.median_width = q.p99_width = width;
+  return q;
+}
+
+// Floats from -0.001 to 0.001 are two thousand million: 0.1 % of the range, and no bound is vacuous.
+TEST(ReportFigures, AWidthIsInCodesWhereTheySayAnything) {
+  EXPECT_EQ(width_text({0}), "0 codes");
+  EXPECT_EQ(width_text({1}), "1 code");
+  EXPECT_EQ(width_text({3113}), "3113 codes");
+  EXPECT_EQ(width_text({4e9}), "vacuous");
+  OutputJudgement o = example_output("wave", Format::rg32f, 5, 10);
+  o.quantities = {quantity("x", "m", 7, 1e-6), quantity("y", "m/s", 1'962'000'000, 0.002)};
+  o.median_width = o.p99_width = 1'750'702'514;
+  EXPECT_EQ(width_text(median_width(o)), "0.002 m/s");
+  EXPECT_EQ(width_text(p99_width(o)), "0.002 m/s");
+  o.quantities[1].unit = "1";
+  EXPECT_EQ(width_text(median_width(o)), "0.002");
+  // Vacuous ones are the widest: of two in a hundred what 99 % stay below is one, what half stay below is not.
+  o.vacuous = 2;
+  EXPECT_EQ(width_text(p99_width(o)), "vacuous");
+  EXPECT_EQ(width_text(median_width(o)), "0.002");
+  o.vacuous = 60;
+  EXPECT_EQ(width_text(median_width(o)), "vacuous");
+  PortJudgement j = example_judgement();
+  j.passes[0].cases[0].outputs[0] = o;
+  EXPECT_THAT(report_text(j), Not(HasSubstr("1750702514")));
+}
+
+TEST(ReportFigures, ADistanceIsInCodesAndInTheUnit) {
+  OutputJudgement o = example_output("wave", Format::rg32f, 5, 10);
+  o.quantities = {quantity("x", "m", 0, 0), quantity("y", "m/s", 0, 0)};
+  Failure f{2, 3, 1, 0x40000000, 0x3f800000, 0x3f800001, 0x3f800000, 0x7fffff};  // 2 where 1 is right
+  EXPECT_EQ(failure_text(o, f).distance, "off by 8388607 codes (1 m/s)");
+  f.channel = 0;
+  f.got = 0x3f000000;  // 0.5
+  f.distance = 0x800000;
+  EXPECT_EQ(failure_text(o, f).distance, "off by 8388608 codes (0.5 m)");
+  f.got = 0x7f800000;
+  EXPECT_THAT(failure_text(o, f).distance, Not(HasSubstr("(")));  // infinity is no number of metres away
+}
+
+TEST(ReportFigures, WhatFailsWorstIsFarthestOffInItsRange) {
+  OutputJudgement o = example_output("wave", Format::rg32f, 5, 10), other = o;
+  EXPECT_EQ(worst_quantity(o), nullptr);
+  o.quantities = {quantity("x", "m", 0, 0), quantity("y", "m", 0, 0), quantity("z", "m", 0, 0)};
+  o.quantities[0].failing = 50;
+  o.quantities[0].farthest = 0.1;
+  o.quantities[1].failing = 2;
+  o.quantities[1].farthest = 1;
+  EXPECT_EQ(worst_quantity(o)->name, "y");
+  o.quantities[0].extent = 0.1;
+  EXPECT_EQ(worst_quantity(o)->name, "x");
+  o.quantities[2].failing = 1;
+  o.quantities[2].farthest = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(worst_quantity(o)->name, "z");
+  EXPECT_TRUE(fails_worse(o, other));
+  EXPECT_FALSE(fails_worse(other, o));
+}
+
+TEST(ReportText, TheFieldsOfAListHaveWidthsInTheirUnits) {
+  PortJudgement j = example_judgement();
+  OutputJudgement& o = j.passes[0].cases[0].outputs[0];
+  o.name = "drops";
+  o.records = true;
+  o.counted = Counted::fields;
+  o.map.clear();
+  o.quantities = {quantity("velocity.x", "m/s", 12, 1.5e-6), quantity("mass", "mg", 0, 0), quantity("life", "s", 40, 0.5)};
+  o.quantities[2].vacuous = 3;
+  o.quantities[2].loose = 7;
+  EXPECT_THAT(report_text(j),
+              HasSubstr("\n          drops, median width by field: velocity.x 1.5e-06, 99 % 1.5e-06 m/s; life 0.5, 99 % vacuous, "
+                        "3 vacuous, 4\n            loose; the other 1: one value each\n"));
+}
+
+// A port in progress, and one whose files are bad: what was not judged stands with the verdict.
+TEST(ReportText, WhatWasNotJudgedIsListed) {
+  PortJudgement j = example_judgement();
+  j.passes.erase(j.passes.begin() + 1, j.passes.end());
+  for (const char* name : {"shade", "display"}) {
+    j.passes.push_back(example_pass(name, Status::not_judged, {}));
+    j.passes.back().reason = "the port has no files of this pass";
+  }
+  j.first_bad_pass.clear();
+  j.status = Status::untested;
+  std::string text = report_text(j);
+  EXPECT_THAT(text, HasSubstr("\nNOT JUDGED  shade    nothing judged"));
+  EXPECT_THAT(text, HasSubstr("(2 NOT JUDGED, 1 PASS)\n  not judged: shade, display\n"));
+  EXPECT_EQ(exit_code(j, false), 1);
+  EXPECT_EQ(exit_code(j, true), 0);
+  j.files = {{ExitCode::port_files, "wave", "rain.wave/0001.0", "out.height", "'port/out.height.npy': expected 4x2, found 5x2"}};
+  text = report_text(j);
+  EXPECT_THAT(text, HasSubstr("\nmissing, or cannot be used:\n  'port/out.height.npy': expected 4x2, found 5x2\n"));
+  for (const bool allow : {false, true}) EXPECT_EQ(exit_code(j, allow), 3);
+  j.status = Status::fail;
+  EXPECT_EQ(exit_code(j, false), 3);
+  j.files.push_back({ExitCode::io, "wave", "rain.wave/0002.0", "out.height", "'port/out.height.npy': cannot be read"});
+  EXPECT_EQ(exit_code(j, false), 4);
 }
 
 TEST(ReportText, KnownFailuresKeepTheirReason) {

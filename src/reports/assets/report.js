@@ -152,5 +152,8 @@ for (const viewer of document.querySelectorAll(".viewer")) {
     e.preventDefault();
     action();
   });
-  show(0);
+  // What fails worst is seen first.
+  show(Math.max(0, views.findIndex(v => "open" in v.dataset)));
+  const worst = viewer.querySelector(".place[data-open]");
+  if (worst && holds(views[current], +worst.dataset.x, +worst.dataset.y)) mark(views[current], +worst.dataset.x, +worst.dataset.y);
 }
