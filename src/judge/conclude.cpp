@@ -30,8 +30,9 @@ void conclude(CaseJudgement& j, const enclosed::Profile& profile) {
                            100.0 * static_cast<double>(unbounded) / static_cast<double>(elements - free));
   } else if (j.rearranged > 0) {
     j.status = Status::warn;
-    j.reason = fmt::format("{} invocations lie outside the formula as written, inside its rearrangements ({}){}", j.rearranged,
-                           name(profile.rearrangement), profile.rearrangement_remedy.empty() ? "" : "; " + profile.rearrangement_remedy);
+    j.reason = fmt::format("{} invocations lie outside the formula as written, by up to {} codes, inside its rearrangements ({}){}",
+                           j.rearranged, j.rearranged_distance, name(profile.rearrangement),
+                           profile.rearrangement_remedy.empty() ? "" : "; " + profile.rearrangement_remedy);
   } else if (atypical > 0) {
     j.status = Status::warn;
     j.reason = fmt::format("{} elements lie inside the profile but outside what real devices do", atypical);

@@ -200,6 +200,7 @@ class CaseJudge {
           add_failure(x, y, v, s, part, whole);
         } else {
           ++out.rearranged;
+          counts.rearranged_distance = std::max(counts.rearranged_distance, distance(s.stored.got[v], s.nearest[v]));
           mark(whole, slot.output, x, y, 2);
         }
       }
@@ -289,6 +290,7 @@ class CaseJudge {
     whole.other_branch += part.counts.other_branch;
     whole.gave_up += part.counts.gave_up;
     whole.rearranged += part.counts.rearranged;
+    whole.rearranged_distance = std::max(whole.rearranged_distance, part.counts.rearranged_distance);
     whole.expanded += part.counts.expanded;
     for (std::size_t o = 0; o < whole.outputs.size(); ++o) {
       OutputJudgement& to = whole.outputs[o];

@@ -63,6 +63,7 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
     j.other_branch += k.other_branch;
     j.gave_up += k.gave_up;
     j.rearranged += k.rearranged;
+    j.rearranged_distance = std::max(j.rearranged_distance, k.rearranged_distance);
     outputs.push_back(std::move(k.output));
     if (const std::string text = k.events.text(); !text.empty())
       events += fmt::format("{}{}, {}", events.empty() ? "" : "; ", c.outputs[o].name, text);

@@ -244,6 +244,7 @@ KeyedJudgement judge_keyed(const capture::CaseOutput& expected, const Array& por
     bool failed = least.count() > 0;
     if (failed && is_rearranged(*model, group, have, least, extents, rules)) {
       ++j.rearranged;
+      for (const Failure& f : least.failures) j.rearranged_distance = std::max(j.rearranged_distance, f.distance);
       j.output.rearranged += static_cast<std::int64_t>(least.failures.size());
       least = Difference();
       failed = false;

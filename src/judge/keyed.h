@@ -28,7 +28,8 @@ struct KeyedJudgement {
   OutputJudgement output;
   KeyedEvents events;
   std::int64_t groups = 0, failing = 0, ambiguous = 0, other_branch = 0, gave_up = 0;
-  std::int64_t rearranged = 0;  ///< groups that only a rearrangement accepts
+  std::int64_t rearranged = 0;            ///< groups that only a rearrangement accepts
+  std::uint64_t rearranged_distance = 0;  ///< as CaseJudgement::rearranged_distance
 };
 
 /// Whether a member is the key of its record: `id`, one uint.

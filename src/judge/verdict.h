@@ -101,12 +101,13 @@ struct CaseJudgement {
   std::string reason;   ///< why, where it is not a plain pass or fail
   bool broken = false;  ///< fails for `reason`, whatever its outputs are: a race, an input that is not the output it comes from
   std::int64_t invocations = 0;
-  std::int64_t failing = 0;       ///< invocations that no alternative accepts
-  std::int64_t ambiguous = 0;     ///< invocations with more than one alternative
-  std::int64_t other_branch = 0;  ///< of these, accepted only by an alternative that is not the reference's
-  std::int64_t gave_up = 0;       ///< invocations with too many alternatives
-  std::int64_t rearranged = 0;    ///< invocations that only a rearrangement accepts
-  std::int64_t expanded = 0;      ///< of the failing: accepted if products of sums were multiplied out, which no compiler is seen to do
+  std::int64_t failing = 0;               ///< invocations that no alternative accepts
+  std::int64_t ambiguous = 0;             ///< invocations with more than one alternative
+  std::int64_t other_branch = 0;          ///< of these, accepted only by an alternative that is not the reference's
+  std::int64_t gave_up = 0;               ///< invocations with too many alternatives
+  std::int64_t rearranged = 0;            ///< invocations that only a rearrangement accepts
+  std::uint64_t rearranged_distance = 0;  ///< how far their values lie from the formula as written, at most [codes]
+  std::int64_t expanded = 0;  ///< of the failing: accepted if products of sums were multiplied out, which no compiler is seen to do
   std::vector<OutputJudgement> outputs;
 };
 

@@ -116,6 +116,7 @@ Json case_json(const CaseJudgement& c) {
            {"other_branch", c.other_branch},
            {"gave_up", c.gave_up},
            {"rearranged", c.rearranged},
+           {"rearranged_distance", c.rearranged_distance},
            {"expanded", c.expanded},
            {"outputs", Json::array()}};
   for (const OutputJudgement& o : c.outputs) out["outputs"].push_back(output_json(o));

@@ -1,32 +1,20 @@
 // A port of every pass that has a definition, made by the compiler that this file is given to, with whatever flags: usage
 //   compiled_port PACK OUT
 // The passes' texts are rainref's, the arithmetic is the compiler's (compiled.h). What they store is judged by the program.
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "blur_pyramid/plain.h"
 #include "capture/npy_write.h"
 #include "capture/pack_read.h"
-#include "compiled.h"
+#include "devices/compiled.h"
+#include "devices/defined_passes.h"
 #include "drops/plain.h"
 #include "drops/records.h"
-#include "edge_splash/plain.h"
 #include "judge/slots.h"
-#include "pass/display_plain.h"
-#include "pass/model.h"
-#include "puddle/plain.h"
 #include "rainref/error.h"
-#include "rainy_glass/plain.h"
-#include "rainy_glass/rain_on_glass_text.h"
-#include "screen_drops/plain.h"
-#include "windshield/plain.h"
-#include "windshield/surface_plain.h"
 
 namespace rainref::devices {
 namespace {
@@ -34,22 +22,22 @@ namespace {
 using capture::Array;
 using capture::PassCase;
 
-template <class P, class Text>
-void run(const PassCase& c, std::vector<Array>& out) {
-  const auto pass = rainref::pass::bound<P, Text>(c);
-  const std::vector<judge::Slot> slots = judge::slots_of(c);
-  std::vector<Compiled> values(static_cast<std::size_t>(pass.values));
-  for (int y = 0; y < pass.height; ++y)
-    for (int x = 0; x < pass.width; ++x) {
-      pass(x, y, values.data());
-      for (std::size_t v = 0; v < slots.size(); ++v)
-        store_value(slots[v], values[v].v, slots[v].store_rounding,
-                    out[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y));
-    }
+bool run(const PassCase& c, std::vector<Array>& out) {
+  return with_defined_pass(c, [&](const auto& pass) {
+    const std::vector<judge::Slot> slots = judge::slots_of(c);
+    std::vector<Compiled> values(static_cast<std::size_t>(pass.values));
+    for (int y = 0; y < pass.height; ++y)
+      for (int x = 0; x < pass.width; ++x) {
+        pass(x, y, values.data());
+        for (std::size_t v = 0; v < slots.size(); ++v)
+          store_value(slots[v], values[v].v, slots[v].store_rounding,
+                      out[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y));
+      }
+  });
 }
 
-void integrate_as_published(const PassCase& c, std::vector<Array>& out) {
-  if (c.corrected()) return;
+bool integrate_as_published(const PassCase& c, std::vector<Array>& out) {
+  if (c.corrected() || c.pass != "integrate") return false;
   const auto u = capture::uniforms_of<drops::IntegrateUniforms>(c);
   const auto glass = capture::records_of<drops::GlassFrame>(capture::record_input(c, "glass_frame")).front();
   std::vector<drops::Drop> moved;
@@ -73,49 +61,7 @@ void integrate_as_published(const PassCase& c, std::vector<Array>& out) {
   const auto* bytes = reinterpret_cast<const std::byte*>(moved.data());
   out[0].width = static_cast<int>(moved.size());
   out[0].levels = {{bytes, bytes + moved.size() * sizeof(drops::Drop)}};
-}
-
-using Run = void (*)(const PassCase&, std::vector<Array>&);
-template <class First, class FirstText, class Second, class SecondText, bool (*is_first)(const PassCase&)>
-void either(const PassCase& c, std::vector<Array>& out) {
-  is_first(c) ? run<First, FirstText>(c, out) : run<Second, SecondText>(c, out);
-}
-bool is_corrected(const PassCase& c) { return c.corrected(); }
-bool is_level_0(const PassCase& c) { return c.level == 0; }
-
-const std::map<std::string, Run>& passes() {
-  namespace s = screen_drops;
-  namespace e = edge_splash;
-  namespace b = blur_pyramid;
-  namespace r = rainy_glass;
-  namespace w = windshield;
-  namespace p = puddle;
-  static const std::map<std::string, Run> all{
-      {"puddle wave_step", run<p::WaveStepPass, p::scalar::WaveStepPassText>},
-      {"puddle shade", run<p::ShadePass, p::scalar::ShadePassText>},
-      {"puddle display", run<p::DisplayPass, p::scalar::DisplayPassText>},
-      {"screen_drops background", run<s::BackgroundPass, s::scalar::BackgroundPassText>},
-      {"screen_drops cells", run<s::CellsPass, s::scalar::CellsPassText>},
-      {"screen_drops drops",
-       either<s::DropsPass, s::scalar::DropsPassText, s::PublishedDropsPass, s::scalar::PublishedDropsPassText, is_corrected>},
-      {"edge_splash splash",
-       either<e::SplashPass, e::scalar::SplashPassText, e::PublishedSplashPass, e::scalar::PublishedSplashPassText, is_corrected>},
-      {"windshield wipe_texture", run<w::WipeTexturePass, w::scalar::WipeTexturePassText>},
-      {"windshield normals", run<w::NormalsPass, w::scalar::NormalsPassText>},
-      {"windshield composite", run<w::CompositePass, w::scalar::CompositePassText>},
-      {"windshield integrate", integrate_as_published},
-      {"rainy_glass bake_raindrops", run<r::BakeRaindropsPass, r::scalar::BakeRaindropsPassText>},
-      {"rainy_glass bake_rivulets", run<r::BakeRivuletsPass, r::scalar::BakeRivuletsPassText>},
-      {"rainy_glass rain_on_glass", run<r::RainOnGlassPass, r::RainOnGlassText>},
-      {" blur_pyramid", either<b::FogPass, b::scalar::FogPassText, b::HalvePass, b::scalar::HalvePassText, is_level_0>},
-      {" display", run<rainref::pass::DisplayPass, rainref::pass::scalar::DisplayPassText>},
-  };
-  return all;
-}
-Run pass_of(const std::string& effect, const std::string& pass) {
-  for (const std::string& name : {effect + " " + pass, " " + pass})
-    if (const auto found = passes().find(name); found != passes().end()) return found->second;
-  return nullptr;
+  return true;
 }
 
 void put(const std::filesystem::path& path, const Array& array, int level) {
@@ -130,8 +76,7 @@ int port(const char* pack_folder, const char* out_folder) {
     const PassCase c = pack.read(entry);
     std::vector<Array> out;
     for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
-    if (const Run compute = pass_of(pack.effect, c.pass)) {
-      compute(c, out);
+    if (run(c, out) || integrate_as_published(c, out)) {
       ++computed;
       for (std::size_t o = 0; o < out.size(); ++o) differing += out[o].levels != c.outputs[o].array.levels;
     }

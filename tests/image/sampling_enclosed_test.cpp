@@ -9,6 +9,7 @@
 #include "image/sampling_kernels.h"
 #include "image/straightforward.h"
 #include "math/profiles.h"
+#include "math/rearranged.h"
 
 namespace rainref::test {
 namespace enclosed_reading {

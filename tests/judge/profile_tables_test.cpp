@@ -284,5 +284,22 @@ TEST(ProfileTables, EveryKeyIsCompared) {
   }
 }
 
+// What no specification says was chosen: each such number says when and why.
+TEST(ProfileTables, ChoicesHaveADateAndAReason) {
+  const std::regex choice("choice 20[0-9][0-9]-[01][0-9]-[0-3][0-9]: .{15,}\"\\}"), unsettled("provisional|convention|not read|TODO");
+  int choices = 0;
+  for (const auto& [name, unused] : specifications()) {
+    std::istringstream text{std::string(profile_text(name))};
+    for (std::string line; std::getline(text, line);) {
+      if (line.starts_with("#")) continue;
+      EXPECT_FALSE(std::regex_search(line, unsettled)) << name << ": " << line;
+      if (line.find("choice") == std::string::npos) continue;
+      ++choices;
+      EXPECT_TRUE(std::regex_search(line, choice)) << name << ": " << line;
+    }
+  }
+  EXPECT_GT(choices, 20);
+}
+
 }  // namespace
 }  // namespace rainref::judge

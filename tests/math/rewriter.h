@@ -17,17 +17,32 @@ namespace rainref::test {
 struct Node;
 using Tree = std::shared_ptr<const Node>;
 struct Node {
-  enum Kind { leaf, sum, product } kind;
+  /// A function's parts are its arguments; nothing moves through it.
+  enum Kind { leaf, sum, product, function } kind;
   int index = 0;           ///< of a leaf
   bool negative = false;   ///< of a leaf
   bool is_closed = false;  ///< a sum that is computed once and used as a factor: nothing moves into it
   std::vector<Tree> parts;
+  bool has_sum = false;  ///< is a sum or has one among its factors
+  random_gpu::RandomGpu (*apply)(const random_gpu::RandomGpu* arguments) = nullptr;
 };
 
-inline Tree leaf_of(int index, bool negative = false) { return std::make_shared<Node>(Node{Node::leaf, index, negative, false, {}}); }
+inline Tree leaf_of(int index, bool negative = false) {
+  Node n{.kind = Node::leaf, .parts = {}};
+  n.index = index;
+  n.negative = negative;
+  return std::make_shared<Node>(n);
+}
 inline Tree of(Node::Kind kind, std::vector<Tree> parts) {
   if (parts.size() == 1) return parts.front();
-  return std::make_shared<Node>(Node{kind, 0, false, false, std::move(parts)});
+  Node n{.kind = kind, .parts = std::move(parts)};
+  n.has_sum = kind == Node::sum || std::any_of(n.parts.begin(), n.parts.end(), [](const Tree& p) { return p->has_sum; });
+  return std::make_shared<Node>(std::move(n));
+}
+inline Tree applied(random_gpu::RandomGpu (*apply)(const random_gpu::RandomGpu*), std::vector<Tree> arguments) {
+  Node n{.kind = Node::function, .parts = std::move(arguments)};
+  n.apply = apply;
+  return std::make_shared<Node>(std::move(n));
 }
 inline std::size_t drawn(std::size_t count) { return random_gpu::words()() % count; }
 
@@ -55,9 +70,6 @@ N as_written(const Tree& t, const std::vector<float>& values) {
   return all;
 }
 
-inline bool has_sum(const Tree& t) {
-  return t->kind == Node::sum || std::any_of(t->parts.begin(), t->parts.end(), [](const Tree& p) { return has_sum(p); });
-}
 inline Tree closed(const Tree& t) {
   Node copy = *t;
   copy.is_closed = true;
@@ -76,6 +88,11 @@ inline std::string text_of(const Tree& t) {
 inline Tree rewritten(const Tree& t) {
   if (t->kind == Node::leaf || t->is_closed) return t;
   std::vector<Tree> parts = t->parts;
+  if (t->kind == Node::function) {
+    Tree& part = parts[drawn(parts.size())];
+    part = rewritten(part);
+    return applied(t->apply, std::move(parts));
+  }
   if (drawn(3) != 0) {
     Tree& part = parts[drawn(parts.size())];
     part = rewritten(part);
@@ -93,10 +110,10 @@ inline Tree rewritten(const Tree& t) {
     // A factor into a sum. A sum goes in whole, and closed: else both would be multiplied out.
     const std::size_t s = drawn(flat.size()), f = drawn(flat.size());
     if (s == f || flat[s]->kind != Node::sum || flat[s]->is_closed) return of(Node::product, std::move(flat));
-    const Tree factor = has_sum(flat[f]) ? closed(flat[f]) : flat[f];
+    const Tree factor = flat[f]->has_sum ? closed(flat[f]) : flat[f];
     std::vector<Tree> terms, rest;
     for (const Tree& term : flat[s]->parts)
-      terms.push_back(of(Node::product, {has_sum(factor) && has_sum(term) ? closed(term) : term, factor}));
+      terms.push_back(of(Node::product, {factor->has_sum && term->has_sum ? closed(term) : term, factor}));
     for (std::size_t k = 0; k < flat.size(); ++k)
       if (k != s && k != f) rest.push_back(flat[k]);
     rest.push_back(of(Node::sum, std::move(terms)));
@@ -108,7 +125,7 @@ inline Tree rewritten(const Tree& t) {
       flat[a]->negative != flat[b]->negative && flat.size() > 2) {
     flat.erase(flat.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)));
     flat.erase(flat.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
-  } else if (a != b && flat[a]->kind == Node::product && flat[b]->kind == Node::product && !has_sum(flat[a]) && !has_sum(flat[b])) {
+  } else if (a != b && flat[a]->kind == Node::product && flat[b]->kind == Node::product && !flat[a]->has_sum && !flat[b]->has_sum) {
     for (std::size_t i = 0; i < flat[a]->parts.size(); ++i)
       for (std::size_t j = 0; j < flat[b]->parts.size(); ++j) {
         const Tree &x = flat[a]->parts[i], &y = flat[b]->parts[j];
@@ -127,17 +144,19 @@ inline Tree rewritten(const Tree& t) {
   return of(Node::sum, std::move(flat));
 }
 
-/// As some device computes it: lists in a random order and grouping, a closed sum once.
-inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& values,
-                                      std::map<const Node*, random_gpu::RandomGpu>& closed_sums) {
+using Computed = std::map<const Node*, random_gpu::RandomGpu>;
+/// As some device computes it: lists in a random order and grouping, a closed sum once. `once`: so is every part that stands in several
+/// places.
+inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& values, Computed& known, bool once) {
   using random_gpu::RandomGpu;
   if (t->kind == Node::leaf) {
     const RandomGpu x(values[static_cast<std::size_t>(t->index)]);
     return t->negative ? -x : x;
   }
-  if (const auto known = closed_sums.find(t.get()); known != closed_sums.end()) return known->second;
+  if (const auto found = known.find(t.get()); found != known.end()) return found->second;
   std::vector<RandomGpu> open;
-  for (const Tree& p : t->parts) open.push_back(computed(p, values, closed_sums));
+  for (const Tree& p : t->parts) open.push_back(computed(p, values, known, once));
+  if (t->kind == Node::function) open = {t->apply(open.data())};
   while (open.size() > 1) {
     const auto take = [&] {
       const std::size_t k = drawn(open.size());
@@ -148,12 +167,12 @@ inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& v
     const RandomGpu a = take(), b = take();
     open.push_back(t->kind == Node::sum ? a + b : a * b);
   }
-  if (t->is_closed) closed_sums.emplace(t.get(), RandomGpu::exactly(open.front().v));
+  if (t->is_closed || once) known.emplace(t.get(), t->is_closed ? RandomGpu::exactly(open.front().v) : open.front());
   return open.front();
 }
 inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& values) {
-  std::map<const Node*, random_gpu::RandomGpu> closed_sums;
-  return computed(t, values, closed_sums);
+  Computed known;
+  return computed(t, values, known, false);
 }
 
 }  // namespace rainref::test

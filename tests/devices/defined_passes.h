@@ -1,0 +1,48 @@
+// The passes that have a definition, for numbers of their own.
+#pragma once
+
+#include <string>
+
+#include "blur_pyramid/plain.h"
+#include "capture/pass_case.h"
+#include "edge_splash/plain.h"
+#include "pass/display_plain.h"
+#include "pass/model.h"
+#include "puddle/plain.h"
+#include "rainy_glass/plain.h"
+#include "rainy_glass/rain_on_glass_text.h"
+#include "screen_drops/plain.h"
+#include "windshield/plain.h"
+#include "windshield/surface_plain.h"
+
+namespace rainref::devices {
+
+/// Calls f(pass::Bound<...>) with the pass of a case; false where it has no definition.
+template <class F>
+bool with_defined_pass(const capture::PassCase& c, const F& f) {
+  const auto run = [&]<class P, class Text>(std::type_identity<P>, std::type_identity<Text>) { f(pass::bound<P, Text>(c)); };
+#define RAINREF_PASS(effect_name, pass_name, is_it, P, Text) \
+  if (c.effect == effect_name && c.pass == pass_name && (is_it)) return run(std::type_identity<P>(), std::type_identity<Text>()), true
+  RAINREF_PASS("puddle", "wave_step", true, puddle::WaveStepPass, puddle::scalar::WaveStepPassText);
+  RAINREF_PASS("puddle", "shade", true, puddle::ShadePass, puddle::scalar::ShadePassText);
+  RAINREF_PASS("puddle", "display", true, puddle::DisplayPass, puddle::scalar::DisplayPassText);
+  RAINREF_PASS("screen_drops", "background", true, screen_drops::BackgroundPass, screen_drops::scalar::BackgroundPassText);
+  RAINREF_PASS("screen_drops", "cells", true, screen_drops::CellsPass, screen_drops::scalar::CellsPassText);
+  RAINREF_PASS("screen_drops", "drops", c.corrected(), screen_drops::DropsPass, screen_drops::scalar::DropsPassText);
+  RAINREF_PASS("screen_drops", "drops", !c.corrected(), screen_drops::PublishedDropsPass, screen_drops::scalar::PublishedDropsPassText);
+  RAINREF_PASS("edge_splash", "splash", c.corrected(), edge_splash::SplashPass, edge_splash::scalar::SplashPassText);
+  RAINREF_PASS("edge_splash", "splash", !c.corrected(), edge_splash::PublishedSplashPass, edge_splash::scalar::PublishedSplashPassText);
+  RAINREF_PASS("windshield", "wipe_texture", true, windshield::WipeTexturePass, windshield::scalar::WipeTexturePassText);
+  RAINREF_PASS("windshield", "normals", true, windshield::NormalsPass, windshield::scalar::NormalsPassText);
+  RAINREF_PASS("windshield", "composite", true, windshield::CompositePass, windshield::scalar::CompositePassText);
+  RAINREF_PASS("rainy_glass", "bake_raindrops", true, rainy_glass::BakeRaindropsPass, rainy_glass::scalar::BakeRaindropsPassText);
+  RAINREF_PASS("rainy_glass", "bake_rivulets", true, rainy_glass::BakeRivuletsPass, rainy_glass::scalar::BakeRivuletsPassText);
+  RAINREF_PASS("rainy_glass", "rain_on_glass", true, rainy_glass::RainOnGlassPass, rainy_glass::RainOnGlassText);
+  RAINREF_PASS(c.effect, "blur_pyramid", c.level == 0, blur_pyramid::FogPass, blur_pyramid::scalar::FogPassText);
+  RAINREF_PASS(c.effect, "blur_pyramid", c.level != 0, blur_pyramid::HalvePass, blur_pyramid::scalar::HalvePassText);
+  RAINREF_PASS(c.effect, "display", true, pass::DisplayPass, pass::scalar::DisplayPassText);
+#undef RAINREF_PASS
+  return false;
+}
+
+}  // namespace rainref::devices

@@ -1,0 +1,91 @@
+// The passes themselves, rewritten: what an invocation computes is recorded as a tree, the tree is rewritten as a compiler may
+// (math/rewriter.h), and a random GPU computes it. What it stores lies inside the rearrangements of the pass, which share nothing with this
+// but the profile; and where the tree is left as it is, inside the formula as written.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "devices/defined_passes.h"
+#include "judge/alternatives.h"
+#include "judge/support.h"
+#include "math/recorded.h"
+
+namespace rainref::judge {
+namespace {
+
+using enclosed::Enclosure;
+using enclosed::ProfileScope;
+using rainref::test::Recorded;
+
+bool held(const Alternatives& all, const capture::PassModel& model, const std::vector<float>& got) {
+  for (int a = 0; a < all.count; ++a) {
+    bool is_held = true;
+    for (std::size_t v = 0; v < got.size(); ++v) {
+      const Enclosure& e = all.values[static_cast<std::size_t>(a)][v];
+      is_held &= e.is_vacuous() || e.contains(got[v]) || model.is_free(static_cast<int>(v));
+    }
+    if (is_held) return true;
+  }
+  return false;
+}
+
+/// Counts of a pass under a profile.
+struct Tally {
+  int checked = 0, outside_as_written = 0;
+};
+
+/// RAINREF_INVOCATIONS sets how many of each case; scripts/full/honesty takes more.
+void rewrite(const test::BoundCase& b, const std::string& pass_name, const enclosed::Profile& p, Tally& tally) {
+  const std::int64_t invocations = test::count_from("RAINREF_INVOCATIONS", 12);
+  devices::with_defined_pass(*b.c, [&](const auto& pass) {
+    const std::int64_t texels = static_cast<std::int64_t>(pass.width) * pass.height;
+    for (std::int64_t k = 0; k < invocations; ++k) {
+      const std::int64_t at = k * 7919 % texels;
+      const int x = static_cast<int>(at % pass.width), y = static_cast<int>(at / pass.width);
+      rainref::test::recorded_values().clear();
+      std::vector<Recorded> values(static_cast<std::size_t>(pass.values));
+      pass(x, y, values.data());
+      std::vector<float> reference;
+      for (const Recorded& r : values) reference.push_back(r.v);
+      Alternatives written, rearranged;
+      written.run(*b.model, x, y, reference.data(), p);
+      rearranged.rearrange(*b.model, x, y, reference.data(), p);
+      if (written.gave_up || rearranged.gave_up) continue;
+      const ProfileScope scope(p);
+      for (int trial = 0; trial < 4; ++trial) {
+        rainref::test::Computed known;
+        std::vector<rainref::test::Tree> kept;  // known goes by their addresses
+        std::vector<float> got;
+        for (const Recorded& r : values) {
+          rainref::test::Tree t = r.tree;
+          for (std::size_t n = rainref::test::drawn(30); n > 0; --n) t = rainref::test::rewritten(t);
+          kept.push_back(t);
+          got.push_back(rainref::test::computed(t, rainref::test::recorded_values(), known, true).v);
+        }
+        ++tally.checked;
+        tally.outside_as_written += !held(written, *b.model, got);
+        ASSERT_TRUE(held(rearranged, *b.model, got)) << pass_name << " under " << p.name << " at " << x << ',' << y << ": "
+                                                     << testing::PrintToString(got) << ", reference " << testing::PrintToString(reference);
+      }
+    }
+  });
+}
+
+TEST(RewrittenPasses, LieInsideTheirRearrangements) {
+  int rewritten_passes = 0, outside_as_written = 0;
+  for (const test::BoundPass& pass : test::enveloped_passes())
+    for (const char* name : {"vulkan", "d3d"}) {
+      Tally tally;
+      for (const test::BoundCase& b : pass.cases) rewrite(b, pass.name(), profile(name), tally);
+      if (HasFatalFailure()) return;
+      rewritten_passes += tally.checked > 0;
+      outside_as_written += tally.outside_as_written;
+      fmt::print("{:<36} {:<7} {:6} evaluations, {:5} outside the formula as written\n", pass.name(), name, tally.checked,
+                 tally.outside_as_written);
+    }
+  EXPECT_GT(rewritten_passes, 40);
+  EXPECT_GT(outside_as_written, 100) << "nothing is tested where rewriting changes nothing";
+}
+
+}  // namespace
+}  // namespace rainref::judge
