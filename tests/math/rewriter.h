@@ -80,19 +80,16 @@ inline Tree closed(const Tree& t) {
 inline std::string text_of(const Tree& t) {
   if (t->kind == Node::leaf) return (t->negative ? "-x" : "x") + std::to_string(t->index);
   std::string out;
-  for (const Tree& p : t->parts) out += (out.empty() ? "" : t->kind == Node::sum ? " + " : " ") + text_of(p);
+  for (const Tree& p : t->parts)
+    out += (out.empty() ? "" : t->kind == Node::sum ? " + " : t->kind == Node::function ? ", " : " ") + text_of(p);
+  if (t->kind == Node::function) return "f(" + out + ")";
   return (t->is_closed ? "[" : "(") + out + (t->is_closed ? "]" : ")");
 }
 
 /// One random rewrite at a random place, or none.
 inline Tree rewritten(const Tree& t) {
-  if (t->kind == Node::leaf || t->is_closed) return t;
+  if (t->kind == Node::leaf || t->kind == Node::function || t->is_closed) return t;
   std::vector<Tree> parts = t->parts;
-  if (t->kind == Node::function) {
-    Tree& part = parts[drawn(parts.size())];
-    part = rewritten(part);
-    return applied(t->apply, std::move(parts));
-  }
   if (drawn(3) != 0) {
     Tree& part = parts[drawn(parts.size())];
     part = rewritten(part);
@@ -144,18 +141,34 @@ inline Tree rewritten(const Tree& t) {
   return of(Node::sum, std::move(flat));
 }
 
-using Computed = std::map<const Node*, random_gpu::RandomGpu>;
-/// As some device computes it: lists in a random order and grouping, a closed sum once. `once`: so is every part that stands in several
-/// places.
-inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& values, Computed& known, bool once) {
+/// One run of a device.
+struct Run {
+  const std::vector<float>& values;
+  bool once = false;  ///< a part that stands in several places is computed once, as a program does
+  int rewrites = 0;   ///< of a function's arguments, at most
+  std::map<const Node*, random_gpu::RandomGpu> known;
+  std::vector<Tree> kept;  ///< known goes by their addresses
+
+  explicit Run(const std::vector<float>& leaves) : values(leaves) {}
+};
+inline Tree rewritten_often(Tree t, int most) {
+  for (std::size_t n = drawn(static_cast<std::size_t>(most) + 1); n > 0; --n) t = rewritten(t);
+  return t;
+}
+/// As some device computes it: lists in a random order and grouping, a closed sum and a function once.
+inline random_gpu::RandomGpu computed(const Tree& t, Run& run) {
   using random_gpu::RandomGpu;
   if (t->kind == Node::leaf) {
-    const RandomGpu x(values[static_cast<std::size_t>(t->index)]);
+    const RandomGpu x(run.values[static_cast<std::size_t>(t->index)]);
     return t->negative ? -x : x;
   }
-  if (const auto found = known.find(t.get()); found != known.end()) return found->second;
+  if (const auto found = run.known.find(t.get()); found != run.known.end()) return found->second;
   std::vector<RandomGpu> open;
-  for (const Tree& p : t->parts) open.push_back(computed(p, values, known, once));
+  for (const Tree& p : t->parts) {
+    if (t->kind == Node::function) run.kept.push_back(rewritten_often(p, run.rewrites));
+    const Tree part = t->kind == Node::function ? run.kept.back() : p;
+    open.push_back(computed(part, run));
+  }
   if (t->kind == Node::function) open = {t->apply(open.data())};
   while (open.size() > 1) {
     const auto take = [&] {
@@ -167,12 +180,13 @@ inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& v
     const RandomGpu a = take(), b = take();
     open.push_back(t->kind == Node::sum ? a + b : a * b);
   }
-  if (t->is_closed || once) known.emplace(t.get(), t->is_closed ? RandomGpu::exactly(open.front().v) : open.front());
+  if (t->is_closed || t->kind == Node::function) open.front() = RandomGpu::exactly(open.front().v);
+  if (t->is_closed || t->kind == Node::function || run.once) run.known.emplace(t.get(), open.front());
   return open.front();
 }
 inline random_gpu::RandomGpu computed(const Tree& t, const std::vector<float>& values) {
-  Computed known;
-  return computed(t, values, known, false);
+  Run run(values);
+  return computed(t, run);
 }
 
 }  // namespace rainref::test
