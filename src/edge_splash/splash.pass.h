@@ -294,6 +294,9 @@ struct SplashTextures {
   Depth depth;
   Noise noise_map;
 };
+// clang before 17 does not deduce aggregates.
+template <class Depth, class Noise>
+SplashTextures(Depth, Noise) -> SplashTextures<Depth, Noise>;
 struct PublishedSplashPassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {

@@ -19,6 +19,8 @@ struct MutantJudgement {
   std::int64_t outside = 0;     ///< that no alternative accepts, of the formula as written or rearranged
   std::int64_t rearranged = 0;  ///< that only a rearrangement accepts: a port with these alone gets a warning
   bool caught() const { return outside > 0; }
+  /// Not caught, but a port with it would get a WARN.
+  bool warned() const { return !caught() && rearranged > 0; }
 };
 struct MutationReport {
   std::string pack, profile;

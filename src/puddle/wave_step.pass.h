@@ -3,8 +3,8 @@
 #ifndef RAINREF_PUDDLE_WAVE_STEP_PASS_H_
 #define RAINREF_PUDDLE_WAVE_STEP_PASS_H_
 #include <cmath>
-#include <ranges>
 #include <span>
+#include <vector>
 
 #include "pass/definition.h"
 #include "puddle/host.h"
@@ -142,10 +142,12 @@ struct WaveStepPassText {
   static RAINREF_FN void run(const WaveStepUniforms& u, const Io& io, int x, int y) {
     // The others add exactly nothing here; a GPU may leave them out, and so do the lanes.
     const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
-    auto near = io.drops.records | std::views::filter([=](const Drop& d) {
-                  const float reach = (corrected ? d.radius : 4.0f) + 1.5f;
-                  return std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach;
-                });
+    std::vector<Drop> found;
+    for (const Drop& d : io.drops.records) {
+      const float reach = (corrected ? d.radius : 4.0f) + 1.5f;
+      if (std::abs(d.x - cx) < reach && std::abs(d.y - cy) < reach) found.push_back(d);
+    }
+    const std::span<const Drop> near = found;
     io.wave.in_storage([&]<class Storage>(Storage) {
       const auto newest = [&](int dy) { return io.wave.template row<Storage>(0, dy); };
       const WaveRows<Storage> rows = rows_around(u, corrected, newest, io.wave.template row<Storage>(1, 0), io.shore.row[0]);

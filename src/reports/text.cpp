@@ -201,13 +201,9 @@ std::string report_text(const MutationReport& r, bool all) {
     } else if (!m.legal) {
       ++bugs;
       caught += m.caught();
-      warned += !m.caught() && m.rearranged > 0;
+      warned += m.warned();
     }
-    const char* verdict = m.differing == 0   ? "equivalent"
-                          : m.caught()       ? "caught"
-                          : m.legal          ? "legal"
-                          : m.rearranged > 0 ? "WARNED"
-                                             : "MISSED";
+    const char* verdict = m.differing == 0 ? "equivalent" : m.caught() ? "caught" : m.legal ? "legal" : m.warned() ? "WARNED" : "MISSED";
     if (all || (!m.caught() && m.differing > 0 && !m.legal))
       out += fmt::format("{:<10} {:<12} {}: {} of {} invocations differ, {} outside, {} only rearranged\n", verdict, m.pass, m.name,
                          m.differing, m.compared, m.outside, m.rearranged);

@@ -248,6 +248,9 @@ struct PublishedDropsTextures {
   Scene scene;
   Noise noise;
 };
+// clang before 17 does not deduce aggregates.
+template <class Scene, class Noise>
+PublishedDropsTextures(Scene, Noise) -> PublishedDropsTextures<Scene, Noise>;
 struct PublishedDropsPassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/floating_point.h"
 #include "image/flipped.h"
 #include "image_io/write.h"

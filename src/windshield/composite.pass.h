@@ -224,6 +224,9 @@ struct CompositeTextures {
   Depths depth;
   Values height, mask;
 };
+// clang before 17 does not deduce aggregates.
+template <class Colours, class Depths, class Values>
+CompositeTextures(Colours, Colours, Depths, Values, Values) -> CompositeTextures<Colours, Depths, Values>;
 struct CompositePassText {
   template <class Io>
   static RAINREF_FN auto views(const Io& io) {

@@ -35,12 +35,13 @@ std::string line(const MutantJudgement& m) {
 }
 
 struct Count {
-  int applicable = 0, bugs = 0, caught = 0;
+  int applicable = 0, bugs = 0, caught = 0, warned = 0;
   explicit Count(const MutationReport& r) {
     for (const MutantJudgement& m : r.mutants) {
       applicable += m.differing > 0;
       bugs += m.differing > 0 && !m.legal;
       caught += m.differing > 0 && !m.legal && m.caught();
+      warned += m.differing > 0 && !m.legal && m.warned();
     }
   }
 };
@@ -100,13 +101,16 @@ int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
 TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   const MutationReport report = mutated(GetParam(), "vulkan", 0);
   const Count count(report);
-  fmt::print("{}: {} of {} deviations that change something are caught\n", GetParam(), count.caught, count.bugs);
+  fmt::print("{}: {} of {} deviations that change something are caught, {} more warn\n", GetParam(), count.caught, count.bugs,
+             count.warned);
   // Masks of 8 bits hide what moves them by less than a code.
   const std::map<std::string, int> least{
       {"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},  {"rainy_glass-corrected", 80},
       {"edge_splash-as-published", 92}, {"edge_splash-corrected", 75}, {"screen_drops-as-published", 70}, {"screen_drops-corrected", 74},
       {"windshield-as-published", 94},  {"windshield-corrected", 93}};
-  EXPECT_GE(count.caught, count.bugs * least.at(GetParam()) / 100);
+  // None slips through that did not before there were rearrangements; what those hold warns, and is the smaller part.
+  EXPECT_GE(count.caught + count.warned, count.bugs * least.at(GetParam()) / 100);
+  EXPECT_GE(count.caught, count.bugs * (least.at(GetParam()) - 8) / 100);
 
   const capture::Pack pack(pack_folder(GetParam()));
   int large = 0;
