@@ -32,6 +32,7 @@ struct PackOptions {
   SceneOptions scene;
   std::filesystem::path output;
   std::vector<int> frames;          ///< ascending
+  bool may_add_frames = false;      ///< of passes that a port which does nothing passes in these
   std::vector<std::string> passes;  ///< empty: every pass of the variant
 };
 

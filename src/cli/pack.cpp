@@ -189,7 +189,7 @@ int pack(const PackOptions& options) {
   const Packing packing(config, options, executor, passes, frames);
   capture::PackWriter::Total total = packing.write();
   std::map<std::string, judge::NullPorts> idle = idle_passes(options.output);
-  if (!idle.empty() && packing.add_frames(idle)) total = packing.write();
+  if (!idle.empty() && options.may_add_frames && packing.add_frames(idle)) total = packing.write();
   for (const auto& [pass, ports] : idle)
     say("warning: this pack says nothing of {}: a port that does nothing passes ({}); take other frames, or a scene with more in it\n",
         pass, ports.passing());

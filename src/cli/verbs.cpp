@@ -86,21 +86,23 @@ Verb hash_verb(CLI::App& app) {
 Verb pack_verb(CLI::App& app) {
   struct Flags {
     SceneFlags scene;
-    std::string output, at = "0,1,12";
-    std::optional<std::string> passes;
+    std::string output;
+    std::optional<std::string> at, passes;
   };
   CLI::App& verb = *app.add_subcommand("pack", "Write a conformance pack: inputs, uniforms and expected outputs of every pass");
   const auto f = std::make_shared<Flags>();
   add_scene_flags(verb, f->scene, false);
   verb.add_option("-o,--output", f->output, "Folder of the pack; an older pack there is replaced")->type_name("DIR")->required();
-  verb.add_option("--at", f->at, "Frames to take, such as 0,1,12")->type_name("LIST");
+  verb.add_option("--at", f->at, "Frames to take (default: 0,1,12, and one more for a pass that does nothing in these)")->type_name("LIST");
   verb.add_option("--passes", f->passes, "Passes to take, such as wave_step,shade (default: all)")->type_name("LIST");
   verb.footer("Example: rainref pack scenes/puddle/default.toml --size 320x180 --at 0,1,12 -o out/pack");
   return {&verb, [f] {
             PackOptions options;
             require_text(f->output, "--output", "a folder");
             options.output = f->output;
-            for (const std::string& frame : list_of(f->at)) options.frames.push_back(whole_number(frame, "--at", 0, 1000000));
+            for (const std::string& frame : list_of(f->at.value_or("0,1,12")))
+              options.frames.push_back(whole_number(frame, "--at", 0, 1000000));
+            options.may_add_frames = !f->at;
             std::sort(options.frames.begin(), options.frames.end());
             if (f->passes) options.passes = list_of(*f->passes);
             options.scene = resolve(f->scene);

@@ -74,7 +74,7 @@ TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
   EXPECT_EQ(s["origins"]["rain.rate"], "--set");
   EXPECT_EQ(s["origins"]["run.frames"], "corrected.toml:4:1");
   EXPECT_EQ(s["threads"], 2);
-  EXPECT_EQ(s["simd"], "scalar");
+  EXPECT_EQ(s["simd"], simd_targets().back());
   EXPECT_EQ(s["frames"], 2);
   EXPECT_GT(s["seconds"].get<double>(), 0);
   EXPECT_EQ(s["inputs"][0]["key"], "environment.image");

@@ -67,12 +67,13 @@ inline void resize(capture::Array& a, int width, int height) {
     const int from_w = std::max(a.is_records ? old_width : old_width >> level, 1), from_h = std::max(old_height >> level, 1);
     std::vector<std::byte> to(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * size);
     for (int y = 0; y < h && !old[l].empty(); ++y)
-      for (int x = 0; x < w; ++x)
-        std::memcpy(
-            &to[(static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)) * size],
-            &old[l]
-                [(static_cast<std::size_t>(y % from_h) * static_cast<std::size_t>(from_w) + static_cast<std::size_t>(x % from_w)) * size],
-            size);
+      for (int x = 0; x < w; ++x) {
+        const std::size_t from =
+            (static_cast<std::size_t>(y % from_h) * static_cast<std::size_t>(from_w) + static_cast<std::size_t>(x % from_w)) * size;
+        if (from + size > old[l].size()) continue;  // of a format that was changed
+        std::memcpy(&to[(static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x)) * size], &old[l][from],
+                    size);
+      }
     a.levels[l] = std::move(to);
   }
 }
