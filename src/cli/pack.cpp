@@ -56,11 +56,13 @@ void require_lossless(const effect::Inputs& inputs) {
 /// The frames to take of each pass: those asked for in which it runs; where there is none, the first in which it does.
 class Frames : public Recorder {
  public:
-  /// Runs the scene beforehand: to the last frame asked for, and on to the end of its run while some of the passes have not run.
+  /// Runs the scene beforehand, until each pass has run in a frame asked for; to the last of these, and on to the end of the run while
+  /// some of the passes have not run.
   Frames(simulation::Opened scene, const std::vector<int>& asked, const std::vector<std::string>& passes) : asked_(asked) {
     const int longest = std::max(asked.back() + 1, static_cast<int>(scene.config().integer("run.frames")));
     const auto has_run = [&](const std::string& pass) { return first_.contains(pass); };
     for (int frame = 0; frame < longest; ++frame) {
+      if (std::all_of(passes.begin(), passes.end(), [&](const std::string& pass) { return runs_when_asked_.contains(pass); })) break;
       if (frame > asked.back() && std::all_of(passes.begin(), passes.end(), has_run)) break;
       scene.next_frame(this);
     }
