@@ -1,6 +1,5 @@
 // `rainref pack`.
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <memory>
 #include <set>

@@ -16,18 +16,6 @@ namespace {
 using capture::PassCase;
 using enclosed::Enclosure;
 
-template <class N>
-scalar::DropState<N> state_of(const Drop& d) {
-  scalar::DropState<N> s;
-  s.u = N::load(&d.position[0]);
-  s.v = N::load(&d.position[1]);
-  s.velocity_u = N::load(&d.velocity[0]);
-  s.velocity_v = N::load(&d.velocity[1]);
-  s.mass = N::load(&d.mass);
-  s.life = N::load(&d.life);
-  return s;
-}
-
 // The corrected pass decides who stays and then sets the life of the others to 0: that decision is taken already.
 template <class N>
 bool is_ended(N life) {

@@ -29,17 +29,6 @@ using Number = plain::Plain<float>;
 using State = scalar::DropState<Enclosure>;
 
 template <class N>
-scalar::DropState<N> state_of(const Drop& d) {
-  scalar::DropState<N> s;
-  s.u = N::load(&d.position[0]);
-  s.v = N::load(&d.position[1]);
-  s.velocity_u = N::load(&d.velocity[0]);
-  s.velocity_v = N::load(&d.velocity[1]);
-  s.mass = N::load(&d.mass);
-  s.life = N::load(&d.life);
-  return s;
-}
-template <class N>
 double mass_of(const scalar::DropState<N>& d) {
   return static_cast<double>(d.mass.v);
 }

@@ -12,16 +12,6 @@ namespace {
 
 using F = plain::Plain<float>;
 
-scalar::DropState<F> state_of(const Drop& d) {
-  scalar::DropState<F> s;
-  s.u = d.position[0];
-  s.v = d.position[1];
-  s.velocity_u = d.velocity[0];
-  s.velocity_v = d.velocity[1];
-  s.mass = d.mass;
-  s.life = d.life;
-  return s;
-}
 Drop drop_of(const scalar::DropState<F>& s, std::uint32_t id) {
   // + 0: stored zeros are positive.
   return {{s.u.v + 0.0f, s.v.v + 0.0f}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, s.mass.v, s.life.v, id, 0};
@@ -64,12 +54,12 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   std::int64_t ended = 0;
   for (std::size_t i = 0; i < members.size();) {
     const Member first = members[i];
-    scalar::DropState<F> sum = state_of(drops.get(first.root_slot));
+    scalar::DropState<F> sum = state_of<F>(drops.get(first.root_slot));
     for (; i < members.size() && members[i].root_id == first.root_id; ++i) {
       const std::int64_t slot = members[i].slot;
       const Drop d = drops.get(slot);
       if (d.mass > most_quanta - sum.mass.v) continue;  // exact, where the sum is not
-      sum = scalar::absorb(sum, state_of(d));
+      sum = scalar::absorb(sum, state_of<F>(d));
       drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
       ++ended;
     }

@@ -1,5 +1,5 @@
-// The scalar evaluations of integrate and merge: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
-// room do not pull them into the lanes.
+// The scalar evaluations of integrate and merge: Plain, Enclosure, Rearranged and Perturbed. A namespace of their own, so that argument
+// types of this room do not pull them into the lanes.
 #pragma once
 
 #include "drops/records.h"
@@ -20,3 +20,20 @@ using namespace rainref::plain;
 #undef RAINREF_LAMBDA
 
 }  // namespace rainref::drops::scalar
+
+namespace rainref::drops {
+
+/// A stored drop as a number reads it.
+template <class N>
+scalar::DropState<N> state_of(const Drop& d) {
+  scalar::DropState<N> s;
+  s.u = N::load(&d.position[0]);
+  s.v = N::load(&d.position[1]);
+  s.velocity_u = N::load(&d.velocity[0]);
+  s.velocity_v = N::load(&d.velocity[1]);
+  s.mass = N::load(&d.mass);
+  s.life = N::load(&d.life);
+  return s;
+}
+
+}  // namespace rainref::drops

@@ -42,13 +42,7 @@ bool integrate_as_published(const PassCase& c, std::vector<Array>& out) {
   const auto glass = capture::records_of<drops::GlassFrame>(capture::record_input(c, "glass_frame")).front();
   std::vector<drops::Drop> moved;
   for (drops::Drop d : capture::records_of<drops::Drop>(capture::record_input(c, "drops"))) {
-    drops::scalar::DropState<Compiled> s;
-    s.u = d.position[0];
-    s.v = d.position[1];
-    s.velocity_u = d.velocity[0];
-    s.velocity_v = d.velocity[1];
-    s.mass = d.mass;
-    s.life = d.life;
+    drops::scalar::DropState<Compiled> s = drops::state_of<Compiled>(d);
     s = drops::scalar::integrate_as_published<Compiled>(u, glass, s);
     if (!(s.life.v > 0)) continue;
     d.position[0] = s.u.v;

@@ -59,16 +59,6 @@ inline std::vector<Drop> random_drops(int count, std::uint32_t seed, float most_
   return out;
 }
 
-template <class N>
-scalar::DropState<N> state_of(const Drop& d) {
-  scalar::DropState<N> s;
-  s.u = d.position[0];
-  s.v = d.position[1];
-  s.velocity_u = d.velocity[0];
-  s.velocity_v = d.velocity[1];
-  s.mass = d.mass;
-  s.life = d.life;
-  return s;
-}
+using drops::state_of;
 
 }  // namespace rainref::drops::test

@@ -46,6 +46,9 @@ inline enclosed::Profile read_profile(const std::string& name) {
                                                {"srgb_store_ulp", &p.srgb_store_ulp}};
   const std::map<std::string, StoreRounding> roundings{
       {"\"rne\"", StoreRounding::rne}, {"\"rtz\"", StoreRounding::rtz}, {"\"either\"", StoreRounding::either}};
+  const std::map<std::string, Rearrangement> rearrangements{{"\"none\"", Rearrangement::none},
+                                                            {"\"reassociated\"", Rearrangement::reassociated},
+                                                            {"\"distributed\"", Rearrangement::distributed}};
   const std::map<std::string, StoreOverflow> overflows{
       {"\"inf\"", StoreOverflow::inf}, {"\"max\"", StoreOverflow::max}, {"\"either\"", StoreOverflow::either}};
 
@@ -95,7 +98,7 @@ inline enclosed::Profile read_profile(const std::string& name) {
     else if (key == "flush")
       p.flush = value == "\"never\"" ? Flush::never : value == "\"may\"" ? Flush::may : Flush::must;
     else if (key == "rearrangement")
-      p.rearrangement = value == "\"distributed\"" ? Rearrangement::distributed : Rearrangement::none;
+      p.rearrangement = rearrangements.at(value);
     else if (key == "half_store")
       p.half_store = roundings.at(value);
     else if (key == "half_overflow")

@@ -108,7 +108,7 @@ TEST(Rearranged, HoldsTheFormulaAsWrittenUnderEveryGrade) {
   }
 }
 
-// A grade holds what a smaller one does.
+// A grade that allows more is wider on average.
 TEST(Rearranged, GradesGrow) {
   double width[3] = {};
   for (int trial = 0; trial < 2000; ++trial) {
