@@ -60,7 +60,7 @@ void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const 
 }
 
 /// Asks about the run with the most failures, which says most.
-std::vector<Cause> causes_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
   const auto worst =
       std::max_element(judged.cases.begin(), judged.cases.end(), [](const auto& a, const auto& b) { return a.failing < b.failing; });
   if (worst == judged.cases.end() || worst->failing == 0) return {};
@@ -76,7 +76,8 @@ std::vector<Cause> causes_of(const PassTask& task, const PassJudgement& judged, 
     else
       before.reset();
   }
-  return task.runs.explain({*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged.half_mode, options});
+  return task.runs.explain(
+      {*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged, judged.half_mode, options});
 }
 
 /// Every run of a pass, under each rounding that may be its port's.
@@ -120,7 +121,10 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     judged.formula = task.pass->formula;
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged);
-    if (task.runs.explain && judged.status == Status::fail) judged.causes = causes_of(task, judged, options);
+    if (!task.runs.explain || judged.status != Status::fail) continue;
+    Explanation why = explained(task, judged, options);
+    judged.causes = std::move(why.causes);
+    judged.where = std::move(why.where);
   }
   return all;
 }

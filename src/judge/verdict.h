@@ -94,6 +94,12 @@ struct Cause {
   std::int64_t of = 0;         ///< failing texels replayed
   std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
   bool of_records = false;     ///< of a list: ids that are missing, too many, or wrong, in place of texels
+  bool is_likely = false;      ///< it explains nearly all of them; otherwise it may be the cause
+};
+/// Why a pass fails, and where.
+struct Explanation {
+  std::vector<Cause> causes;  ///< best first; empty: unknown
+  std::string where = "";     ///< "only channel y of wave": what the failures share; "": nothing
 };
 
 struct PassJudgement {
@@ -106,6 +112,7 @@ struct PassJudgement {
   bool half_mode_voted = false;
   std::vector<CaseJudgement> cases;
   std::vector<Cause> causes;  ///< best first; empty: unknown
+  std::string where = "";     ///< Explanation::where
 };
 
 struct PortJudgement {

@@ -99,9 +99,52 @@ Behaviour& behaviour() { return current; }
 
 Perturbed::Perturbed(float constant) : v(constant) {
   if (current.constants) current.constants->push_back(constant);
+  if (current.follows()) {
+    const bool is_known = current.known && std::binary_search(current.known->begin(), current.known->end(), constant);
+    leaf(Op::constant, is_known ? std::bit_cast<std::uint32_t>(constant) : 0);
+  }
   if (is(Fault::constant) && constant == current.constant) v = current.replacement;
   if (is(Fault::half_constants)) v = to_float(to_half(constant));
 }
+Perturbed Perturbed::index(int first) {
+  Perturbed column = of(current.is_column_mirrored ? current.column_offset - static_cast<float>(first)
+                                                   : static_cast<float>(first) + current.column_offset);
+  if (current.follows()) column.leaf(Op::index, 0);
+  return column;
+}
+Perturbed Perturbed::loaded(Perturbed texel) {
+  if (current.loads && current.loaded < current.loads->size())
+    if (const float other = (*current.loads)[current.loaded]; other == other) texel.v = other;
+  ++current.loaded;
+  if (current.follows()) texel.leaf(Op::load, 0);
+  return texel;
+}
+Perturbed Perturbed::fetched(float texel) {
+  Perturbed f = of(texel);
+  if (current.follows()) f.leaf(Op::fetch, 0);
+  return f;
+}
+Perturbed Perturbed::opposite() const {
+  Perturbed o = *this;
+  o.v = -o.v;
+  o.factor_ = -o.factor_;
+  return o;
+}
+bool operator<(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b); }
+bool operator<=(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b); }
+Perturbed select(bool m, Perturbed a, Perturbed b) {
+  return Perturbed::met(Op::choice, m ? a : b, m ? a : b, m ? b : a, Perturbed::of(m ? 1.0f : 0.0f));
+}
+Perturbed min(Perturbed a, Perturbed b) {
+  return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
+}
+Perturbed max(Perturbed a, Perturbed b) {
+  return Perturbed::met(Op::maximum, Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v), a, b);
+}
+Perturbed abs(Perturbed a) { return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a); }
+Perturbed operator-(Perturbed a) { return Perturbed::met(Op::negation, a.opposite(), a); }
+Perturbed operator+(Perturbed a, Perturbed b) { return Perturbed::met(Op::sum, Perturbed::add(a, b), a, b); }
+Perturbed operator-(Perturbed a, Perturbed b) { return Perturbed::met(Op::difference, Perturbed::add(a, b.opposite()), a, b); }
 
 Perturbed Perturbed::add(Perturbed a, Perturbed b) {
   if (a.product_ || b.product_) {
@@ -122,18 +165,28 @@ Perturbed operator*(Perturbed a, Perturbed b) {
   r.factor_ = a.v;
   r.other_ = b.v;
   r.product_ = true;
-  return r;
+  return Perturbed::met(Op::product, r, a, b);
 }
-Perturbed operator/(Perturbed a, Perturbed b) {
+Perturbed square(Perturbed a) {
+  const auto squared = [&] {
+    const Unseen parts;
+    return is(Fault::square_missing) ? a : a * a;
+  };
+  return Perturbed::met(Op::square, squared(), a);
+}
+namespace {
+Perturbed quotient(Perturbed a, Perturbed b) {
   if (is(Fault::reciprocal_division)) return finish(a.v * (1.0f / b.v), 0);
   if (is(Fault::division_by_estimate)) return finish(a.v * beside(1.0f / b.v, true), 0);
-  const double quotient = exact(a) / b.v;
+  const double exact_quotient = exact(a) / b.v;
   if (take(&Variations::reciprocal)) {
     const Accuracy& allowed = current.variations->rules.division;
-    if (const float r = a.v * (1.0f / b.v); within(r, quotient, bound_of(quotient, allowed, 0), allowed)) return finish(r, 0);
+    if (const float r = a.v * (1.0f / b.v); within(r, exact_quotient, bound_of(exact_quotient, allowed, 0), allowed)) return finish(r, 0);
   }
-  return erring(a.v / b.v, quotient, &Profile::division);
+  return erring(a.v / b.v, exact_quotient, &Profile::division);
 }
+}  // namespace
+Perturbed operator/(Perturbed a, Perturbed b) { return Perturbed::met(Op::quotient, quotient(a, b), a, b); }
 Perturbed Perturbed::load_unorm(Unorm8 code) {
   // 0 and 1 are exact everywhere.
   if (code.code == 0 || code.code == 255) return of(plain::to_float(code));
@@ -144,36 +197,60 @@ Perturbed inverse_sqrt(Perturbed a) {
   return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
 }
 Perturbed sqrt(Perturbed a) {
-  if (is(Fault::root_missing)) return a;
-  if (is(Fault::root_by_inverse)) return a.v > 0 ? finish(1.0f / (1.0f / __builtin_sqrtf(a.v)), 0) : a;
-  if (a.v == 0) return a;
-  if (current.variations && current.variations->rules.sqrt_is_inherited) return Perturbed::of(1.0f) / inverse_sqrt(a);
-  return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::root_missing)) return a;
+    if (is(Fault::root_by_inverse)) return a.v > 0 ? finish(1.0f / (1.0f / __builtin_sqrtf(a.v)), 0) : a;
+    if (a.v == 0) return a;
+    if (current.variations && current.variations->rules.sqrt_is_inherited) return Perturbed::of(1.0f) / inverse_sqrt(a);
+    return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
+  };
+  return Perturbed::met(Op::root, result(), a);
 }
 Perturbed floor(Perturbed a) {
-  const Reference down = floor(reference(a));
-  if (is(Fault::truncated_floor)) return Perturbed::of(a.v < 0 && down.v != a.v ? down.v + 1 : down.v);
-  if (is(Fault::rounded_floor)) return Perturbed::of(floor(Reference(a.v + 0.5f)).v);
-  return Perturbed::of(down.v);
+  const auto result = [&] {
+    const Unseen parts;
+    const Reference down = floor(reference(a));
+    if (is(Fault::truncated_floor)) return Perturbed::of(a.v < 0 && down.v != a.v ? down.v + 1 : down.v);
+    if (is(Fault::rounded_floor)) return Perturbed::of(floor(Reference(a.v + 0.5f)).v);
+    return Perturbed::of(down.v);
+  };
+  return Perturbed::met(Op::floor, result(), a);
 }
 Perturbed fract(Perturbed a) {
-  const Reference down = floor(reference(a));
-  if (is(Fault::fract_by_truncation) && a.v < 0) return finish(a.v - (down.v == a.v ? down.v : down.v + 1), 0);
-  return a - Perturbed::of(down.v);
+  const auto result = [&] {
+    const Unseen parts;
+    const Reference down = floor(reference(a));
+    if (is(Fault::fract_by_truncation) && a.v < 0) return finish(a.v - (down.v == a.v ? down.v : down.v + 1), 0);
+    return a - Perturbed::of(down.v);
+  };
+  return Perturbed::met(Op::fract, result(), a);
 }
 Perturbed mix(Perturbed a, Perturbed b, Perturbed t) {
-  if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
-  if (is(Fault::mix_by_difference) || take(&Variations::mix_either)) return a + (b - a) * t;
-  return a * (Perturbed::of(1.0f) - t) + b * t;
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
+    if (is(Fault::mix_by_difference) || take(&Variations::mix_either)) return a + (b - a) * t;
+    return a * (Perturbed::of(1.0f) - t) + b * t;
+  };
+  return Perturbed::met(Op::mix, result(), a, b, t);
 }
 
 Perturbed exp(Perturbed a) {
-  if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
-  return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
+    return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
+  };
+  return Perturbed::met(Op::exponential, result(), a);
 }
 Perturbed exp2(Perturbed a) {
-  if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
-  return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
+    return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
+  };
+  return Perturbed::met(Op::exponential2, result(), a);
 }
 namespace {
 bool near_one(Perturbed a) { return a.v >= 0.5f && a.v <= 2.0f; }
@@ -198,27 +275,47 @@ Perturbed wave(float nearest, double exact, double x) {
 }
 }  // namespace
 Perturbed log(Perturbed a) {
-  return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
+  const auto result = [&] {
+    const Unseen parts;
+    return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
+  };
+  return Perturbed::met(Op::logarithm, result(), a);
 }
 Perturbed pow(Perturbed a, Perturbed b) {
-  if (is(Fault::pow_squared)) return a * a;
-  if (current.variations && a.v > 0 && current.variations->rules.pow_is_inherited) return exp2(b * log2(a));
-  const float nearest = pow(reference(a), reference(b)).v;
-  return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::pow_squared)) return a * a;
+    if (current.variations && a.v > 0 && current.variations->rules.pow_is_inherited) return exp2(b * log2(a));
+    const float nearest = pow(reference(a), reference(b)).v;
+    return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
+  };
+  return Perturbed::met(Op::power, result(), a, b);
 }
 Perturbed sin(Perturbed a) {
-  const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
-  return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
+  const auto result = [&] {
+    const Unseen parts;
+    const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
+    return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
+  };
+  return Perturbed::met(Op::sine, result(), a);
 }
 Perturbed cos(Perturbed a) {
-  const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
-  return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
+  const auto result = [&] {
+    const Unseen parts;
+    const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
+    return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
+  };
+  return Perturbed::met(Op::cosine, result(), a);
 }
 Perturbed atan2(Perturbed y, Perturbed x) {
-  if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
-  // Not every device keeps the sign of a zero.
-  if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
-  return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
+    // Not every device keeps the sign of a zero.
+    if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
+    return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
+  };
+  return Perturbed::met(Op::angle, result(), y, x);
 }
 
 namespace {
@@ -251,11 +348,17 @@ Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbe
   return (a + b) + (c + d);
 }
 Perturbed smoothstep(float edge0, float edge1, Perturbed x) {
-  if (is(Fault::smoothstep_linear)) return plain::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
-  if (!current.variations) return plain::smoothstep<Perturbed>(edge0, edge1, x);
-  // The edges' difference is the device's own.
-  const Perturbed t = plain::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
-  return t * t * (Perturbed(3.0f) - Perturbed(2.0f) * t);
+  const auto result = [&]() -> Perturbed {
+    const Unseen parts;
+    if (is(Fault::smoothstep_linear)) return plain::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
+    if (!current.variations) return plain::smoothstep<Perturbed>(edge0, edge1, x);
+    // The edges' difference is the device's own.
+    const Perturbed t = plain::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
+    return t * t * (Perturbed(3.0f) - Perturbed(2.0f) * t);
+  };
+  if (!current.follows()) return result();
+  const Perturbed from(edge0), to(edge1);
+  return Perturbed::met(Op::smoothstep, result(), x, from, to);
 }
 Perturbed uniform_quotient(float a, float b, Perturbed) { return current.variations ? Perturbed(a) / Perturbed(b) : Perturbed(a / b); }
 plain::Vec3<Perturbed> normalize(const plain::Vec3<Perturbed>& a) {
