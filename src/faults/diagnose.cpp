@@ -49,6 +49,7 @@ std::vector<Texel> passing_texels(const capture::PassModel& model, const std::ve
 struct Match {
   bool exact = false;  ///< the same bits
   bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
+  bool tells = false;  ///< so near, or so much nearer than the reference, that it is no chance
 };
 
 std::int64_t gap(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
@@ -93,7 +94,7 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
 Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& deviated,
               const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
               std::size_t k) {
-  Match m{true, true};
+  Match m{true, true, true};
   bool nearer = false;
   for (std::size_t v = 0; v < slots.size(); ++v) {
     if (model.is_free(static_cast<int>(v))) continue;
@@ -107,9 +108,11 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     m.exact &= far == 0;
     m.near &= far <= leeway.codes[v] || off <= leeway.values[k][v];
     nearer |= far < before && 4 * far <= before;
+    m.tells &= far == 0 || 16 * far <= before;
   }
   m.exact &= nearer;  // else the reference gives the same bits, and the deviation explains nothing
   m.near &= nearer;
+  m.tells &= m.near;
   return m;
 }
 
@@ -167,16 +170,19 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
         };
         const auto matching = std::count_if(few.begin(), few.end(), [&](std::size_t t) { return match_at(t).near; });
         if (static_cast<std::size_t>(matching) * 6 < few.size()) continue;
+        std::int64_t telling = 0;
         for (std::size_t t = 0; t < failing.size(); ++t) {
           const Match m = match_at(t);
           cause.explained += m.exact;
           cause.inside += m.near;
+          telling += m.tells;
         }
         // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
         // break about as many texels as it explains.
         const double broken = contradicted(slots, model, deviated, port, reference, leeway, d.is_evaluated() ? few_passing : many_passing) *
                               passing_per_failing;
         if (broken * 4 > 1) cause.explained = cause.inside = 0;
+        cause.is_likely = telling * 10 >= cause.of * 9;
       } catch (const Error&) {
         cause.explained = cause.inside = 0;  // the altered case is none that the pass can run
       }
@@ -212,11 +218,12 @@ std::vector<Cause> best_causes(std::vector<Cause> causes) {
   std::stable_sort(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });
   std::vector<Cause> out;
   for (Cause& c : causes)
-    if (out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; }))
-      out.push_back(std::move(c));
-  // Likely is what explains nearly all, and enough that no chance does: the honest word for less is "may be".
-  Cause& first = out.front();
-  first.is_likely = (first.of_records || first.of >= 4) && std::max(first.inside, first.explained) * 10 >= first.of * 9;
+    if (out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; })) out.push_back(c);
+  // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
+  // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
+  constexpr std::ptrdiff_t most_rivals = 20;
+  const auto rivals = std::count_if(causes.begin(), causes.end(), [&](const Cause& c) { return score(c) >= best - 0.04; });
+  for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
 }
 

@@ -59,52 +59,57 @@ float rounded(float x, int digits) {
   return static_cast<float>(std::round(x * scale) / scale);
 }
 
-/// The replacement of a constant that every texel wants, as near to it as one of a few digits may be.
-std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wanted) {
+/// The replacements of a constant that give a texel what it wants, the nearest to the constant first.
+std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
   const float v = pass.constant;
-  const Wanted& first = wanted.front();
-  const std::size_t slot = farthest_slot(first);
-  const auto off = [&](float r) { return static_cast<double>(pass.value(first, slot, r)) - first.port[slot]; };
+  const std::size_t slot = farthest_slot(w);
+  const auto off = [&](float r) { return static_cast<double>(pass.value(w, slot, r)) - w.port[slot]; };
   std::vector<float> tried;
   for (const float f :
-       {-4.0f, -2.0f, -1.0f, -0.5f, 0.0f, 0.25f, 0.5f, 0.75f, 0.9f, 0.97f, 1.0f, 1.03f, 1.1f, 1.25f, 1.5f, 2.0f, 3.0f, 4.5f, 10.0f})
+       {-4.0f, -2.0f, -1.0f, -0.5f, 0.0f, 0.05f, 0.25f, 0.5f, 0.75f, 0.9f, 0.97f, 1.0f, 1.03f, 1.1f, 1.25f, 1.5f, 2.0f, 3.0f, 4.5f, 10.0f})
     tried.push_back(v == 0 ? f : v * f);
   std::sort(tried.begin(), tried.end());
-  // Nearest to the constant first.
-  std::vector<std::pair<double, float>> roots;
+  std::vector<float> roots;
   double before = off(tried[0]);
   for (std::size_t k = 1; k < tried.size(); ++k) {
     const double now = off(tried[k]);
-    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0)) {
-      const float root = bisected(tried[k - 1], tried[k], off);
-      roots.push_back({std::abs(static_cast<double>(root) - v), root});
-    }
+    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0)) roots.push_back(bisected(tried[k - 1], tried[k], off));
     before = now;
   }
-  std::sort(roots.begin(), roots.end());
-  // How much nearer than the reference a replacement must be everywhere.
-  const auto fits = [&](float r, double share) {
-    return std::all_of(wanted.begin(), wanted.end(), [&](const Wanted& w) {
+  std::sort(roots.begin(), roots.end(), [v](float a, float b) { return std::abs(a - v) < std::abs(b - v); });
+  return roots;
+}
+
+/// The one that suits all texels best, as one of a few digits where that suits them about as well; nothing where none does.
+std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wanted) {
+  // How far off all are, in steps of the store.
+  const auto misfit = [&](float r) {
+    double sum = 0;
+    for (const Wanted& w : wanted) {
       const std::size_t s = farthest_slot(w);
-      const double far = std::abs(static_cast<double>(w.port[s]) - w.reference[s]);
-      return std::abs(static_cast<double>(pass.value(w, s, r)) - w.port[s]) <= share * far + w.step[s];
-    });
+      sum += std::abs(static_cast<double>(pass.value(w, s, r)) - w.port[s]) / std::max(w.step[s], 1e-30f);
+    }
+    return sum;
   };
-  for (const auto& [distance, root] : roots) {
-    if (!(distance > 0) || !fits(root, 0.1)) continue;
-    for (int digits = 1; digits < 6 && root != 0; ++digits)
-      if (const float nice = rounded(root, digits); nice != v && fits(nice, 0.02)) return nice;
-    return root;
-  }
-  return std::nullopt;
+  const double without = misfit(pass.constant);
+  std::optional<float> best;
+  double least = without / 10;  // it must be much better than the constant itself
+  for (std::size_t k = 0; k < std::min<std::size_t>(wanted.size(), 4); ++k)
+    for (const float root : replacements(pass, wanted[k]))
+      if (const double m = misfit(root); m < least && root != pass.constant) least = m, best = root;
+  for (int digits = 1; best && *best != 0 && digits < 7; ++digits)
+    if (const float nice = rounded(*best, digits);
+        nice != pass.constant && misfit(nice) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()))
+      return nice;
+  return best;
 }
 
 }  // namespace
 
-void add_fitted_constants(std::vector<Deviation>& out, const capture::PassModel& model, const std::map<float, std::string>& names,
+void add_fitted_constants(std::vector<Deviation>& out, const capture::PassModel& model, const Constants& constants,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
-  for (const auto& [value, name] : names) {
+  for (const auto& [value, name, is_literal] : constants) {
     const std::optional<float> other = fitted({model, value}, wanted);
     if (!other) continue;
     Deviation d;

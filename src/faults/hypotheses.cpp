@@ -33,8 +33,6 @@ std::vector<Wanted> wanted_at(const capture::PassCase& c, const std::vector<Arra
   return out;
 }
 
-}  // namespace
-
 /// Texels whose stored values say most about a constant: where the port is farthest off, in steps of the store.
 std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   const auto far = [](const Wanted& w) {
@@ -60,30 +58,40 @@ std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassM
   return failing;
 }
 
+template <class Which>
+void take(std::vector<Deviation>& from, std::vector<Deviation>& to, Which which) {
+  std::copy_if(from.begin(), from.end(), std::back_inserter(to), which);
+  std::erase_if(from, which);
+}
+
+}  // namespace
+
 std::vector<Deviation> hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Array>& port,
                                   const std::vector<Array>& reference, const std::vector<Texel>& failing) {
-  std::vector<Deviation> all = deviations_of(p.pass, p.c, p.model, before), later;
-  // Constants are tried by their names, and what an operation may be mistaken for first at each place by itself.
+  std::vector<Deviation> all = deviations_of(p.pass, p.c, p.model, before), uniforms, operations;
+  // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
   std::erase_if(all, [](const Deviation& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  const auto named = [](const Deviation& d) {
+  take(all, uniforms, [](const Deviation& d) { return d.name.starts_with("uniform"); });
+  take(all, operations, [](const Deviation& d) {
     return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
-  };
-  std::copy_if(all.begin(), all.end(), std::back_inserter(later), named);
-  std::erase_if(all, named);
+  });
   add_output_mixups(all, p, before);
   add_tap_faults(all, p);
+  add_input_mixups(all, p);
   const std::vector<float> known = constants_everywhere(p.model);
   const std::vector<Probe> probes = probes_of(p, spread(inner(failing, p.model), 4), known);
-  const std::map<float, std::string> names = names_of_constants(probes, known);
-  add_named_constants(all, p, names);
+  const Constants constants = names_of_constants(probes, known);
+  add_named_constants(all, constants, false);
   add_place_faults(all, probes, known);
-  add_input_mixups(all, p);
+  std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
+  add_scaled_inputs(all, p);
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
+  add_named_constants(all, constants, true);
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
   add_place_faults(all, probes_again(p.model, probes, {}), {});
-  std::move(later.begin(), later.end(), std::back_inserter(all));
-  add_odd_constants(all, p, names);
-  add_fitted_constants(all, p.model, names, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 5));
+  std::move(operations.begin(), operations.end(), std::back_inserter(all));
+  add_odd_constants(all, p, constants);
+  add_fitted_constants(all, p.model, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 12));
   return all;
 }
 

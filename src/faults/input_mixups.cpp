@@ -122,14 +122,6 @@ void add_image(Adder& add, const PassCase& c, std::size_t i) {
     array("decoded by a power of 2.2", fmt::format("{} is decoded by a power of 2.2", name),
           [](Array& altered) { recode(altered, [](double v) { return std::pow(v, 2.2); }); });
   }
-  array("doubled", fmt::format("{} counts twice", name), [](Array& altered) {
-    recode(
-        altered, [](double v) { return 2 * v; }, true);
-  });
-  array("halved", fmt::format("{} counts half", name), [](Array& altered) {
-    recode(
-        altered, [](double v) { return v / 2; }, true);
-  });
   array("from 1 down", fmt::format("{} is taken from 1", name), [](Array& altered) { recode(altered, [](double v) { return 1 - v; }); });
   for (const Address address : {Address::clamp, Address::repeat, Address::mirror, Address::border}) {
     if (c.inputs[i].address_u == address && c.inputs[i].address_v == address) continue;
@@ -194,6 +186,22 @@ void add_records(Adder& add, const PassCase& c, std::size_t i) {
 }
 
 }  // namespace
+
+void add_scaled_inputs(std::vector<Deviation>& out, const Probed& p) {
+  Adder add(out);
+  for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
+    if (p.c.inputs[i].array.is_records) continue;
+    const std::string& name = p.c.inputs[i].name;
+    add(fmt::format("input {} doubled", name), fmt::format("{} counts twice", name), [i](PassCase& c) {
+      recode(
+          c.inputs[i].array, [](double v) { return 2 * v; }, true);
+    });
+    add(fmt::format("input {} halved", name), fmt::format("{} counts half", name), [i](PassCase& c) {
+      recode(
+          c.inputs[i].array, [](double v) { return v / 2; }, true);
+    });
+  }
+}
 
 void add_input_mixups(std::vector<Deviation>& out, const Probed& p) {
   Adder add(out);

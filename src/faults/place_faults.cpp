@@ -141,7 +141,7 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(Slip::other, "linear for smoothstep: " + all, fmt::format("{} is a linear ramp", all));
       break;
     case Op::choice:
-      add(Slip::swapped, "select the other way: " + all, fmt::format("where {} is chosen, the other side is taken", all));
+      add(Slip::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
       break;
     case Op::comparison:
       add(Slip::always, fmt::format("condition left out: {} < {}", a, b), fmt::format("{} < {} is taken to hold everywhere", a, b));

@@ -16,7 +16,7 @@ struct Wanted {
   Texel at;
   std::vector<float> port, reference, step;  ///< step: to the next number that the slot can hold
 };
-void add_fitted_constants(std::vector<Deviation>& out, const capture::PassModel& model, const std::map<float, std::string>& names,
+void add_fitted_constants(std::vector<Deviation>& out, const capture::PassModel& model, const Constants& constants,
                           const std::vector<Wanted>& wanted);
 
 }  // namespace rainref::faults

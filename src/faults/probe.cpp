@@ -99,16 +99,24 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
     const bool is_texel = a.op == Op::load || a.op == Op::fetch;
     if (!is_leaf(a.op) || is_texel != touched.is_input) continue;
     const double by = std::abs(static_cast<double>(b.value) - a.value);
-    if (!(by > 0) || by >= least[n]) continue;
+    if (!(by > 0)) continue;
+    std::string& name = probe.names[n];
+    if (!touched.is_input && !name.empty()) {
+      // Of several numbers: named after all of them, the second time and on.
+      if (!name.starts_with("f(")) name = "f(" + name + ")";
+      name.insert(name.size() - 1, ", " + touched.name);
+      continue;
+    }
+    if (by >= least[n]) continue;
     least[n] = by;
     // What is computed of a number before the pass's arithmetic begins, 1 / ior, is not the number itself.
     const bool falls = (b.value < a.value) == (a.value > 0);
     const bool is_itself = touched.is_input || (touched.value ? a.value == *touched.value : !falls);
     const bool is_inverse = touched.value ? a.value == 1 / *touched.value : falls;
-    probe.names[n] = is_itself                                     ? touched.name
-                     : is_inverse                                  ? "1 / " + touched.name
-                     : touched.value && a.value == -*touched.value ? "-" + touched.name
-                                                                   : "f(" + touched.name + ")";
+    name = is_itself                                     ? touched.name
+           : is_inverse                                  ? "1 / " + touched.name
+           : touched.value && a.value == -*touched.value ? "-" + touched.name
+                                                         : "f(" + touched.name + ")";
   }
 }
 
@@ -162,7 +170,7 @@ std::string Probe::text(std::int32_t node, int depth) const {
   if (is_leaf(n.op)) return names[static_cast<std::size_t>(node)];
   if (n.op == Op::lookup) return text(n.of[2], depth);
   if (n.op == Op::level || n.op == Op::coordinate) return text(n.of[0], depth);
-  if (n.op == Op::choice) return text(n.of[0], depth);
+  if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth), text(n.of[1], depth));
   if (depth == 0) return "...";
   if (n.op == Op::negation) return "-" + text(n.of[0], depth);
   if (const char* sign = sign_of(n.op); *sign) {
@@ -245,7 +253,7 @@ std::vector<Probe> probes_again(const capture::PassModel& model, const std::vect
   return out;
 }
 
-std::map<float, std::string> names_of_constants(const std::vector<Probe>& probes, const std::vector<float>& known) {
+Constants names_of_constants(const std::vector<Probe>& probes, const std::vector<float>& known) {
   std::map<float, std::set<std::string>> all;
   for (const Probe& probe : probes)
     for (std::size_t n = 0; n < probe.names.size(); ++n) {
@@ -253,12 +261,16 @@ std::map<float, std::string> names_of_constants(const std::vector<Probe>& probes
       if (node.op != Op::constant || !std::binary_search(known.begin(), known.end(), node.value)) continue;
       if (probe.names[n].find(" of ") == std::string::npos) all[node.value].insert(probe.names[n]);
     }
-  std::map<float, std::string> out;
+  Constants out;
   for (const auto& [value, names] : all) {
     std::string text;
-    for (const std::string& name : names)
-      text += (text.empty() ? "" : " or ") + (name == fmt::format("{}", value) ? "the literal " + name : name);
-    out[value] = text;
+    bool is_literal = false;
+    for (const std::string& name : names) {
+      const bool is_number = name == fmt::format("{}", value);
+      is_literal |= is_number;
+      text += (text.empty() ? "" : " or ") + (is_number ? "the literal " + name : name);
+    }
+    out.push_back({value, text, is_literal});
   }
   return out;
 }

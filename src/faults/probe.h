@@ -37,8 +37,15 @@ std::vector<Probe> probes_of(const Probed& probed, const std::vector<Texel>& tex
 /// The same invocations, of probes whose leaves have names, with other constants known.
 std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known);
 
-/// The names of constants that are met everywhere: "damping", "pixel_scale or up.y", "the literal 4". Those of records are not.
-std::map<float, std::string> names_of_constants(const std::vector<Probe>& probes, const std::vector<float>& known);
+/// A number that is met everywhere.
+struct Constant {
+  float value;
+  std::string name;  ///< "damping", "pixel_scale or up.y", "the literal 4"
+  bool is_literal;
+};
+using Constants = std::vector<Constant>;
+/// Constants that the probes met and that are `known`; those of records are none.
+Constants names_of_constants(const std::vector<Probe>& probes, const std::vector<float>& known);
 
 /// The uniforms, without components, that the probes met.
 std::set<std::string> uniforms_met(const std::vector<Probe>& probes, const capture::PackPass& pass);

@@ -174,29 +174,29 @@ void add_uniform_mixups(std::vector<Deviation>& out, const Probed& p, const std:
   add_exchanges(add, p.c, members);
 }
 
-void add_named_constants(std::vector<Deviation>& out, const Probed& p, const std::map<float, std::string>& names) {
-  const float aspect = p.model.height() > 0 ? static_cast<float>(p.model.width()) / static_cast<float>(p.model.height()) : 1.0f;
-  for (const auto& [value, name] : names) {
+void add_named_constants(std::vector<Deviation>& out, const Constants& constants, bool literals) {
+  for (const auto& [value, name, is_literal] : constants) {
+    if (value == 0 || is_literal != literals || name.starts_with("f(")) continue;  // a made number is rarely left out by itself
     const Replacer as(out, value, name);
-    if (value == 0) continue;
     as(1, "left out of a product");
     as(0, "left out");
     as(-value, "with the other sign");
     as(value * 2, "doubled");
     as(value / 2, "halved");
     as(value * value, "taken twice, or squared");
-    if (value > 0) as(std::sqrt(value), "without its square");
     as(1 / value, "inverted");
     as(1 - value, "taken from 1");
-    as(value * aspect, "times the aspect ratio");
-    as(value / aspect, "without the aspect ratio");
   }
 }
-void add_odd_constants(std::vector<Deviation>& out, const Probed&, const std::map<float, std::string>& names) {
+void add_odd_constants(std::vector<Deviation>& out, const Probed& p, const Constants& constants) {
+  const float aspect = p.model.height() > 0 ? static_cast<float>(p.model.width()) / static_cast<float>(p.model.height()) : 1.0f;
   constexpr float pi = std::numbers::pi_v<float>;
-  for (const auto& [value, name] : names) {
-    const Replacer as(out, value, name);
+  for (const auto& [value, name, is_literal] : constants) {
     if (value == 0) continue;
+    const Replacer as(out, value, name);
+    if (value > 0) as(std::sqrt(value), "without its square");
+    as(value * aspect, "times the aspect ratio");
+    as(value / aspect, "without the aspect ratio");
     as(value + 1, "one more");
     as(value - 1, "one less");
     as(value * (pi / 180), "in degrees");

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "math/directed.h"
+#include "math/perturbed_draws.h"
 
 namespace rainref::perturbed {
 namespace {
@@ -13,22 +14,6 @@ using enclosed::Accuracy;
 using enclosed::Profile;
 
 thread_local Behaviour current;
-
-/// splitmix64 (Steele, Lea, Flood 2014): draws of the variations only.
-std::uint64_t draw() {
-  std::uint64_t z = current.random += 0x9e3779b97f4a7c15u;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-  return z ^ z >> 31;
-}
-bool coin() { return draw() & 1; }
-/// In [-1, 1), or often an end.
-double swing() {
-  const std::uint64_t bits = draw();
-  if (current.lean != 0 && (bits & 14) != 0) return current.lean;
-  if (bits & 1) return bits & 2 ? 1 : -1;
-  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
-}
 
 bool is(Fault fault) { return current.fault == fault; }
 /// Whether this operation takes a variation that is granted.
@@ -59,8 +44,6 @@ Perturbed finish(float nearest, double error) {
   if (is(Fault::half_intermediates)) r = to_float(to_half(r));
   return Perturbed::of(flushed(r));
 }
-double magnitude(double x) { return x < 0 ? -x : x; }
-double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52); }
 
 double bound_of(double exact, const Accuracy& a, double x) {
   // A little less, for what `exact` itself is off by.
@@ -132,9 +115,7 @@ Perturbed Perturbed::opposite() const {
 }
 bool operator<(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b); }
 bool operator<=(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b); }
-Perturbed select(bool m, Perturbed a, Perturbed b) {
-  return Perturbed::met(Op::choice, m ? a : b, m ? a : b, m ? b : a, Perturbed::of(m ? 1.0f : 0.0f));
-}
+Perturbed select(bool m, Perturbed a, Perturbed b) { return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f)); }
 Perturbed min(Perturbed a, Perturbed b) {
   return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
 }
@@ -385,116 +366,10 @@ Perturbed nearest_octave(Perturbed x) {
   return level;
 }
 
-Sampler::Sampler() : is_used(current.variations && current.variations->rules.subtexel_bits > 0 && coin()) {}
-float Sampler::coordinate(float u) const {
-  if (!is_used || current.variations->rules.coordinate_bits == 0) return u;
-  // 0.9 leaves room for the rounding of the sum.
-  return static_cast<float>(u + 0.9 * swing() * u * power_of_two(-current.variations->rules.coordinate_bits));
-}
-namespace {
-/// x in fixed point: cut, rounded, or anything between.
-float snapped(float x, int bits) {
-  const double steps = power_of_two(bits), offset = std::min(0.5 + 0.5 * swing(), 1 - 0x1p-20);
-  return static_cast<float>(floor(plain::Plain<double>(plain::Plain<double>(x * steps + offset))).v / steps);
-}
-}  // namespace
-float Sampler::texel(float x) const { return is_used ? snapped(x, current.variations->rules.subtexel_bits) : x; }
-float Sampler::level(float lod) const {
-  return current.variations && current.variations->rules.lod_bits > 0 ? snapped(lod, current.variations->rules.lod_bits) : lod;
-}
-
-float Sampler::blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const {
-  if (!is_used) return in_float;
-  const double twist = inside_cell ? magnitude(static_cast<double>(a) - b - c + d) : 0;  // weights of 0 stay 0
-  const double value = in_float + swing() * power_of_two(-current.variations->rules.subtexel_bits) * twist;
-  const auto [least, greatest] = std::minmax({a, b, c, d});
-  return std::clamp(stored(static_cast<float>(value), bits), least, greatest);
-}
-float Sampler::stored(float in_float, int bits) const {
-  double value = in_float;
-  const bool up = current.lean != 0 && (draw() & 7) != 0 ? current.lean > 0 : coin();
-  if (bits == 0) {
-    value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + (up ? 1 - 0x1p-20 : 0)))).v / 255;
-  } else if (bits == 11) {
-    const float x = static_cast<float>(value);
-    const Half cut = to_half(x, Rounding::rtz);
-    const bool away = to_float(cut) != x && up == (x > 0);
-    value = to_float(Half{static_cast<std::uint16_t>(cut.bits + (away ? 1 : 0))});
-  }
-  return static_cast<float>(value);
-}
-bool Sampler::rounds_jointly() const { return is_used && coin(); }
-bool Sampler::takes_x_first() const { return coin(); }
-Share& share() {
-  thread_local Share current_share;
-  return current_share;
-}
-float Sampler::weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const {
-  if (!x_first) {
-    std::swap(b, c);
-    std::swap(fx, fy);
-  }
-  const double steps = power_of_two(current.variations->rules.subtexel_bits), whole = steps * static_cast<double>(share);
-  // To the nearest; which way a tie goes is anyone's.
-  const auto rounded = [](double x) {
-    const double down = floor(plain::Plain<double>(plain::Plain<double>(x))).v, rest = x - down;
-    return rest > 0.5 || (rest == 0.5 && coin()) ? down + 1 : down;
-  };
-  const double right = rounded(whole * static_cast<double>(fx)), left = whole - right;
-  const double right_above = rounded(right * static_cast<double>(fy)), left_above = rounded(left * static_cast<double>(fy));
-  return static_cast<float>(((left - left_above) * a + (right - right_above) * b + left_above * c + right_above * d) / steps);
-}
-
 Variations variations_of(const Profile& p) {
   Variations all;
   all.rules = p;
   all.reorder = all.mix_either = all.reciprocal = all.normalize_any = !p.reference;
-  return all;
-}
-
-const std::vector<FaultInfo>& faults() {
-  static const std::vector<FaultInfo> all{
-      {Fault::fused, "fused multiply-add", "products are fused with the addition that follows"},
-      {Fault::reciprocal_division, "division by reciprocal", "a / b is computed as a * (1 / b)"},
-      {Fault::root_by_inverse, "root by inverse root", "sqrt(x) is computed as 1 / inversesqrt(x)"},
-      {Fault::flushed, "subnormals flushed", "subnormal results become zero"},
-      {Fault::mix_by_difference, "mix as a + (b - a) t", "mix is computed by the difference, not as a (1 - t) + b t"},
-      {Fault::sum_backwards, "sum backwards", "sums are added from the last term to the first"},
-      {Fault::sum_otherwise_paired, "sum paired otherwise", "sums are added in other pairs"},
-      {Fault::division_by_estimate, "division by estimate", "1 / b is an estimate, one ULP off"},
-      {Fault::half_intermediates, "half intermediates", "intermediate results have half precision (min16float, mediump, half)"},
-      {Fault::half_constants, "half constants", "literals and uniforms have half precision"},
-      {Fault::strict_for_weak, "> for >=", "a comparison with equality is strict (or < for <=)"},
-      {Fault::weak_for_strict, ">= for >", "a strict comparison includes equality (or <= for <)"},
-      {Fault::truncated_floor, "truncation for floor", "floor of a negative number is cut toward zero, as int() does"},
-      {Fault::rounded_floor, "rounding for floor", "an index is rounded to nearest instead of down"},
-      {Fault::fract_by_truncation, "fract by truncation", "fract of a negative number is negative, as fmod's is"},
-      {Fault::minimum_missing, "upper clamp missing", "a min() or the upper end of a clamp is missing"},
-      {Fault::maximum_missing, "lower clamp missing", "a max() or the lower end of a clamp is missing"},
-      {Fault::abs_missing, "abs missing", "an abs() is missing"},
-      {Fault::normalize_missing, "normalize missing", "a vector is not normalized"},
-      {Fault::smoothstep_linear, "linear for smoothstep", "smoothstep is a linear ramp"},
-      {Fault::root_missing, "root missing", "a squared length is taken for the length"},
-      {Fault::square_missing, "square missing", "a number is taken for its square"},
-      {Fault::refract_ratio_inverted, "refraction ratio inverted", "refract() gets n2 / n1 instead of n1 / n2"},
-      {Fault::reflect_doubled_missing, "factor 2 of reflect missing", "reflect is v - (n.v) n"},
-      {Fault::exp_base_two, "exp2 for exp", "an exponential has base 2 instead of e"},
-      {Fault::exp2_base_e, "exp for exp2", "an exponential has base e instead of 2"},
-      {Fault::pow_squared, "square for pow", "a power is approximated by a square"},
-      {Fault::mix_swapped, "mix ends swapped", "mix has its ends swapped"},
-      {Fault::atan2_swapped, "atan2 arguments swapped", "atan2 gets (x, y)"},
-      {Fault::degrees, "degrees for radians", "an angle in radians is taken for degrees"},
-      {Fault::address_clamped, "clamp address mode", "a texture that repeats is clamped"},
-      {Fault::address_repeated, "repeat address mode", "a texture that is clamped repeats"},
-      {Fault::address_mirrored, "mirror address mode", "a texture is mirrored at its edges"},
-      {Fault::nearest_filter, "nearest for linear", "a texture is filtered by the nearest texel"},
-      {Fault::weights_of_8_bits, "8-bit filter weights", "a texture unit filters with weights of 8 bits"},
-      {Fault::half_texel_missing, "half texel missing", "texel centres are taken at k instead of k + 1/2"},
-      {Fault::half_texel_twice, "half texel twice", "the half texel is taken off twice"},
-      {Fault::texel_after, "one texel off", "a lookup is one texel off"},
-      {Fault::level_above, "mip level above", "the mip level is one too coarse"},
-      {Fault::level_below, "mip level below", "the mip level is one too fine"},
-  };
   return all;
 }
 

@@ -89,7 +89,7 @@ Perturbed Perturbed::slipped(Op op, const Perturbed& r, const Perturbed* of_, st
              : op == Op::mix        ? mix(b, a, c)
              : op == Op::power      ? pow(b, a)
              : op == Op::smoothstep ? one - r
-             : op == Op::choice     ? b
+             : op == Op::choice     ? (c.v != 0 ? b : a)
              : op == Op::comparison ? one - r
                                     : r;
     case Slip::inverted:

@@ -39,7 +39,7 @@ enum class Op : std::uint8_t {
   angle,
   mix,
   smoothstep,  ///< of x and the edges
-  choice,      ///< of what a select chooses, what it does not, and 1 or 0
+  choice,      ///< of both sides of a select, and 1 or 0
   comparison,
   coordinate,  ///< of a lookup, in texels
   lookup,

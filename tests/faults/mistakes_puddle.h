@@ -183,7 +183,7 @@ inline std::vector<Pass> puddle_passes() {
            {"width and height swapped", {"uniforms width and height exchanged"}},
 
            {"vignette from the corner", {"term left out: 0.5", "literal 0.5 left out"}},
-           {"distance squared", {"root left out", "root missing"}},
+           {"distance squared", {"root left out", "root missing", "factor twice: sqrt(square"}},
            {"vignette's sign", {"vignette with the other sign", "uniform vignette negated", "sign of a term: vignette"}},
            {"vignette forgotten", {"uniform vignette is zero", "=vignette left out", "term left out: vignette"}},
            {"exposure squared", {"exposure taken twice", "factor twice: exposure"}},

@@ -33,7 +33,6 @@ inline bool rain_on_glass_published(const Run& r, int x, int y, float* out) {
   const float p1 = fract(r.u("time") * r.u("flow_rate")), p2 = fract(r.u("time") * r.u("flow_rate") + (r.is("phases alike") ? 0.0f : 0.5f));
   float w = std::abs(1 - 2 * p1);
   if (r.is("weight of the first for the second")) w = 1 - w;
-  if (r.is("weight without abs")) w = 1 - 2 * p1;
   const float strength = r.is("flow against") ? -r.u("flow_strength") : r.u("flow_strength");
   const auto rivulet = [&](int k) {
     const float a = r.linear("rivulets", ru + fx * (strength * p1), rv + fy * (strength * p1), k),
@@ -41,7 +40,6 @@ inline bool rain_on_glass_published(const Run& r, int x, int y, float* out) {
     return mix(a, b, w);
   };
   float upright = 1 - std::abs(r.at("orientation", x, y, 1));
-  if (r.is("rivulets everywhere")) upright = 1;
   if (r.is("normal's z for its y")) upright = 1 - std::abs(r.at("orientation", x, y, 2));
   const float dx = mask * red + upright * rivulet(0), dy = mask * green + upright * rivulet(1);
   float distortion = r.u("distortion");
@@ -76,9 +74,9 @@ inline std::vector<Pass> rainy_glass_passes() {
            {"flow across for along", {"input rivulets with its z and w exchanged"}},
            {"phases alike", {"term left out: 0.5", "literal 0.5 left out"}},
            {"weight of the first for the second", {"mix ends swapped"}},
-           {"weight without abs", {"abs left out", "abs missing"}},
+
            {"flow against", {"flow_strength with the other sign", "uniform flow_strength negated", "sign of a product: flow_strength"}},
-           {"rivulets everywhere", {"term left out: abs", "input orientation without its y"}},
+
            {"normal's z for its y",
             {"orientation read in z for y", "input orientation with its z for y", "input orientation with its y and z exchanged"}},
            {"distortion tenfold", {"another value of distortion"}},
