@@ -1,7 +1,9 @@
 // Which other value of a literal or a uniform gives what a port stored.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -55,8 +57,10 @@ float bisected(float low, float high, const Off& off) {
 
 /// With so many significant digits.
 float rounded(float x, int digits) {
-  const double scale = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(static_cast<double>(x)))));
-  return static_cast<float>(std::round(x * scale) / scale);
+  const std::string text = fmt::format("{:.{}g}", x, digits);
+  float value = x;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
 }
 
 /// The replacements of a constant that give a texel what it wants, the nearest to the constant first.

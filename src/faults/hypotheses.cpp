@@ -71,7 +71,11 @@ std::vector<Deviation> hypotheses(const Probed& p, const capture::PassCase* befo
   std::vector<Deviation> all = deviations_of(p.pass, p.c, p.model, before), uniforms, operations;
   // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
   std::erase_if(all, [](const Deviation& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  take(all, uniforms, [](const Deviation& d) { return d.name.starts_with("uniform"); });
+  // That one is not set, or has another sign, is plain; that two are mistaken for each other is less so.
+  take(all, uniforms, [](const Deviation& d) {
+    const bool is_plain = d.name.ends_with("is zero") || d.name.ends_with("negated") || d.name.ends_with("stale");
+    return d.name.starts_with("uniform") && !is_plain;
+  });
   take(all, operations, [](const Deviation& d) {
     return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
   });

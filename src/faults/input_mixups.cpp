@@ -120,7 +120,7 @@ void add_image(Adder& add, const PassCase& c, std::size_t i) {
     array("still encoded", fmt::format("{} is not decoded: sRGB is taken for linear", name),
           [](Array& altered) { recode(altered, [](double v) { return encode_srgb(v); }); });
     array("decoded by a power of 2.2", fmt::format("{} is decoded by a power of 2.2", name),
-          [](Array& altered) { recode(altered, [](double v) { return std::pow(v, 2.2); }); });
+          [](Array& altered) { recode(altered, [](double v) { return decode_gamma22(v); }); });
   }
   array("from 1 down", fmt::format("{} is taken from 1", name), [](Array& altered) { recode(altered, [](double v) { return 1 - v; }); });
   for (const Address address : {Address::clamp, Address::repeat, Address::mirror, Address::border}) {

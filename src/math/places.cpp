@@ -84,6 +84,7 @@ Perturbed Perturbed::slipped(Op op, const Perturbed& r, const Perturbed* of_, st
       return a * (b * b);
     case Slip::swapped:
       return minus                  ? b - a
+             : op == Op::sum        ? b - a
              : op == Op::quotient   ? b / a
              : op == Op::angle      ? atan2(b, a)
              : op == Op::mix        ? mix(b, a, c)

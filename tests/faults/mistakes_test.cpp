@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "faults/mistakes_kept_aside.h"
 #include "faults/mistakes_pictures.h"
 #include "faults/mistakes_puddle.h"
 #include "faults/mistakes_rainy_glass.h"
@@ -17,7 +18,8 @@ using namespace judge;
 using capture::Array;
 using capture::PassCase;
 
-std::vector<hand::Pass> all_passes() {
+/// The passes whose mistakes the diagnosis was improved with, and those that it met when it was finished.
+std::vector<hand::Pass> known_passes() {
   std::vector<hand::Pass> all = hand::puddle_passes();
   for (const auto& more : {hand::windshield_passes(), hand::picture_passes(), hand::rainy_glass_passes()})
     all.insert(all.end(), more.begin(), more.end());
@@ -60,51 +62,64 @@ bool is_right(const hand::Mistake& m, const Cause& c) {
 
 // Without a mistake a hand-made pass is a correct port: what it is wrong in is the mistake alone.
 TEST(HandMade, APassWithoutAMistakePasses) {
-  for (const hand::Pass& p : all_passes()) {
-    const PassJudgement j = judged(p, "");
-    EXPECT_EQ(j.status, Status::pass) << p.pack << ' ' << p.pass << ' ' << j.reason << ' ' << j.where
-                                      << (j.causes.empty() ? "" : j.causes[0].name);
-  }
+  for (const auto& passes : {known_passes(), hand::passes_kept_aside()})
+    for (const hand::Pass& p : passes) {
+      const PassJudgement j = judged(p, "");
+      EXPECT_EQ(j.status, Status::pass) << p.pack << ' ' << p.pass << ' ' << j.reason << ' ' << j.where
+                                        << (j.causes.empty() ? "" : j.causes[0].name);
+    }
 }
 
-// The table is printed with RAINREF_PRINT_MISTAKES=1. Limits are what is reached, less a little.
-TEST(HandMade, MostMistakesAreNamedFirstAndHardlyAWrongOneIsCalledLikely) {
-  const bool prints = std::getenv("RAINREF_PRINT_MISTAKES") != nullptr;
-  const char* const only = std::getenv("RAINREF_MISTAKE");
-  int count = 0, right = 0, right_and_likely = 0, wrong_likely = 0, unknown = 0, missed = 0;
-  for (const hand::Pass& p : all_passes()) {
+struct Tally {
+  int count = 0, right = 0, right_and_likely = 0, wrong_likely = 0, unknown = 0;
+};
+/// Every mistake, with a table, where RAINREF_MISTAKES is set (scripts/full/mistakes); else every sixth.
+bool measures_all() { return std::getenv("RAINREF_MISTAKES") != nullptr; }
+Tally measured(const std::vector<hand::Pass>& passes) {
+  const bool prints = measures_all();
+  int number = 0;
+  Tally t;
+  for (const hand::Pass& p : passes) {
     for (const hand::Mistake& m : p.mistakes) {
-      if (only && m.mistake != only) continue;
+      if (number++ % 6 != 0 && !measures_all()) continue;
       const PassJudgement j = judged(p, m.mistake);
-      ++count;
-      const bool first = !j.causes.empty() && is_right(m, j.causes[0]);
-      const bool likely = !j.causes.empty() && j.causes[0].is_likely;
-      right += first;
-      right_and_likely += first && likely;
-      wrong_likely += likely && !first;
-      unknown += j.causes.empty();
-      missed += j.status != Status::fail;
+      EXPECT_EQ(j.status, Status::fail) << p.pack << ' ' << p.pass << ": " << m.mistake;
+      const bool is_named = !j.causes.empty(), is_likely = is_named && j.causes[0].is_likely, first = is_named && is_right(m, j.causes[0]);
+      ++t.count;
+      t.right += first;
+      t.right_and_likely += first && is_likely;
+      t.wrong_likely += is_likely && !first;
+      t.unknown += !is_named;
       if (!prints) continue;
-      fmt::print("{:<6} {} {}: {}\n",
-                 j.status != Status::fail ? name(j.status)
-                 : first                  ? "right"
-                 : likely                 ? "WRONG"
-                 : j.causes.empty()       ? "unknown"
-                                          : "no",
-                 p.pack, p.pass, m.mistake);
-      if (!j.where.empty()) fmt::print("         where: {}\n", j.where);
+      fmt::print("{:<8}{} {}: {}\n", first ? "right" : is_likely ? "WRONG" : is_named ? "may be" : "unknown", p.pack, p.pass, m.mistake);
+      if (!j.where.empty()) fmt::print("        where: {}\n", j.where);
       for (const Cause& c : j.causes)
-        fmt::print("         {} {}: {} [{} {} of {}]\n", c.is_likely ? "likely" : "may be", c.name, c.sentence, c.explained, c.inside,
-                   c.of);
+        fmt::print("        {} {}: {} ({} exact, {} near of {})\n", c.is_likely ? "likely" : "may be", c.name, c.sentence, c.explained,
+                   c.inside, c.of);
     }
   }
   fmt::print(
-      "{} mistakes: first cause right {} ({:.0f} %), of these likely {}; a wrong one likely {} ({:.0f} %); unknown {}; not failing {}\n",
-      count, right, 100.0 * right / count, right_and_likely, wrong_likely, 100.0 * wrong_likely / count, unknown, missed);
-  EXPECT_GE(count, only ? 1 : 60);
-  if (only) return;
-  EXPECT_GE(right * 100, count * 80);
-  EXPECT_LE(wrong_likely * 100, count * 3);
+      "{} mistakes: the first cause is right for {} ({:.0f} %), {} of these are called likely; a wrong one is called likely for {} ({:.1f} "
+      "%); "
+      "unknown {}\n",
+      t.count, t.right, 100.0 * t.right / t.count, t.right_and_likely, t.wrong_likely, 100.0 * t.wrong_likely / t.count, t.unknown);
+  return t;
+}
+
+// What is reached: 122 and 1 of 137. The share of every sixth is coarse.
+TEST(HandMade, MostMistakesAreNamedFirstAndHardlyAWrongOneIsCalledLikely) {
+  const Tally t = measured(known_passes());
+  EXPECT_GE(t.count, measures_all() ? 120 : 20);
+  EXPECT_GE(t.right * 100, t.count * (measures_all() ? 87 : 80));
+  EXPECT_LE(t.wrong_likely * 100, measures_all() ? t.count * 2 : 100);
+}
+// What is reached: 26 and 2 of 33. The two wrong ones: in a run where time is 0 a start is left out as a whole fade is, and a
+// radius for its square is near another radius.
+TEST(HandMade, SoAreMistakesThatWereKeptAside) {
+  const Tally t = measured(hand::passes_kept_aside());
+  EXPECT_GE(t.count, measures_all() ? 30 : 5);
+  EXPECT_GE(t.right * 100, t.count * (measures_all() ? 75 : 60));
+  EXPECT_LE(t.wrong_likely, 2);
 }
 
 }  // namespace
