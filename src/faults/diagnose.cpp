@@ -214,7 +214,9 @@ std::vector<Cause> best_causes(std::vector<Cause> causes) {
   };
   double best = 0;
   for (const Cause& c : causes) best = std::max(best, score(c));
-  const auto rank = [&](const Cause& c) { return score(c) >= best - 0.04 ? 2.0 : score(c); };
+  // Records are few, and no device blurs which of them are there: of these the better explains more.
+  const auto is_best = [&](const Cause& c) { return score(c) >= best - (c.of_records ? 0 : 0.04); };
+  const auto rank = [&](const Cause& c) { return is_best(c) ? 2.0 : score(c); };
   std::stable_sort(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });
   std::vector<Cause> out;
   for (Cause& c : causes)
@@ -222,7 +224,7 @@ std::vector<Cause> best_causes(std::vector<Cause> causes) {
   // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
   // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
   constexpr std::ptrdiff_t most_rivals = 20;
-  const auto rivals = std::count_if(causes.begin(), causes.end(), [&](const Cause& c) { return score(c) >= best - 0.04; });
+  const auto rivals = std::count_if(causes.begin(), causes.end(), is_best);
   for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
 }
