@@ -259,7 +259,8 @@ DeviatedPass::DeviatedPass(const Deviation& deviation, const PassCase& c, Bind b
     altered_ = c;
     deviation.alter_case(altered_);
     altered_model_ = bind(altered_);
-    applies_ = altered_model_->width() == model.width() && altered_model_->height() == model.height();
+    applies_ = altered_model_->width() == model.width() && altered_model_->height() == model.height() &&
+               altered_model_->values() == model.values();
   }
 }
 
@@ -271,12 +272,16 @@ void DeviatedPass::store(Texel at, std::vector<Array>& out) const {
     }
     return;
   }
-  const perturbed::Scope scope(deviation_.behaviour);
+  perturbed::Behaviour behaviour = deviation_.behaviour;
+  std::vector<float> loads;
+  if (deviation_.at_texel) deviation_.at_texel(at, behaviour, loads);
+  const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
   (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];
-    store_value(s, values[v].v, rounding_of(s, mode_), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
+    const float value = deviation_.alter_value ? deviation_.alter_value(values[v].v, s) : values[v].v;
+    store_value(s, value, rounding_of(s, mode_), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
   }
 }
 

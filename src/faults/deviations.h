@@ -25,6 +25,10 @@ struct ListEdit {
   const Records* port = nullptr;  ///< what a port stored, for a mistake that is fitted to it
 };
 
+struct Texel {
+  int x, y;
+};
+
 struct Deviation {
   std::string name, sentence;
   perturbed::Behaviour behaviour;                      ///< what the arithmetic does
@@ -33,6 +37,9 @@ struct Deviation {
       alter_outputs;  ///< from the finished outputs; false: does not apply. Null: evaluated
   std::function<bool(const capture::PassCase&, ListEdit&)> alter_list;  ///< likewise from the finished list `list_output`
   int list_output = -1;
+  std::function<float(float, const judge::Slot&)> alter_value;  ///< of the evaluated values, before they are stored
+  /// The behaviour at one texel. `loads` is room for Behaviour::loads.
+  std::function<void(Texel, perturbed::Behaviour&, std::vector<float>& loads)> at_texel;
   std::optional<judge::HalfMode> stores;  ///< how halves are stored, whatever was declared
   bool legal = false;                     ///< a conforming GPU may do this: not a bug, but it explains differences
   bool for_diagnosis = false;             ///< asked by the diagnosis only: `mutate` has enough of its kind
@@ -44,10 +51,6 @@ struct Deviation {
 /// `before` is the run of the same pass before this one, or null.
 std::vector<Deviation> deviations_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
                                      const capture::PassCase* before);
-
-struct Texel {
-  int x, y;
-};
 
 /// What a deviation stores at some texels. Applied once, asked texel by texel.
 class DeviatedPass {

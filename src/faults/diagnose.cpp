@@ -5,6 +5,9 @@
 #include <cstring>
 
 #include "faults/deviations.h"
+#include "faults/failing_texels.h"
+#include "faults/hypotheses.h"
+#include "faults/where.h"
 #include "image/code_range.h"
 #include "judge/judge.h"
 #include "judge/keyed.h"
@@ -28,33 +31,16 @@ using judge::Slot;
 using judge::slots_of;
 using judge::stored_value;
 
-std::vector<Texel> failing_texels(const CaseJudgement& j) {
-  std::vector<Texel> all;
-  for (const OutputJudgement& o : j.outputs)
-    for (std::size_t i = 0; i < o.map.size(); ++i)
-      if (o.map[i] == 3) all.push_back({static_cast<int>(i) % o.width, static_cast<int>(i) / o.width});
-  std::sort(all.begin(), all.end(), [](Texel a, Texel b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
-  all.erase(std::unique(all.begin(), all.end(), [](Texel a, Texel b) { return a.x == b.x && a.y == b.y; }), all.end());
-  return all;
-}
-/// At most so many, spread evenly.
-std::vector<Texel> spread(const std::vector<Texel>& all, std::size_t most) {
-  if (all.size() <= most) return all;
-  std::vector<Texel> some;
-  for (std::size_t k = 0; k < most; ++k) some.push_back(all[k * all.size() / most]);
-  return some;
-}
-/// Texels where the port stored the reference's bits.
-std::vector<Texel> equal_texels(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& port,
-                                const std::vector<Array>& reference) {
+/// Texels that passed.
+std::vector<Texel> passing_texels(const capture::PassModel& model, const std::vector<Texel>& failing) {
   std::vector<Texel> out;
+  auto next = failing.begin();
   for (int y = 0; y < model.height(); ++y)
     for (int x = 0; x < model.width(); ++x) {
-      const bool same = std::all_of(slots.begin(), slots.end(), [&](const Slot& s) {
-        const std::size_t o = static_cast<std::size_t>(s.output);
-        return std::memcmp(s.at(port[o], x, y), s.at(reference[o], x, y), static_cast<std::size_t>(s.channel_bytes)) == 0;
-      });
-      if (same) out.push_back({x, y});
+      if (next != failing.end() && next->x == x && next->y == y)
+        ++next;
+      else
+        out.push_back({x, y});
     }
   return out;
 }
@@ -63,6 +49,7 @@ std::vector<Texel> equal_texels(const std::vector<Slot>& slots, const capture::P
 struct Match {
   bool exact = false;  ///< the same bits
   bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
+  bool tells = false;  ///< so near, or so much nearer than the reference, that it is no chance
 };
 
 std::int64_t gap(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
@@ -80,7 +67,9 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
   for (const Slot& s : slots) {
     const std::string& name = c.outputs[static_cast<std::size_t>(s.output)].name;
     const auto found = std::find_if(j.outputs.begin(), j.outputs.end(), [&](const OutputJudgement& o) { return o.name == name; });
-    out.codes.push_back(1 + (found == j.outputs.end() ? 0 : static_cast<std::int64_t>(found->p99_width)));
+    // What 99 % of the envelopes stay below, unless these few are far wider than most.
+    const double width = found == j.outputs.end() ? 0 : std::min(found->p99_width, 4 * found->median_width + 4);
+    out.codes.push_back(1 + static_cast<std::int64_t>(width));
   }
   const enclosed::ProfileScope scope(profile);
   std::vector<enclosed::Enclosure> values(slots.size());
@@ -105,7 +94,7 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
 Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& deviated,
               const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
               std::size_t k) {
-  Match m{true, true};
+  Match m{true, true, true};
   bool nearer = false;
   for (std::size_t v = 0; v < slots.size(); ++v) {
     if (model.is_free(static_cast<int>(v))) continue;
@@ -119,26 +108,30 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     m.exact &= far == 0;
     m.near &= far <= leeway.codes[v] || off <= leeway.values[k][v];
     nearer |= far < before && 4 * far <= before;
+    m.tells &= far == 0 || 16 * far <= before;
   }
   m.exact &= nearer;  // else the reference gives the same bits, and the deviation explains nothing
   m.near &= nearer;
+  m.tells &= m.near;
   return m;
 }
 
-/// Share of the texels where the port has the reference's bits and the deviation would store clearly other ones.
-double contradicted(const std::vector<Slot>& slots, const DeviatedPass& deviated, const std::vector<Array>& reference, const Leeway& leeway,
-                    const std::vector<Texel>& equal) {
+/// Share of the texels that passed and where the deviation would store clearly other codes than the port did.
+double contradicted(const std::vector<Slot>& slots, const capture::PassModel& model, const DeviatedPass& deviated,
+                    const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
+                    const std::vector<Texel>& passing) {
   std::vector<Array> stored = reference;
   std::int64_t against = 0;
-  for (const Texel t : equal) {
+  for (const Texel t : passing) {
     deviated.store(t, stored);
     against += std::any_of(slots.begin(), slots.end(), [&](const Slot& s) {
       const std::size_t o = static_cast<std::size_t>(s.output), v = static_cast<std::size_t>(&s - slots.data());
+      if (model.is_free(static_cast<int>(v))) return false;
       const auto code = [&](const std::vector<Array>& a) { return enclosed::ordered_code(s.kind, s.at(a[o], t.x, t.y)); };
-      return gap(code(stored), code(reference)) > 2 * leeway.codes[v];
+      return gap(code(stored), code(port)) > 2 * leeway.codes[v] + gap(code(reference), code(port));
     });
   }
-  return equal.empty() ? 0 : static_cast<double>(against) / static_cast<double>(equal.size());
+  return passing.empty() ? 0 : static_cast<double>(against) / static_cast<double>(passing.size());
 }
 
 }  // namespace
@@ -149,12 +142,15 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
   const std::vector<Texel> all_failing = failing_texels(judgement), failing = spread(all_failing, 400);
   if (failing.empty()) return {};
   const std::vector<Slot> slots = slots_of(c);
-  const std::vector<Deviation> all = deviations_of(pass, c, model, before);
   const std::vector<Array> reference = reference_outputs(c, model, executor, mode);
   const Leeway leeway = leeway_of(slots, c, model, reference, judgement, profile, failing);
-  const std::vector<Texel> equal = equal_texels(slots, model, port, reference), few_equal = spread(equal, 400),
-                           many_equal = spread(equal, 20000);
-  const double equal_per_failing = static_cast<double>(equal.size()) / static_cast<double>(all_failing.size());
+  const std::vector<Texel> passing = passing_texels(model, all_failing), few_passing = spread(passing, 400),
+                           many_passing = spread(passing, 20000);
+  const double passing_per_failing = static_cast<double>(passing.size()) / static_cast<double>(all_failing.size());
+  const std::vector<Deviation> all = hypotheses({pass, c, bind, model}, before, port, reference, failing);
+  // Most hypotheses are none after a few texels; what explains too few of these is not tried on all.
+  std::vector<std::size_t> few(std::min<std::size_t>(failing.size(), 24));
+  for (std::size_t k = 0; k < few.size(); ++k) few[k] = k * failing.size() / few.size();
   std::vector<Cause> causes(all.size());
 
   executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
@@ -168,17 +164,25 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
         const DeviatedPass deviated(d, c, bind, model, mode, reference);
         if (!deviated.applies()) continue;
         std::vector<Array> stored = reference;
-        for (std::size_t t = 0; t < failing.size(); ++t) {
+        const auto match_at = [&](std::size_t t) {
           deviated.store(failing[t], stored);
-          const Match m = compare(slots, model, stored, port, reference, leeway, failing, t);
+          return compare(slots, model, stored, port, reference, leeway, failing, t);
+        };
+        const auto matching = std::count_if(few.begin(), few.end(), [&](std::size_t t) { return match_at(t).near; });
+        if (static_cast<std::size_t>(matching) * 6 < few.size()) continue;
+        std::int64_t telling = 0;
+        for (std::size_t t = 0; t < failing.size(); ++t) {
+          const Match m = match_at(t);
           cause.explained += m.exact;
           cause.inside += m.near;
+          telling += m.tells;
         }
         // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
         // break about as many texels as it explains.
-        const double broken =
-            contradicted(slots, deviated, reference, leeway, d.is_evaluated() ? few_equal : many_equal) * equal_per_failing;
+        const double broken = contradicted(slots, model, deviated, port, reference, leeway, d.is_evaluated() ? few_passing : many_passing) *
+                              passing_per_failing;
         if (broken * 4 > 1) cause.explained = cause.inside = 0;
+        cause.is_likely = telling * 10 >= cause.of * 9;
       } catch (const Error&) {
         cause.explained = cause.inside = 0;  // the altered case is none that the pass can run
       }
@@ -187,25 +191,42 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
   return best_causes(std::move(causes));
 }
 
-std::vector<Cause> diagnose(const judge::FailedRun& failed) {
+judge::Explanation diagnose(const judge::FailedRun& failed) {
   const capture::PassCase& c = failed.run.c;
   const judge::JudgeOptions& options = failed.options;
+  judge::Explanation why{{}, where_it_fails(failed)};
   if (!keyed_outputs(c).empty()) {
-    std::vector<Cause> causes =
-        diagnose_lists(failed.pass, c, failed.before, failed.model, failed.run.stored, *options.profile, *options.executor);
-    if (!causes.empty() || !failed.bind || !is_enveloped(c)) return causes;
+    why.causes = diagnose_lists(failed.pass, c, failed.before, failed.model, failed.run.stored, *options.profile, *options.executor);
+    if (!why.causes.empty() || !failed.bind || !is_enveloped(c)) return why;
   }
-  return diagnose_texels(failed.pass, c, failed.before, failed.bind, *failed.model, failed.run.stored, failed.judgement, *options.profile,
-                         failed.half_mode, *options.executor);
+  why.causes = diagnose_texels(failed.pass, c, failed.before, failed.bind, *failed.model, failed.run.stored, failed.judgement,
+                               *options.profile, failed.half_mode, *options.executor);
+  return why;
 }
 
 std::vector<Cause> best_causes(std::vector<Cause> causes) {
   // A deviation that explains some texels of many explains nothing; a wrong cause would be worse than none.
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
-  std::stable_sort(causes.begin(), causes.end(),
-                   [](const Cause& a, const Cause& b) { return a.inside != b.inside ? a.inside > b.inside : a.explained > b.explained; });
-  if (causes.size() > 3) causes.resize(3);
-  return causes;
+  if (causes.empty()) return causes;
+  // Bits count twice: what gives them is also near. Within 2 % of the best, causes explain as much as each other.
+  const auto score = [](const Cause& c) {
+    return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1));
+  };
+  double best = 0;
+  for (const Cause& c : causes) best = std::max(best, score(c));
+  // Records are few, and no device blurs which of them are there: of these the better explains more.
+  const auto is_best = [&](const Cause& c) { return score(c) >= best - (c.of_records ? 0 : 0.04); };
+  const auto rank = [&](const Cause& c) { return is_best(c) ? 2.0 : score(c); };
+  std::stable_sort(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });
+  std::vector<Cause> out;
+  for (Cause& c : causes)
+    if (out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; })) out.push_back(c);
+  // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
+  // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
+  constexpr std::ptrdiff_t most_rivals = 20;
+  const auto rivals = std::count_if(causes.begin(), causes.end(), is_best);
+  for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
+  return out;
 }
 
 }  // namespace rainref::faults

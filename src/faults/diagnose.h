@@ -8,9 +8,9 @@
 
 namespace rainref::faults {
 
-/// What explains a failing run, best first; empty when nothing explains any of it. A wrong list is behind what is wrong in
-/// an image that goes with it, so lists are asked first. Serves as judge::ValidateOptions::explain.
-std::vector<judge::Cause> diagnose(const judge::FailedRun& failed);
+/// What explains a failing run, best first, and where it fails; no cause when nothing explains enough of it. A wrong list is
+/// behind what is wrong in an image that goes with it, so lists are asked first. Serves as judge::ValidateOptions::explain.
+judge::Explanation diagnose(const judge::FailedRun& failed);
 
 /// What explains the failing texels of a case, best first; empty when nothing explains any.
 std::vector<judge::Cause> diagnose_texels(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
@@ -23,7 +23,8 @@ std::vector<judge::Cause> diagnose_lists(const capture::PackPass& pass, const ca
                                          const capture::PassModel* model, const std::vector<capture::Array>& port,
                                          const enclosed::Profile& profile, const parallel::Executor& executor);
 
-/// The three best of them, of those that explain enough.
+/// The three best of them, of those that explain enough. Of causes that explain about as much the one that comes first is taken:
+/// `causes` are in the order in which they are to be believed. Says which is likely.
 std::vector<judge::Cause> best_causes(std::vector<judge::Cause> causes);
 
 }  // namespace rainref::faults

@@ -159,6 +159,7 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
               broken += !compare(of(guess, id), of(right, id), words).near;
             }
           if (broken * 4 > cause.of) cause.explained = cause.inside = 0;
+          cause.is_likely = cause.inside * 10 >= cause.of * 9;
         } catch (const Error&) {
           cause.explained = cause.inside = 0;  // the altered case is none that the pass can run
         }

@@ -12,4 +12,7 @@ inline double encode_srgb(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 
 /// x^(1 / 2.2) of x >= 0: what an image looks like to a shader that decodes by the power 2.2.
 inline double encode_gamma22(double x) { return x <= 0 ? 0.0 : pow_real(Real64(x), Real64(1 / 2.2)).v; }
 
+/// Its inverse.
+inline double decode_gamma22(double code) { return code <= 0 ? 0.0 : pow_real(Real64(code), Real64(2.2)).v; }
+
 }  // namespace rainref

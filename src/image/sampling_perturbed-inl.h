@@ -16,35 +16,43 @@ RAINREF_FN Address altered(Address address) {
   }
 }
 RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
-  const perturbed::Sampler sampler;
-  const perturbed::Perturbed x =
-      texel_coordinate<perturbed::Perturbed>(altered(address), perturbed::Perturbed::of(sampler.coordinate(u.v)), size);
-  const auto of = [](float value) { return perturbed::Perturbed::of(value); };
-  const auto floor_of = [](float value) { return floor(plain::Plain<float>(value)).v; };
-  switch (perturbed::behaviour().fault) {
-    case perturbed::Fault::nearest_filter:
-      return of(floor_of(x.v + 0.5f));
-    case perturbed::Fault::weights_of_8_bits:
-      return of(floor_of(x.v * 256.0f + 0.5f) / 256.0f);
-    case perturbed::Fault::half_texel_missing:
-      return of(x.v + 0.5f);
-    case perturbed::Fault::half_texel_twice:
-      return of(x.v - 0.5f);
-    case perturbed::Fault::texel_after:
-      return of(x.v + 1.0f);
-    default:
-      return of(sampler.texel(x.v));
-  }
+  const auto result = [&] {
+    const perturbed::Unseen parts;
+    const perturbed::Sampler sampler;
+    const perturbed::Perturbed x =
+        texel_coordinate<perturbed::Perturbed>(altered(address), perturbed::Perturbed::of(sampler.coordinate(u.v)), size);
+    const auto of = [](float value) { return perturbed::Perturbed::of(value); };
+    const auto floor_of = [](float value) { return floor(plain::Plain<float>(value)).v; };
+    switch (perturbed::behaviour().fault) {
+      case perturbed::Fault::nearest_filter:
+        return of(floor_of(x.v + 0.5f));
+      case perturbed::Fault::weights_of_8_bits:
+        return of(floor_of(x.v * 256.0f + 0.5f) / 256.0f);
+      case perturbed::Fault::half_texel_missing:
+        return of(x.v + 0.5f);
+      case perturbed::Fault::half_texel_twice:
+        return of(x.v - 0.5f);
+      case perturbed::Fault::texel_after:
+        return of(x.v + 1.0f);
+      default:
+        return of(sampler.texel(x.v));
+    }
+  };
+  return perturbed::Perturbed::met(perturbed::Op::coordinate, result(), u);
 }
 template <class N>
 RAINREF_FN N nearest_coordinate(Address address, N u, N size);
 RAINREF_FN perturbed::Perturbed nearest_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
-  const perturbed::Sampler sampler;
-  return perturbed::Perturbed::of(
-      sampler.texel(nearest_coordinate<perturbed::Perturbed>(address, perturbed::Perturbed::of(sampler.coordinate(u.v)), size).v));
+  const auto result = [&] {
+    const perturbed::Unseen parts;
+    const perturbed::Sampler sampler;
+    return perturbed::Perturbed::of(
+        sampler.texel(nearest_coordinate<perturbed::Perturbed>(address, perturbed::Perturbed::of(sampler.coordinate(u.v)), size).v));
+  };
+  return perturbed::Perturbed::met(perturbed::Op::coordinate, result(), u);
 }
 RAINREF_FN perturbed::Perturbed level_of_detail(perturbed::Perturbed lod) {
-  return perturbed::Perturbed::of(perturbed::Sampler().level(lod.v));
+  return perturbed::Perturbed::met(perturbed::Op::level, perturbed::Perturbed::of(perturbed::Sampler().level(lod.v)), lod);
 }
 template <class N>
 RAINREF_FN N blend(TexelPrecision, N a, N b, N c, N d, N fx, N fy);
@@ -53,11 +61,15 @@ RAINREF_FN int filtered_bits(TexelPrecision precision) {
 }
 RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Perturbed a, perturbed::Perturbed b, perturbed::Perturbed c,
                                       perturbed::Perturbed d, perturbed::Perturbed fx, perturbed::Perturbed fy) {
-  const perturbed::Sampler sampler;
-  if (const perturbed::Share& s = perturbed::share(); s.of_level > 0)
-    return perturbed::Perturbed::of(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, s.of_level, s.x_first));
-  const perturbed::Perturbed in_float = blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
-  return perturbed::Perturbed::of(sampler.blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, filtered_bits(precision)));
+  const auto result = [&] {
+    const perturbed::Unseen parts;
+    const perturbed::Sampler sampler;
+    if (const perturbed::Share& s = perturbed::share(); s.of_level > 0)
+      return perturbed::Perturbed::of(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, s.of_level, s.x_first));
+    const perturbed::Perturbed in_float = blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
+    return perturbed::Perturbed::of(sampler.blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, filtered_bits(precision)));
+  };
+  return perturbed::Perturbed::met(perturbed::Op::lookup, result(), fx, fy, a);
 }
 /// Any integer has a texel, whatever a fault has done to it.
 RAINREF_FN plain::Index<perturbed::Perturbed> texel_index(Address address, plain::Index<perturbed::Perturbed> i,

@@ -43,4 +43,24 @@ Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) 
   return second.exists() && second.accepts(profile_.rearrangement, x, y, stored, nearest, mode_) ? Accepted::rearranged : Accepted::no;
 }
 
+std::vector<char> InvocationJudge::outside(int x, int y, const std::vector<Array>& port) const {
+  const std::vector<Slot> slots = slots_of(case_);
+  Stored stored;
+  stored.read(slots, case_, model_, profile_, port, x, y);
+  Alternatives alternatives;
+  if (profile_.reference)
+    alternatives.only(stored.expected_values);
+  else
+    alternatives.run(model_, x, y, stored.got_values.data(), model_.rounds_inside() ? narrowed(profile_, mode_) : profile_);
+  std::vector<char> best(slots.size(), 1);
+  std::vector<CodeRange> ranges;
+  for (int a = 0; a < alternatives.count; ++a) {
+    code_ranges(slots, alternatives.values[static_cast<std::size_t>(a)], profile_, mode_, ranges);
+    std::vector<char> now(slots.size(), 0);
+    for (std::size_t v = 0; v < slots.size(); ++v) now[v] = stored.impossible[v] || !holds(profile_, stored, v, ranges[v]);
+    if (std::count(now.begin(), now.end(), 1) < std::count(best.begin(), best.end(), 1) || a == 0) best = now;
+  }
+  return best;
+}
+
 }  // namespace rainref::judge

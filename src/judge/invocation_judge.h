@@ -21,6 +21,8 @@ class InvocationJudge {
   InvocationJudge(const capture::PassCase& c, const capture::PassModel& model, const enclosed::Profile& profile, HalfMode mode);
   /// `port` as in judge_case.
   Accepted accepts(int x, int y, const std::vector<capture::Array>& port) const;
+  /// Of each value whether it is outside the alternative that holds most of them.
+  std::vector<char> outside(int x, int y, const std::vector<capture::Array>& port) const;
 
  private:
   const capture::PassCase& case_;

@@ -61,7 +61,7 @@ void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const 
 }
 
 /// Asks about the run with the most failures, which says most.
-std::vector<Cause> causes_of(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
   const auto worst =
       std::max_element(judged.cases.begin(), judged.cases.end(), [](const auto& a, const auto& b) { return a.failing < b.failing; });
   if (worst == judged.cases.end() || worst->failing == 0) return {};
@@ -77,7 +77,8 @@ std::vector<Cause> causes_of(const PassTask& task, const PassJudgement& judged, 
     else
       before.reset();
   }
-  return task.runs.explain({*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged.half_mode, options});
+  return task.runs.explain(
+      {*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged, judged.half_mode, options});
 }
 
 /// A port that does nothing and passes all of these runs; "": none.
@@ -140,7 +141,10 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
         judged.reason = "a port that does nothing passes: " + judged.null_port;
       }
     }
-    if (task.runs.explain && judged.status == Status::fail) judged.causes = causes_of(task, judged, options);
+    if (!task.runs.explain || judged.status != Status::fail) continue;
+    Explanation why = explained(task, judged, options);
+    judged.causes = std::move(why.causes);
+    judged.where = std::move(why.where);
   }
   return all;
 }

@@ -36,11 +36,12 @@ struct FailedRun {
   Bind bind;                        ///< null where no output is judged by envelope
   const capture::PassModel* model;  ///< of the run; null where no output is judged by one
   const CaseJudgement& judgement;
-  HalfMode half_mode;  ///< that the pass was judged by
+  const PassJudgement& judged;  ///< with all runs of the pass
+  HalfMode half_mode;           ///< that the pass was judged by
   const JudgeOptions& options;
 };
-/// What would explain its failures, best first. The judge itself knows no mistakes: faults/diagnose.h does.
-using Explain = std::function<std::vector<Cause>(const FailedRun&)>;
+/// What would explain its failures, and what they share. The judge itself knows no mistakes: faults/diagnose.h does.
+using Explain = std::function<Explanation(const FailedRun&)>;
 
 struct PassRuns {
   std::size_t count = 0;

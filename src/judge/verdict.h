@@ -118,6 +118,12 @@ struct Cause {
   std::int64_t of = 0;         ///< failing texels replayed
   std::int64_t inside = 0;     ///< failing texels that it comes near: as near as the envelope is usually wide
   bool of_records = false;     ///< of a list: ids that are missing, too many, or wrong, in place of texels
+  bool is_likely = false;      ///< it explains nearly all of them; otherwise it may be the cause
+};
+/// Why a pass fails, and where.
+struct Explanation {
+  std::vector<Cause> causes;  ///< best first; empty: unknown
+  std::string where = "";     ///< "only channel y of wave": what the failures share; "": nothing
 };
 
 struct PassJudgement {
@@ -131,6 +137,7 @@ struct PassJudgement {
   std::vector<CaseJudgement> cases;
   std::vector<Cause> causes;  ///< best first; empty: unknown
   std::string null_port;      ///< a port that does nothing and passes, which makes the pass UNTESTED: "zeros"; "": none
+  std::string where = "";     ///< Explanation::where
 };
 
 /// A file of the port that is missing or cannot be used.

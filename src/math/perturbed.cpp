@@ -4,6 +4,7 @@
 #include <array>
 
 #include "math/directed.h"
+#include "math/perturbed_draws.h"
 
 namespace rainref::perturbed {
 namespace {
@@ -13,22 +14,6 @@ using enclosed::Accuracy;
 using enclosed::Profile;
 
 thread_local Behaviour current;
-
-/// splitmix64 (Steele, Lea, Flood 2014): draws of the variations only.
-std::uint64_t draw() {
-  std::uint64_t z = current.random += 0x9e3779b97f4a7c15u;
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-  return z ^ z >> 31;
-}
-bool coin() { return draw() & 1; }
-/// In [-1, 1), or often an end.
-double swing() {
-  const std::uint64_t bits = draw();
-  if (current.lean != 0 && (bits & 14) != 0) return current.lean;
-  if (bits & 1) return bits & 2 ? 1 : -1;
-  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
-}
 
 bool is(Fault fault) { return current.fault == fault; }
 /// Whether this operation takes a variation that is granted.
@@ -59,8 +44,6 @@ Perturbed finish(float nearest, double error) {
   if (is(Fault::half_intermediates)) r = to_float(to_half(r));
   return Perturbed::of(flushed(r));
 }
-double magnitude(double x) { return x < 0 ? -x : x; }
-double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52); }
 
 double bound_of(double exact, const Accuracy& a, double x) {
   // A little less, for what `exact` itself is off by.
@@ -99,9 +82,50 @@ Behaviour& behaviour() { return current; }
 
 Perturbed::Perturbed(float constant) : v(constant) {
   if (current.constants) current.constants->push_back(constant);
+  if (current.follows()) {
+    const bool is_known = current.known && std::binary_search(current.known->begin(), current.known->end(), constant);
+    leaf(Op::constant, is_known ? std::bit_cast<std::uint32_t>(constant) : 0);
+  }
   if (is(Fault::constant) && constant == current.constant) v = current.replacement;
   if (is(Fault::half_constants)) v = to_float(to_half(constant));
 }
+Perturbed Perturbed::index(int first) {
+  Perturbed column = of(current.is_column_mirrored ? current.column_offset - static_cast<float>(first)
+                                                   : static_cast<float>(first) + current.column_offset);
+  if (current.follows()) column.leaf(Op::index, 0);
+  return column;
+}
+Perturbed Perturbed::loaded(Perturbed texel) {
+  if (current.loads && current.loaded < current.loads->size())
+    if (const float other = (*current.loads)[current.loaded]; other == other) texel.v = other;
+  ++current.loaded;
+  if (current.follows()) texel.leaf(Op::load, 0);
+  return texel;
+}
+Perturbed Perturbed::fetched(float texel) {
+  Perturbed f = of(texel);
+  if (current.follows()) f.leaf(Op::fetch, 0);
+  return f;
+}
+Perturbed Perturbed::opposite() const {
+  Perturbed o = *this;
+  o.v = -o.v;
+  o.factor_ = -o.factor_;
+  return o;
+}
+bool operator<(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b); }
+bool operator<=(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b); }
+Perturbed select(bool m, Perturbed a, Perturbed b) { return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f)); }
+Perturbed min(Perturbed a, Perturbed b) {
+  return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
+}
+Perturbed max(Perturbed a, Perturbed b) {
+  return Perturbed::met(Op::maximum, Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v), a, b);
+}
+Perturbed abs(Perturbed a) { return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a); }
+Perturbed operator-(Perturbed a) { return Perturbed::met(Op::negation, a.opposite(), a); }
+Perturbed operator+(Perturbed a, Perturbed b) { return Perturbed::met(Op::sum, Perturbed::add(a, b), a, b); }
+Perturbed operator-(Perturbed a, Perturbed b) { return Perturbed::met(Op::difference, Perturbed::add(a, b.opposite()), a, b); }
 
 Perturbed Perturbed::add(Perturbed a, Perturbed b) {
   if (a.product_ || b.product_) {
@@ -122,18 +146,28 @@ Perturbed operator*(Perturbed a, Perturbed b) {
   r.factor_ = a.v;
   r.other_ = b.v;
   r.product_ = true;
-  return r;
+  return Perturbed::met(Op::product, r, a, b);
 }
-Perturbed operator/(Perturbed a, Perturbed b) {
+Perturbed square(Perturbed a) {
+  const auto squared = [&] {
+    const Unseen parts;
+    return is(Fault::square_missing) ? a : a * a;
+  };
+  return Perturbed::met(Op::square, squared(), a);
+}
+namespace {
+Perturbed quotient(Perturbed a, Perturbed b) {
   if (is(Fault::reciprocal_division)) return finish(a.v * (1.0f / b.v), 0);
   if (is(Fault::division_by_estimate)) return finish(a.v * beside(1.0f / b.v, true), 0);
-  const double quotient = exact(a) / b.v;
+  const double exact_quotient = exact(a) / b.v;
   if (take(&Variations::reciprocal)) {
     const Accuracy& allowed = current.variations->rules.division;
-    if (const float r = a.v * (1.0f / b.v); within(r, quotient, bound_of(quotient, allowed, 0), allowed)) return finish(r, 0);
+    if (const float r = a.v * (1.0f / b.v); within(r, exact_quotient, bound_of(exact_quotient, allowed, 0), allowed)) return finish(r, 0);
   }
-  return erring(a.v / b.v, quotient, &Profile::division);
+  return erring(a.v / b.v, exact_quotient, &Profile::division);
 }
+}  // namespace
+Perturbed operator/(Perturbed a, Perturbed b) { return Perturbed::met(Op::quotient, quotient(a, b), a, b); }
 Perturbed Perturbed::load_unorm(Unorm8 code) {
   // 0 and 1 are exact everywhere.
   if (code.code == 0 || code.code == 255) return of(plain::to_float(code));
@@ -144,36 +178,60 @@ Perturbed inverse_sqrt(Perturbed a) {
   return erring(static_cast<float>(root), root, &Profile::inverse_sqrt);
 }
 Perturbed sqrt(Perturbed a) {
-  if (is(Fault::root_missing)) return a;
-  if (is(Fault::root_by_inverse)) return a.v > 0 ? finish(1.0f / (1.0f / __builtin_sqrtf(a.v)), 0) : a;
-  if (a.v == 0) return a;
-  if (current.variations && current.variations->rules.sqrt_is_inherited) return Perturbed::of(1.0f) / inverse_sqrt(a);
-  return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::root_missing)) return a;
+    if (is(Fault::root_by_inverse)) return a.v > 0 ? finish(1.0f / (1.0f / __builtin_sqrtf(a.v)), 0) : a;
+    if (a.v == 0) return a;
+    if (current.variations && current.variations->rules.sqrt_is_inherited) return Perturbed::of(1.0f) / inverse_sqrt(a);
+    return erring(__builtin_sqrtf(a.v), __builtin_sqrt(exact(a)), &Profile::sqrt);
+  };
+  return Perturbed::met(Op::root, result(), a);
 }
 Perturbed floor(Perturbed a) {
-  const Reference down = floor(reference(a));
-  if (is(Fault::truncated_floor)) return Perturbed::of(a.v < 0 && down.v != a.v ? down.v + 1 : down.v);
-  if (is(Fault::rounded_floor)) return Perturbed::of(floor(Reference(a.v + 0.5f)).v);
-  return Perturbed::of(down.v);
+  const auto result = [&] {
+    const Unseen parts;
+    const Reference down = floor(reference(a));
+    if (is(Fault::truncated_floor)) return Perturbed::of(a.v < 0 && down.v != a.v ? down.v + 1 : down.v);
+    if (is(Fault::rounded_floor)) return Perturbed::of(floor(Reference(a.v + 0.5f)).v);
+    return Perturbed::of(down.v);
+  };
+  return Perturbed::met(Op::floor, result(), a);
 }
 Perturbed fract(Perturbed a) {
-  const Reference down = floor(reference(a));
-  if (is(Fault::fract_by_truncation) && a.v < 0) return finish(a.v - (down.v == a.v ? down.v : down.v + 1), 0);
-  return a - Perturbed::of(down.v);
+  const auto result = [&] {
+    const Unseen parts;
+    const Reference down = floor(reference(a));
+    if (is(Fault::fract_by_truncation) && a.v < 0) return finish(a.v - (down.v == a.v ? down.v : down.v + 1), 0);
+    return a - Perturbed::of(down.v);
+  };
+  return Perturbed::met(Op::fract, result(), a);
 }
 Perturbed mix(Perturbed a, Perturbed b, Perturbed t) {
-  if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
-  if (is(Fault::mix_by_difference) || take(&Variations::mix_either)) return a + (b - a) * t;
-  return a * (Perturbed::of(1.0f) - t) + b * t;
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::mix_swapped)) return b * (Perturbed::of(1.0f) - t) + a * t;
+    if (is(Fault::mix_by_difference) || take(&Variations::mix_either)) return a + (b - a) * t;
+    return a * (Perturbed::of(1.0f) - t) + b * t;
+  };
+  return Perturbed::met(Op::mix, result(), a, b, t);
 }
 
 Perturbed exp(Perturbed a) {
-  if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
-  return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::exp_base_two)) return finish(exp2(reference(a)).v, 0);
+    return erring(exp(reference(a)).v, exp_real(Real64(exact(a))).v, &Profile::exp, exact(a));
+  };
+  return Perturbed::met(Op::exponential, result(), a);
 }
 Perturbed exp2(Perturbed a) {
-  if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
-  return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::exp2_base_e)) return finish(exp(reference(a)).v, 0);
+    return erring(exp2(reference(a)).v, exp2_real(Real64(exact(a))).v, &Profile::exp2, exact(a));
+  };
+  return Perturbed::met(Op::exponential2, result(), a);
 }
 namespace {
 bool near_one(Perturbed a) { return a.v >= 0.5f && a.v <= 2.0f; }
@@ -198,27 +256,47 @@ Perturbed wave(float nearest, double exact, double x) {
 }
 }  // namespace
 Perturbed log(Perturbed a) {
-  return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
+  const auto result = [&] {
+    const Unseen parts;
+    return erring(log(reference(a)).v, log_real(Real64(exact(a))).v, near_one(a) ? &Profile::log_near_one : &Profile::log);
+  };
+  return Perturbed::met(Op::logarithm, result(), a);
 }
 Perturbed pow(Perturbed a, Perturbed b) {
-  if (is(Fault::pow_squared)) return a * a;
-  if (current.variations && a.v > 0 && current.variations->rules.pow_is_inherited) return exp2(b * log2(a));
-  const float nearest = pow(reference(a), reference(b)).v;
-  return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::pow_squared)) return a * a;
+    if (current.variations && a.v > 0 && current.variations->rules.pow_is_inherited) return exp2(b * log2(a));
+    const float nearest = pow(reference(a), reference(b)).v;
+    return a.v > 0 ? erring(nearest, pow_real(Real64(exact(a)), Real64(exact(b))).v, &Profile::pow) : finish(nearest, 0);
+  };
+  return Perturbed::met(Op::power, result(), a, b);
 }
 Perturbed sin(Perturbed a) {
-  const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
-  return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
+  const auto result = [&] {
+    const Unseen parts;
+    const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
+    return wave(sin(Reference(static_cast<float>(x))).v, sin_real(Real64(x)).v, x);
+  };
+  return Perturbed::met(Op::sine, result(), a);
 }
 Perturbed cos(Perturbed a) {
-  const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
-  return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
+  const auto result = [&] {
+    const Unseen parts;
+    const double x = is(Fault::degrees) ? exact(a) * degree : exact(a);
+    return wave(cos(Reference(static_cast<float>(x))).v, cos_real(Real64(x)).v, x);
+  };
+  return Perturbed::met(Op::cosine, result(), a);
 }
 Perturbed atan2(Perturbed y, Perturbed x) {
-  if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
-  // Not every device keeps the sign of a zero.
-  if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
-  return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
+  const auto result = [&] {
+    const Unseen parts;
+    if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
+    // Not every device keeps the sign of a zero.
+    if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
+    return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
+  };
+  return Perturbed::met(Op::angle, result(), y, x);
 }
 
 namespace {
@@ -251,11 +329,17 @@ Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbe
   return (a + b) + (c + d);
 }
 Perturbed smoothstep(float edge0, float edge1, Perturbed x) {
-  if (is(Fault::smoothstep_linear)) return plain::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
-  if (!current.variations) return plain::smoothstep<Perturbed>(edge0, edge1, x);
-  // The edges' difference is the device's own.
-  const Perturbed t = plain::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
-  return t * t * (Perturbed(3.0f) - Perturbed(2.0f) * t);
+  const auto result = [&]() -> Perturbed {
+    const Unseen parts;
+    if (is(Fault::smoothstep_linear)) return plain::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
+    if (!current.variations) return plain::smoothstep<Perturbed>(edge0, edge1, x);
+    // The edges' difference is the device's own.
+    const Perturbed t = plain::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
+    return t * t * (Perturbed(3.0f) - Perturbed(2.0f) * t);
+  };
+  if (!current.follows()) return result();
+  const Perturbed from(edge0), to(edge1);
+  return Perturbed::met(Op::smoothstep, result(), x, from, to);
 }
 Perturbed uniform_quotient(float a, float b, Perturbed) { return current.variations ? Perturbed(a) / Perturbed(b) : Perturbed(a / b); }
 plain::Vec3<Perturbed> normalize(const plain::Vec3<Perturbed>& a) {
@@ -282,116 +366,10 @@ Perturbed nearest_octave(Perturbed x) {
   return level;
 }
 
-Sampler::Sampler() : is_used(current.variations && current.variations->rules.subtexel_bits > 0 && coin()) {}
-float Sampler::coordinate(float u) const {
-  if (!is_used || current.variations->rules.coordinate_bits == 0) return u;
-  // 0.9 leaves room for the rounding of the sum.
-  return static_cast<float>(u + 0.9 * swing() * u * power_of_two(-current.variations->rules.coordinate_bits));
-}
-namespace {
-/// x in fixed point: cut, rounded, or anything between.
-float snapped(float x, int bits) {
-  const double steps = power_of_two(bits), offset = std::min(0.5 + 0.5 * swing(), 1 - 0x1p-20);
-  return static_cast<float>(floor(plain::Plain<double>(plain::Plain<double>(x * steps + offset))).v / steps);
-}
-}  // namespace
-float Sampler::texel(float x) const { return is_used ? snapped(x, current.variations->rules.subtexel_bits) : x; }
-float Sampler::level(float lod) const {
-  return current.variations && current.variations->rules.lod_bits > 0 ? snapped(lod, current.variations->rules.lod_bits) : lod;
-}
-
-float Sampler::blend(float in_float, float a, float b, float c, float d, bool inside_cell, int bits) const {
-  if (!is_used) return in_float;
-  const double twist = inside_cell ? magnitude(static_cast<double>(a) - b - c + d) : 0;  // weights of 0 stay 0
-  const double value = in_float + swing() * power_of_two(-current.variations->rules.subtexel_bits) * twist;
-  const auto [least, greatest] = std::minmax({a, b, c, d});
-  return std::clamp(stored(static_cast<float>(value), bits), least, greatest);
-}
-float Sampler::stored(float in_float, int bits) const {
-  double value = in_float;
-  const bool up = current.lean != 0 && (draw() & 7) != 0 ? current.lean > 0 : coin();
-  if (bits == 0) {
-    value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + (up ? 1 - 0x1p-20 : 0)))).v / 255;
-  } else if (bits == 11) {
-    const float x = static_cast<float>(value);
-    const Half cut = to_half(x, Rounding::rtz);
-    const bool away = to_float(cut) != x && up == (x > 0);
-    value = to_float(Half{static_cast<std::uint16_t>(cut.bits + (away ? 1 : 0))});
-  }
-  return static_cast<float>(value);
-}
-bool Sampler::rounds_jointly() const { return is_used && coin(); }
-bool Sampler::takes_x_first() const { return coin(); }
-Share& share() {
-  thread_local Share current_share;
-  return current_share;
-}
-float Sampler::weighted(float a, float b, float c, float d, float fx, float fy, float share, bool x_first) const {
-  if (!x_first) {
-    std::swap(b, c);
-    std::swap(fx, fy);
-  }
-  const double steps = power_of_two(current.variations->rules.subtexel_bits), whole = steps * static_cast<double>(share);
-  // To the nearest; which way a tie goes is anyone's.
-  const auto rounded = [](double x) {
-    const double down = floor(plain::Plain<double>(plain::Plain<double>(x))).v, rest = x - down;
-    return rest > 0.5 || (rest == 0.5 && coin()) ? down + 1 : down;
-  };
-  const double right = rounded(whole * static_cast<double>(fx)), left = whole - right;
-  const double right_above = rounded(right * static_cast<double>(fy)), left_above = rounded(left * static_cast<double>(fy));
-  return static_cast<float>(((left - left_above) * a + (right - right_above) * b + left_above * c + right_above * d) / steps);
-}
-
 Variations variations_of(const Profile& p) {
   Variations all;
   all.rules = p;
   all.reorder = all.mix_either = all.reciprocal = all.normalize_any = !p.reference;
-  return all;
-}
-
-const std::vector<FaultInfo>& faults() {
-  static const std::vector<FaultInfo> all{
-      {Fault::fused, "fused multiply-add", "products are fused with the addition that follows"},
-      {Fault::reciprocal_division, "division by reciprocal", "a / b is computed as a * (1 / b)"},
-      {Fault::root_by_inverse, "root by inverse root", "sqrt(x) is computed as 1 / inversesqrt(x)"},
-      {Fault::flushed, "subnormals flushed", "subnormal results become zero"},
-      {Fault::mix_by_difference, "mix as a + (b - a) t", "mix is computed by the difference, not as a (1 - t) + b t"},
-      {Fault::sum_backwards, "sum backwards", "sums are added from the last term to the first"},
-      {Fault::sum_otherwise_paired, "sum paired otherwise", "sums are added in other pairs"},
-      {Fault::division_by_estimate, "division by estimate", "1 / b is an estimate, one ULP off"},
-      {Fault::half_intermediates, "half intermediates", "intermediate results have half precision (min16float, mediump, half)"},
-      {Fault::half_constants, "half constants", "literals and uniforms have half precision"},
-      {Fault::strict_for_weak, "> for >=", "a comparison with equality is strict (or < for <=)"},
-      {Fault::weak_for_strict, ">= for >", "a strict comparison includes equality (or <= for <)"},
-      {Fault::truncated_floor, "truncation for floor", "floor of a negative number is cut toward zero, as int() does"},
-      {Fault::rounded_floor, "rounding for floor", "an index is rounded to nearest instead of down"},
-      {Fault::fract_by_truncation, "fract by truncation", "fract of a negative number is negative, as fmod's is"},
-      {Fault::minimum_missing, "upper clamp missing", "a min() or the upper end of a clamp is missing"},
-      {Fault::maximum_missing, "lower clamp missing", "a max() or the lower end of a clamp is missing"},
-      {Fault::abs_missing, "abs missing", "an abs() is missing"},
-      {Fault::normalize_missing, "normalize missing", "a vector is not normalized"},
-      {Fault::smoothstep_linear, "linear for smoothstep", "smoothstep is a linear ramp"},
-      {Fault::root_missing, "root missing", "a squared length is taken for the length"},
-      {Fault::square_missing, "square missing", "a number is taken for its square"},
-      {Fault::refract_ratio_inverted, "refraction ratio inverted", "refract() gets n2 / n1 instead of n1 / n2"},
-      {Fault::reflect_doubled_missing, "factor 2 of reflect missing", "reflect is v - (n.v) n"},
-      {Fault::exp_base_two, "exp2 for exp", "an exponential has base 2 instead of e"},
-      {Fault::exp2_base_e, "exp for exp2", "an exponential has base e instead of 2"},
-      {Fault::pow_squared, "square for pow", "a power is approximated by a square"},
-      {Fault::mix_swapped, "mix ends swapped", "mix has its ends swapped"},
-      {Fault::atan2_swapped, "atan2 arguments swapped", "atan2 gets (x, y)"},
-      {Fault::degrees, "degrees for radians", "an angle in radians is taken for degrees"},
-      {Fault::address_clamped, "clamp address mode", "a texture that repeats is clamped"},
-      {Fault::address_repeated, "repeat address mode", "a texture that is clamped repeats"},
-      {Fault::address_mirrored, "mirror address mode", "a texture is mirrored at its edges"},
-      {Fault::nearest_filter, "nearest for linear", "a texture is filtered by the nearest texel"},
-      {Fault::weights_of_8_bits, "8-bit filter weights", "a texture unit filters with weights of 8 bits"},
-      {Fault::half_texel_missing, "half texel missing", "texel centres are taken at k instead of k + 1/2"},
-      {Fault::half_texel_twice, "half texel twice", "the half texel is taken off twice"},
-      {Fault::texel_after, "one texel off", "a lookup is one texel off"},
-      {Fault::level_above, "mip level above", "the mip level is one too coarse"},
-      {Fault::level_below, "mip level below", "the mip level is one too fine"},
-  };
   return all;
 }
 

@@ -5,10 +5,12 @@
 // envelopes are tested with them. Without either, a Perturbed is Plain<float>, bit for bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
+#include "math/places.h"
 #include "math/plain.h"
 #include "math/profile.h"
 
@@ -94,6 +96,16 @@ struct Behaviour {
   std::uint64_t random = 1;                 ///< state of the variations' draws
   int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
   std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
+
+  // One mistake at one place, or at two that belong together: the two coordinates of a lookup.
+  std::array<Place, 2> places{};
+  const std::vector<float>* known = nullptr;  ///< sorted: constants that tell places apart; others are all alike
+  Trace* trace = nullptr;                     ///< collects what is done
+  const std::vector<float>* loads = nullptr;  ///< what the texels loaded by integers are instead, in order
+  std::size_t loaded = 0;                     ///< of these so far: 0 before each invocation
+  float column_offset = 0;                    ///< added to the element's own column
+  bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
+  bool follows() const { return trace || places[0].slip != Slip::none; }
 };
 Behaviour& behaviour();
 /// Sets the behaviour for a scope.
@@ -106,6 +118,15 @@ class Scope {
 
  private:
   Behaviour saved_;
+};
+
+/// While it lives the calling thread's operations are none of the pass text: parts of a named one, or of a mistake.
+class Unseen {
+ public:
+  Unseen();
+  ~Unseen();
+  Unseen(const Unseen&) = delete;
+  Unseen& operator=(const Unseen&) = delete;
 };
 
 class Perturbed {
@@ -127,39 +148,35 @@ class Perturbed {
   template <class Storage>
   static Perturbed load(const Storage* p) {
     if constexpr (std::is_same_v<Storage, Unorm8>)
-      return load_unorm(*p);
+      return loaded(load_unorm(*p));
     else
-      return of(plain::to_float(*p));
+      return loaded(of(plain::to_float(*p)));
   }
-  static Perturbed index(int first) { return of(static_cast<float>(first)); }
+  static Perturbed index(int first);
   static Int uniform_int(int value) { return {value}; }
 
-  friend Perturbed operator+(Perturbed a, Perturbed b) { return add(a, b); }
-  friend Perturbed operator-(Perturbed a, Perturbed b) { return add(a, -b); }
+  friend Perturbed operator+(Perturbed a, Perturbed b);
+  friend Perturbed operator-(Perturbed a, Perturbed b);
   friend Perturbed operator*(Perturbed a, Perturbed b);
   friend Perturbed operator/(Perturbed a, Perturbed b);
-  friend Perturbed operator-(Perturbed a) {
-    a.v = -a.v;
-    a.factor_ = -a.factor_;
-    return a;
-  }
-  friend bool operator<(Perturbed a, Perturbed b) { return behaviour().fault == Fault::weak_for_strict ? a.v <= b.v : a.v < b.v; }
-  friend bool operator<=(Perturbed a, Perturbed b) { return behaviour().fault == Fault::strict_for_weak ? a.v < b.v : a.v <= b.v; }
+  friend Perturbed operator-(Perturbed a);
+  friend bool operator<(Perturbed a, Perturbed b);
+  friend bool operator<=(Perturbed a, Perturbed b);
   friend bool operator>(Perturbed a, Perturbed b) { return b < a; }
   friend bool operator>=(Perturbed a, Perturbed b) { return b <= a; }
-  friend Perturbed select(bool m, Perturbed a, Perturbed b) { return m ? a : b; }
-  friend Perturbed min(Perturbed a, Perturbed b) { return of(behaviour().fault == Fault::minimum_missing ? a.v : b.v < a.v ? b.v : a.v); }
-  friend Perturbed max(Perturbed a, Perturbed b) { return of(behaviour().fault == Fault::maximum_missing ? a.v : a.v < b.v ? b.v : a.v); }
-  friend Perturbed abs(Perturbed a) { return a.v < 0 && behaviour().fault != Fault::abs_missing ? -a : a; }
+  friend Perturbed select(bool m, Perturbed a, Perturbed b);
+  friend Perturbed min(Perturbed a, Perturbed b);
+  friend Perturbed max(Perturbed a, Perturbed b);
+  friend Perturbed abs(Perturbed a);
   friend Perturbed sqrt(Perturbed a);
-  friend Perturbed square(Perturbed a) { return behaviour().fault == Fault::square_missing ? a : a * a; }
+  friend Perturbed square(Perturbed a);
   friend Perturbed floor(Perturbed a);
   friend Perturbed fract(Perturbed a);
   friend Perturbed mix(Perturbed a, Perturbed b, Perturbed t);
   /// A number that a fault has made too large for an integer is cut.
   friend Int to_int(Perturbed a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Perturbed to_number(Int a) { return of(static_cast<float>(a.i)); }
-  friend Perturbed fetch(const float* texels, Int offset, Perturbed) { return of(texels[offset.i]); }
+  friend Perturbed fetch(const float* texels, Int offset, Perturbed) { return fetched(texels[offset.i]); }
 
   friend Perturbed exp(Perturbed a);
   friend Perturbed exp2(Perturbed a);
@@ -172,13 +189,30 @@ class Perturbed {
   /// 1 / sqrt(a) in one instruction: passes do not name it, variations do.
   friend Perturbed inverse_sqrt(Perturbed a);
 
+  /// The result of an operation of the pass text: as it is, or as the mistake at this place has it.
+  template <class... Operands>
+  static Perturbed met(Op op, const Perturbed& result, const Operands&... of) {
+    return behaviour().follows() ? follow(op, result, {of...}) : result;
+  }
+  static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
+
  private:
   static Perturbed add(Perturbed a, Perturbed b);
   static Perturbed load_unorm(Unorm8 code);
+  static Perturbed loaded(Perturbed texel);
+  static Perturbed fetched(float texel);
+  void leaf(Op op, std::uint32_t shape);
+  static Perturbed follow(Op op, Perturbed result, std::initializer_list<Perturbed> of);
+  static bool follow(bool result, const Perturbed& a, const Perturbed& b);
+  static Perturbed slipped(Op op, const Perturbed& result, const Perturbed* of, std::size_t count, Slip slip);
+  Perturbed opposite() const;
 
   // A product that the next addition may fuse: v = factor_ times other_, rounded.
   float factor_ = 0, other_ = 0;
   bool product_ = false;
+  // Where it comes from, while places are followed: hashes one, two and three operations deep, and its node of the trace.
+  std::array<std::uint32_t, 3> shape_{};
+  std::int32_t node_ = -1;
 };
 
 // Found by argument before the vocabulary's templates.

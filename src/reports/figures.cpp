@@ -194,9 +194,10 @@ std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
   return all;
 }
 
+const char* cause_word(const Cause& c) { return c.is_likely ? "likely cause" : "may be"; }
 std::string cause_text(const Cause& c) {
-  return fmt::format("{}: {} (gives {} of {} failing {} bit for bit, comes near {})", c.name, c.sentence, c.explained, c.of,
-                     element_word(c), c.inside);
+  return fmt::format("{}: {}: {} (gives {} of {} failing {} bit for bit, comes near {})", cause_word(c), c.name, c.sentence, c.explained,
+                     c.of, element_word(c), c.inside);
 }
 
 bool is_broken(const PassJudgement& p) {

@@ -77,7 +77,9 @@ struct QuantitiesOfOutput {
 };
 std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 
-/// "upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
+/// "likely cause", or "may be".
+const char* cause_word(const judge::Cause& cause);
+/// "likely cause: upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".
 std::string cause_text(const judge::Cause& cause);
 
 /// Whether a run of it fails for a reason of its own, which is then the cause: a race, an input that is not the output it

@@ -78,10 +78,12 @@ std::string summary_html(const PortJudgement& j) {
         others += fmt::format("{0} <a href=\"#pass-{1}\">{1}</a>", others.empty() ? " Also fail:" : ",", marked_up(p.pass));
     if (!others.empty()) others += ".";
     out += opening_html(*bad);
+    if (!bad->where.empty()) out += fmt::format(" Where: {}.", marked_up(bad->where));
     if (bad->causes.empty()) return out + (has_unknown_cause(*bad) ? " The cause is unknown." : "") + others;
     const Cause& c = bad->causes[0];
-    return out + fmt::format(" Likely cause: <b>{}</b>, {} (gives {} of {} failing {} bit for bit, comes near {}).{}", marked_up(c.name),
-                             marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, others);
+    return out + fmt::format(" {} <b>{}</b>, {} (gives {} of {} failing {} bit for bit, comes near {}).{}",
+                             c.is_likely ? "Likely cause:" : "The cause may be", marked_up(c.name), marked_up(c.sentence), c.explained,
+                             c.of, element_word(c), c.inside, others);
   }
   if (!j.reason.empty()) return marked_up(j.reason) + ".";
   const std::string equal =

@@ -43,14 +43,15 @@ std::string takes_html(const PassJudgement& p, const PortJudgement& j, const Pag
 
 std::string causes_html(const PassJudgement& p) {
   if (figures_of(p).outside == 0) return "";
-  if (p.causes.empty() && is_broken(p)) return "";
-  if (p.causes.empty()) return "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
-  std::string out = "<h3>Likely causes</h3>\n<ol class=\"causes\">\n";
+  std::string out = p.where.empty() ? "" : fmt::format("<p class=\"cause\"><b>Where:</b> {}.</p>\n", marked_up(p.where));
+  if (p.causes.empty() && is_broken(p)) return out;
+  if (p.causes.empty()) return out + "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
+  out += fmt::format("<h3>{}</h3>\n<ol class=\"causes\">\n", p.causes[0].is_likely ? "Likely cause" : "What the cause may be");
   for (const Cause& c : p.causes) {
     out += fmt::format(
-        "<li><b>{}</b>: {} <span class=\"dim\">gives {} of {} failing {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" "
+        "<li>{} <b>{}</b>: {} <span class=\"dim\">gives {} of {} failing {} bit for bit, comes near {}</span><meter min=\"0\" max=\"{}\" "
         "value=\"{}\">{}</meter></li>\n",
-        marked_up(c.name), marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, c.of, c.explained,
+        cause_word(c), marked_up(c.name), marked_up(c.sentence), c.explained, c.of, element_word(c), c.inside, c.of, c.explained,
         share_text(c.explained, c.of));
   }
   return out + "</ol>\n";

@@ -132,10 +132,16 @@ Json pass_json(const PassJudgement& p) {
            {"half_mode", name(p.half_mode)},
            {"half_mode_voted", p.half_mode_voted},
            {"half_votes", {{"rne", p.half_votes[0]}, {"rtz", p.half_votes[1]}, {"either", p.half_votes[2]}}},
+           {"where", p.where},
            {"causes", Json::array()},
            {"cases", Json::array()}};
   for (const Cause& c : p.causes)
-    out["causes"].push_back({{"name", c.name}, {"sentence", c.sentence}, {"explained", c.explained}, {"of", c.of}, {"inside", c.inside}});
+    out["causes"].push_back({{"name", c.name},
+                             {"sentence", c.sentence},
+                             {"explained", c.explained},
+                             {"of", c.of},
+                             {"inside", c.inside},
+                             {"is_likely", c.is_likely}});
   for (const CaseJudgement& c : p.cases) out["cases"].push_back(case_json(c));
   return out;
 }

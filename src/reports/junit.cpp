@@ -47,7 +47,8 @@ std::string failing_text(const PassJudgement& p, const OutputJudgement& o) {
   if (o.failing > static_cast<std::int64_t>(shown_failures))
     out += fmt::format("({} more not shown)\n", o.failing - static_cast<std::int64_t>(shown_failures));
   if (has_unknown_cause(p)) out += "cause unknown\n";
-  for (const Cause& c : p.causes) out += fmt::format("likely cause: {}\n", cause_text(c));
+  if (!p.where.empty()) out += fmt::format("where: {}\n", p.where);
+  for (const Cause& c : p.causes) out += cause_text(c) + "\n";
   return out;
 }
 

@@ -168,7 +168,8 @@ std::string failures_text(const PassJudgement& p, const PortJudgement& j) {
   }
   if (skipped > 0) out += fmt::format("  ({} more failures not shown)\n", skipped);
   if (has_unknown_cause(p)) out += "  cause unknown\n";
-  for (const Cause& c : p.causes) out += wrapped(fmt::format("  likely cause: {}", cause_text(c)), 4);
+  if (!p.where.empty()) out += wrapped(fmt::format("  where: {}", p.where), 4);
+  for (const Cause& c : p.causes) out += wrapped("  " + cause_text(c), 4);
   return out;
 }
 

@@ -52,9 +52,14 @@ TEST(ReportJson, HoldsTheWholeJudgement) {
   const Json& shade = j["passes"][3];
   EXPECT_EQ(shade["half_mode"], "rtz");
   EXPECT_EQ(shade["half_votes"], (Json{{"rne", 8}, {"rtz", 2}, {"either", 2}}));
-  EXPECT_EQ(
-      shade["causes"][0],
-      (Json{{"name", "upside down"}, {"sentence", "the buffer is stored from the bottom up"}, {"explained", 2}, {"of", 2}, {"inside", 1}}));
+  EXPECT_EQ(shade["causes"][0], (Json{{"name", "upside down"},
+                                      {"sentence", "the buffer is stored from the bottom up"},
+                                      {"explained", 2},
+                                      {"of", 2},
+                                      {"inside", 1},
+                                      {"is_likely", true}}));
+  EXPECT_EQ(shade["where"], "only channel y of colour");
+  EXPECT_EQ(j["passes"][0]["where"], "");
   const Json& worst = shade["cases"][0]["outputs"][0]["worst"];
   ASSERT_EQ(worst.size(), 2u);
   EXPECT_EQ(worst[0]["got"], (Json{{"value", nullptr}, {"bits", "0x7e01"}, {"code", 0x7e01}}));

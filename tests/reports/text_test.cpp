@@ -83,6 +83,7 @@ TEST(ReportText, WhatFailsWhereByHowMuchAndWhy) {
                 "    (2, 0).y  got nan (0x7e01)  accepted 0.125 (0x3000) to 0.125122 (0x3001)  is not a number\n"
                 "    (0, 1).w  got 1.00391 (0x3c04)  accepted 1 (0x3c00) to 1.00098 (0x3c01)  off by 3 codes (0.00293)\n"
                 "    (4 more not shown)\n"
+                "  where: only channel y of colour\n"
                 "  likely cause: upside down: the buffer is stored from the bottom up (gives 2 of 2 failing texels bit for bit, comes\n"
                 "    near 1)\n"));
   EXPECT_THAT(text, HasSubstr("note: port/x.exr: one note\n"));
@@ -96,6 +97,7 @@ TEST(ReportText, ManyFailingOutputsAreCounted) {
   PassJudgement& shade = j.passes[3];
   for (int k = 0; k < 8; ++k) shade.cases.push_back(shade.cases[0]);
   shade.causes.clear();
+  shade.where.clear();
   const std::string text = report_text(j);
   EXPECT_THAT(text, HasSubstr("  (5 more failures not shown)\n  cause unknown\n"));
 }

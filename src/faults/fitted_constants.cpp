@@ -1,0 +1,130 @@
+// Which other value of a literal or a uniform gives what a port stored.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "faults/place_faults.h"
+
+namespace rainref::faults {
+namespace {
+
+/// A pass with one constant replaced.
+struct Replaced {
+  const capture::PassModel& model;
+  float constant;
+
+  float value(const Wanted& w, std::size_t slot, float replacement) const {
+    perturbed::Behaviour b;
+    b.fault = perturbed::Fault::constant;
+    b.constant = constant;
+    b.replacement = replacement;
+    const perturbed::Scope scope(b);
+    std::vector<perturbed::Perturbed> values(w.port.size());
+    model.evaluate(w.at.x, w.at.y, values.data());
+    return values[slot].v;
+  }
+};
+
+/// The slot that the port changed most, against what the reference has there.
+std::size_t farthest_slot(const Wanted& w) {
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t s = 0; s < w.port.size(); ++s) {
+    const double off = std::abs(static_cast<double>(w.port[s]) - w.reference[s]) / (std::abs(static_cast<double>(w.reference[s])) + 1e-6);
+    if (off > most && std::isfinite(w.port[s])) most = off, best = s;
+  }
+  return best;
+}
+
+/// A value between two at which `off` changes its sign.
+template <class Off>
+float bisected(float low, float high, const Off& off) {
+  double at_low = off(low);
+  for (int round = 0; round < 40; ++round) {
+    const float middle = low + (high - low) / 2;
+    const double at = off(middle);
+    if ((at < 0) == (at_low < 0))
+      low = middle, at_low = at;
+    else
+      high = middle;
+  }
+  return low + (high - low) / 2;
+}
+
+/// With so many significant digits.
+float rounded(float x, int digits) {
+  const std::string text = fmt::format("{:.{}g}", x, digits);
+  float value = x;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+/// The replacements of a constant that give a texel what it wants, the nearest to the constant first.
+std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
+  const float v = pass.constant;
+  const std::size_t slot = farthest_slot(w);
+  const auto off = [&](float r) { return static_cast<double>(pass.value(w, slot, r)) - w.port[slot]; };
+  std::vector<float> tried;
+  for (const float f :
+       {-4.0f, -2.0f, -1.0f, -0.5f, 0.0f, 0.05f, 0.25f, 0.5f, 0.75f, 0.9f, 0.97f, 1.0f, 1.03f, 1.1f, 1.25f, 1.5f, 2.0f, 3.0f, 4.5f, 10.0f})
+    tried.push_back(v == 0 ? f : v * f);
+  std::sort(tried.begin(), tried.end());
+  std::vector<float> roots;
+  double before = off(tried[0]);
+  for (std::size_t k = 1; k < tried.size(); ++k) {
+    const double now = off(tried[k]);
+    if (std::isfinite(before) && std::isfinite(now) && (before < 0) != (now < 0)) roots.push_back(bisected(tried[k - 1], tried[k], off));
+    before = now;
+  }
+  std::sort(roots.begin(), roots.end(), [v](float a, float b) { return std::abs(a - v) < std::abs(b - v); });
+  return roots;
+}
+
+/// The one that suits all texels best, as one of a few digits where that suits them about as well; nothing where none does.
+std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wanted) {
+  // How far off all are, in steps of the store.
+  const auto misfit = [&](float r) {
+    double sum = 0;
+    for (const Wanted& w : wanted) {
+      const std::size_t s = farthest_slot(w);
+      sum += std::abs(static_cast<double>(pass.value(w, s, r)) - w.port[s]) / std::max(w.step[s], 1e-30f);
+    }
+    return sum;
+  };
+  const double without = misfit(pass.constant);
+  std::optional<float> best;
+  double least = without / 10;  // it must be much better than the constant itself
+  for (std::size_t k = 0; k < std::min<std::size_t>(wanted.size(), 4); ++k)
+    for (const float root : replacements(pass, wanted[k]))
+      if (const double m = misfit(root); m < least && root != pass.constant) least = m, best = root;
+  for (int digits = 1; best && *best != 0 && digits < 7; ++digits)
+    if (const float nice = rounded(*best, digits);
+        nice != pass.constant && misfit(nice) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()))
+      return nice;
+  return best;
+}
+
+}  // namespace
+
+void add_fitted_constants(std::vector<Deviation>& out, const capture::PassModel& model, const Constants& constants,
+                          const std::vector<Wanted>& wanted) {
+  if (wanted.empty()) return;
+  for (const auto& [value, name, is_literal] : constants) {
+    const std::optional<float> other = fitted({model, value}, wanted);
+    if (!other) continue;
+    Deviation d;
+    d.name = fmt::format("another value of {}", name);
+    d.sentence = fmt::format("{} is about {:.5g} in the port, {} in the reference", name, *other, value);
+    d.behaviour.fault = perturbed::Fault::constant;
+    d.behaviour.constant = value;
+    d.behaviour.replacement = *other;
+    d.for_diagnosis = true;
+    out.push_back(std::move(d));
+  }
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,219 @@
+#include "faults/place_faults.h"
+
+#include <array>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Op;
+using perturbed::Slip;
+using perturbed::Trace;
+using Node = Trace::Node;
+
+struct Words {
+  Slip slip;
+  std::string name, sentence;
+};
+
+std::string shortened(const Probe& p, std::int32_t node) {
+  for (int depth = 3; depth > 0; --depth)
+    if (const std::string text = p.text(node, depth); text.size() <= 60) return text;
+  const std::string text = p.text(node, 1);
+  return text.size() <= 80 ? text : text.substr(0, 77) + "...";
+}
+
+/// The input that a lookup's coordinate leads to: the next texel fetched.
+std::string image_of(const Probe& p, std::size_t node) {
+  for (std::size_t n = node; n < p.trace.nodes.size(); ++n) {
+    if (p.trace.nodes[n].op != Op::fetch) continue;
+    const std::string& name = p.names[n];
+    return name.substr(0, name.find('.'));
+  }
+  return "a texture";
+}
+
+/// What a mistake makes of a node, in words.
+std::vector<Words> words_of(const Probe& p, std::size_t at) {
+  const Node& n = p.trace.nodes[at];
+  const std::string all = shortened(p, static_cast<std::int32_t>(at)), a = shortened(p, n.of[0]), b = shortened(p, n.of[1]);
+  const bool same = a == b && a != "...";
+  std::vector<Words> out;
+  const auto add = [&](Slip slip, std::string name, std::string sentence) { out.push_back({slip, std::move(name), std::move(sentence)}); };
+  switch (n.op) {
+    case Op::sum:
+    case Op::difference:
+      add(Slip::first, "term left out: " + b, fmt::format("of {} the term {} is left out", all, b));
+      add(Slip::second, "term left out: " + a, fmt::format("of {} the term {} is left out", all, a));
+      add(Slip::second_negated, "sign of a term: " + b, fmt::format("in {} the term {} has the other sign", all, b));
+      add(Slip::swapped, n.op == Op::sum ? "sign of a term: " + a : "difference the other way: " + all,
+          n.op == Op::sum ? fmt::format("in {} the term {} has the other sign", all, a) : fmt::format("{} is taken the other way", all));
+      add(Slip::first_twice, "term twice: " + a, fmt::format("in {} the term {} counts twice", all, a));
+      add(Slip::second_twice, "term twice: " + b, fmt::format("in {} the term {} counts twice", all, b));
+      add(Slip::rooted, "root for square: " + all,
+          fmt::format("the square root of {} is taken in place of it: a length for its square", all));
+      break;
+    case Op::product:
+      if (same) {
+        add(Slip::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
+      } else {
+        add(Slip::first, "factor left out: " + b, fmt::format("of {} the factor {} is left out", all, b));
+        add(Slip::second, "factor left out: " + a, fmt::format("of {} the factor {} is left out", all, a));
+        add(Slip::first_squared, "factor twice: " + a, fmt::format("in {} the factor {} is taken twice, or squared", all, a));
+        add(Slip::second_squared, "factor twice: " + b, fmt::format("in {} the factor {} is taken twice, or squared", all, b));
+        add(Slip::inverted, "divided for multiplied: " + all, fmt::format("in {} is divided by {}", all, b));
+      }
+      add(Slip::squared, "squared: " + all, fmt::format("{} is squared", all));
+      add(Slip::negated, "sign of a product: " + all, fmt::format("{} has the other sign", all));
+      add(Slip::doubled, "twice as large: " + all, fmt::format("{} is twice as large: a diameter for a radius, a factor 2", all));
+      add(Slip::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter, a factor 1/2", all));
+      break;
+    case Op::quotient:
+      add(Slip::first, "division left out: by " + b, fmt::format("{} is not divided by {}", a, b));
+      add(Slip::swapped, "quotient upside down: " + all, fmt::format("{} is taken upside down", all));
+      add(Slip::inverted, "multiplied for divided: " + all, fmt::format("{} is multiplied by {}", a, b));
+      break;
+    case Op::negation:
+      add(Slip::first, "sign of a term: " + a, fmt::format("{} has the other sign", a));
+      break;
+    case Op::minimum:
+    case Op::maximum: {
+      const char* const name = n.op == Op::minimum ? "min" : "max";
+      add(Slip::first, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, a));
+      add(Slip::second, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, b));
+      add(Slip::other, fmt::format("{} for {}: {}", n.op == Op::minimum ? "max" : "min", name, all),
+          fmt::format("{} is taken the other way", all));
+      break;
+    }
+    case Op::magnitude:
+      add(Slip::first, "abs left out: " + a, fmt::format("the sign of {} is kept", a));
+      break;
+    case Op::root:
+      add(Slip::first, "root left out: " + all, fmt::format("{} is taken without the root", all));
+      add(Slip::doubled, "twice as large: " + all, fmt::format("{} is twice as large: a diameter for a radius", all));
+      add(Slip::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter", all));
+      break;
+    case Op::square:
+      add(Slip::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
+      add(Slip::other, "cube for square: " + a, fmt::format("{} is cubed", a));
+      add(Slip::squared, "squared twice: " + a, fmt::format("{} is squared twice", a));
+      break;
+    case Op::floor:
+      add(Slip::first, "floor left out: " + a, fmt::format("{} is not rounded down", a));
+      add(Slip::other, "rounding for floor: " + a, fmt::format("{} is rounded to nearest", a));
+      break;
+    case Op::fract:
+      add(Slip::first, "fract left out: " + a, fmt::format("{} keeps its whole part", a));
+      break;
+    case Op::exponential:
+    case Op::exponential2:
+      add(Slip::other, n.op == Op::exponential ? "exp2 for exp: " + all : "exp for exp2: " + all,
+          fmt::format("the base of {} is another", all));
+      add(Slip::first, "exponential left out: " + all, fmt::format("for {} stands {}", all, a));
+      add(Slip::linear, "linear for an exponential: " + all, fmt::format("for {} stands 1 + {}", all, a));
+      break;
+    case Op::power:
+      add(Slip::first, "power left out: " + all, fmt::format("for {} stands {}", all, a));
+      add(Slip::inverted, "exponent inverted: " + all, fmt::format("the exponent of {} is 1 over what it should be", all));
+      break;
+    case Op::sine:
+    case Op::cosine:
+      add(Slip::other, n.op == Op::sine ? "cosine for sine: " + all : "sine for cosine: " + all,
+          "the angle is measured from the other axis");
+      add(Slip::negated, "sign of a term: " + all, fmt::format("{} has the other sign", all));
+      break;
+    case Op::angle:
+      add(Slip::swapped, "atan2 arguments swapped: " + all, fmt::format("{} gets (x, y)", all));
+      break;
+    case Op::mix:
+      add(Slip::swapped, "mix ends swapped: " + all, fmt::format("the ends of {} are exchanged", all));
+      add(Slip::first, "mix left out: " + all, fmt::format("for {} stands {}", all, a));
+      add(Slip::second, "mix left out: " + all, fmt::format("for {} stands {}", all, b));
+      add(Slip::added, "added for mixed: " + all, fmt::format("in {} the second is added to the first", all));
+      add(Slip::in_gamma, "blended in gamma space: " + all, fmt::format("{} mixes numbers encoded by a power of 1/2.2", all));
+      break;
+    case Op::smoothstep:
+      add(Slip::swapped, "smoothstep's edges swapped: " + all, fmt::format("the edges of {} are exchanged", all));
+      add(Slip::other, "linear for smoothstep: " + all, fmt::format("{} is a linear ramp", all));
+      break;
+    case Op::choice:
+      add(Slip::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
+      break;
+    case Op::comparison:
+      add(Slip::always, fmt::format("condition left out: {} < {}", a, b), fmt::format("{} < {} is taken to hold everywhere", a, b));
+      add(Slip::never, fmt::format("condition never holds: {} < {}", a, b), fmt::format("{} < {} is taken to hold nowhere", a, b));
+      break;
+    case Op::coordinate: {
+      const std::string image = image_of(p, at);
+      add(Slip::nearest, "nearest for linear: " + image, fmt::format("a lookup of {} takes the nearest texel", image));
+      add(Slip::half_less, "half a texel off: " + image, fmt::format("a lookup of {} lies half a texel too low", image));
+      add(Slip::half_more, "half a texel off: " + image, fmt::format("a lookup of {} lies half a texel too high", image));
+      add(Slip::one_less, "one texel off: " + image, fmt::format("a lookup of {} lies one texel too low", image));
+      add(Slip::one_more, "one texel off: " + image, fmt::format("a lookup of {} lies one texel too high", image));
+      break;
+    }
+    case Op::level: {
+      const std::string image = image_of(p, at);
+      add(Slip::one_more, "mip level above: " + image, fmt::format("a lookup of {} takes one level too coarse", image));
+      add(Slip::one_less, "mip level below: " + image, fmt::format("a lookup of {} takes one level too fine", image));
+      add(Slip::zero, "mip level 0: " + image, fmt::format("a lookup of {} takes level 0", image));
+      break;
+    }
+    case Op::lookup:
+      add(Slip::zero, "lookup left out: " + a, fmt::format("{} counts as 0", all));
+      break;
+    default:
+      break;
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_place_faults(std::vector<Deviation>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
+  const auto shared = std::make_shared<const std::vector<float>>(known);
+  const auto add = [&](const Words& w, std::array<perturbed::Place, 2> places, std::string remark) {
+    Deviation d;
+    d.name = w.name;
+    d.sentence = w.sentence + remark;
+    d.behaviour.places = places;
+    d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
+    d.for_diagnosis = true;
+    out.push_back(std::move(d));
+  };
+  constexpr std::int32_t most = 6;  // of one shape that are tried one by one: components, neighbours
+  std::set<std::pair<std::uint32_t, std::int32_t>> done;
+  for (const Probe& p : probes) {
+    // From the results to what they are made of: a whole term left out is a plainer mistake than one in its depths.
+    for (std::size_t at = p.trace.nodes.size(); at-- > 0;) {
+      const Node& n = p.trace.nodes[at];
+      const std::int32_t count = p.trace.met.at(n.shape);
+      for (const std::int32_t occurrence : {-1, n.occurrence}) {
+        if (occurrence >= 0 && (count == 1 || count > most)) continue;
+        if (!done.insert({n.shape, occurrence}).second) continue;
+        for (const Words& w : words_of(p, at))
+          add(w, {perturbed::Place{n.shape, occurrence, w.slip}, {}},
+              occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
+      }
+      if (n.op != Op::lookup) continue;
+      // Both coordinates of a lookup: fx and fy of a blend are what a coordinate has beyond its floor.
+      const auto coordinate_of = [&](std::int32_t fraction) -> std::int32_t {
+        if (fraction < 0) return -1;
+        const std::int32_t from = p.trace.nodes[static_cast<std::size_t>(fraction)].of[0];
+        return from >= 0 && p.trace.nodes[static_cast<std::size_t>(from)].op == Op::coordinate ? from : -1;
+      };
+      const std::int32_t x = coordinate_of(n.of[0]), y = coordinate_of(n.of[1]);
+      if (x < 0 || y < 0) continue;
+      const Node &u = p.trace.nodes[static_cast<std::size_t>(x)], &v = p.trace.nodes[static_cast<std::size_t>(y)];
+      if (!done.insert({u.shape ^ v.shape * 3, u.occurrence}).second) continue;
+      for (const Words& w : words_of(p, static_cast<std::size_t>(x)))
+        add(w, {perturbed::Place{u.shape, u.occurrence, w.slip}, perturbed::Place{v.shape, v.occurrence, w.slip}}, ", in u and v");
+    }
+  }
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,290 @@
+#include "faults/probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "judge/rearrange.h"
+#include "rainref/error.h"
+
+namespace rainref::faults {
+namespace {
+
+using capture::Array;
+using capture::CaseInput;
+using capture::PassCase;
+using perturbed::Op;
+using perturbed::Trace;
+using Node = Trace::Node;
+
+bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
+
+Trace traced(const capture::PassModel& model, Texel at, const std::vector<float>& known) {
+  Trace trace;
+  perturbed::Behaviour following;
+  following.trace = &trace;
+  following.known = &known;
+  const perturbed::Scope scope(following);
+  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
+  model.evaluate(at.x, at.y, unused.data());
+  return trace;
+}
+
+/// A case with one thing changed by about its last bit.
+struct Touched {
+  std::string name;
+  bool is_input;               ///< an image: texels change, constants do not
+  std::optional<float> value;  ///< of a uniform
+  std::function<void(PassCase&)> alter;
+};
+
+void touch_float(std::byte* at) {
+  float value;
+  std::memcpy(&value, at, 4);
+  value = value == 0 ? 0x1p-20f : value * (1 + 0x1p-18f);
+  std::memcpy(at, &value, 4);
+}
+void add_uniforms(std::vector<Touched>& out, const capture::PackPass& pass, const PassCase& c) {
+  for (const scene::Member& m : pass.block.members) {
+    if (m.scalar != scene::Scalar::float32 || m.name.starts_with("padding")) continue;
+    for (int k = 0; k < m.components; ++k) {
+      const std::size_t offset = m.offset + 4 * static_cast<std::size_t>(k);
+      float value;
+      std::memcpy(&value, c.uniforms.data() + offset, 4);
+      out.push_back({m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), false, value,
+                     [offset](PassCase& altered) { touch_float(altered.uniforms.data() + offset); }});
+    }
+  }
+}
+void add_inputs(std::vector<Touched>& out, const PassCase& c) {
+  for (std::size_t i = 0; i < c.inputs.size(); ++i) {
+    const Array& a = c.inputs[i].array;
+    if (a.is_records) {
+      for (const scene::Member& m : a.record.members)
+        for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k) {
+          const std::size_t offset = m.offset + 4 * static_cast<std::size_t>(k), size = a.record.size;
+          const std::string part = m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]);
+          out.push_back({fmt::format("{} of {}", part, c.inputs[i].name), false, std::nullopt, [i, offset, size](PassCase& altered) {
+                           std::vector<std::byte>& records = altered.inputs[i].array.levels[0];
+                           for (std::size_t r = 0; r + size <= records.size(); r += size) touch_float(records.data() + r + offset);
+                         }});
+        }
+      continue;
+    }
+    const FormatInfo& f = info(a.format);
+    for (int k = 0; k < f.channels; ++k) {
+      const int byte = k * f.channel_bytes;  // little endian: the lowest
+      out.push_back({f.channels == 1 ? c.inputs[i].name : fmt::format("{}.{}", c.inputs[i].name, "xyzw"[k]), true, std::nullopt,
+                     [i, byte](PassCase& altered) {
+                       judge::each_texel(altered.inputs[i].array, [byte](std::byte* t) { t[byte] ^= std::byte{1}; });
+                     }});
+    }
+  }
+}
+
+/// Names the leaves that differ under a change. A texel that is another because the place
+/// of a lookup moved has changed by more than its last bit, so the smallest change of all says whose it is.
+void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed, const Touched& touched) {
+  if (probe.trace.nodes.size() != changed.nodes.size()) return;
+  for (std::size_t n = 0; n < changed.nodes.size(); ++n)
+    if (probe.trace.nodes[n].op != changed.nodes[n].op) return;  // another way through the pass: nothing stands beside its like
+  for (std::size_t n = 0; n < changed.nodes.size(); ++n) {
+    const Node &a = probe.trace.nodes[n], &b = changed.nodes[n];
+    const bool is_texel = a.op == Op::load || a.op == Op::fetch;
+    if (!is_leaf(a.op) || is_texel != touched.is_input) continue;
+    const double by = std::abs(static_cast<double>(b.value) - a.value);
+    if (!(by > 0)) continue;
+    std::string& name = probe.names[n];
+    if (!touched.is_input && !name.empty()) {
+      // Of several numbers: named after all of them, the second time and on.
+      if (!name.starts_with("f(")) name = "f(" + name + ")";
+      name.insert(name.size() - 1, ", " + touched.name);
+      continue;
+    }
+    if (by >= least[n]) continue;
+    least[n] = by;
+    // What is computed of a number before the pass's arithmetic begins, 1 / ior, is not the number itself.
+    const bool falls = (b.value < a.value) == (a.value > 0);
+    const bool is_itself = touched.is_input || (touched.value ? a.value == *touched.value : !falls);
+    const bool is_inverse = touched.value ? a.value == 1 / *touched.value : falls;
+    name = is_itself                                     ? touched.name
+           : is_inverse                                  ? "1 / " + touched.name
+           : touched.value && a.value == -*touched.value ? "-" + touched.name
+                                                         : "f(" + touched.name + ")";
+  }
+}
+
+const char* function_of(Op op) {
+  switch (op) {
+    case Op::minimum:
+      return "min";
+    case Op::maximum:
+      return "max";
+    case Op::magnitude:
+      return "abs";
+    case Op::root:
+      return "sqrt";
+    case Op::square:
+      return "square";
+    case Op::floor:
+      return "floor";
+    case Op::fract:
+      return "fract";
+    case Op::exponential:
+      return "exp";
+    case Op::exponential2:
+      return "exp2";
+    case Op::logarithm:
+      return "log";
+    case Op::power:
+      return "pow";
+    case Op::sine:
+      return "sin";
+    case Op::cosine:
+      return "cos";
+    case Op::angle:
+      return "atan2";
+    case Op::mix:
+      return "mix";
+    case Op::smoothstep:
+      return "smoothstep";
+    default:
+      return "";
+  }
+}
+const char* sign_of(Op op) {
+  return op == Op::sum ? " + " : op == Op::difference ? " - " : op == Op::product ? " * " : op == Op::quotient ? " / " : "";
+}
+
+}  // namespace
+
+std::string Probe::text(std::int32_t node, int depth) const {
+  if (node < 0) return "...";
+  const Node& n = trace.nodes[static_cast<std::size_t>(node)];
+  if (is_leaf(n.op)) return names[static_cast<std::size_t>(node)];
+  if (n.op == Op::lookup) return text(n.of[2], depth);
+  if (n.op == Op::level || n.op == Op::coordinate) return text(n.of[0], depth);
+  if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth), text(n.of[1], depth));
+  if (depth == 0) return "...";
+  if (n.op == Op::negation) return "-" + text(n.of[0], depth);
+  if (const char* sign = sign_of(n.op); *sign) {
+    const auto side = [&](std::int32_t of) {
+      const bool is_compound = of >= 0 && *sign_of(trace.nodes[static_cast<std::size_t>(of)].op) && depth > 1;
+      return is_compound ? fmt::format("({})", text(of, depth - 1)) : text(of, depth - 1);
+    };
+    return side(n.of[0]) + sign + side(n.of[1]);
+  }
+  std::string out = function_of(n.op);
+  if (out.empty()) return "...";
+  out += "(";
+  for (std::size_t k = 0; k < n.of.size() && n.of[k] >= 0; ++k) out += (k == 0 ? "" : ", ") + text(n.of[k], depth - 1);
+  return out + ")";
+}
+
+std::vector<float> constants_everywhere(const capture::PassModel& model) {
+  if (model.width() == 0) return {};
+  constexpr int probes = 8;
+  std::map<float, int> places;
+  std::vector<float> met;
+  perturbed::Behaviour collecting;
+  collecting.constants = &met;
+  const perturbed::Scope scope(collecting);
+  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
+  for (int j = 0; j < probes; ++j)
+    for (int i = 0; i < probes; ++i) {
+      met.clear();
+      model.evaluate(i * (model.width() - 1) / (probes - 1), j * (model.height() - 1) / (probes - 1), unused.data());
+      for (const float v : std::set<float>(met.begin(), met.end())) ++places[v];
+    }
+  std::vector<float> out;
+  for (const auto& [value, count] : places)
+    if (count > probes * 2 && value > -1e30f && value < 1e30f) out.push_back(value);  // a row's own is met by one row of eight
+  return out;
+}
+
+std::vector<Probe> probes_of(const Probed& p, const std::vector<Texel>& texels, const std::vector<float>& known) {
+  std::vector<Probe> probes;
+  std::vector<std::vector<double>> least;
+  for (const Texel at : texels) {
+    Probe& probe = probes.emplace_back(Probe{at, traced(p.model, at, known), {}});
+    probe.names.resize(probe.trace.nodes.size());
+    least.emplace_back(probe.trace.nodes.size(), HUGE_VAL);
+  }
+  std::vector<Touched> touched;
+  add_uniforms(touched, p.pass, p.c);
+  add_inputs(touched, p.c);
+  for (const Touched& t : touched) {
+    PassCase c = p.c;
+    t.alter(c);
+    try {
+      const std::unique_ptr<capture::PassModel> model = p.bind(c);
+      if (model->width() != p.model.width() || model->height() != p.model.height() || model->values() != p.model.values()) continue;
+      for (std::size_t k = 0; k < probes.size(); ++k) name_changed(probes[k], least[k], traced(*model, probes[k].at, known), t);
+    } catch (const Error&) {
+      // out of its range by a bit: it stays without a name
+    }
+  }
+  for (Probe& probe : probes)
+    for (std::size_t n = 0; n < probe.names.size(); ++n) {
+      const Node& node = probe.trace.nodes[n];
+      if (!is_leaf(node.op) || !probe.names[n].empty()) continue;
+      const bool is_row = node.op == Op::constant && node.value == static_cast<float>(probe.at.y) + 0.5f && probe.at.y > 0 &&
+                          !std::binary_search(known.begin(), known.end(), node.value);
+      probe.names[n] = is_row                    ? "row"
+                       : node.op == Op::constant ? fmt::format("{}", node.value)
+                       : node.op == Op::index    ? "column"
+                                                 : "a texel";
+    }
+  return probes;
+}
+
+std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known) {
+  std::vector<Probe> out;
+  for (const Probe& p : probes) {
+    Probe again{p.at, traced(model, p.at, known), p.names};
+    if (again.trace.nodes.size() == p.trace.nodes.size()) out.push_back(std::move(again));
+  }
+  return out;
+}
+
+Constants names_of_constants(const std::vector<Probe>& probes, const std::vector<float>& known) {
+  std::map<float, std::set<std::string>> all;
+  for (const Probe& probe : probes)
+    for (std::size_t n = 0; n < probe.names.size(); ++n) {
+      const Node& node = probe.trace.nodes[n];
+      if (node.op != Op::constant || !std::binary_search(known.begin(), known.end(), node.value)) continue;
+      if (probe.names[n].find(" of ") == std::string::npos) all[node.value].insert(probe.names[n]);
+    }
+  Constants out;
+  for (const auto& [value, names] : all) {
+    std::string text;
+    bool is_literal = false;
+    for (const std::string& name : names) {
+      const bool is_number = name == fmt::format("{}", value);
+      is_literal |= is_number;
+      text += (text.empty() ? "" : " or ") + (is_number ? "the literal " + name : name);
+    }
+    out.push_back({value, text, is_literal});
+  }
+  return out;
+}
+
+std::set<std::string> uniforms_met(const std::vector<Probe>& probes, const capture::PackPass& pass) {
+  std::set<std::string> out;
+  for (const Probe& probe : probes)
+    for (const std::string& name : probe.names)
+      for (const scene::Member& m : pass.block.members)
+        if (const std::size_t at = name.find(m.name); at != std::string::npos) {
+          const std::size_t end = at + m.name.size();
+          if (end == name.size() || name[end] == '.' || name[end] == ')') out.insert(m.name);
+        }
+  return out;
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,53 @@
+// What a pass does at a few texels, and what its numbers are called: which uniform, which input a literal or a texel is.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "faults/deviations.h"
+
+namespace rainref::faults {
+
+/// A case with its model, as the probes ask for it.
+struct Probed {
+  const capture::PackPass& pass;
+  const capture::PassCase& c;
+  judge::Bind bind;
+  const capture::PassModel& model;
+};
+
+/// What one invocation did.
+struct Probe {
+  Texel at;
+  perturbed::Trace trace;
+  std::vector<std::string> names;  ///< of each node that is a leaf: "damping", "wave.x", "amplitude of drops", "4"; others ""
+
+  /// What a node computes, in the words of the pass, `depth` operations deep: "damping * (wave.x - wave.y)".
+  std::string text(std::int32_t node, int depth = 2) const;
+};
+
+/// The numbers that a pass is given anywhere: the same at every texel. Sorted.
+std::vector<float> constants_everywhere(const capture::PassModel& model);
+
+/// The invocations at some texels. A uniform or an input is found by what changes when its last bit does.
+std::vector<Probe> probes_of(const Probed& probed, const std::vector<Texel>& texels, const std::vector<float>& known);
+
+/// The same invocations, of probes whose leaves have names, with other constants known.
+std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known);
+
+/// A number that is met everywhere.
+struct Constant {
+  float value;
+  std::string name;  ///< "damping", "pixel_scale or up.y", "the literal 4"
+  bool is_literal;
+};
+using Constants = std::vector<Constant>;
+/// Constants that the probes met and that are `known`; those of records are none.
+Constants names_of_constants(const std::vector<Probe>& probes, const std::vector<float>& known);
+
+/// The uniforms, without components, that the probes met.
+std::set<std::string> uniforms_met(const std::vector<Probe>& probes, const capture::PackPass& pass);
+
+}  // namespace rainref::faults

@@ -1,0 +1,286 @@
+// Texels loaded by integers: which input, column, row and channel each load of an invocation reads, found by giving the input
+// texels that say where they lie; and what is read when a port takes them from elsewhere.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "faults/whole_faults.h"
+#include "math/half.h"
+#include "math/unorm.h"
+#include "rainref/error.h"
+
+namespace rainref::faults {
+namespace {
+
+using capture::Array;
+using capture::CaseInput;
+using capture::PassCase;
+
+/// One load: of the texel (dx, dy) away, by its number in an invocation.
+struct Tap {
+  std::size_t load;
+  int dx, dy, channel;
+};
+struct Taps {
+  std::string input;
+  std::vector<Tap> all;
+  bool is_neighbour(const Tap& t) const { return t.dx != 0 || t.dy != 0; }
+};
+
+/// What a channel of a texel holds.
+float read(const Array& a, int x, int y, int channel) {
+  const FormatInfo& f = info(a.format);
+  const std::byte* at =
+      a.levels[0].data() +
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes() +
+      static_cast<std::size_t>(channel * f.channel_bytes);
+  float v = 0;
+  if (f.kind == FormatInfo::float32) {
+    std::memcpy(&v, at, 4);
+  } else if (f.kind == FormatInfo::float16) {
+    Half h;
+    std::memcpy(&h, at, 2);
+    v = to_float(h);
+  } else {
+    v = to_float(Unorm8{std::to_integer<std::uint8_t>(*at)});
+  }
+  return v;
+}
+/// Writes a whole number so that whole_of() finds it: up to 255 of codes, 2000 of halves.
+void write_whole(const Array& a, std::byte* at, int number) {
+  const FormatInfo& f = info(a.format);
+  if (f.kind == FormatInfo::float32) {
+    const float v = static_cast<float>(number);
+    std::memcpy(at, &v, 4);
+  } else if (f.kind == FormatInfo::float16) {
+    const Half h = to_half(static_cast<float>(number));
+    std::memcpy(at, &h, 2);
+  } else {
+    *at = static_cast<std::byte>(number);
+  }
+}
+int whole_of(const Array& a, float v) { return static_cast<int>(std::lround(info(a.format).kind == FormatInfo::unorm8 ? v * 255 : v)); }
+/// Numbers around the probe, so that they fit.
+constexpr int middle = 100, reach = 90;
+
+std::vector<float> loads_of(const capture::PassModel& model, Texel at) {
+  perturbed::Trace trace;
+  perturbed::Behaviour following;
+  following.trace = &trace;
+  const perturbed::Scope scope(following);
+  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
+  model.evaluate(at.x, at.y, unused.data());
+  std::vector<float> out;
+  for (const auto& n : trace.nodes)
+    if (n.op == perturbed::Op::load) out.push_back(n.value);
+  return out;
+}
+
+/// The loads of an invocation when every channel of every texel of an input holds number(x, y, channel).
+template <class Number>
+std::vector<float> loads_with(const Probed& p, std::size_t input, Texel at, const Number& number) {
+  PassCase c = p.c;
+  Array& a = c.inputs[input].array;
+  const FormatInfo& f = info(a.format);
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int k = 0; k < f.channels; ++k)
+        write_whole(
+            a,
+            a.levels[0].data() +
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes() +
+                static_cast<std::size_t>(k * f.channel_bytes),
+            number(x, y, k));
+  const std::unique_ptr<capture::PassModel> model = p.bind(c);
+  return loads_of(*model, at);
+}
+
+Taps taps_of(const Probed& p, std::size_t input) {
+  const Array& a = p.c.inputs[input].array;
+  Taps taps{p.c.inputs[input].name, {}};
+  const Texel at{p.model.width() / 2, p.model.height() / 2};
+  const auto around = [](int x, int centre) { return std::clamp(x - centre, -reach, reach) + middle; };
+  const std::vector<float> columns = loads_with(p, input, at, [&](int x, int, int) { return around(x, at.x); }),
+                           rows = loads_with(p, input, at, [&](int, int y, int) { return around(y, at.y); }),
+                           channels = loads_with(p, input, at, [](int, int, int k) { return middle + k; }),
+                           none = loads_with(p, input, at, [](int, int, int) { return 0; });
+  if (columns.size() != rows.size() || columns.size() != channels.size() || columns.size() != none.size()) return taps;
+  for (std::size_t l = 0; l < columns.size(); ++l) {
+    // A load of another input is the same every time.
+    if (channels[l] == none[l]) continue;
+    taps.all.push_back({l, whole_of(a, columns[l]) - middle, whole_of(a, rows[l]) - middle, whole_of(a, channels[l]) - middle});
+  }
+  return taps;
+}
+
+/// Where a texel of a row or column stands by an address rule; -1: nowhere.
+int placed(int i, int size, Address address) {
+  if (0 <= i && i < size) return i;
+  switch (address) {
+    case Address::repeat:
+      return ((i % size) + size) % size;
+    case Address::mirror: {
+      const int r = ((i % (2 * size)) + 2 * size) % (2 * size);
+      return r < size ? r : 2 * size - 1 - r;
+    }
+    case Address::border:
+      return -1;
+    case Address::clamp:
+      break;
+  }
+  return std::clamp(i, 0, size - 1);
+}
+
+/// Adds what is read in place of the taps of an input, or of several that are read alike.
+class Adder {
+ public:
+  Adder(std::vector<Deviation>& out, std::string name) : out_(out), name_(std::move(name)) {}
+  void take(const CaseInput& input, const Taps& taps) { of_.push_back({std::make_shared<const CaseInput>(input), taps.all}); }
+  const std::string& name() const { return name_; }
+
+  /// change(tap): what is read in place of it.
+  void operator()(const std::string& what, std::string sentence, const std::function<Tap(Tap)>& change,
+                  std::optional<Address> address = {}) const {
+    std::vector<Read> reads = of_;
+    std::size_t count = 0;
+    bool changes = address.has_value();
+    for (Read& read_of : reads)
+      for (Tap& t : read_of.taps) {
+        const Tap now = change(t);
+        changes |= now.dx != t.dx || now.dy != t.dy || now.channel != t.channel;
+        t = {t.load, now.dx, now.dy, now.channel};
+        count = std::max(count, t.load + 1);
+      }
+    if (!changes) return;
+    Deviation d;
+    d.name = fmt::format("{} {}", name_, what);
+    d.sentence = std::move(sentence);
+    d.at_texel = [reads, count, address](Texel at, perturbed::Behaviour& b, std::vector<float>& loads) {
+      loads.assign(count, std::numeric_limits<float>::quiet_NaN());
+      for (const Read& from : reads)
+        for (const Tap& t : from.taps) {
+          const Array& a = from.input->array;
+          const int x = placed(at.x + t.dx, a.width, address.value_or(from.input->address_u)),
+                    y = placed(at.y + t.dy, a.height, address.value_or(from.input->address_v));
+          loads[t.load] = x >= 0 && y >= 0 ? read(a, x, y, t.channel)
+                          : address        ? 0.0f
+                                           : from.input->border[static_cast<std::size_t>(t.channel)];
+        }
+      b.loads = &loads;
+    };
+    d.for_diagnosis = true;
+    out_.push_back(std::move(d));
+  }
+
+ private:
+  struct Read {
+    std::shared_ptr<const CaseInput> input;
+    std::vector<Tap> taps;
+  };
+  std::vector<Deviation>& out_;
+  std::string name_;
+  std::vector<Read> of_;
+};
+
+void add_neighbours(const Adder& add, const Taps& taps) {
+  const std::string& in = add.name();
+  const auto all = [&](const char* name, const char* sentence, auto move) {
+    add(name, fmt::format("{} {}", in, sentence), [move](Tap t) {
+      const auto [dx, dy] = move(t.dx, t.dy);
+      return Tap{t.load, dx, dy, t.channel};
+    });
+  };
+  all("neighbours two texels away", "is read at twice the distance", [](int x, int y) { return std::pair(2 * x, 2 * y); });
+  all("diagonal neighbours", "is read at the diagonal neighbours", [](int x, int y) { return std::pair(x - y, x + y); });
+  all("neighbours with x and y exchanged", "is read with columns and rows exchanged", [](int x, int y) { return std::pair(y, x); });
+  all("neighbours mirrored in x", "is read to the left where it should be to the right", [](int x, int y) { return std::pair(-x, y); });
+  all("neighbours mirrored in y", "is read above where it should be below", [](int x, int y) { return std::pair(x, -y); });
+  all("neighbours on both sides mirrored", "is read on the opposite sides", [](int x, int y) { return std::pair(-x, -y); });
+  all("neighbours on one side alone", "is read at the texel itself in place of the neighbours to the left and below: one-sided differences",
+      [](int x, int y) { return std::pair(std::max(x, 0), std::max(y, 0)); });
+  all("neighbours on the other side alone", "is read at the texel itself in place of the neighbours to the right and above",
+      [](int x, int y) { return std::pair(std::min(x, 0), std::min(y, 0)); });
+  all("neighbours not reached", "is read at the texel itself in place of its neighbours", [](int, int) { return std::pair(0, 0); });
+  for (const auto& [dx, dy, way] :
+       {std::tuple(1, 0, "one column to the right"), {-1, 0, "one column to the left"}, {0, 1, "one row up"}, {0, -1, "one row down"}}) {
+    all(fmt::format("read {}", way).c_str(), fmt::format("is read {}", way).c_str(),
+        [dx = dx, dy = dy](int x, int y) { return std::pair(x + dx, y + dy); });
+  }
+  std::set<std::pair<int, int>> done;
+  for (const Tap& one : taps.all) {
+    if (!done.insert({one.dx, one.dy}).second || done.size() > 9 || taps.all.size() < 2) continue;
+    const auto alone = [&](int dx, int dy, const std::string& words) {
+      add(fmt::format("neighbour ({}, {}) {}", one.dx, one.dy, words),
+          fmt::format("the texel ({}, {}) away of {} is {}", one.dx, one.dy, in, words), [one, dx, dy](Tap t) {
+            return t.dx == one.dx && t.dy == one.dy ? Tap{t.load, dx, dy, t.channel} : t;
+          });
+    };
+    if (taps.is_neighbour(one)) {
+      alone(0, 0, "the texel itself");
+      alone(-one.dx, -one.dy, "the one opposite");
+      alone(2 * one.dx, 2 * one.dy, "read one too far");
+      alone(one.dy, one.dx, "read along the other axis");
+    }
+    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
+      alone(one.dx + dx, one.dy + dy, fmt::format("read at ({}, {})", one.dx + dx, one.dy + dy));
+  }
+}
+
+void add_channels(const Adder& add, const Taps& taps, int channels) {
+  for (int from = 0; from < channels; ++from)
+    for (int to = 0; to < channels; ++to)
+      if (from != to)
+        add(fmt::format("read in {} for {}", "xyzw"[to], "xyzw"[from]),
+            fmt::format("{}.{} is read where {}.{} is meant", taps.input, "xyzw"[to], taps.input, "xyzw"[from]), [from, to](Tap t) {
+              return Tap{t.load, t.dx, t.dy, t.channel == from ? to : t.channel};
+            });
+}
+
+}  // namespace
+
+void add_tap_faults(std::vector<Deviation>& out, const Probed& p) {
+  std::vector<std::pair<const CaseInput*, Taps>> neighbours;
+  for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
+    const CaseInput& input = p.c.inputs[i];
+    if (input.array.is_records || input.array.levels.size() != 1 || input.array.width < 3 || input.array.height < 3) continue;
+    Taps taps;
+    try {
+      taps = taps_of(p, i);
+    } catch (const Error&) {
+      continue;  // the pass refuses such an input
+    }
+    const int channels = info(input.array.format).channels;
+    // What is read far away, or in no channel, is no load of a texel of this one's own size.
+    std::erase_if(taps.all, [&](const Tap& t) {
+      return t.channel < 0 || t.channel >= channels || std::abs(t.dx) >= reach || std::abs(t.dy) >= reach;
+    });
+    if (taps.all.empty()) continue;
+    Adder add(out, input.name);
+    add.take(input, taps);
+    add_neighbours(add, taps);
+    add_channels(add, taps, channels);
+    if (std::none_of(taps.all.begin(), taps.all.end(), [&](const Tap& t) { return taps.is_neighbour(t); })) continue;
+    for (const auto& [address, words] : {std::pair(Address::clamp, "clamped"), std::pair(Address::repeat, "repeated"),
+                                         std::pair(Address::mirror, "mirrored"), std::pair(Address::border, "0")}) {
+      if (input.address_u == address && input.address_v == address) continue;
+      add(
+          fmt::format("{} beyond its edge", words), fmt::format("beyond its edge {} is {}: another address mode", input.name, words),
+          [](Tap t) { return t; }, address);
+    }
+    neighbours.emplace_back(&input, std::move(taps));
+  }
+  if (neighbours.size() < 2) return;
+  std::string names;
+  for (const auto& [input, taps] : neighbours) names += (names.empty() ? "" : " and ") + input->name;
+  Adder all(out, names);
+  for (const auto& [input, taps] : neighbours) all.take(*input, taps);
+  add_neighbours(all, neighbours.front().second);
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "faults/whole_faults.h"
+#include "image/colour.h"
+
+namespace rainref::faults {
+namespace {
+
+using capture::PassCase;
+using scene::Member;
+using scene::Scalar;
+using Word = std::array<std::byte, 4>;
+
+Word word_at(const PassCase& c, const Member& m, int k) {
+  Word w;
+  std::memcpy(w.data(), c.uniforms.data() + m.offset + 4 * static_cast<std::size_t>(k), 4);
+  return w;
+}
+void put_word(PassCase& c, const Member& m, int k, Word w) {
+  std::memcpy(c.uniforms.data() + m.offset + 4 * static_cast<std::size_t>(k), w.data(), 4);
+}
+std::vector<Member> floats_of(const capture::PackPass& pass, const std::set<std::string>& used) {
+  std::vector<Member> out;
+  std::copy_if(pass.block.members.begin(), pass.block.members.end(), std::back_inserter(out),
+               [&](const Member& m) { return m.scalar == Scalar::float32 && used.contains(m.name); });
+  return out;
+}
+bool same_value(const PassCase& c, const Member& a, const Member& b) {
+  return std::memcmp(c.uniforms.data() + a.offset, c.uniforms.data() + b.offset, a.size()) == 0;
+}
+
+class Adder {
+ public:
+  explicit Adder(std::vector<Deviation>& out) : out_(out) {}
+  void operator()(std::string name, std::string sentence, std::function<void(PassCase&)> alter) {
+    Deviation d;
+    d.name = std::move(name);
+    d.sentence = std::move(sentence);
+    d.alter_case = std::move(alter);
+    d.for_diagnosis = true;
+    out_.push_back(std::move(d));
+  }
+
+ private:
+  std::vector<Deviation>& out_;
+};
+
+void add_exchanges(Adder& add, const PassCase& c, const std::vector<Member>& members) {
+  for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::size_t j = i + 1; j < members.size(); ++j) {
+      const Member a = members[i], b = members[j];
+      if (a.components != b.components || same_value(c, a, b)) continue;
+      add(fmt::format("uniforms {} and {} exchanged", a.name, b.name), fmt::format("{} and {} have each other's value", a.name, b.name),
+          [a, b](PassCase& altered) {
+            std::swap_ranges(&altered.uniforms[a.offset], &altered.uniforms[a.offset] + a.size(), &altered.uniforms[b.offset]);
+          });
+      for (const auto& [to, from] : {std::pair(a, b), std::pair(b, a)})
+        add(fmt::format("uniform {} is {}", to.name, from.name), fmt::format("{} has the value of {}", to.name, from.name),
+            [to = to, from = from](PassCase& altered) {
+              std::memcpy(altered.uniforms.data() + to.offset, altered.uniforms.data() + from.offset, to.size());
+            });
+    }
+}
+
+void add_permutations(Adder& add, const PassCase& c, const std::vector<Member>& members) {
+  for (const Member& m : members) {
+    if (m.components < 2) continue;
+    std::vector<int> order(static_cast<std::size_t>(m.components));
+    for (int k = 0; k < m.components; ++k) order[static_cast<std::size_t>(k)] = k;
+    while (std::next_permutation(order.begin(), order.end())) {
+      std::string swizzle;
+      bool changes = false;
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        swizzle += "xyzw"[order[k]];
+        changes |= word_at(c, m, order[k]) != word_at(c, m, static_cast<int>(k));
+      }
+      if (!changes) continue;
+      add(fmt::format("uniform {}.{}", m.name, swizzle), fmt::format("the components of {} are taken in the order {}", m.name, swizzle),
+          [m, order](PassCase& altered) {
+            const PassCase right = altered;
+            for (std::size_t k = 0; k < order.size(); ++k) put_word(altered, m, static_cast<int>(k), word_at(right, m, order[k]));
+          });
+    }
+    for (int from = 0; from < m.components; ++from)
+      add(fmt::format("uniform {}.{} for each component", m.name, "xyzw"[from]),
+          fmt::format("{}.{} is taken for every component of {}", m.name, "xyzw"[from], m.name), [m, from](PassCase& altered) {
+            for (int k = 0; k < m.components; ++k) put_word(altered, m, k, word_at(altered, m, from));
+          });
+    add(fmt::format("uniform {} with the other sign", m.name), fmt::format("{} points the other way", m.name), [m](PassCase& altered) {
+      for (int k = 0; k < m.components; ++k) altered.uniforms[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80};
+    });
+    const auto each = [&](const char* what, const char* sentence, auto change) {
+      add(fmt::format("uniform {} {}", m.name, what), fmt::format("{} {}", m.name, sentence), [m, change](PassCase& altered) {
+        for (int k = 0; k < m.components; ++k) {
+          Word w = word_at(altered, m, k);
+          float v;
+          std::memcpy(&v, w.data(), 4);
+          v = static_cast<float>(change(static_cast<double>(v)));
+          std::memcpy(w.data(), &v, 4);
+          put_word(altered, m, k, w);
+        }
+      });
+    };
+    if (m.components < 3 || (m.range && m.range->low < 0)) continue;
+    each("decoded once more", "is taken for sRGB and decoded", [](double v) { return v < 0 || v > 1 ? v : decode_srgb(v); });
+    each("still encoded", "is not decoded: sRGB is taken for linear", [](double v) { return v < 0 || v > 1 ? v : encode_srgb(v); });
+    each("squared", "is taken twice", [](double v) { return v * v; });
+  }
+}
+
+/// Three vectors that may be the rows of a matrix.
+void add_transposes(Adder& add, const PassCase& c, const std::vector<Member>& members) {
+  std::vector<Member> rows;
+  std::copy_if(members.begin(), members.end(), std::back_inserter(rows), [](const Member& m) { return m.components == 3; });
+  if (rows.size() > 8) return;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = i + 1; j < rows.size(); ++j)
+      for (std::size_t k = j + 1; k < rows.size(); ++k) {
+        const std::array<Member, 3> matrix{rows[i], rows[j], rows[k]};
+        const auto symmetric = [&] {
+          for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < a; ++b)
+              if (word_at(c, matrix[static_cast<std::size_t>(a)], b) != word_at(c, matrix[static_cast<std::size_t>(b)], a)) return false;
+          return true;
+        };
+        if (symmetric()) continue;
+        add(fmt::format("matrix {}, {}, {} transposed", rows[i].name, rows[j].name, rows[k].name),
+            fmt::format("the matrix of rows {}, {}, {} is transposed", rows[i].name, rows[j].name, rows[k].name),
+            [matrix](PassCase& altered) {
+              const PassCase right = altered;
+              for (int a = 0; a < 3; ++a)
+                for (int b = 0; b < 3; ++b)
+                  put_word(altered, matrix[static_cast<std::size_t>(a)], b, word_at(right, matrix[static_cast<std::size_t>(b)], a));
+            });
+      }
+}
+
+/// Constants with another value.
+class Replacer {
+ public:
+  Replacer(std::vector<Deviation>& out, float value, std::string name) : out_(out), value_(value), name_(std::move(name)) {}
+  void operator()(float replacement, const char* what) const {
+    if (replacement == value_ || !std::isfinite(replacement)) return;
+    Deviation d;
+    d.name = fmt::format("{} {}", name_, what);
+    d.sentence = fmt::format("{} is {} in place of {}", name_, replacement, value_);
+    d.behaviour.fault = perturbed::Fault::constant;
+    d.behaviour.constant = value_;
+    d.behaviour.replacement = replacement;
+    d.for_diagnosis = true;
+    out_.push_back(std::move(d));
+  }
+
+ private:
+  std::vector<Deviation>& out_;
+  float value_;
+  std::string name_;
+};
+
+}  // namespace
+
+void add_uniform_mixups(std::vector<Deviation>& out, const Probed& p, const std::set<std::string>& used) {
+  const std::vector<Member> members = floats_of(p.pass, used);
+  Adder add(out);
+  add_permutations(add, p.c, members);
+  add_transposes(add, p.c, members);
+  add_exchanges(add, p.c, members);
+}
+
+void add_named_constants(std::vector<Deviation>& out, const Constants& constants, bool literals) {
+  for (const auto& [value, name, is_literal] : constants) {
+    if (value == 0 || is_literal != literals || name.starts_with("f(")) continue;  // a made number is rarely left out by itself
+    const Replacer as(out, value, name);
+    as(1, "left out of a product");
+    as(0, "left out");
+    as(-value, "with the other sign");
+    as(value * 2, "doubled");
+    as(value / 2, "halved");
+    as(value * value, "taken twice, or squared");
+    as(1 / value, "inverted");
+    as(1 - value, "taken from 1");
+  }
+}
+void add_odd_constants(std::vector<Deviation>& out, const Probed& p, const Constants& constants) {
+  const float aspect = p.model.height() > 0 ? static_cast<float>(p.model.width()) / static_cast<float>(p.model.height()) : 1.0f;
+  constexpr float pi = std::numbers::pi_v<float>;
+  for (const auto& [value, name, is_literal] : constants) {
+    if (value == 0) continue;
+    const Replacer as(out, value, name);
+    if (value > 0) as(std::sqrt(value), "without its square");
+    as(value * aspect, "times the aspect ratio");
+    as(value / aspect, "without the aspect ratio");
+    as(value + 1, "one more");
+    as(value - 1, "one less");
+    as(value * (pi / 180), "in degrees");
+    as(value / (pi / 180), "in degrees for radians");
+    as(value * pi, "times pi");
+    as(value / pi, "without pi");
+  }
+}
+
+}  // namespace rainref::faults

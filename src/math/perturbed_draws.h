@@ -1,0 +1,30 @@
+// Draws of the variations, by the behaviour in force.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "math/perturbed.h"
+
+namespace rainref::perturbed {
+
+/// splitmix64 (Steele, Lea, Flood 2014): draws of the variations only.
+inline std::uint64_t draw() {
+  std::uint64_t z = behaviour().random += 0x9e3779b97f4a7c15u;
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+  return z ^ z >> 31;
+}
+inline bool coin() { return draw() & 1; }
+/// In [-1, 1), or often an end.
+inline double swing() {
+  const std::uint64_t bits = draw();
+  if (behaviour().lean != 0 && (bits & 14) != 0) return behaviour().lean;
+  if (bits & 1) return bits & 2 ? 1 : -1;
+  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
+}
+
+inline double magnitude(double x) { return x < 0 ? -x : x; }
+inline double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52); }
+
+}  // namespace rainref::perturbed

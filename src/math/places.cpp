@@ -1,0 +1,147 @@
+#include "math/places.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "math/perturbed.h"
+
+namespace rainref::perturbed {
+namespace {
+
+thread_local int unseen = 0;
+
+/// Murmur3's finalizer (Appleby) over a running sum.
+std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
+  h = (h * 31 + x) ^ 0x9e3779b9u;
+  h = (h ^ h >> 16) * 0x85ebca6bu;
+  h = (h ^ h >> 13) * 0xc2b2ae35u;
+  return h ^ h >> 16;
+}
+
+}  // namespace
+
+Unseen::Unseen() { ++unseen; }
+Unseen::~Unseen() { --unseen; }
+
+/// Leaves are met in the parts of named operations too: their edges and texels have names.
+void Perturbed::leaf(Op op, std::uint32_t shape) {
+  shape_.fill(hashed(static_cast<std::uint32_t>(op) + 1, shape));
+  Behaviour& b = behaviour();
+  if (!b.trace) return;
+  node_ = static_cast<std::int32_t>(b.trace->nodes.size());
+  b.trace->nodes.push_back({op, v, shape_[0], b.trace->met[shape_[0]]++});
+}
+
+Perturbed Perturbed::follow(Op op, Perturbed r, std::initializer_list<Perturbed> of) {
+  if (unseen > 0) return r;
+  Behaviour& b = behaviour();
+  // depth[k] sees k operations below this one.
+  std::array<std::uint32_t, 4> depth;
+  depth.fill(hashed(0, static_cast<std::uint32_t>(op) + 1));
+  for (const Perturbed& operand : of)
+    for (std::size_t k = 1; k < depth.size(); ++k) depth[k] = hashed(depth[k], operand.shape_[k - 1]);
+  const std::uint32_t shape = depth.back();
+  for (Place& place : b.places) {
+    if (place.slip == Slip::none || place.shape != shape) continue;
+    const std::int32_t occurrence = place.seen++;
+    if (place.occurrence < 0 || place.occurrence == occurrence) r = slipped(op, r, of.begin(), of.size(), place.slip);
+  }
+  std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
+  if (!b.trace) return r;
+  Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
+  std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed& operand) { return operand.node_; });
+  r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());
+  b.trace->nodes.push_back(node);
+  return r;
+}
+bool Perturbed::follow(bool result, const Perturbed& a, const Perturbed& b) {
+  return follow(Op::comparison, of(result ? 1.0f : 0.0f), {a, b}).v != 0;
+}
+
+Perturbed Perturbed::slipped(Op op, const Perturbed& r, const Perturbed* of_, std::size_t count, Slip slip) {
+  const Unseen parts;
+  const Perturbed zero = of(0.0f), one = of(1.0f), half = of(0.5f);
+  const Perturbed a = of_[0], b = count > 1 ? of_[1] : a, c = count > 2 ? of_[2] : a;
+  const bool minus = op == Op::difference;
+  switch (slip) {
+    case Slip::none:
+      return r;
+    case Slip::first:
+      return a;
+    case Slip::second:
+      return minus ? -b : b;
+    case Slip::negated:
+      return -r;
+    case Slip::second_negated:
+      return minus ? a + b : a - b;
+    case Slip::first_twice:
+      return minus ? (a + a) - b : (a + a) + b;
+    case Slip::second_twice:
+      return minus ? a - (b + b) : a + (b + b);
+    case Slip::first_squared:
+      return a * a * b;
+    case Slip::second_squared:
+      return a * (b * b);
+    case Slip::swapped:
+      return minus                  ? b - a
+             : op == Op::sum        ? b - a
+             : op == Op::quotient   ? b / a
+             : op == Op::angle      ? atan2(b, a)
+             : op == Op::mix        ? mix(b, a, c)
+             : op == Op::power      ? pow(b, a)
+             : op == Op::smoothstep ? one - r
+             : op == Op::choice     ? (c.v != 0 ? b : a)
+             : op == Op::comparison ? one - r
+                                    : r;
+    case Slip::inverted:
+      return op == Op::quotient ? a * b : op == Op::power ? pow(a, one / b) : b.v != 0 ? a / b : zero;
+    case Slip::other:
+      return op == Op::sine           ? cos(a)
+             : op == Op::cosine       ? sin(a)
+             : op == Op::minimum      ? max(a, b)
+             : op == Op::maximum      ? min(a, b)
+             : op == Op::exponential  ? exp2(a)
+             : op == Op::exponential2 ? exp(a)
+             : op == Op::floor        ? floor(a + half)
+             : op == Op::smoothstep   ? plain::saturate((a - b) / (c - b))
+             : op == Op::square       ? a * a * a
+             : op == Op::fract        ? a
+                                      : r;
+    case Slip::doubled:
+      return r + r;
+    case Slip::halved:
+      return r * half;
+    case Slip::squared:
+      return r * r;
+    case Slip::rooted:
+      return r.v > 0 ? sqrt(r) : r;
+    case Slip::linear:
+      return one + a;
+    case Slip::added:
+      return a + b * c;
+    case Slip::in_gamma: {
+      const Perturbed gamma = of(2.2f), encoding = of(1 / 2.2f);
+      return pow(mix(pow(max(a, zero), encoding), pow(max(b, zero), encoding), c), gamma);
+    }
+    case Slip::saturated:
+      return plain::saturate(r);
+    case Slip::nearest:
+      return floor(r + half);
+    case Slip::half_less:
+      return r - half;
+    case Slip::half_more:
+      return r + half;
+    case Slip::one_less:
+      return r - one;
+    case Slip::one_more:
+      return r + one;
+    case Slip::zero:
+    case Slip::never:
+      return zero;
+    case Slip::always:
+      return one;
+  }
+  return r;
+}
+
+}  // namespace rainref::perturbed

@@ -1,0 +1,101 @@
+// Places of a pass text: one operation of its arithmetic, found again at every invocation.
+//
+// A place is known by its shape, a hash of the operation and what its operands are made of, four operations deep; operations
+// of one shape (the components of a vector, the rounds of a loop) are told apart by their order in an invocation. So a place
+// needs no names in the text, and is the same in every build.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <vector>
+
+namespace rainref::perturbed {
+
+enum class Op : std::uint8_t {
+  constant,  ///< a literal, a uniform or a member of a record
+  load,      ///< a texel loaded by integers
+  fetch,     ///< a texel of a lookup
+  index,     ///< the element's own column
+  sum,
+  difference,
+  negation,
+  product,
+  quotient,
+  minimum,
+  maximum,
+  magnitude,
+  root,
+  square,
+  floor,
+  fract,
+  exponential,
+  exponential2,
+  logarithm,
+  power,
+  sine,
+  cosine,
+  angle,
+  mix,
+  smoothstep,  ///< of x and the edges
+  choice,      ///< of both sides of a select, and 1 or 0
+  comparison,
+  coordinate,  ///< of a lookup, in texels
+  lookup,
+  level  ///< of detail
+};
+
+/// What one mistake makes of the operation at a place.
+enum class Slip : std::uint8_t {
+  none,
+  first,   ///< the first operand alone: the other is left out
+  second,  ///< the second alone
+  negated,
+  second_negated,
+  first_twice,
+  second_twice,
+  first_squared,
+  second_squared,
+  swapped,   ///< the operands exchanged
+  inverted,  ///< multiplied for divided and the reverse; a power's exponent inverted
+  other,     ///< the function beside it: cosine for sine, a linear ramp for smoothstep, rounding for floor, max for min
+  doubled,
+  halved,
+  squared,
+  rooted,
+  linear,    ///< 1 + x for an exponential
+  added,     ///< a + b t for a mix
+  in_gamma,  ///< a mix of numbers encoded by a power of 1/2.2, decoded again
+  saturated,
+  nearest,  ///< of a coordinate
+  half_less,
+  half_more,
+  one_less,  ///< of a coordinate, a level
+  one_more,
+  zero,
+  always,  ///< of a comparison
+  never
+};
+
+struct Place {
+  std::uint32_t shape = 0;
+  std::int32_t occurrence = -1;  ///< of this shape in an invocation; -1: each
+  Slip slip = Slip::none;
+  std::int32_t seen = 0;  ///< of this shape so far: 0 before each invocation
+};
+
+/// What an invocation did, in order.
+struct Trace {
+  struct Node {
+    Op op;
+    float value;
+    std::uint32_t shape;
+    std::int32_t occurrence;
+    std::array<std::int32_t, 4> of{-1, -1, -1, -1};  ///< nodes; -1: none, or a number of unknown origin
+  };
+  std::vector<Node> nodes;
+  std::map<std::uint32_t, std::int32_t> met;  ///< of each shape so far
+};
+
+}  // namespace rainref::perturbed
