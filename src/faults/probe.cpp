@@ -170,8 +170,9 @@ std::string Probe::text(std::int32_t node, int depth) const {
   if (is_leaf(n.op)) return names[static_cast<std::size_t>(node)];
   if (n.op == Op::lookup) return text(n.of[2], depth);
   if (n.op == Op::level || n.op == Op::coordinate) return text(n.of[0], depth);
-  if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth), text(n.of[1], depth));
   if (depth == 0) return "...";
+  // One deeper with each choice too: the steps of a march choose between each other, and twice as many texts with each step.
+  if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth - 1), text(n.of[1], depth - 1));
   if (n.op == Op::negation) return "-" + text(n.of[0], depth);
   if (const char* sign = sign_of(n.op); *sign) {
     const auto side = [&](std::int32_t of) {
