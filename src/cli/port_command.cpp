@@ -74,7 +74,9 @@ std::set<pid_t> children() {
     pid_t id = 0, parent = 0;
     if (std::from_chars(name.data(), name.data() + name.size(), id).ec != std::errc()) continue;
     std::ifstream in(i->path() / "stat");
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    // Of a process that has just ended the file opens and cannot be read: an iterator over its bytes throws, getline does not.
+    std::string text;
+    std::getline(in, text, '\0');
     // "17 (a name) S 1 ...": the name may hold anything.
     const std::size_t after = text.rfind(") ");
     if (after == std::string::npos || after + 4 > text.size()) continue;

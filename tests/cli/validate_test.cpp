@@ -1,4 +1,10 @@
 // `rainref validate`: exit codes, a port's own command, races, shadows.
+#include <csignal>
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "cli/port_command.h"
 #include "cli/running.h"
 #include "source_folder.h"
@@ -199,6 +205,22 @@ TEST(PortCommand, PathsAreOneWordEverywhere) {
     }
   }
   EXPECT_EQ(folder.names().size(), 5u);
+}
+
+// What runs is read from files of processes, other programs' too, that may end meanwhile.
+TEST(PortCommand, ProcessesOfOthersMayEndAtAnyTime) {
+  const pid_t other = ::fork();
+  if (other == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (;;) {
+      const pid_t brief = ::fork();
+      if (brief == 0) ::_exit(0);
+      ::waitpid(brief, nullptr, 0);
+    }
+  }
+  for (int k = 0; k < 200; ++k) EXPECT_EQ(run_command("true", std::chrono::seconds(20)).failure, "");
+  ::kill(other, SIGKILL);
+  ::waitpid(other, nullptr, 0);
 }
 
 TEST(PortCommand, WhoeverItStartsEndsWithIt) {
