@@ -156,7 +156,7 @@ Verb mutate_verb(CLI::App& app) {
   verb.add_option("PACK", f->pack, "Folder of the pack")->type_name("DIR")->required();
   add_profile(verb, f->request.profile);
   add_only(verb, f->request.only, "Of these passes alone");
-  verb.add_flag("--all", f->request.all, "List every deviation, not only those missed");
+  verb.add_flag("--all", f->request.all, "List every fault, not only those missed");
   add_threads(verb, f->threads);
   verb.footer("Example: rainref mutate out/pack --profile vulkan");
   return {&verb, [f] {

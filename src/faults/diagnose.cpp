@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "faults/deviations.h"
+#include "faults/fault.h"
 #include "faults/failing_texels.h"
 #include "faults/hypotheses.h"
 #include "faults/where.h"
@@ -45,7 +45,7 @@ std::vector<Texel> passing_texels(const capture::PassModel& model, const std::ve
   return out;
 }
 
-/// How a deviation's texel compares with the port's.
+/// How a fault's texel compares with the port's.
 struct Match {
   bool exact = false;  ///< the same bits
   bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
@@ -91,7 +91,7 @@ Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, con
 }
 
 /// Of texel number k.
-Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& deviated,
+Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& faulty,
               const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
               std::size_t k) {
   Match m{true, true, true};
@@ -100,7 +100,7 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     if (model.is_free(static_cast<int>(v))) continue;
     const Slot& s = slots[v];
     const std::size_t o = static_cast<std::size_t>(s.output);
-    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(deviated[o], texels[k].x, texels[k].y),
+    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(faulty[o], texels[k].x, texels[k].y),
                     *base = s.at(reference[o], texels[k].x, texels[k].y);
     const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
     const std::int64_t far = gap(code(got), code(guess)), before = gap(code(got), code(base));
@@ -110,20 +110,20 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     nearer |= far < before && 4 * far <= before;
     m.tells &= far == 0 || 16 * far <= before;
   }
-  m.exact &= nearer;  // else the reference gives the same bits, and the deviation explains nothing
+  m.exact &= nearer;  // else the reference gives the same bits, and the fault explains nothing
   m.near &= nearer;
   m.tells &= m.near;
   return m;
 }
 
-/// Share of the texels that passed and where the deviation would store clearly other codes than the port did.
-double contradicted(const std::vector<Slot>& slots, const capture::PassModel& model, const DeviatedPass& deviated,
+/// Share of the texels that passed and where the fault would store clearly other codes than the port did.
+double contradicted(const std::vector<Slot>& slots, const capture::PassModel& model, const FaultyPass& faulty,
                     const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
                     const std::vector<Texel>& passing) {
   std::vector<Array> stored = reference;
   std::int64_t against = 0;
   for (const Texel t : passing) {
-    deviated.store(t, stored);
+    faulty.store(t, stored);
     against += std::any_of(slots.begin(), slots.end(), [&](const Slot& s) {
       const std::size_t o = static_cast<std::size_t>(s.output), v = static_cast<std::size_t>(&s - slots.data());
       if (model.is_free(static_cast<int>(v))) return false;
@@ -147,7 +147,7 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
   const std::vector<Texel> passing = passing_texels(model, all_failing), few_passing = spread(passing, 400),
                            many_passing = spread(passing, 20000);
   const double passing_per_failing = static_cast<double>(passing.size()) / static_cast<double>(all_failing.size());
-  const std::vector<Deviation> all = hypotheses({pass, c, bind, model}, before, port, reference, failing);
+  const std::vector<Fault> all = hypotheses({pass, c, bind, model}, before, port, reference, failing);
   // Most hypotheses are none after a few texels; what explains too few of these is not tried on all.
   std::vector<std::size_t> few(std::min<std::size_t>(failing.size(), 24));
   for (std::size_t k = 0; k < few.size(); ++k) few[k] = k * failing.size() / few.size();
@@ -155,17 +155,17 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
 
   executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) {
-      const Deviation& d = all[static_cast<std::size_t>(k)];
+      const Fault& d = all[static_cast<std::size_t>(k)];
       Cause& cause = causes[static_cast<std::size_t>(k)];
       cause.name = d.name;
       cause.sentence = d.sentence;
       cause.of = static_cast<std::int64_t>(failing.size());
       try {
-        const DeviatedPass deviated(d, c, bind, model, mode, reference);
-        if (!deviated.applies()) continue;
+        const FaultyPass faulty(d, c, bind, model, mode, reference);
+        if (!faulty.applies()) continue;
         std::vector<Array> stored = reference;
         const auto match_at = [&](std::size_t t) {
-          deviated.store(failing[t], stored);
+          faulty.store(failing[t], stored);
           return compare(slots, model, stored, port, reference, leeway, failing, t);
         };
         const auto matching = std::count_if(few.begin(), few.end(), [&](std::size_t t) { return match_at(t).near; });
@@ -179,7 +179,7 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
         }
         // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
         // break about as many texels as it explains.
-        const double broken = contradicted(slots, model, deviated, port, reference, leeway, d.is_evaluated() ? few_passing : many_passing) *
+        const double broken = contradicted(slots, model, faulty, port, reference, leeway, d.is_evaluated() ? few_passing : many_passing) *
                               passing_per_failing;
         if (broken * 4 > 1) cause.explained = cause.inside = 0;
         cause.is_likely = telling * 10 >= cause.of * 9;
@@ -205,7 +205,7 @@ judge::Explanation diagnose(const judge::FailedRun& failed) {
 }
 
 std::vector<Cause> best_causes(std::vector<Cause> causes) {
-  // A deviation that explains some texels of many explains nothing; a wrong cause would be worse than none.
+  // A fault that explains some texels of many explains nothing; a wrong cause would be worse than none.
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
   if (causes.empty()) return causes;
   // Bits count twice: what gives them is also near. Within 2 % of the best, causes explain as much as each other.

@@ -135,15 +135,15 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
     std::vector<Word> words = words_of(expected.array.record);
     set_leeway(words, keyed, expected.array.record, profile);
 
-    std::vector<Deviation> all = deviations_of(pass, c, *model, before);
+    std::vector<Fault> all = faults_of(pass, c, *model, before);
     std::vector<Cause> causes(all.size());
     executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t k = begin; k < end; ++k) {
-        const Deviation& d = all[static_cast<std::size_t>(k)];
+        const Fault& d = all[static_cast<std::size_t>(k)];
         Cause& cause = causes[static_cast<std::size_t>(k)];
         cause = {d.name, d.sentence, 0, static_cast<std::int64_t>(at.size()), 0, true};
         try {
-          const std::optional<Array> list = deviated_list(d, c, o, *evaluations, model, reference, at, &stored);
+          const std::optional<Array> list = faulty_list(d, c, o, *evaluations, model, reference, at, &stored);
           if (!list) continue;
           const ById guess = by_id(*list);
           for (const std::uint32_t id : at) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "faults/deviations.h"
+#include "faults/fault.h"
 #include "judge/verdict.h"
 
 namespace rainref::faults {

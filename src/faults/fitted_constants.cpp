@@ -110,13 +110,13 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
 
 }  // namespace
 
-void add_fitted_constants(std::vector<Deviation>& out, const capture::PassModel& model, const Constants& constants,
+void add_fitted_constants(std::vector<Fault>& out, const capture::PassModel& model, const Constants& constants,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
   for (const auto& [value, name, is_literal] : constants) {
     const std::optional<float> other = fitted({model, value}, wanted);
     if (!other) continue;
-    Deviation d;
+    Fault d;
     d.name = fmt::format("another value of {}", name);
     d.sentence = fmt::format("{} is about {:.5g} in the port, {} in the reference", name, *other, value);
     d.behaviour.fault = perturbed::Fault::constant;

@@ -59,24 +59,24 @@ std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassM
 }
 
 template <class Which>
-void take(std::vector<Deviation>& from, std::vector<Deviation>& to, Which which) {
+void take(std::vector<Fault>& from, std::vector<Fault>& to, Which which) {
   std::copy_if(from.begin(), from.end(), std::back_inserter(to), which);
   std::erase_if(from, which);
 }
 
 }  // namespace
 
-std::vector<Deviation> hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Array>& port,
-                                  const std::vector<Array>& reference, const std::vector<Texel>& failing) {
-  std::vector<Deviation> all = deviations_of(p.pass, p.c, p.model, before), uniforms, operations;
+std::vector<Fault> hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Array>& port,
+                              const std::vector<Array>& reference, const std::vector<Texel>& failing) {
+  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations;
   // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
-  std::erase_if(all, [](const Deviation& d) { return d.behaviour.fault == perturbed::Fault::constant; });
+  std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
   // That one is not set, or has another sign, is plain; that two are mistaken for each other is less so.
-  take(all, uniforms, [](const Deviation& d) {
+  take(all, uniforms, [](const Fault& d) {
     const bool is_plain = d.name.ends_with("is zero") || d.name.ends_with("negated") || d.name.ends_with("stale");
     return d.name.starts_with("uniform") && !is_plain;
   });
-  take(all, operations, [](const Deviation& d) {
+  take(all, operations, [](const Fault& d) {
     return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
   });
   add_output_mixups(all, p, before);

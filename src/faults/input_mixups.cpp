@@ -20,9 +20,9 @@ using capture::PassCase;
 
 class Adder {
  public:
-  explicit Adder(std::vector<Deviation>& out) : out_(out) {}
+  explicit Adder(std::vector<Fault>& out) : out_(out) {}
   void operator()(std::string name, std::string sentence, std::function<void(PassCase&)> alter) {
-    Deviation d;
+    Fault d;
     d.name = std::move(name);
     d.sentence = std::move(sentence);
     d.alter_case = std::move(alter);
@@ -31,7 +31,7 @@ class Adder {
   }
 
  private:
-  std::vector<Deviation>& out_;
+  std::vector<Fault>& out_;
 };
 
 /// Passes the colours of every level through a function; codes become floats, which hold the result.
@@ -187,7 +187,7 @@ void add_records(Adder& add, const PassCase& c, std::size_t i) {
 
 }  // namespace
 
-void add_scaled_inputs(std::vector<Deviation>& out, const Probed& p) {
+void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
   Adder add(out);
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
     if (p.c.inputs[i].array.is_records) continue;
@@ -203,7 +203,7 @@ void add_scaled_inputs(std::vector<Deviation>& out, const Probed& p) {
   }
 }
 
-void add_input_mixups(std::vector<Deviation>& out, const Probed& p) {
+void add_input_mixups(std::vector<Fault>& out, const Probed& p) {
   Adder add(out);
   const std::string other = p.c.corrected() ? "as-published" : "corrected";
   add(fmt::format("the {} formula", other), fmt::format("this is the {} formula of the pass, not the {} one", other, p.c.variant),

@@ -31,8 +31,8 @@ std::size_t List::place(const Records& records, std::uint32_t of) const {
                                   records.begin());
 }
 
-Deviation& Adder::add(const std::string& name, std::string sentence, Alter alter) {
-  Deviation d;
+Fault& Adder::add(const std::string& name, std::string sentence, Alter alter) {
+  Fault d;
   d.name = fmt::format("{} {}", list_.name, name);
   d.sentence = std::move(sentence);
   d.list_output = static_cast<int>(list_.output);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "faults/deviations.h"
+#include "faults/fault.h"
 #include "faults/list_faults.h"
 
 namespace rainref::faults {
@@ -58,15 +58,15 @@ struct List {
 /// Adds mistakes in one list.
 class Adder {
  public:
-  Adder(std::vector<Deviation>& out, List list) : out_(out), list_(std::move(list)) {}
+  Adder(std::vector<Fault>& out, List list) : out_(out), list_(std::move(list)) {}
   using Alter = std::function<bool(const List&, const capture::PassCase&, ListEdit&)>;
 
   /// `name` stands behind the list's.
-  Deviation& add(const std::string& name, std::string sentence, Alter alter);
+  Fault& add(const std::string& name, std::string sentence, Alter alter);
   const List& list() const { return list_; }
 
  private:
-  std::vector<Deviation>& out_;
+  std::vector<Fault>& out_;
   List list_;
 };
 

@@ -73,16 +73,16 @@ void add_orders(Adder& a) {
           return e.records.size() > 1;
         });
   for (const std::size_t by : {1, -1}) {
-    Deviation& d = a.add(by == 1 ? "one slot off" : "one slot off, other way", "an id has the fields of the slot beside it",
-                         [by](const List& list, const PassCase&, ListEdit& e) {
-                           const Records right = e.records;
-                           const std::size_t n = right.size();
-                           for (std::size_t i = 0; i < n; ++i) {
-                             e.records[i] = right[(i + n + by) % n];
-                             list.set_id(e.records[i], list.id_of(right[i]));
-                           }
-                           return n > 1;
-                         });
+    Fault& d = a.add(by == 1 ? "one slot off" : "one slot off, other way", "an id has the fields of the slot beside it",
+                     [by](const List& list, const PassCase&, ListEdit& e) {
+                       const Records right = e.records;
+                       const std::size_t n = right.size();
+                       for (std::size_t i = 0; i < n; ++i) {
+                         e.records[i] = right[(i + n + by) % n];
+                         list.set_id(e.records[i], list.id_of(right[i]));
+                       }
+                       return n > 1;
+                     });
     d.for_diagnosis = by != 1;
   }
   a.add("with ids one too large", "ids count from 1, or the id is taken after the counter was raised",
@@ -113,13 +113,13 @@ void add_orders(Adder& a) {
 void add_fields(Adder& a, bool has_input) {
   for (const Member& m : a.list().fields) {
     for (const std::size_t by : {1, -1}) {
-      Deviation& d = a.add(fmt::format("with the {} of the {} slot", m.name, by == 1 ? "next" : "previous"),
-                           fmt::format("{} is read or written one slot off", m.name), [m, by](const List&, const PassCase&, ListEdit& e) {
-                             const Records right = e.records;
-                             const std::size_t n = right.size();
-                             for (std::size_t i = 0; i < n; ++i) copy_member(m, right[(i + n + by) % n], e.records[i]);
-                             return n > 1;
-                           });
+      Fault& d = a.add(fmt::format("with the {} of the {} slot", m.name, by == 1 ? "next" : "previous"),
+                       fmt::format("{} is read or written one slot off", m.name), [m, by](const List&, const PassCase&, ListEdit& e) {
+                         const Records right = e.records;
+                         const std::size_t n = right.size();
+                         for (std::size_t i = 0; i < n; ++i) copy_member(m, right[(i + n + by) % n], e.records[i]);
+                         return n > 1;
+                       });
       d.for_diagnosis = by != 1;
     }
     if (has_input) {
@@ -165,7 +165,7 @@ void add_fields(Adder& a, bool has_input) {
 }
 
 // ---- time ----------------------------------------------------------------------------------------------------------
-void add_times(std::vector<Deviation>& out, Adder& a, const PassCase& c, bool has_input, const PassCase* before) {
+void add_times(std::vector<Fault>& out, Adder& a, const PassCase& c, bool has_input, const PassCase* before) {
   const std::string name = a.list().name;
   if (has_input) {
     a.add("one step late", "the list is that of before the pass: a missing swap or a stale binding",
@@ -174,7 +174,7 @@ void add_times(std::vector<Deviation>& out, Adder& a, const PassCase& c, bool ha
             e.records = records_of(in->array);
             return true;
           });
-    Deviation twice;
+    Fault twice;
     twice.name = fmt::format("{} one step early", name);
     twice.sentence = "the pass runs twice in a step";
     twice.alter_case = [name, gave = c.outputs[a.list().output].array](PassCase& altered) {
@@ -193,7 +193,7 @@ void add_times(std::vector<Deviation>& out, Adder& a, const PassCase& c, bool ha
 
 }  // namespace
 
-void add_list_faults(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+void add_list_faults(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   for (const std::size_t o : keyed_outputs(c)) {
     Adder a(out, List(c, o));
     const capture::CaseInput* in = c.input(c.outputs[o].name);

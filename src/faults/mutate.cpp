@@ -70,22 +70,22 @@ std::vector<Stores> stores_under(const enclosed::Profile& profile, const PassCas
   return out;
 }
 
-/// One deviation on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
+/// One fault on one case. A port would be judged by the rounding that suits it best, so an element counts as outside
 /// only where it is so under every rounding that the profile leaves open.
-void judge_mutant(const Deviation& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
+void judge_mutant(const Fault& d, const PassCase& c, Bind bind, const capture::PassModel& model, const std::vector<Texel>& texels,
                   const enclosed::Profile& profile, const std::vector<Stores>& all_stores, MutantJudgement& out) {
   const std::vector<Slot> slots = slots_of(c);
   if (slots.empty() || d.alter_list) return;
   std::int64_t fewest = -1, fewest_rearranged = 0, first_differing = 0;
   for (const Stores& stores : all_stores) {
-    const DeviatedPass deviated(d, c, bind, model, stores.mode, stores.finished);
-    if (!deviated.applies()) return;
+    const FaultyPass faulty(d, c, bind, model, stores.mode, stores.finished);
+    if (!faulty.applies()) return;
     std::vector<Array> stored = stores.finished;
     // A device that rounds the other way is judged as such, where a profile leaves it open.
     const InvocationJudge judge(c, model, profile, d.stores && all_stores.size() > 1 ? *d.stores : stores.mode);
     std::int64_t outside = 0, rearranged = 0, differing = 0;
     for (const Texel t : texels) {
-      deviated.store(t, stored);
+      faulty.store(t, stored);
       if (!differs(slots, stored, stores.finished, t)) continue;
       ++differing;
       const Accepted accepted = judge.accepts(t.x, t.y, stored);
@@ -110,11 +110,11 @@ std::map<std::uint32_t, Records> by_id(const Array& list) {
   return out;
 }
 /// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
-void judge_mutant_lists(const Deviation& d, const PassCase& c, const capture::PassEvaluations& evaluations, const capture::PassModel* model,
+void judge_mutant_lists(const Fault& d, const PassCase& c, const capture::PassEvaluations& evaluations, const capture::PassModel* model,
                         const enclosed::Profile& profile, MutantJudgement& out) {
   for (const std::size_t o : keyed_outputs(c)) {
     const capture::CaseOutput& expected = c.outputs[o];
-    const std::optional<Array> stored = deviated_list(d, c, o, evaluations, model, expected.array);
+    const std::optional<Array> stored = faulty_list(d, c, o, evaluations, model, expected.array);
     if (!stored) continue;
     const auto want = by_id(expected.array), have = by_id(*stored);
     std::set<std::uint32_t> ids, outside;
@@ -147,7 +147,7 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
     if (!options.wants(pass.name)) continue;
     const capture::PassEvaluations* evaluations = evaluations_of(pack.effect, pass.name);
     const Bind bind = binder(pack.effect, pass.name);
-    std::map<std::string, std::size_t> places;  // of a deviation among the mutants
+    std::map<std::string, std::size_t> places;  // of a fault among the mutants
     std::optional<PassCase> before;
     bool judged = false;
     for (const capture::PackCase& entry : pack.cases) {
@@ -157,17 +157,17 @@ MutationReport mutate(const capture::Pack& pack, const ValidateOptions& options,
       judged = true;
       const std::unique_ptr<capture::PassModel> model = bind ? bind(c) : std::make_unique<capture::ListPass>("", nullptr);
       const std::vector<Texel> texels = spread(*model, invocations);
-      std::vector<Deviation> all = deviations_of(pass, c, *model, before ? &*before : nullptr);
-      std::erase_if(all, [](const Deviation& d) { return d.for_diagnosis; });
+      std::vector<Fault> all = faults_of(pass, c, *model, before ? &*before : nullptr);
+      std::erase_if(all, [](const Fault& d) { return d.for_diagnosis; });
       const std::vector<Stores> stores = stores_under(chosen, c, *model, *options.executor);
-      for (const Deviation& d : all) {
+      for (const Fault& d : all) {
         if (places.contains(d.name)) continue;
         places[d.name] = report.mutants.size();
         report.mutants.push_back({pass.name, d.name, d.sentence, d.legal});
       }
       options.executor->for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) {
-          const Deviation& d = all[static_cast<std::size_t>(k)];
+          const Fault& d = all[static_cast<std::size_t>(k)];
           try {
             judge_mutant_lists(d, c, *evaluations, model.get(), chosen, report.mutants[places[d.name]]);
             judge_mutant(d, c, bind, *model, texels, chosen, stores, report.mutants[places[d.name]]);

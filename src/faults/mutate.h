@@ -1,4 +1,4 @@
-// The power of a pack: which deviations of the reference it would catch.
+// The power of a pack: which faults of the reference it would catch.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace rainref::faults {
 
-/// One deviation on one pass of a pack.
+/// One fault on one pass of a pack.
 struct MutantJudgement {
   std::string pass, name, sentence;
   bool legal = false;
@@ -27,7 +27,7 @@ struct MutationReport {
   std::vector<MutantJudgement> mutants;
   std::vector<std::string> unjudged;  ///< passes that no envelope judges, and why
 };
-/// Which of the deviations the pack would catch under a profile. Compares at most `invocations` texels of each case,
+/// Which of the faults the pack would catch under a profile. Compares at most `invocations` texels of each case,
 /// spread over the picture, and every record of its lists.
 MutationReport mutate(const capture::Pack& pack, const judge::ValidateOptions& options, int invocations = 4096);
 

@@ -45,14 +45,14 @@ void change_values(Array& a, const Slot& any, Change change) {
 
 }  // namespace
 
-void add_output_faults(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+void add_output_faults(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   const std::vector<Slot> slots = slots_of(c);
   std::vector<int> images;
   for (const Slot& s : slots)
     if (images.empty() || images.back() != s.output) images.push_back(s.output);
   if (images.empty()) return;
   const auto add = [&](std::string name, std::string sentence, std::function<bool(const PassCase&, std::vector<Array>&)> alter) {
-    Deviation d;
+    Fault d;
     d.name = std::move(name);
     d.sentence = std::move(sentence);
     d.alter_outputs = std::move(alter);

@@ -19,10 +19,10 @@ using judge::Slot;
 double held(double v) { return v > 0 ? v < 1 ? v : 1 : 0; }
 
 /// Alpha keeps its value: the fourth channel of four. Of all channels, and of each alone.
-void add_values(std::vector<Deviation>& out, const PassCase& c) {
+void add_values(std::vector<Fault>& out, const PassCase& c) {
   const std::vector<Slot> slots = judge::slots_of(c);
   const auto add = [&](std::string name, std::string sentence, double (*change)(double)) {
-    Deviation d;
+    Fault d;
     d.name = name;
     d.sentence = sentence;
     d.alter_value = [change](float v, const Slot& s) { return s.channel == 3 ? v : static_cast<float>(change(v)); };
@@ -54,15 +54,15 @@ void add_values(std::vector<Deviation>& out, const PassCase& c) {
   add("negated", "the result has the other sign", [](double v) { return -v; });
 }
 
-/// Of several images each by itself; the other deviations turn all of them.
-void add_single_images(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+/// Of several images each by itself; the other faults turn all of them.
+void add_single_images(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   std::vector<std::size_t> images;
   for (std::size_t o = 0; o < c.outputs.size(); ++o)
     if (c.outputs[o].judge == capture::Judge::envelope && !c.outputs[o].array.is_records) images.push_back(o);
   for (const std::size_t o : images) {
     const std::string& name = c.outputs[o].name;
     const auto add = [&](const char* what, std::string sentence, std::function<void(Array&)> alter) {
-      Deviation d;
+      Fault d;
       d.name = fmt::format("{} {}", name, what);
       d.sentence = std::move(sentence);
       d.alter_outputs = [o, alter](const PassCase&, std::vector<Array>& arrays) {
@@ -88,7 +88,7 @@ void add_single_images(std::vector<Deviation>& out, const PassCase& c, const Pas
       add(fmt::format("is {}", name_of_other).c_str(), fmt::format("{} is stored where {} belongs", name_of_other, name),
           [from = b](Array& to) { to.levels = from.levels; });
       if (other < o) continue;
-      Deviation d;
+      Fault d;
       d.name = fmt::format("{} and {} exchanged", name, name_of_other);
       d.sentence = fmt::format("{} and {} are stored in each other's place", name, name_of_other);
       d.alter_outputs = [o, other](const PassCase&, std::vector<Array>& arrays) {
@@ -141,9 +141,9 @@ void add_single_images(std::vector<Deviation>& out, const PassCase& c, const Pas
 }
 
 /// What a pass computes from the texel's own place, its column met as a number and its row as a constant.
-void add_centres(std::vector<Deviation>& out, const Probed& p) {
+void add_centres(std::vector<Fault>& out, const Probed& p) {
   const auto add = [&](std::string name, std::string sentence, float dx, float dy, bool mirrors_x, bool mirrors_y) {
-    Deviation d;
+    Fault d;
     d.name = std::move(name);
     d.sentence = std::move(sentence);
     const float last_column = static_cast<float>(p.model.width() - 1), rows = static_cast<float>(p.model.height());
@@ -170,7 +170,7 @@ void add_centres(std::vector<Deviation>& out, const Probed& p) {
 
 }  // namespace
 
-void add_output_mixups(std::vector<Deviation>& out, const Probed& p, const PassCase* before) {
+void add_output_mixups(std::vector<Fault>& out, const Probed& p, const PassCase* before) {
   add_values(out, p.c);
   add_single_images(out, p.c, before);
   add_centres(out, p);

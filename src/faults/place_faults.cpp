@@ -176,10 +176,10 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
 
 }  // namespace
 
-void add_place_faults(std::vector<Deviation>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
+void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
   const auto shared = std::make_shared<const std::vector<float>>(known);
   const auto add = [&](const Words& w, std::array<perturbed::Place, 2> places, std::string remark) {
-    Deviation d;
+    Fault d;
     d.name = w.name;
     d.sentence = w.sentence + remark;
     d.behaviour.places = places;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "faults/deviations.h"
+#include "faults/fault.h"
 
 namespace rainref::faults {
 

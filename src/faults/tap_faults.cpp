@@ -140,7 +140,7 @@ int placed(int i, int size, Address address) {
 /// Adds what is read in place of the taps of an input, or of several that are read alike.
 class Adder {
  public:
-  Adder(std::vector<Deviation>& out, std::string name) : out_(out), name_(std::move(name)) {}
+  Adder(std::vector<Fault>& out, std::string name) : out_(out), name_(std::move(name)) {}
   void take(const CaseInput& input, const Taps& taps) { of_.push_back({std::make_shared<const CaseInput>(input), taps.all}); }
   const std::string& name() const { return name_; }
 
@@ -158,7 +158,7 @@ class Adder {
         count = std::max(count, t.load + 1);
       }
     if (!changes) return;
-    Deviation d;
+    Fault d;
     d.name = fmt::format("{} {}", name_, what);
     d.sentence = std::move(sentence);
     d.at_texel = [reads, count, address](Texel at, perturbed::Behaviour& b, std::vector<float>& loads) {
@@ -183,7 +183,7 @@ class Adder {
     std::shared_ptr<const CaseInput> input;
     std::vector<Tap> taps;
   };
-  std::vector<Deviation>& out_;
+  std::vector<Fault>& out_;
   std::string name_;
   std::vector<Read> of_;
 };
@@ -244,7 +244,7 @@ void add_channels(const Adder& add, const Taps& taps, int channels) {
 
 }  // namespace
 
-void add_tap_faults(std::vector<Deviation>& out, const Probed& p) {
+void add_tap_faults(std::vector<Fault>& out, const Probed& p) {
   std::vector<std::pair<const CaseInput*, Taps>> neighbours;
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
     const CaseInput& input = p.c.inputs[i];

@@ -38,9 +38,9 @@ bool same_value(const PassCase& c, const Member& a, const Member& b) {
 
 class Adder {
  public:
-  explicit Adder(std::vector<Deviation>& out) : out_(out) {}
+  explicit Adder(std::vector<Fault>& out) : out_(out) {}
   void operator()(std::string name, std::string sentence, std::function<void(PassCase&)> alter) {
-    Deviation d;
+    Fault d;
     d.name = std::move(name);
     d.sentence = std::move(sentence);
     d.alter_case = std::move(alter);
@@ -49,7 +49,7 @@ class Adder {
   }
 
  private:
-  std::vector<Deviation>& out_;
+  std::vector<Fault>& out_;
 };
 
 void add_exchanges(Adder& add, const PassCase& c, const std::vector<Member>& members) {
@@ -145,10 +145,10 @@ void add_transposes(Adder& add, const PassCase& c, const std::vector<Member>& me
 /// Constants with another value.
 class Replacer {
  public:
-  Replacer(std::vector<Deviation>& out, float value, std::string name) : out_(out), value_(value), name_(std::move(name)) {}
+  Replacer(std::vector<Fault>& out, float value, std::string name) : out_(out), value_(value), name_(std::move(name)) {}
   void operator()(float replacement, const char* what) const {
     if (replacement == value_ || !std::isfinite(replacement)) return;
-    Deviation d;
+    Fault d;
     d.name = fmt::format("{} {}", name_, what);
     d.sentence = fmt::format("{} is {} in place of {}", name_, replacement, value_);
     d.behaviour.fault = perturbed::Fault::constant;
@@ -159,14 +159,14 @@ class Replacer {
   }
 
  private:
-  std::vector<Deviation>& out_;
+  std::vector<Fault>& out_;
   float value_;
   std::string name_;
 };
 
 }  // namespace
 
-void add_uniform_mixups(std::vector<Deviation>& out, const Probed& p, const std::set<std::string>& used) {
+void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used) {
   const std::vector<Member> members = floats_of(p.pass, used);
   Adder add(out);
   add_permutations(add, p.c, members);
@@ -174,7 +174,7 @@ void add_uniform_mixups(std::vector<Deviation>& out, const Probed& p, const std:
   add_exchanges(add, p.c, members);
 }
 
-void add_named_constants(std::vector<Deviation>& out, const Constants& constants, bool literals) {
+void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals) {
   for (const auto& [value, name, is_literal] : constants) {
     if (value == 0 || is_literal != literals || name.starts_with("f(")) continue;  // a made number is rarely left out by itself
     const Replacer as(out, value, name);
@@ -188,7 +188,7 @@ void add_named_constants(std::vector<Deviation>& out, const Constants& constants
     as(1 - value, "taken from 1");
   }
 }
-void add_odd_constants(std::vector<Deviation>& out, const Probed& p, const Constants& constants) {
+void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants& constants) {
   const float aspect = p.model.height() > 0 ? static_cast<float>(p.model.width()) / static_cast<float>(p.model.height()) : 1.0f;
   constexpr float pi = std::numbers::pi_v<float>;
   for (const auto& [value, name, is_literal] : constants) {

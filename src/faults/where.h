@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "faults/deviations.h"
+#include "faults/fault.h"
 #include "judge/judge_pass.h"
 
 namespace rainref::faults {

@@ -11,19 +11,19 @@
 namespace rainref::faults {
 
 /// Uniforms exchanged, permuted, transposed, in another encoding; of those that the pass uses.
-void add_uniform_mixups(std::vector<Deviation>& out, const Probed& p, const std::set<std::string>& used);
+void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used);
 /// Inputs exchanged, shifted, by another address mode, level or encoding; the other variant's formula.
-void add_input_mixups(std::vector<Deviation>& out, const Probed& p);
+void add_input_mixups(std::vector<Fault>& out, const Probed& p);
 /// Inputs that count twice or half.
-void add_scaled_inputs(std::vector<Deviation>& out, const Probed& p);
+void add_scaled_inputs(std::vector<Fault>& out, const Probed& p);
 /// Values encoded, clamped or packed on their way to the store; one of several outputs turned or shifted; pixel centres.
-void add_output_mixups(std::vector<Deviation>& out, const Probed& p, const capture::PassCase* before);
+void add_output_mixups(std::vector<Fault>& out, const Probed& p, const capture::PassCase* before);
 /// Each literal, or each uniform, by its name, as what is often written for it: left out, with the other sign, doubled.
-void add_named_constants(std::vector<Deviation>& out, const Constants& constants, bool literals);
+void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals);
 /// Each constant as what is rarely written for it: one more, times pi, in degrees.
-void add_odd_constants(std::vector<Deviation>& out, const Probed& p, const Constants& constants);
+void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants& constants);
 /// Texels loaded by integers, read from elsewhere: farther or diagonal neighbours, exchanged axes, another channel, another
 /// rule at the border.
-void add_tap_faults(std::vector<Deviation>& out, const Probed& p);
+void add_tap_faults(std::vector<Fault>& out, const Probed& p);
 
 }  // namespace rainref::faults

@@ -212,7 +212,7 @@ std::string report_text(const MutationReport& r, bool all) {
   }
   for (const std::string& u : r.unjudged) out += fmt::format("not judged: {}\n", u);
   out += fmt::format(
-      "{} of {} deviations that change something would be caught under {} ({} more would warn, as rearrangements; {} change nothing on "
+      "{} of {} faults that change something would be caught under {} ({} more would warn, as rearrangements; {} change nothing on "
       "this pack)\n",
       caught, bugs, r.profile, warned, equivalent);
   return out;

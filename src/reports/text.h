@@ -14,7 +14,7 @@ namespace rainref::reports {
 /// elements stay below. Sentences are broken at 120 columns; notes and the last line, which hold
 /// paths, are not.
 std::string report_text(const judge::PortJudgement& judgement);
-/// One line for each deviation that was not caught, or for each when `all`; then the counts.
+/// One line for each fault that was not caught, or for each when `all`; then the counts.
 std::string report_text(const faults::MutationReport& report, bool all);
 
 }  // namespace rainref::reports

@@ -140,7 +140,7 @@ using Loop = bool (*)(const Run& run, int x, int y, float* out);
 struct Mistake {
   std::string mistake;  ///< what is switched in
   /// Parts of names that say so truly: the right one, and what is the same in real numbers. "=...": the whole name. What no
-  /// deviation says stands in words that none has.
+  /// fault says stands in words that none has.
   std::vector<std::string> causes;
 };
 struct Pass {

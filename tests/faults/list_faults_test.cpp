@@ -45,7 +45,7 @@ struct ListCase {
   const capture::PassEvaluations& evaluations() const { return *evaluations_of(c->effect, c->pass); }
   const Array& reference() const { return c->outputs[output].array; }
   const capture::KeyedModel* keyed() const { return model->keyed(c->outputs[output].name); }
-  std::vector<Deviation> deviations() const { return deviations_of(pass, *c, *model, before ? &*before : nullptr); }
+  std::vector<Fault> faults() const { return faults_of(pass, *c, *model, before ? &*before : nullptr); }
   KeyedJudgement judged(const Array& list, const std::string& under = "vulkan") const {
     return judge_keyed(c->outputs[output], list, keyed(), profile(under));
   }
@@ -55,7 +55,7 @@ struct ListCase {
     port[output] = list;
     return diagnose_lists(pass, *c, before ? &*before : nullptr, model.get(), port, profile("vulkan"), executor());
   }
-  std::string text(const Deviation& d) const { return c->folder() + " " + d.name; }
+  std::string text(const Fault& d) const { return c->folder() + " " + d.name; }
 };
 std::vector<ListCase> list_cases(const std::string& pack_name, const std::string& only = "") {
   const capture::Pack pack(pack_folder(pack_name));
@@ -92,9 +92,9 @@ TEST_P(ListFaults, EachIsCaughtAndNamed) {
   const std::int64_t step = count_from("RAINREF_FAULTS_STEP", 5);
   std::int64_t made = 0, named_first = 0, applicable = 0;
   for (const ListCase& l : list_cases(GetParam())) {
-    for (const Deviation& d : l.deviations()) {
+    for (const Fault& d : l.faults()) {
       if (!d.alter_list || d.for_diagnosis) continue;
-      const std::optional<Array> port = deviated_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
+      const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port || same_records(*port, l.reference())) continue;
       if (applicable++ % step != 0) continue;
       ++made;
@@ -117,9 +117,9 @@ TEST_P(ListFaults, EachIsCaughtAndNamed) {
 // Records are matched by id: slots may be filled in any order.
 TEST_P(ListFaults, AnotherOrderIsRight) {
   for (const ListCase& l : list_cases(GetParam())) {
-    for (const Deviation& d : l.deviations()) {
+    for (const Fault& d : l.faults()) {
       if (!d.name.ends_with("in another order")) continue;
-      const std::optional<Array> port = deviated_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
+      const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port) continue;  // one record
       EXPECT_NE(port->levels, l.reference().levels) << l.text(d);
       for (const char* under : {"ieee", "vulkan"}) EXPECT_EQ(l.judged(*port, under).failing, 0) << l.text(d);
@@ -206,12 +206,12 @@ TEST(ListFaultsOfMerge, AreEventsAndNamedOnOtherDevicesToo) {
   for (const ListCase& l : list_cases("windshield-corrected", "merge")) {
     const Array fused = fused_list(l);
     ASSERT_EQ(l.judged(fused).failing, 0);
-    for (const Deviation& d : l.deviations()) {
+    for (const Fault& d : l.faults()) {
       const auto expected =
           std::find_if(std::begin(expected_of_merge), std::end(expected_of_merge), [&](const Expected& e) { return d.name == e.fault; });
       if (expected == std::end(expected_of_merge)) continue;
       for (const Array& base : {l.reference(), fused}) {
-        const std::optional<Array> port = deviated_list(d, *l.c, l.output, l.evaluations(), l.model.get(), base);
+        const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), base);
         if (!port || same_records(*port, base)) continue;
         seen.insert(d.name);
         EXPECT_THAT(l.judged(*port).events.text(), HasSubstr(expected->events)) << l.text(d);
@@ -229,9 +229,9 @@ TEST(ListFaultsOfMerge, AreEventsAndNamedOnOtherDevicesToo) {
 TEST(ListFaultsOfIntegrate, AStaleInputIsNamed) {
   int tried = 0;
   for (const ListCase& l : list_cases("windshield-corrected", "integrate")) {
-    for (const Deviation& d : l.deviations()) {
+    for (const Fault& d : l.faults()) {
       if (d.name != "input glass_frame stale" && d.name != "uniform dt is zero") continue;
-      const std::optional<Array> port = deviated_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
+      const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
       if (!port || same_records(*port, l.reference())) continue;
       ++tried;
       EXPECT_TRUE(gives(l.causes(*port), d.name)) << l.text(d) << ": " << text_of(l.causes(*port));

@@ -1,4 +1,4 @@
-// What the small packs would catch: deviations of the reference, judged like ports.
+// What the small packs would catch: faults of the reference, judged like ports.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "faults/deviations.h"
+#include "faults/fault.h"
 #include "faults/mutate.h"
 #include "judge/judge.h"
 #include "judge/support.h"
@@ -73,18 +73,18 @@ TEST(Mutate, AWrongPassGetsTheNearest) {
   }
 }
 
-/// Invocations, of those that mutate compares, at which a deviation moves some value by more than an envelope may be
+/// Invocations, of those that mutate compares, at which a fault moves some value by more than an envelope may be
 /// wide before it counts as vacuous: 1/16 of the declared range, or of the value beyond it.
-int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
+int far_off(const Fault& d, const BoundCase& b, Bind bind) {
   std::vector<Array> stored = b.expected();
-  const DeviatedPass deviated(d, *b.c, bind, *b.model, HalfMode::rne, stored);
-  if (!deviated.applies()) return 0;
+  const FaultyPass faulty(d, *b.c, bind, *b.model, HalfMode::rne, stored);
+  if (!faulty.applies()) return 0;
   int count = 0;
   const std::int64_t texels = static_cast<std::int64_t>(b.model->width()) * b.model->height();
   for (std::int64_t k = 0; k < invocations; ++k) {
     const std::int64_t i = k * texels / invocations;
     const int x = static_cast<int>(i % b.model->width()), y = static_cast<int>(i / b.model->width());
-    deviated.store({x, y}, stored);
+    faulty.store({x, y}, stored);
     bool far = false;
     for (std::size_t v = 0; v < b.slots.size(); ++v) {
       const Slot& s = b.slots[v];
@@ -101,8 +101,7 @@ int far_off(const Deviation& d, const BoundCase& b, Bind bind) {
 TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   const MutationReport report = mutated(GetParam(), "vulkan", 0);
   const Count count(report);
-  fmt::print("{}: {} of {} deviations that change something are caught, {} more warn\n", GetParam(), count.caught, count.bugs,
-             count.warned);
+  fmt::print("{}: {} of {} faults that change something are caught, {} more warn\n", GetParam(), count.caught, count.bugs, count.warned);
   // Masks of 8 bits hide what moves them by less than a code.
   const std::map<std::string, int> least{
       {"puddle-as-published", 92},      {"puddle-corrected", 79},      {"rainy_glass-as-published", 80},  {"rainy_glass-corrected", 80},
@@ -117,7 +116,7 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
   for (const BoundPass& pass : enveloped_passes({GetParam()})) {
     const BoundCase& b = pass.cases.front();
     const Bind bind = binder(pack.effect, pass.pass);
-    for (const Deviation& d : deviations_of(pack.pass(pass.pass), *b.c, *b.model, nullptr)) {
+    for (const Fault& d : faults_of(pack.pass(pass.pass), *b.c, *b.model, nullptr)) {
       if (d.for_diagnosis) continue;
       int far = 0;
       try {

@@ -224,6 +224,25 @@ TEST(ReportFigures, AWidthIsInCodesWhereTheySayAnything) {
   EXPECT_THAT(report_text(j), Not(HasSubstr("1750702514")));
 }
 
+// Names of what is never taken, some of them; nothing where nothing is counted, or where all is taken.
+TEST(ReportFigures, WhatAPackExercises) {
+  PassCoverage c{
+      5, 9, {"a.pass.h:1 min: the second", "a.pass.h:2 clamp: below", "a.pass.h:2 clamp: above", "a.pass.h:7 select: the first"}};
+  EXPECT_EQ(
+      coverage_text(c, 4),
+      "exercises 5 of 9 alternatives; never: a.pass.h:1 min: the second, a.pass.h:2 clamp: below, a.pass.h:2 clamp: above, a.pass.h:7 "
+      "select: the first");
+  EXPECT_EQ(coverage_text(c, 1), "exercises 5 of 9 alternatives; never: a.pass.h:1 min: the second and 3 more");
+  EXPECT_EQ(coverage_text({9, 9, {}}, 3), "exercises 9 of 9 alternatives");
+  EXPECT_EQ(coverage_text({}, 3), "");
+  PortJudgement j = example_judgement();
+  j.passes[0].coverage = c;
+  j.passes[3].coverage = {9, 9, {}};
+  const std::string text = report_text(j);
+  EXPECT_THAT(text, HasSubstr("exercises 5 of 9 alternatives; never: a.pass.h:1 min: the second, a.pass.h:2 clamp: below"));
+  EXPECT_THAT(text, Not(HasSubstr("9 of 9")));
+}
+
 TEST(ReportFigures, ADistanceIsInCodesAndInTheUnit) {
   OutputJudgement o = example_output("wave", Format::rg32f, 5, 10);
   o.quantities = {quantity("x", "m", 0, 0), quantity("y", "m/s", 0, 0)};

@@ -58,9 +58,9 @@ std::vector<float> constants_of_lists(const capture::PassModel& model, const Pas
   return out;
 }
 
-std::optional<Array> deviated_list(const Deviation& d, const PassCase& c, std::size_t output, const capture::PassEvaluations& evaluations,
-                                   const capture::PassModel* model, const Array& finished, const std::vector<std::uint32_t>& at,
-                                   const Records* port) {
+std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t output, const capture::PassEvaluations& evaluations,
+                                 const capture::PassModel* model, const Array& finished, const std::vector<std::uint32_t>& at,
+                                 const Records* port) {
   if (d.alter_list) {
     if (d.list_output != static_cast<int>(output)) return std::nullopt;
     ListEdit edit{records_of(finished), at, port};

@@ -1,4 +1,4 @@
-#include "faults/deviations.h"
+#include "faults/fault.h"
 
 #include <algorithm>
 #include <cstring>
@@ -37,9 +37,9 @@ bool is_legal(perturbed::Fault s) {
          s == Fault::division_by_estimate || s == Fault::weights_of_8_bits;
 }
 
-void add_faults(std::vector<Deviation>& out) {
+void add_faults(std::vector<Fault>& out) {
   for (const perturbed::FaultInfo& s : perturbed::faults()) {
-    Deviation d;
+    Fault d;
     d.name = s.name;
     d.sentence = s.sentence;
     d.behaviour.fault = s.fault;
@@ -49,11 +49,11 @@ void add_faults(std::vector<Deviation>& out) {
 }
 
 /// A device that rounds its stores to halves the other way. Legal where a profile leaves it open.
-void add_stores(std::vector<Deviation>& out, const PassCase& c) {
+void add_stores(std::vector<Fault>& out, const PassCase& c) {
   const std::vector<Slot> slots = slots_of(c);
   if (std::none_of(slots.begin(), slots.end(), [](const Slot& s) { return s.kind == FormatInfo::float16; })) return;
   for (const HalfMode mode : {HalfMode::rtz, HalfMode::rne}) {
-    Deviation d;
+    Fault d;
     d.name = mode == HalfMode::rtz ? "half stores toward zero" : "half stores to nearest";
     d.sentence = mode == HalfMode::rtz ? "stores to binary16 truncate; port.json or the profile say that they round to nearest"
                                        : "stores to binary16 round to nearest; port.json or the profile say that they truncate";
@@ -65,7 +65,7 @@ void add_stores(std::vector<Deviation>& out, const PassCase& c) {
 
 /// Every literal and uniform that the pass meets all over the picture, as another number. What only some rows meet comes
 /// from their own index.
-void add_constants(std::vector<Deviation>& out, const PassCase& c, const capture::PassModel& model) {
+void add_constants(std::vector<Fault>& out, const PassCase& c, const capture::PassModel& model) {
   std::map<float, int> values;
   std::vector<float> met;
   constexpr int probes = 8;
@@ -85,7 +85,7 @@ void add_constants(std::vector<Deviation>& out, const PassCase& c, const capture
   for (const auto& [v, places] : values) {
     if (places < probes * probes / 2 || v == 0 || !(v > -1e30f && v < 1e30f)) continue;
     const auto add = [&, value = v](float replacement, const char* what, bool for_diagnosis) {
-      Deviation d;
+      Fault d;
       d.name = fmt::format("constant {} {}", value, what);
       d.sentence = fmt::format("a literal or uniform of value {} is {}", value, replacement);
       d.behaviour.fault = perturbed::Fault::constant;
@@ -110,11 +110,11 @@ void set_member(PassCase& c, std::size_t offset, T value) {
   std::memcpy(c.uniforms.data() + offset, &value, sizeof value);
 }
 
-void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, const PassCase* before) {
+void add_uniforms(std::vector<Fault>& out, const capture::PackPass& pass, const PassCase* before) {
   for (const scene::Member& m : pass.block.members) {
     if (m.name.starts_with("padding")) continue;
     const auto add = [&](std::string what, std::string sentence, std::function<void(PassCase&)> alter) {
-      Deviation d;
+      Fault d;
       d.name = fmt::format("uniform {} {}", m.name, what);
       d.sentence = std::move(sentence);
       d.alter_case = std::move(alter);
@@ -156,7 +156,7 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
       if (&m == &other || m.scalar != scene::Scalar::float32 || other.scalar != m.scalar || m.components != 1 || other.components != 1 ||
           family(m) != family(other))
         continue;
-      Deviation d;
+      Fault d;
       d.name = fmt::format("uniform {} is {}", m.name, other.name);
       d.sentence = fmt::format("{} has the value of {}", m.name, other.name);
       d.alter_case = [m, other](PassCase& c) { std::memcpy(c.uniforms.data() + m.offset, c.uniforms.data() + other.offset, m.size()); };
@@ -171,7 +171,7 @@ void add_uniforms(std::vector<Deviation>& out, const capture::PackPass& pass, co
       out.push_back(std::move(d));
     }
   }
-  Deviation shifted;
+  Fault shifted;
   shifted.name = "uniform block shifted by 4 bytes";
   shifted.sentence = "the uniform block's padding differs (std140 against a tight layout)";
   shifted.alter_case = [](PassCase& c) { std::rotate(c.uniforms.begin(), c.uniforms.begin() + 4, c.uniforms.end()); };
@@ -184,11 +184,11 @@ CaseInput* input_of(PassCase& c, const std::string& name) {
   return nullptr;
 }
 
-void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* before) {
+void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* before) {
   for (const CaseInput& i : c.inputs) {
     const std::string name = i.name;
     const auto add = [&](std::string what, std::string sentence, std::function<void(Array&)> alter) {
-      Deviation d;
+      Fault d;
       d.name = fmt::format("input {} {}", name, what);
       d.sentence = std::move(sentence);
       d.alter_case = [name, alter](PassCase& altered) { alter(input_of(altered, name)->array); };
@@ -236,9 +236,8 @@ void add_inputs(std::vector<Deviation>& out, const PassCase& c, const PassCase* 
 
 }  // namespace
 
-std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model,
-                                     const PassCase* before) {
-  std::vector<Deviation> all;
+std::vector<Fault> faults_of(const capture::PackPass& pass, const PassCase& c, const capture::PassModel& model, const PassCase* before) {
+  std::vector<Fault> all;
   add_output_faults(all, c, before);
   add_list_faults(all, c, before);
   add_stores(all, c);
@@ -249,22 +248,22 @@ std::vector<Deviation> deviations_of(const capture::PackPass& pass, const PassCa
   return all;
 }
 
-DeviatedPass::DeviatedPass(const Deviation& deviation, const PassCase& c, Bind bind, const capture::PassModel& model, HalfMode mode,
-                           const std::vector<Array>& finished)
-    : deviation_(deviation), case_(c), model_(model), mode_(deviation.stores.value_or(mode)), slots_(slots_of(c)) {
-  if (deviation.alter_outputs) {
+FaultyPass::FaultyPass(const Fault& fault, const PassCase& c, Bind bind, const capture::PassModel& model, HalfMode mode,
+                       const std::vector<Array>& finished)
+    : fault_(fault), case_(c), model_(model), mode_(fault.stores.value_or(mode)), slots_(slots_of(c)) {
+  if (fault.alter_outputs) {
     finished_ = finished;
-    applies_ = deviation.alter_outputs(c, finished_);
-  } else if (deviation.alter_case) {
+    applies_ = fault.alter_outputs(c, finished_);
+  } else if (fault.alter_case) {
     altered_ = c;
-    deviation.alter_case(altered_);
+    fault.alter_case(altered_);
     altered_model_ = bind(altered_);
     applies_ = altered_model_->width() == model.width() && altered_model_->height() == model.height() &&
                altered_model_->values() == model.values();
   }
 }
 
-void DeviatedPass::store(Texel at, std::vector<Array>& out) const {
+void FaultyPass::store(Texel at, std::vector<Array>& out) const {
   if (!finished_.empty()) {
     for (const Slot& s : slots_) {
       const std::size_t o = static_cast<std::size_t>(s.output), offset = s.offset(at.x, at.y);
@@ -272,15 +271,15 @@ void DeviatedPass::store(Texel at, std::vector<Array>& out) const {
     }
     return;
   }
-  perturbed::Behaviour behaviour = deviation_.behaviour;
+  perturbed::Behaviour behaviour = fault_.behaviour;
   std::vector<float> loads;
-  if (deviation_.at_texel) deviation_.at_texel(at, behaviour, loads);
+  if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
   const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
   (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());
   for (std::size_t v = 0; v < slots_.size(); ++v) {
     const Slot& s = slots_[v];
-    const float value = deviation_.alter_value ? deviation_.alter_value(values[v].v, s) : values[v].v;
+    const float value = fault_.alter_value ? fault_.alter_value(values[v].v, s) : values[v].v;
     store_value(s, value, rounding_of(s, mode_), out[static_cast<std::size_t>(s.output)].levels[0].data() + s.offset(at.x, at.y));
   }
 }

@@ -1,4 +1,4 @@
-// The named deviations: realistic mistakes of a port, made on the reference evaluation rather than in copies of a pass.
+// The named faults: realistic mistakes of a port, made on the reference evaluation rather than in copies of a pass.
 // `mutate` asks which of them a pack would catch; the diagnosis asks which of them gives a port's failing bits.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Texel {
   int x, y;
 };
 
-struct Deviation {
+struct Fault {
   std::string name, sentence;
   perturbed::Behaviour behaviour;                      ///< what the arithmetic does
   std::function<void(capture::PassCase&)> alter_case;  ///< what the pass takes; null: as captured
@@ -47,24 +47,24 @@ struct Deviation {
   bool is_evaluated() const { return !alter_outputs && !alter_list; }
 };
 
-/// All deviations of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of finished buffers and lists.
+/// All faults of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of finished buffers and lists.
 /// `before` is the run of the same pass before this one, or null.
-std::vector<Deviation> deviations_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
-                                     const capture::PassCase* before);
+std::vector<Fault> faults_of(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassModel& model,
+                             const capture::PassCase* before);
 
-/// What a deviation stores at some texels. Applied once, asked texel by texel.
-class DeviatedPass {
+/// What a fault stores at some texels. Applied once, asked texel by texel.
+class FaultyPass {
  public:
-  /// `finished`: what the reference gives, its halves stored by `mode`. The case and the deviation must outlive it. Throws
+  /// `finished`: what the reference gives, its halves stored by `mode`. The case and the fault must outlive it. Throws
   /// Error when the altered case cannot be bound.
-  DeviatedPass(const Deviation& deviation, const capture::PassCase& c, judge::Bind bind, const capture::PassModel& model,
-               judge::HalfMode mode, const std::vector<capture::Array>& finished);
+  FaultyPass(const Fault& fault, const capture::PassCase& c, judge::Bind bind, const capture::PassModel& model, judge::HalfMode mode,
+             const std::vector<capture::Array>& finished);
   bool applies() const { return applies_; }
   /// Writes the texel's stored bytes into `out`, arrays like c.outputs.
   void store(Texel at, std::vector<capture::Array>& out) const;
 
  private:
-  const Deviation& deviation_;
+  const Fault& fault_;
   const capture::PassCase& case_;
   const capture::PassModel& model_;
   judge::HalfMode mode_;
