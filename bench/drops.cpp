@@ -24,7 +24,7 @@ constexpr double dt = 1e-3;       // short, so that the drops are still there af
 
 std::vector<Drop> sprinkle(std::int64_t count, bool corrected) {
   const double radius = std::sqrt(coverage * frame[0] * frame[2] / (3.14159265 * static_cast<double>(count)));
-  const double mean = std::pow(radius / radius_of_quantum({}), 3);
+  const double mean = std::pow(radius / radius_of_mass_unit({}), 3);
   std::vector<Drop> out(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto r = random::block(1, random::Purpose::drop_arrival, 0, static_cast<std::uint32_t>(i));

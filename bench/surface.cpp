@@ -10,7 +10,7 @@
 #include "blur_pyramid/blur_pyramid.h"
 #include "capture/hashing.h"
 #include "drops/splat.h"
-#include "drops/splat_plain.h"
+#include "drops/splat_scalar.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "stream.h"
@@ -51,7 +51,7 @@ std::vector<drops::Drop> drops_of(std::int64_t count, double mass) {
 }
 /// One drop after another, one texel after another, by the scalar evaluation.
 void naive(const drops::SplatUniforms& u, std::span<const drops::Drop> all, Image& height) {
-  using F = drops::scalar::Plain<float>;
+  using F = drops::scalar::Scalar<float>;
   for (int y = 0; y < side; ++y) std::fill_n(height.row<Half>(y), side, Half{0});
   for (const drops::Drop& d : all) {
     const auto s = drops::scalar::splat_stamp(u, F(d.position[0]), F(d.position[1]), F(d.mass), F(d.life));

@@ -30,11 +30,11 @@ struct DropView {
   std::uint32_t id;
 };
 
-/// Water since the start, in whole quanta of 2e-11 kg (as-published: in drops).
-struct WaterLedger {
+/// Water since the start, in whole mass units of 2e-11 kg (as-published: in drops).
+struct MassBalance {
   std::int64_t spawned, evaporated, removed, film, drops;
   /// corrected: exactly 0.
-  std::int64_t balance() const { return spawned - evaporated - removed - film - drops; }
+  std::int64_t residual() const { return spawned - evaporated - removed - film - drops; }
 };
 
 /// A windshield, its wipers, its drops, its car. Advance it frame by frame; every buffer has the same bits whatever the
@@ -64,11 +64,11 @@ class Windshield {
   int frame() const;
   /// The live drops, in slot order.
   std::vector<DropView> drops() const;
-  WaterLedger ledger() const;
+  MassBalance mass_balance() const;
 
   const Image& height() const;       ///< r16f [mm]
   const Image& mask() const;         ///< r16f: 1 just wiped
-  const Image& film() const;         ///< corrected: r32f, whole quanta in a texel
+  const Image& film() const;         ///< corrected: r32f, whole mass units in a texel
   const Image& normal() const;       ///< rgba16f: normal in the axes of the glass
   const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
   const Image& colour() const;       ///< rgba16f: linear radiance

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "blur_pyramid/plain.h"
+#include "blur_pyramid/scalar.h"
 #include "math/half_array.h"
 #include "pass/info.h"
 #include "pass/model.h"

@@ -26,7 +26,7 @@ struct FieldRange {
   double low, high;
 };
 
-/// Groups of records that share decisions: a drop that another one captures is in the group of its absorber, so that the
+/// Groups of records that share decisions: a drop that another one captures is in the group of its absorbing drop, so that the
 /// two agree on what happened. Most groups hold one id. Evaluation is thread-safe.
 class KeyedModel {
  public:

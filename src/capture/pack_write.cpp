@@ -82,6 +82,11 @@ void PackWriter::add(const PassCase& c) {
   ++s.total.cases;
 }
 
+void PackWriter::add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never) {
+  for (nlohmann::ordered_json& p : state_->manifest["passes"])
+    if (p["name"] == pass) p["coverage"] = {{"exercised", exercised}, {"alternatives", alternatives}, {"never", never}};
+}
+
 PackWriter::Total PackWriter::finish() {
   State& s = *state_;
   const std::string text = manifest_text(s.manifest);

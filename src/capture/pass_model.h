@@ -13,7 +13,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/rearranged.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 
 namespace rainref::capture {
 
@@ -27,8 +27,8 @@ class PassModel {
   int height() const { return height_; }
   int values() const { return values_; }
 
-  virtual void evaluate(int x, int y, plain::Plain<float>* out) const = 0;
-  virtual void evaluate(int x, int y, plain::Plain<double>* out) const = 0;
+  virtual void evaluate(int x, int y, scalar::Scalar<float>* out) const = 0;
+  virtual void evaluate(int x, int y, scalar::Scalar<double>* out) const = 0;
   virtual void evaluate(int x, int y, perturbed::Perturbed* out) const = 0;
   /// Under the profile and the enumeration in force. `port` holds the values that the port stored for this invocation: a pass
   /// whose result is judged by what it must satisfy (a march by the gap at its end) may take them, others do not.
@@ -57,8 +57,8 @@ template <class Pass>
 class ModelOf : public PassModel {
  public:
   explicit ModelOf(Pass pass) : PassModel(pass.width, pass.height, pass.values), pass_(std::move(pass)) {}
-  void evaluate(int x, int y, plain::Plain<float>* out) const override { pass_(x, y, out); }
-  void evaluate(int x, int y, plain::Plain<double>* out) const override { pass_(x, y, out); }
+  void evaluate(int x, int y, scalar::Scalar<float>* out) const override { pass_(x, y, out); }
+  void evaluate(int x, int y, scalar::Scalar<double>* out) const override { pass_(x, y, out); }
   void evaluate(int x, int y, perturbed::Perturbed* out) const override { pass_(x, y, out); }
   void enclose(int x, int y, const float*, enclosed::Enclosure* out) const override { pass_(x, y, out); }
   bool rearrange(int x, int y, const float*, enclosed::Enclosure* out) const override {
@@ -83,8 +83,8 @@ std::unique_ptr<PassModel> model_of(Pass pass) {
 class ListPass : public PassModel {
  public:
   ListPass(std::string output, std::unique_ptr<KeyedModel> list) : PassModel(0, 0, 0), output_(std::move(output)), list_(std::move(list)) {}
-  void evaluate(int, int, plain::Plain<float>*) const override {}
-  void evaluate(int, int, plain::Plain<double>*) const override {}
+  void evaluate(int, int, scalar::Scalar<float>*) const override {}
+  void evaluate(int, int, scalar::Scalar<double>*) const override {}
   void evaluate(int, int, perturbed::Perturbed*) const override {}
   void enclose(int, int, const float*, enclosed::Enclosure*) const override {}
   const KeyedModel* keyed(std::string_view output) const override { return output == output_ ? list_.get() : nullptr; }

@@ -17,11 +17,13 @@
 #include "cli/progress.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
+#include "judge/coverage.h"
 #include "judge/evaluations.h"
 #include "judge/null_ports.h"
 #include "judge/profiles.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
+#include "reports/figures.h"
 #include "simulation/opened.h"
 
 namespace rainref::cli {
@@ -126,12 +128,17 @@ class Packing {
         passes_(std::move(passes)),
         frames_(frames) {}
 
-  capture::PackWriter::Total write() const {
+  capture::PackWriter::Total write() {
     const auto wanted = [&](int frame, std::string_view pass) {
       return frames_.are_wanted(frame, pass) && std::find(passes_.begin(), passes_.end(), pass) != passes_.end();
     };
     capture::PackWriter writer(options_.output, info_, config_, options_.scene.scene.filename().string(), true, passes_);
-    capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) { writer.add(c); });
+    std::map<std::string, perturbed::Coverage> exercised;
+    capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
+      writer.add(c);
+      const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(config_.effect(), c.pass), c);
+      exercised[c.pass].add(judge::coverage_of(c, model.get(), executor_));
+    });
     const int count = frames_.last(passes_) + 1;
     simulation::Opened opened(config_, executor_);
     Progress progress(config_.effect(), count);
@@ -139,8 +146,17 @@ class Packing {
       opened.next_frame(&recorder);
       progress.advance();
     }
+    not_exercised_.clear();
+    for (const std::string& pass : passes_) {
+      const judge::PassCoverage c = judge::summary(exercised[pass]);
+      if (c.alternatives == 0) continue;
+      writer.add_coverage(pass, c.taken, c.alternatives, c.never);
+      if (!c.never.empty()) not_exercised_ += fmt::format("{} {}\n", pass, reports::coverage_text(c, reports::shown_alternatives));
+    }
     return writer.finish();
   }
+  /// Of the pack written last: which alternatives of its passes no case takes, a line for each pass.
+  const std::string& not_exercised() const { return not_exercised_; }
   /// Looks on for frames in which these passes do more than nothing; takes those out that have one. False where there is none.
   bool add_frames(std::map<std::string, judge::NullPorts>& idle) const {
     const int end = static_cast<int>(config_.integer("run.frames"));
@@ -170,6 +186,7 @@ class Packing {
   const capture::EffectInfo& info_;
   std::vector<std::string> passes_;
   Frames& frames_;
+  std::string not_exercised_;
 };
 
 }  // namespace
@@ -187,13 +204,14 @@ int pack(const PackOptions& options) {
   Frames frames(std::move(first), options.frames, passes);
   std::erase_if(passes, [&](const std::string& pass) { return !frames.has(pass); });
   if (passes.empty()) throw Error(ExitCode::usage, "--passes: expected one that runs in this scene, found none");
-  const Packing packing(config, options, executor, passes, frames);
+  Packing packing(config, options, executor, passes, frames);
   capture::PackWriter::Total total = packing.write();
   std::map<std::string, judge::NullPorts> idle = idle_passes(options.output);
   if (!idle.empty() && options.may_add_frames && packing.add_frames(idle)) total = packing.write();
   for (const auto& [pass, ports] : idle)
     say("warning: this pack says nothing of {}: a port that does nothing passes ({}); take other frames, or a scene with more in it\n",
         pass, ports.passing());
+  say("{}", packing.not_exercised());
   say("{} of {} in {}, {}, in {}\n", counted(total.cases, "case"), fmt::join(passes, " "), counted(total.files, "file"),
       memory_text(total.bytes), options.output.string());
   return 0;

@@ -3,10 +3,10 @@
 
 #include "compositor/surface.h"
 #include "image/texture.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 
 namespace rainref::compositor::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
@@ -16,7 +16,7 @@ using namespace rainref::plain;
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-using Number = Plain<double>;
+using Number = Scalar<double>;
 inline Vec3<Number> number(const Vec& a) { return {Number(a.x), Number(a.y), Number(a.z)}; }
 inline Vec vec(const Vec3<Number>& a) { return {a.x.v, a.y.v, a.z.v}; }
 

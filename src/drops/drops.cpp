@@ -24,7 +24,7 @@ std::size_t stride_bytes(std::int64_t capacity) {
 
 }  // namespace
 
-Ledger& Ledger::operator+=(const Ledger& other) {
+MassBalance& MassBalance::operator+=(const MassBalance& other) {
   spawned += other.spawned;
   evaporated += other.evaporated;
   removed += other.removed;

@@ -15,15 +15,15 @@ namespace rainref::drops {
 /// Slots of one chunk of work: fixed, so that results and sums do not depend on the number of threads.
 constexpr std::int64_t chunk_slots = 16384;
 
-/// What became of the water, in whole quanta. as-published counts drops instead.
+/// What became of the water, in whole mass units. as-published counts drops instead.
 /// spawned - evaporated - removed - film = what the live drops hold, exactly.
-struct Ledger {
+struct MassBalance {
   std::int64_t spawned = 0;     ///< arrived, whether or not a slot was free
   std::int64_t evaporated = 0;  ///< from drops and film
   std::int64_t removed = 0;     ///< ran off the glass, ended with its drop, or found no room
   std::int64_t to_film = 0;     ///< from drops to film, less what came back or dried
-  Ledger& operator+=(const Ledger& other);
-  bool operator==(const Ledger&) const = default;
+  MassBalance& operator+=(const MassBalance& other);
+  bool operator==(const MassBalance&) const = default;
 };
 
 /// Slot i lives where life()[i] > 0. The spans cover the slots up to extent(); a kernel may read, and write back
@@ -69,7 +69,7 @@ class DropArrays {
 
   std::int64_t live() const;
   std::int64_t free_slots() const { return capacity_ - live(); }
-  /// Quanta that the live drops hold.
+  /// Mass units that the live drops hold.
   std::int64_t water() const;
   /// The records of the live drops, in slot order.
   void gather(std::vector<Drop>& out, const parallel::Executor& executor) const;

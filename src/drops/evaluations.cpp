@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "drops/plain.h"
+#include "drops/scalar.h"
 #include "drops/passes.h"
 #include "rainref/error.h"
 

@@ -48,7 +48,7 @@ class DropByDrop : public capture::KeyedModel {
     out.push_back(enclosed_record(pass_.template operator()<enclosed::Rearranged>(d), d.id));
     return true;
   }
-  std::optional<std::vector<std::byte>> reference() const override { return list<plain::Plain<float>>(); }
+  std::optional<std::vector<std::byte>> reference() const override { return list<scalar::Scalar<float>>(); }
   std::optional<std::vector<std::byte>> perturbed() const override { return list<perturbed::Perturbed>(); }
 
  private:

@@ -1,7 +1,7 @@
 // merge bound to captured cases.
 //
 // Drops that may touch, directly or through others, are one group: who merges with whom is decided within it, and each
-// pair whose touching is open gives two alternatives. What trails leave on the film is whole quanta, rounded down: with
+// pair whose touching is open gives two alternatives. What trails leave on the film is whole mass units, rounded down: with
 // thousands of them that is open for most drops, so it is no alternative but an interval of the drop's mass, and of the
 // texel's water. That both agree is not judged.
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
-#include "drops/plain.h"
+#include "drops/scalar.h"
 #include "drops/evaluations.h"
 #include "drops/uniforms.h"
 #include "math/whole.h"
@@ -25,7 +25,7 @@ using capture::KeyedRecord;
 using capture::PassCase;
 using enclosed::Enclosure;
 using perturbed::Perturbed;
-using Number = plain::Plain<float>;
+using Number = scalar::Scalar<float>;
 using State = scalar::DropState<Enclosure>;
 
 template <class N>
@@ -37,12 +37,12 @@ double mass_of(const State& d) { return d.mass.lo; }
 bool is_larger(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass > b.mass : a.id < b.id; }
 
 /// Whole numbers between which a whole number lies.
-struct Quanta {
+struct MassRange {
   std::int64_t least = 0, most = 0;
 };
 struct Deposit {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels where it may fall, the last ones included
-  Quanta quanta;
+  MassRange mass_units;
 };
 
 class Merging {
@@ -86,7 +86,7 @@ class Merging {
       std::size_t root = to[i];
       while (to[root] != none) root = to[root];
       Member<N>&into = all[root], &from = all[i];
-      if (mass_of(into.state) + static_cast<double>(from.drop->mass) > most_quanta) continue;
+      if (mass_of(into.state) + static_cast<double>(from.drop->mass) > most_mass) continue;
       into.state = scalar::absorb(into.state, from.state);
       from.lives = false;
     }
@@ -101,7 +101,7 @@ class Merging {
   Deposit take_trail(State& d) const {
     const scalar::Trail<Enclosure> t = scalar::tail(u_, d);
     Deposit out;
-    if (t.quanta.is_vacuous() || t.u.is_vacuous() || t.v.is_vacuous()) {
+    if (t.mass_units.is_vacuous() || t.u.is_vacuous() || t.v.is_vacuous()) {
       enclosed::give_up();
       return out;
     }
@@ -110,8 +110,8 @@ class Merging {
       const double most = static_cast<double>(d.mass.lo) - 1;
       return most > 0 ? static_cast<std::int64_t>(std::min(most, below)) : 0;
     };
-    out.quanta = {whole(t.quanta.lo), whole(t.quanta.hi)};
-    if (out.quanta.most == 0) return out;
+    out.mass_units = {whole(t.mass_units.lo), whole(t.mass_units.hi)};
+    if (out.mass_units.most == 0) return out;
     const auto texels = [](Enclosure x, int size, int& from, int& last) {
       x = x * Enclosure(static_cast<float>(size));
       from = whole_within(x.lo, 0, size - 1);
@@ -119,7 +119,7 @@ class Merging {
     };
     texels(t.u, u_.film[0], out.x0, out.x1);
     texels(t.v, u_.film[1], out.y0, out.y1);
-    d.mass = Enclosure(d.mass.lo - static_cast<float>(out.quanta.most), d.mass.lo - static_cast<float>(out.quanta.least));
+    d.mass = Enclosure(d.mass.lo - static_cast<float>(out.mass_units.most), d.mass.lo - static_cast<float>(out.mass_units.least));
     return out;
   }
 
@@ -245,7 +245,8 @@ class MergedDrops : public capture::KeyedModel {
       for (const Merging::Member<N>& one : m_.merged<N>(group)) {
         if (!one.lives) continue;
         const scalar::DropState<N>& s = one.state;
-        out.push_back(stored(ListedDrop<N>{s.u, s.v, s.velocity_u, s.velocity_v, s.mass - m_.trail(s).quanta, s.life, true}, one.drop->id));
+        out.push_back(
+            stored(ListedDrop<N>{s.u, s.v, s.velocity_u, s.velocity_v, s.mass - m_.trail(s).mass_units, s.life, true}, one.drop->id));
       }
     }
     return bytes_of(out);
@@ -258,19 +259,19 @@ class MergeModel : public capture::PassModel {
   MergeModel(const MergeUniforms& u, std::vector<Drop> drops, std::vector<float> film)
       : PassModel(u.film[0], u.film[1], 1), merging_(u, std::move(drops), std::move(film)), drops_(merging_) {}
   void evaluate(int x, int y, Number* out) const override { value(x, y, out); }
-  void evaluate(int x, int y, plain::Plain<double>* out) const override { value(x, y, out); }
+  void evaluate(int x, int y, scalar::Scalar<double>* out) const override { value(x, y, out); }
   void evaluate(int x, int y, Perturbed* out) const override { value(x, y, out); }
   void enclose(int x, int y, const float*, Enclosure* out) const override {
     const int texel = y * width() + x;
-    Quanta sum;
+    MassRange sum;
     for (const int group : merging_.groups_over(texel)) {
-      const Quanta more = left_by(group, x, y);
+      const MassRange more = left_by(group, x, y);
       sum.least += more.least;
       sum.most += more.most;
     }
     const Enclosure dry = scalar::dried(merging_.uniforms(), Enclosure::load(&merging_.film(texel)));
     const auto with = [](float before, std::int64_t added) {
-      return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_quanta)));
+      return static_cast<float>(std::min(before + static_cast<double>(added), static_cast<double>(most_mass)));
     };
     out[0] = Enclosure(with(dry.lo, sum.least), with(dry.hi, sum.most));
   }
@@ -278,22 +279,22 @@ class MergeModel : public capture::PassModel {
 
  private:
   /// Under every alternative of the group.
-  Quanta left_by(int group, int x, int y) const {
-    std::vector<Quanta> all;
+  MassRange left_by(int group, int x, int y) const {
+    std::vector<MassRange> all;
     enclosed::PathEnumeration paths;
     const bool whole = paths.for_each_alternative([&] {
-      Quanta& sum = all.emplace_back();
+      MassRange& sum = all.emplace_back();
       for (Merging::Member<Enclosure>& one : merging_.merged<Enclosure>(group)) {
         if (!one.lives) continue;
         const Deposit d = merging_.take_trail(one.state);
         if (x < d.x0 || x > d.x1 || y < d.y0 || y > d.y1) continue;
-        if (d.x0 == d.x1 && d.y0 == d.y1) sum.least += d.quanta.least;
-        sum.most += d.quanta.most;
+        if (d.x0 == d.x1 && d.y0 == d.y1) sum.least += d.mass_units.least;
+        sum.most += d.mass_units.most;
       }
     });
     if (!whole) enclosed::give_up();
-    Quanta out = all.front();
-    for (const Quanta& q : all) out = {std::min(out.least, q.least), std::max(out.most, q.most)};
+    MassRange out = all.front();
+    for (const MassRange& q : all) out = {std::min(out.least, q.least), std::max(out.most, q.most)};
     return out;
   }
   template <class N>
@@ -308,10 +309,10 @@ class MergeModel : public capture::PassModel {
       for (const Merging::Member<N>& one : merging_.merged<N>(group)) {
         if (!one.lives) continue;
         const scalar::Trail<N> t = merging_.trail(one.state);
-        if (t.quanta.v > 0 && falls_here(t.u, u.film[0], x) && falls_here(t.v, u.film[1], y)) sum += t.quanta.v;
+        if (t.mass_units.v > 0 && falls_here(t.u, u.film[0], x) && falls_here(t.v, u.film[1], y)) sum += t.mass_units.v;
       }
     }
-    const auto water = static_cast<float>(std::min(sum, static_cast<double>(most_quanta)));
+    const auto water = static_cast<float>(std::min(sum, static_cast<double>(most_mass)));
     out[0] = N::load(&water);
   }
 

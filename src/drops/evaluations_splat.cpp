@@ -6,7 +6,7 @@
 #include "drops/framed.h"
 #include "drops/half_sum.h"
 #include "drops/evaluations.h"
-#include "drops/splat_plain.h"
+#include "drops/splat_scalar.h"
 #include "rainref/error.h"
 
 namespace rainref::drops {
@@ -18,7 +18,7 @@ struct Splat {
   bool corrected;
   Rounding rounding;
   std::vector<Drop> drops;
-  std::vector<scalar::Stamp<plain::Plain<float>>> stamps;  // of each drop
+  std::vector<scalar::Stamp<scalar::Scalar<float>>> stamps;  // of each drop
   Framed film;
 
   bool rounds_each() const { return static_cast<SplatBlend>(uniforms.blend) == SplatBlend::add_in_half; }
@@ -80,7 +80,7 @@ std::unique_ptr<capture::PassModel> bind_splat(const capture::PassCase& c) {
   // As many as the uniform says, but no more than there are.
   const auto most = static_cast<std::int32_t>(m.drops.size());
   if (m.uniforms.drop_count < 0 || m.uniforms.drop_count > most) m.uniforms.drop_count = most;
-  for (const Drop& d : m.drops) m.stamps.push_back(m.stamp<plain::Plain<float>>(d));
+  for (const Drop& d : m.drops) m.stamps.push_back(m.stamp<scalar::Scalar<float>>(d));
   if (m.corrected) m.film = Framed(sized_input(c, "film"));
   return std::make_unique<SplatModel>(std::move(m));
 }

@@ -5,15 +5,15 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/half.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 
 namespace rainref::drops {
 
 /// The value of the half that a number is stored as. `own`: how the reference rounds.
 template <class T>
-plain::Plain<T> half_of(plain::Plain<T> x, Rounding own) {
-  return plain::Plain<T>(to_float(to_half(static_cast<float>(x.v), own)));
+scalar::Scalar<T> half_of(scalar::Scalar<T> x, Rounding own) {
+  return scalar::Scalar<T>(to_float(to_half(static_cast<float>(x.v), own)));
 }
 /// By the profile's rule of stores.
 inline enclosed::Enclosure half_of(enclosed::Enclosure x, Rounding own) {

@@ -17,7 +17,7 @@ constexpr int classes = 1024;  // the upper ten bits of a word
 constexpr int cells = 2000;    // of the integral over diameters: the table's corners bound its error to 1e-5
 
 double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
-double volume_of_quantum() { return quantum / water_density; }
+double volume_of_mass_unit() { return mass_unit / water_density; }
 Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.receding_deg * pi / 180}; }
 
 std::vector<SizeCell> sizes_in_air(const Settings& s) {
@@ -36,10 +36,10 @@ double arrivals_of(const SizeCell& c, double normal_z, double normal_wind) {
   return c.number * std::max(0.0, c.fall * normal_z - normal_wind);
 }
 double water_mass(double diameter_mm) { return water_density * pi / 6 * diameter_mm * diameter_mm * diameter_mm * 1e-9; }
-float quanta_of(double diameter_mm) {
+float mass_units_of(double diameter_mm) {
   // Whole, at least 1, and a float has them all.
-  const double quanta = static_cast<double>(static_cast<std::int64_t>(water_mass(diameter_mm) / quantum + 0.5));
-  return static_cast<float>(std::clamp(quanta, 1.0, static_cast<double>(most_quanta)));
+  const double mass_units = static_cast<double>(static_cast<std::int64_t>(water_mass(diameter_mm) / mass_unit + 0.5));
+  return static_cast<float>(std::clamp(mass_units, 1.0, static_cast<double>(most_mass)));
 }
 /// Events of a rate in step n. Exact whenever rate * n is, because division is correctly rounded.
 std::int64_t events_in(double rate, std::int64_t n, double steps_per_second) {
@@ -53,7 +53,7 @@ void put(const PlaneFrame& from, float (&to)[3]) {
 
 }  // namespace
 
-double radius_of_quantum(const Settings& s) { return cap_radius_over_root(wetting(s).mean()) * power(volume_of_quantum(), 1.0 / 3); }
+double radius_of_mass_unit(const Settings& s) { return cap_radius_over_root(wetting(s).mean()) * power(volume_of_mass_unit(), 1.0 / 3); }
 
 IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame, double dt) {
   IntegrateUniforms u{};
@@ -65,12 +65,12 @@ IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame,
     return u;
   }
   put(frame, u.frame);
-  // Each constant is that of a drop of one quantum: the cube root of its mass is 1.
-  const double volume = volume_of_quantum(), angle = wetting(s).mean();
+  // Each constant is that of a drop of one mass unit: the cube root of its mass is 1.
+  const double volume = volume_of_mass_unit(), angle = wetting(s).mean();
   u.drag = static_cast<float>(sliding_drag(volume, s.mobility));
   u.wind_push = static_cast<float>(wind_acceleration(volume, angle, s.wind_drag, s.wind_exposure));
   u.hold = static_cast<float>(held_acceleration(volume, wetting(s)));
-  u.evaporation = static_cast<float>(evaporation_rate(radius_of_quantum(s), angle, s.humidity) / quantum);
+  u.evaporation = static_cast<float>(evaporation_rate(radius_of_mass_unit(s), angle, s.humidity) / mass_unit);
   u.margin = static_cast<float>(s.margin);
   u.rest_speed = static_cast<float>(rest_speed);
   u.phase_rate = static_cast<float>(64 * golden_section / dt);
@@ -80,8 +80,8 @@ IntegrateUniforms integrate_uniforms(const Settings& s, const PlaneFrame& frame,
 MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double dt, int columns, int rows, std::int64_t drying) {
   MergeUniforms u{};
   put(frame, u.frame);
-  u.radius = static_cast<float>(radius_of_quantum(s));
-  u.trail = static_cast<float>(2 * s.trail_thickness * water_density / quantum);
+  u.radius = static_cast<float>(radius_of_mass_unit(s));
+  u.trail = static_cast<float>(2 * s.trail_thickness * water_density / mass_unit);
   u.dt = static_cast<float>(dt);
   u.film[0] = columns;
   u.film[1] = rows;
@@ -90,8 +90,8 @@ MergeUniforms merge_uniforms(const Settings& s, const PlaneFrame& frame, double 
 }
 
 std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, double steps_per_second) {
-  return std::min(events_in(s.film_drying * texel_area * water_density / quantum, n, steps_per_second),
-                  static_cast<std::int64_t>(most_quanta));
+  return std::min(events_in(s.film_drying * texel_area * water_density / mass_unit, n, steps_per_second),
+                  static_cast<std::int64_t>(most_mass));
 }
 
 Flux flux(const Settings& s, double normal_z, double normal_wind) {
@@ -129,7 +129,7 @@ void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
       sum += arrivals;
       const auto next = [&] { return total * ((static_cast<double>(plan_.masses.size()) + 0.5) / classes); };
       while (arrivals > 0 && static_cast<int>(plan_.masses.size()) < classes && sum >= next())
-        plan_.masses.push_back({quanta_of(c.diameter)});
+        plan_.masses.push_back({mass_units_of(c.diameter)});
     }
     // Where no drop arrives, the table is still one.
     while (static_cast<int>(plan_.masses.size()) < classes)

@@ -18,10 +18,10 @@ using PlaneFrame = std::array<double, 3>;
 IntegrateUniforms integrate_uniforms(const Settings& settings, const PlaneFrame& frame, double dt);
 /// columns, rows: of the film; drying: film_loss of the step.
 MergeUniforms merge_uniforms(const Settings& settings, const PlaneFrame& frame, double dt, int columns, int rows, std::int64_t drying);
-/// Base radius over the cube root of the mass in quanta [m], from the mean contact angle.
-double radius_of_quantum(const Settings& settings);
-/// Quanta that a texel of the film, of this area [m^2], loses in step n of so many a second: whole, right in the
-/// long run, and at most most_quanta.
+/// Base radius over the cube root of the mass in mass units [m], from the mean contact angle.
+double radius_of_mass_unit(const Settings& settings);
+/// Mass units that a texel of the film, of this area [m^2], loses in step n of so many a second: whole, right in the
+/// long run, and at most most_mass.
 std::int64_t film_loss(const Settings& settings, double texel_area, std::int64_t n, double steps_per_second);
 
 /// How the glass meets the rain, in the axes of the car.

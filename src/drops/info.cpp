@@ -38,7 +38,7 @@ UniformBlock integrate_block() {
        member<&IntegrateUniforms::wind_push>("wind_push", "1/m", {0, 1e9},
                                              "corrected: acceleration over wind speed squared, times mass^(1/3)."),
        member<&IntegrateUniforms::hold>("hold", "m/s^2", {0, 1e9}, "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
-       member<&IntegrateUniforms::evaporation>("evaporation", "1/s", {0, 1e9}, "corrected: quanta lost in a second over mass^(1/3)."),
+       member<&IntegrateUniforms::evaporation>("evaporation", "1/s", {0, 1e9}, "corrected: mass units lost in a second over mass^(1/3)."),
        member<&IntegrateUniforms::margin>("margin", "1", share, "corrected: how far outside the glass a drop lives."),
        member<&IntegrateUniforms::rest_speed>("rest_speed", "m/s", share, "corrected: a held drop below this speed rests."),
        member<&IntegrateUniforms::phase_rate>("phase_rate", "1", {0, 1e7}, "corrected: turns in 64 s of the phase that rounds losses.")});
@@ -48,10 +48,10 @@ UniformBlock merge_block() {
       "MergeUniforms",
       {member<&MergeUniforms::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
        member<&MergeUniforms::radius>("radius", "m", share, "Base radius over mass^(1/3)."),
-       member<&MergeUniforms::trail>("trail", "1/m^2", {0, 1e12}, "Quanta left over base radius and way."),
+       member<&MergeUniforms::trail>("trail", "1/m^2", {0, 1e12}, "MassRange left over base radius and way."),
        member<&MergeUniforms::dt>("dt", "s", {0, 1}, "The step."),
        member<&MergeUniforms::film>("film", "texel", {1, 65536}, "Columns and rows of the film."),
-       member<&MergeUniforms::drying>("drying", "1", {0, most_quanta}, "Quanta that each texel of the film loses in this step.")});
+       member<&MergeUniforms::drying>("drying", "1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});
 }
 
 }  // namespace
@@ -60,8 +60,8 @@ std::vector<UniformBlock> records() {
   return {
       record<Drop>("Drop", {member<&Drop::position>("position", "1", "Glass coordinates u, v."),
                             member<&Drop::velocity>("velocity", "1/s", "Change of the position."),
-                            member<&Drop::mass>("mass", "1",
-                                                "as-published: 1 is an ordinary drop; corrected: whole quanta of 2e-11 kg, at most 2^24."),
+                            member<&Drop::mass>(
+                                "mass", "1", "as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24."),
                             member<&Drop::life>("life", "s", "What remains; not above 0: no drop."),
                             member<&Drop::id>("id", "1", "Its own for ever, ascending in the order of birth.")}),
       record<GlassFrame>("GlassFrame",
@@ -80,7 +80,7 @@ std::vector<UniformBlock> records() {
 std::vector<BufferInfo> buffers() {
   return {
       {"drops", "records", "The live drops, in slot order.", "1", {-100, 100}, "none", "none", "none", "", "Drop", published},
-      {"drops", "records", "The live drops, in slot order.", "1", {0, most_quanta}, "none", "none", "none", "", "Drop", correct},
+      {"drops", "records", "The live drops, in slot order.", "1", {0, most_mass}, "none", "none", "none", "", "Drop", correct},
       {"glass_frame", "records", "What moves drops, in glass coordinates.", "1", {-1000, 1000}, "none", "none", "none", "", "GlassFrame"},
       {"count_thresholds",
        "records",
@@ -97,7 +97,7 @@ std::vector<BufferInfo> buffers() {
        "records",
        "Masses of the 1024 size classes of arrivals, lightest first.",
        "1",
-       {0, most_quanta},
+       {0, most_mass},
        "none",
        "none",
        "none",
@@ -105,9 +105,9 @@ std::vector<BufferInfo> buffers() {
        "SpawnMass"},
       {"film",
        "r32f",
-       "Water on the glass that is no drop: whole quanta of 2e-11 kg in a texel.",
+       "Water on the glass that is no drop: whole mass units of 2e-11 kg in a texel.",
        "1",
-       {0, most_quanta},
+       {0, most_mass},
        "none",
        "none",
        "none",

@@ -6,30 +6,30 @@ namespace {
 
 /// The sum over fixed chunks of what body(begin, end) reports. Whole numbers, so the order is free.
 template <class Body>
-Ledger over_chunks(const parallel::Executor& executor, std::int64_t extent, Body body) {
-  std::vector<Ledger> of_chunk(static_cast<std::size_t>((extent + chunk_slots - 1) / chunk_slots));
+MassBalance over_chunks(const parallel::Executor& executor, std::int64_t extent, Body body) {
+  std::vector<MassBalance> of_chunk(static_cast<std::size_t>((extent + chunk_slots - 1) / chunk_slots));
   executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
     of_chunk[static_cast<std::size_t>(begin / chunk_slots)] = body(begin, end);
   });
-  Ledger sum;
-  for (const Ledger& l : of_chunk) sum += l;
+  MassBalance sum;
+  for (const MassBalance& l : of_chunk) sum += l;
   return sum;
 }
 
 }  // namespace
 
-Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
-                              const GlassFrame& glass) {
+MassBalance integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                                   const GlassFrame& glass) {
   const Slots slots(drops);
   return over_chunks(executor, drops.extent(), [&](std::int64_t begin, std::int64_t end) {
-    Ledger ledger;
-    ledger.removed = integrate_range_as_published(uniforms, glass, slots, begin, end);
-    return ledger;
+    MassBalance balance;
+    balance.removed = integrate_range_as_published(uniforms, glass, slots, begin, end);
+    return balance;
   });
 }
 
-Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
-                           const GlassFrame& glass) {
+MassBalance integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                                const GlassFrame& glass) {
   const Slots slots(drops);
   return over_chunks(executor, drops.extent(),
                      [&](std::int64_t begin, std::int64_t end) { return integrate_range_corrected(uniforms, glass, slots, begin, end); });

@@ -38,7 +38,7 @@ RAINREF_FN DropState<N> integrate_as_published(const IntegrateUniforms& c, const
 template <class N>
 struct Integrated {
   DropState<N> drop;
-  N evaporated, removed;  ///< [quanta]
+  N evaporated, removed;  ///< [mass units]
   RAINREF_FN Integrated() {}
 };
 /// The length [m] of a vector in glass coordinates.
@@ -92,8 +92,8 @@ RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const G
   // A held drop would slow down for ever.
   const auto rests = (share <= zero) & (length_on_glass(c.frame, velocity_u, velocity_v) < N(c.rest_speed));
 
-  // Whole quanta leave. A phase that runs evenly through [0, 1) rounds the loss down or up, so that it is right in the mean;
-  // a phase of the water lost so far would run ahead, because each quantum lost changes the rate.
+  // Whole mass units leave. A phase that runs evenly through [0, 1) rounds the loss down or up, so that it is right in the mean;
+  // a phase of the water lost so far would run ahead, because each mass unit lost changes the rate.
   const N life = d.life - dt;
   const N loss = N(c.evaporation) * mass_3 * dt, phase = fract(fract(d.life * N(1.0f / 64)) * N(c.phase_rate));
   const N mass = max(d.mass - floor(loss + phase), zero);

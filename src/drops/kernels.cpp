@@ -59,9 +59,9 @@ std::int64_t IntegrateAsPublished(const IntegrateUniforms& uniforms, const Glass
   return ended;
 }
 
-Ledger IntegrateCorrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin,
-                          std::int64_t end) {
-  Ledger ledger;
+MassBalance IntegrateCorrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin,
+                               std::int64_t end) {
+  MassBalance balance;
   for (std::int64_t i = begin; i < end; i += Lanes::size()) {
     const int count = lanes_left(i, end);
     const DropState<Lanes> before = load_drops(s, i);
@@ -69,10 +69,10 @@ Ledger IntegrateCorrected(const IntegrateUniforms& uniforms, const GlassFrame& g
     const Integrated<Lanes> after = integrate_corrected(uniforms, glass, before);
     store_motion(s, i, after.drop, count);
     store(s.mass + i, after.drop.mass, Rounding::rne, count);
-    ledger.evaporated += whole_sum(after.evaporated, count);
-    ledger.removed += whole_sum(after.removed, count);
+    balance.evaporated += whole_sum(after.evaporated, count);
+    balance.removed += whole_sum(after.removed, count);
   }
-  return ledger;
+  return balance;
 }
 
 void Measure(const MergeUniforms& uniforms, const Slots& s, std::int64_t begin, std::int64_t end, float* x, float* y, float* radius) {
@@ -125,15 +125,15 @@ void Trails(const MergeUniforms& uniforms, const Slots& s, std::int64_t begin, s
     const int count = lanes_left(i, end);
     const DropState<Lanes> d = load_drops(s, i);
     const Trail<Lanes> t = trail(uniforms, d);
-    const auto some = t.quanta > zero;
+    const auto some = t.mass_units > zero;
     if (!any(some)) continue;
-    store(s.mass + i, d.mass - t.quanta, Rounding::rne, count);
+    store(s.mass + i, d.mass - t.mass_units, Rounding::rne, count);
     const Lanes u = select(some, t.u, zero), v = select(some, t.v, zero);
     HWY_ALIGN float column[HWY_MAX_BYTES / sizeof(float)], row[HWY_MAX_BYTES / sizeof(float)];
     hn::Store(to_number(clamp_index(to_int(u * to_number(columns)), columns)).v, Lanes::D(), column);
     hn::Store(to_number(clamp_index(to_int(v * to_number(rows)), rows)).v, Lanes::D(), row);
-    for_lanes(t.quanta, count, [&](int k, float quanta) {
-      if (quanta > 0) deposits.push_back({static_cast<std::int32_t>(column[k]), static_cast<std::int32_t>(row[k]), quanta});
+    for_lanes(t.mass_units, count, [&](int k, float mass_units) {
+      if (mass_units > 0) deposits.push_back({static_cast<std::int32_t>(column[k]), static_cast<std::int32_t>(row[k]), mass_units});
     });
   }
 }
@@ -166,8 +166,8 @@ std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, con
                                           std::int64_t begin, std::int64_t end) {
   return RAINREF_DISPATCH(IntegrateAsPublished)(uniforms, glass, slots, begin, end);
 }
-Ledger integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
-                                 std::int64_t end) {
+MassBalance integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
+                                      std::int64_t end) {
   return RAINREF_DISPATCH(IntegrateCorrected)(uniforms, glass, slots, begin, end);
 }
 void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,

@@ -26,8 +26,8 @@ struct Slots {
 /// Returns how many lives ended.
 std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots,
                                           std::int64_t begin, std::int64_t end);
-Ledger integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
-                                 std::int64_t end);
+MassBalance integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
+                                      std::int64_t end);
 
 /// Plane coordinates and base radius [m] of slots, free ones too, into arrays with room for a whole vector beyond `end`.
 void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,
@@ -35,10 +35,10 @@ void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64
 /// For each of the sorted drops [begin, end): the index of the drop that it points to, or -1.
 void find_larger_range(const MergeGrid& grid, std::int64_t begin, std::int64_t end, std::int32_t* larger);
 
-/// Whole quanta for one texel of the film.
+/// Whole mass units for one texel of the film.
 struct Deposit {
   std::int32_t column, row;
-  float quanta;
+  float mass_units;
 };
 /// Takes the trails from the drops and appends them, in slot order.
 void trail_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, std::vector<Deposit>& deposits);

@@ -5,12 +5,12 @@
 #include "drops/kernels.h"
 #include "drops/merge_grid.h"
 #include "drops/passes.h"
-#include "drops/plain.h"
+#include "drops/scalar.h"
 
 namespace rainref::drops {
 namespace {
 
-using F = plain::Plain<float>;
+using F = scalar::Scalar<float>;
 
 Drop drop_of(const scalar::DropState<F>& s, std::uint32_t id) {
   // + 0: stored zeros are positive.
@@ -58,7 +58,7 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
     for (; i < members.size() && members[i].root_id == first.root_id; ++i) {
       const std::int64_t slot = members[i].slot;
       const Drop d = drops.get(slot);
-      if (d.mass > most_quanta - sum.mass.v) continue;  // exact, where the sum is not
+      if (d.mass > most_mass - sum.mass.v) continue;  // exact, where the sum is not
       sum = scalar::absorb(sum, state_of<F>(d));
       drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
       ++ended;
@@ -68,44 +68,44 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   return ended;
 }
 
-Ledger leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
+MassBalance leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
   const Slots slots(drops);
   std::vector<std::vector<Deposit>> of_chunk(static_cast<std::size_t>((drops.extent() + chunk_slots - 1) / chunk_slots));
   executor.for_range(drops.extent(), chunk_slots, [&](std::int64_t begin, std::int64_t end) {
     trail_range(uniforms, slots, begin, end, of_chunk[static_cast<std::size_t>(begin / chunk_slots)]);
   });
-  Ledger ledger;
+  MassBalance balance;
   for (const auto& deposits : of_chunk) {
     for (const Deposit& d : deposits) {
       float& texel = film.row<float>(d.row)[d.column];
       // Both are at most 2^24, so room is exact, and so is what is put there: any order gives the same film.
-      const float put = std::min(d.quanta, most_quanta - texel);
+      const float put = std::min(d.mass_units, most_mass - texel);
       texel += put;
-      ledger.to_film += static_cast<std::int64_t>(put);
-      ledger.removed += static_cast<std::int64_t>(d.quanta - put);
+      balance.to_film += static_cast<std::int64_t>(put);
+      balance.removed += static_cast<std::int64_t>(d.mass_units - put);
     }
   }
-  return ledger;
+  return balance;
 }
 
-Ledger dry_film(const parallel::Executor& executor, const MergeUniforms& uniforms, Image& film) {
-  Ledger ledger;
-  if (!(uniforms.drying > 0)) return ledger;
+MassBalance dry_film(const parallel::Executor& executor, const MergeUniforms& uniforms, Image& film) {
+  MassBalance balance;
+  if (!(uniforms.drying > 0)) return balance;
   std::vector<std::int64_t> of_row(static_cast<std::size_t>(film.height()));
   executor.for_range(film.height(), 16, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t y = begin; y < end; ++y)
       of_row[static_cast<std::size_t>(y)] = dry_row(uniforms, film.row<float>(static_cast<int>(y)), film.width());
   });
-  for (const std::int64_t sum : of_row) ledger.evaporated += sum;
-  ledger.to_film = -ledger.evaporated;
-  return ledger;
+  for (const std::int64_t sum : of_row) balance.evaporated += sum;
+  balance.to_film = -balance.evaporated;
+  return balance;
 }
 
-Ledger Merger::run(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
+MassBalance Merger::run(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
   merge(executor, drops, uniforms);
-  Ledger ledger = dry_film(executor, uniforms, film);
-  ledger += leave_trails(executor, drops, uniforms, film);
-  return ledger;
+  MassBalance balance = dry_film(executor, uniforms, film);
+  balance += leave_trails(executor, drops, uniforms, film);
+  return balance;
 }
 
 std::int64_t film_water(const Image& film) {

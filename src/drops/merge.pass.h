@@ -44,10 +44,10 @@ RAINREF_FN N dried(const MergeUniforms& c, N film) {
 /// What a sliding drop leaves on the glass, and where: under its tail, one base radius behind the centre.
 template <class N>
 struct Trail {
-  N quanta, u, v;  ///< not yet whole where tail() gives them
+  N mass_units, u, v;  ///< not yet whole where tail() gives them
   RAINREF_FN Trail() {}
 };
-/// Before rounding down to whole quanta.
+/// Before rounding down to whole mass units.
 template <class N>
 RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
   const N zero(0.0f), one(1.0f), radius = base_radius(c, d.mass);
@@ -57,10 +57,10 @@ RAINREF_FN Trail<N> tail(const MergeUniforms& c, const DropState<N>& d) {
   out.u = d.u - d.velocity_u * back;
   out.v = d.v - d.velocity_v * back;
   const auto on_glass = (d.life > zero) & (out.u >= zero) & (out.u < one) & (out.v >= zero) & (out.v < one);
-  out.quanta = select(on_glass, (N(c.trail) * radius) * (speed * N(c.dt)), zero);
+  out.mass_units = select(on_glass, (N(c.trail) * radius) * (speed * N(c.dt)), zero);
   return out;
 }
-/// A drop keeps a quantum.
+/// A drop keeps a mass unit.
 template <class N>
 RAINREF_FN N whole_trail(N mass, N whole) {
   return max(min(mass - N(1.0f), whole), N(0.0f));
@@ -68,6 +68,6 @@ RAINREF_FN N whole_trail(N mass, N whole) {
 template <class N>
 RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {
   Trail<N> out = tail(c, d);
-  out.quanta = whole_trail(d.mass, floor(out.quanta));
+  out.mass_units = whole_trail(d.mass, floor(out.mass_units));
   return out;
 }

@@ -1,5 +1,5 @@
 // The passes that move drops, as an effect calls them. Results depend on neither threads nor SIMD target. Each function
-// that moves water between drops, film and outside says so in whole quanta (as-published: in drops).
+// that moves water between drops, film and outside says so in whole mass units (as-published: in drops).
 #pragma once
 
 #include <cstdint>
@@ -18,30 +18,30 @@ namespace rainref::drops {
 /// `all`. Throws Error(port_files) when the uniforms and tables cannot belong together.
 std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds, std::span<const SpawnMass> masses,
                               bool all = false);
-/// spawn: puts the arrivals into free slots, lowest first. corrected: Ledger in quanta; as-published: in drops.
-Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
-             std::span<const SpawnMass> masses, bool corrected);
+/// spawn: puts the arrivals into free slots, lowest first. corrected: MassBalance in mass units; as-published: in drops.
+MassBalance spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
+                  std::span<const SpawnMass> masses, bool corrected);
 
-/// integrate, as-published: live drops only. The Ledger counts the drops whose life ends, as removed.
-Ledger integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
-                              const GlassFrame& glass);
+/// integrate, as-published: live drops only. The MassBalance counts the drops whose life ends, as removed.
+MassBalance integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                                   const GlassFrame& glass);
 /// integrate, corrected.
-Ledger integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
-                           const GlassFrame& glass);
+MassBalance integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
+                                const GlassFrame& glass);
 
-/// merge, corrected: drops that touch become one, the film (r32f, whole quanta in a texel) dries, and sliding drops leave
+/// merge, corrected: drops that touch become one, the film (r32f, whole mass units in a texel) dries, and sliding drops leave
 /// trails on it. Keeps its working memory between calls.
 class Merger {
  public:
   Merger();
   ~Merger();
   /// The whole pass.
-  Ledger run(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
+  MassBalance run(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
 
   /// Its first part; water and momentum are kept. Returns how many drops ended in another one.
   /// Each drop points to the touching drop that is the largest of those larger than itself (by mass; of equal ones the
   /// lower id is the larger), and the drop at the end of the chain takes all that lead to it, in ascending id, as long as
-  /// it holds no more than most_quanta. The result depends on the ids alone, not on slots.
+  /// it holds no more than most_mass. The result depends on the ids alone, not on slots.
   std::int64_t merge(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms);
 
  private:
@@ -49,10 +49,10 @@ class Merger {
   std::unique_ptr<Scratch> scratch_;
 };
 /// Its second part: every texel of the film loses uniforms.drying.
-Ledger dry_film(const parallel::Executor& executor, const MergeUniforms& uniforms, Image& film);
-/// Its third part. What a texel cannot hold beyond most_quanta is removed.
-Ledger leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
-/// Quanta that the film holds.
+MassBalance dry_film(const parallel::Executor& executor, const MergeUniforms& uniforms, Image& film);
+/// Its third part. What a texel cannot hold beyond most_mass is removed.
+MassBalance leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film);
+/// Mass units that the film holds.
 std::int64_t film_water(const Image& film);
 
 }  // namespace rainref::drops

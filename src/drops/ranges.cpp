@@ -5,7 +5,7 @@ namespace rainref::drops {
 const std::vector<capture::FieldRange>& drop_ranges(bool corrected) {
   // The glass; one that is crossed in a second; twice the mass of an ordinary drop; its life.
   static const std::vector<capture::FieldRange> published{{"position", 0, 1}, {"velocity", -1, 1}, {"mass", 0, 2}, {"life", 0, 6}};
-  // 2^16 quanta are 1.3 mg, a drop of 1.4 mm.
+  // 2^16 mass units are 1.3 mg, a drop of 1.4 mm.
   static const std::vector<capture::FieldRange> correct{{"position", 0, 1}, {"velocity", -1, 1}, {"mass", 0, 0x1p16}, {"life", 0, 600}};
   return corrected ? correct : published;
 }

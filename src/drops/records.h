@@ -10,15 +10,15 @@ namespace rainref::drops {
 struct Drop {
   float position[2];
   float velocity[2];  ///< [1/s]
-  float mass;         ///< as-published: 1 is an ordinary drop; corrected: a whole number of quanta, at most 2^24
+  float mass;         ///< as-published: 1 is an ordinary drop; corrected: a whole number of mass units, at most 2^24
   float life;         ///< what remains [s]
   std::uint32_t id;   ///< its own for ever, ascending in the order of birth
   float padding0;
 };
-/// Water of one quantum [kg].
-constexpr double quantum = 2e-11;
-/// Quanta that one drop, or one texel of film, holds at most: up to here floats count without gaps.
-constexpr float most_quanta = 0x1p24f;
+/// The mass unit: water [kg].
+constexpr double mass_unit = 2e-11;
+/// Mass units that one drop, or one texel of film, holds at most: up to here floats count without gaps.
+constexpr float most_mass = 0x1p24f;
 
 /// The mass of one size class of arriving drops, as Drop::mass.
 struct SpawnMass {

@@ -40,17 +40,17 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   return out;
 }
 
-Ledger spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
-             std::span<const SpawnMass> masses, bool corrected) {
+MassBalance spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
+                  std::span<const SpawnMass> masses, bool corrected) {
   const std::vector<Drop> arrivals = arrivals_of(uniforms, thresholds, masses, true);
   const std::size_t placed = drops.place(arrivals);
-  Ledger ledger;
+  MassBalance balance;
   for (std::size_t i = 0; i < arrivals.size(); ++i) {
     const std::int64_t water = corrected ? static_cast<std::int64_t>(arrivals[i].mass) : 1;
-    ledger.spawned += water;
-    if (i >= placed) ledger.removed += water;
+    balance.spawned += water;
+    if (i >= placed) balance.removed += water;
   }
-  return ledger;
+  return balance;
 }
 
 }  // namespace rainref::drops

@@ -67,7 +67,7 @@ SplatKeys splat_keys(const scene::Config& config, const std::string& prefix, std
 double cap_radius(double contact_angle) {
   // V = pi a^3 (2 + c) (1 - c)^2 / (3 sin^3), c the cosine of the contact angle.
   const double c = cos_real(Real64(contact_angle)).v, s = sin_real(Real64(contact_angle)).v;
-  const double cube = quantum / water_density * 3 * s * s * s / (pi * (2 + c) * (1 - c) * (1 - c));
+  const double cube = mass_unit / water_density * 3 * s * s * s / (pi * (2 + c) * (1 - c) * (1 - c));
   return pow_real(Real64(cube), Real64(1.0 / 3)).v;
 }
 
@@ -100,7 +100,7 @@ SplatUniforms splat_uniforms(const SplatSettings& s) {
   u.blend = static_cast<std::int32_t>(rounds_each ? SplatBlend::add_in_half : k.blend);
   double smallest = 0;
   if (s.corrected) {
-    const double radius = cap_radius(s.contact_angle), volume = quantum / water_density;
+    const double radius = cap_radius(s.contact_angle), volume = mass_unit / water_density;
     u.radius_scale = static_cast<float>(radius);
     u.height_scale = static_cast<float>(1e3 * volume / (kernel_volume(k.kernel) * radius * radius));
     u.film_scale = static_cast<float>(1e3 * volume / (column * row));
@@ -149,7 +149,7 @@ capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const
        member<&SplatUniforms::blend>("blend", "1", {0, 2},
                                      "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
        member<&SplatUniforms::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
-       member<&SplatUniforms::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a quantum in a texel.")});
+       member<&SplatUniforms::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel.")});
   return {"splat",
           "The height of the water: every live drop, in slot order; corrected: on the film.",
           {{published, 1, capture::Judge::envelope, "SplatUniforms"}, {correct, 1, capture::Judge::envelope, "SplatUniforms"}},

@@ -40,7 +40,7 @@ struct SplatSettings {
   double contact_angle = 0.6;  ///< corrected: of the drops' caps, in (0, pi) [rad]
 };
 
-/// Base radius of a spherical cap of one quantum of water [m]; that of m quanta is m^(1/3) times as large.
+/// Base radius of a spherical cap of one mass unit of water [m]; that of m mass units is m^(1/3) times as large.
 double cap_radius(double contact_angle);
 /// Volume under a kernel of radius 1 and height 1.
 double kernel_volume(SplatKernel kernel);

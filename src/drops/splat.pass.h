@@ -72,7 +72,7 @@ RAINREF_FN N splat_drops(const SplatUniforms& u, const Stamp<N>* stamps, int x, 
   return height;
 }
 
-/// corrected: the film, whole quanta in each texel, under a tent of 3 x 3 texels, which keeps its volume. Rows are readable
+/// corrected: the film, whole mass units in each texel, under a tent of 3 x 3 texels, which keeps its volume. Rows are readable
 /// one texel to both sides, where the nearest texel stands again.
 template <class N>
 RAINREF_FN N film_tent(N before, N here, N after) {

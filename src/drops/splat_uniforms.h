@@ -30,7 +30,7 @@ struct SplatUniforms {
   std::int32_t kernel;    ///< a SplatKernel
   std::int32_t blend;     ///< a SplatBlend
   std::int32_t drop_count;
-  float film_scale;  ///< corrected: height of a quantum in a texel [mm]
+  float film_scale;  ///< corrected: height of a mass unit in a texel [mm]
 };
 
 static_assert(sizeof(SplatUniforms) == 48);

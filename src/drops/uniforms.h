@@ -19,7 +19,7 @@ struct SpawnUniforms {
   float padding0, padding1, padding2;
 };
 
-/// integrate. mass_3 in the comments is the cube root of the mass in quanta.
+/// integrate. mass_3 in the comments is the cube root of the mass in mass units.
 struct IntegrateUniforms {
   float frame[3];          ///< corrected: x = frame0 u + frame1 v, y = frame2 v, in the plane of the glass [m]
   float dt;                ///< [s]
@@ -28,7 +28,7 @@ struct IntegrateUniforms {
   float drag;              ///< as-published: rate [1/s]; corrected: rate times mass_3^2 [1/s]
   float wind_push;         ///< corrected: acceleration over wind speed squared, times mass_3 [1/m]
   float hold;              ///< corrected: acceleration that hysteresis holds, times mass_3^2 [m/s^2]
-  float evaporation;       ///< corrected: loss over mass_3 [quanta/s]
+  float evaporation;       ///< corrected: loss over mass_3 [mass units/s]
   float margin;            ///< corrected: a drop lives up to this far outside the glass, in u and v
   float rest_speed;        ///< corrected: a held drop that is slower rests [m/s]
   float phase_rate;        ///< corrected: turns in 64 s of the phase that rounds losses: a golden section in each step [1]
@@ -38,11 +38,11 @@ struct IntegrateUniforms {
 /// merge and its trails.
 struct MergeUniforms {
   float frame[3];        ///< as IntegrateUniforms::frame [m]
-  float radius;          ///< base radius over the cube root of the mass in quanta [m]
-  float trail;           ///< loss over base radius and way in a step [quanta/m^2]
+  float radius;          ///< base radius over the cube root of the mass in mass units [m]
+  float trail;           ///< loss over base radius and way in a step [mass units/m^2]
   float dt;              ///< [s]
   std::int32_t film[2];  ///< columns and rows of the film [texel]
-  float drying;          ///< what each texel of the film loses in this step, whole [quanta]
+  float drying;          ///< what each texel of the film loses in this step, whole [mass units]
   float padding0, padding1, padding2;
 };
 

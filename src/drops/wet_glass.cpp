@@ -24,8 +24,9 @@ RecordView WetGlass::list() {
   return records(listed_);
 }
 
-std::int64_t WetGlass::balance() const {
-  return ledger.spawned - ledger.evaporated - ledger.removed - (settings_.corrected ? film_water(film) + drops.water() : drops.live());
+std::int64_t WetGlass::residual() const {
+  return mass_balance.spawned - mass_balance.evaporated - mass_balance.removed -
+         (settings_.corrected ? film_water(film) + drops.water() : drops.live());
 }
 
 void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n) {
@@ -40,7 +41,7 @@ void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int
     }
   }
   const Stopwatch clock;
-  ledger += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected);
+  mass_balance += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected);
   const double seconds = clock.seconds();
   if (now.recorder) now.after("spawn", std::array{PassOutput{"drops", list_for(now, "spawn")}}, seconds);
 }
@@ -51,8 +52,8 @@ void WetGlass::integrate(const pass::Moment& now, const GlassFrame& glass) {
     now.before("integrate", uniforms,
                std::array{PassInput{"drops", list_for(now, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
   const Stopwatch clock;
-  ledger += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass)
-                                : integrate_as_published(executor_, drops, uniforms, glass);
+  mass_balance += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass)
+                                      : integrate_as_published(executor_, drops, uniforms, glass);
   const double seconds = clock.seconds();
   if (now.recorder) now.after("integrate", std::array{PassOutput{"drops", list_for(now, "integrate")}}, seconds);
 }
@@ -63,7 +64,7 @@ void WetGlass::merge(const pass::Moment& now, std::int64_t n) {
   const MergeUniforms uniforms = merge_uniforms(settings_, frame_, 1 / steps_per_second_, film.width(), film.height(), drying);
   if (now.recorder) now.before("merge", uniforms, std::array{PassInput{"drops", list_for(now, "merge")}, PassInput{"film", film}});
   const Stopwatch clock;
-  ledger += merger_.run(executor_, drops, uniforms, film);
+  mass_balance += merger_.run(executor_, drops, uniforms, film);
   const double seconds = clock.seconds();
   if (now.recorder) now.after("merge", std::array{PassOutput{"drops", list_for(now, "merge")}, PassOutput{"film", film}}, seconds);
 }

@@ -1,4 +1,4 @@
-// The water on one glass and the passes that move it, each told to a recorder: what the effects with drops share. An effect
+// The water on one glass and the passes that move it, each recorded: what the effects with drops share. An effect
 // sets the order of the passes and puts its own between them.
 #pragma once
 
@@ -36,12 +36,12 @@ class WetGlass {
   RecordView list_for(const pass::Moment& now, std::string_view pass) {
     return now.is_read(pass) ? list() : RecordView{nullptr, 0, sizeof(Drop)};
   }
-  /// Quanta (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
-  std::int64_t balance() const;
+  /// MassRange (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
+  std::int64_t residual() const;
 
   DropArrays drops;
-  Image film;     ///< corrected: r32f, whole quanta in a texel
-  Ledger ledger;  ///< since the start
+  Image film;                ///< corrected: r32f, whole mass units in a texel
+  MassBalance mass_balance;  ///< since the start
 
  private:
   Settings settings_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "edge_splash/plain.h"
+#include "edge_splash/scalar.h"
 #include "pass/display.h"
 #include "pass/model.h"
 

@@ -130,8 +130,8 @@ void add_events(Adder& a) {
           }
           return some_ended && some_go_on;
         });
-  // change(to, alone): of a absorber, by what it would be had it captured nothing.
-  const auto of_absorbers = [&](const auto& change) {
+  // change(to, alone): of an absorbing drop, by what it would be had it captured nothing.
+  const auto of_absorbing = [&](const auto& change) {
     return [change](const List& list, const PassCase& c, ListEdit& e) {
       const auto pair = e.at.size() > most_of_few ? std::nullopt : captured_pair(list, c, e.records);
       if (!pair) return false;
@@ -144,10 +144,10 @@ void add_events(Adder& a) {
       return true;
     };
   };
-  a.add("with a capture that is lost", "a captured record ends, and its absorber goes on as if alone: what it had is lost",
-        of_absorbers([](const List&, const auto& alone, auto& absorber) { absorber = alone; }));
-  a.add("with the mass of before a capture", "a absorber takes over the motion of what it captures, but not its mass",
-        of_absorbers([](const List& list, const auto& alone, auto& absorber) { copy_member(*mass_of(list), alone, absorber); }));
+  a.add("with a capture that is lost", "a captured record ends, and its absorbing drop goes on as if alone: what it had is lost",
+        of_absorbing([](const List&, const auto& alone, auto& absorbing) { absorbing = alone; }));
+  a.add("with the mass of before a capture", "an absorbing drop takes over the motion of what it captures, but not its mass",
+        of_absorbing([](const List& list, const auto& alone, auto& absorbing) { copy_member(*mass_of(list), alone, absorbing); }));
   a.add("with a record not treated", "the pass leaves out a record that it should have changed",
         [](const List& list, const PassCase& c, ListEdit& e) {
           const auto before = list.taken(c);

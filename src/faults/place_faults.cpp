@@ -11,12 +11,12 @@ namespace rainref::faults {
 namespace {
 
 using perturbed::Op;
-using perturbed::Slip;
+using perturbed::PlaceFault;
 using perturbed::Trace;
 using Node = Trace::Node;
 
 struct Words {
-  Slip slip;
+  PlaceFault fault;
   std::string name, sentence;
 };
 
@@ -43,128 +43,130 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
   const std::string all = shortened(p, static_cast<std::int32_t>(at)), a = shortened(p, n.of[0]), b = shortened(p, n.of[1]);
   const bool same = a == b && a != "...";
   std::vector<Words> out;
-  const auto add = [&](Slip slip, std::string name, std::string sentence) { out.push_back({slip, std::move(name), std::move(sentence)}); };
+  const auto add = [&](PlaceFault fault, std::string name, std::string sentence) {
+    out.push_back({fault, std::move(name), std::move(sentence)});
+  };
   switch (n.op) {
     case Op::sum:
     case Op::difference:
-      add(Slip::first, "term left out: " + b, fmt::format("of {} the term {} is left out", all, b));
-      add(Slip::second, "term left out: " + a, fmt::format("of {} the term {} is left out", all, a));
-      add(Slip::second_negated, "sign of a term: " + b, fmt::format("in {} the term {} has the other sign", all, b));
-      add(Slip::swapped, n.op == Op::sum ? "sign of a term: " + a : "difference the other way: " + all,
+      add(PlaceFault::first, "term left out: " + b, fmt::format("of {} the term {} is left out", all, b));
+      add(PlaceFault::second, "term left out: " + a, fmt::format("of {} the term {} is left out", all, a));
+      add(PlaceFault::second_negated, "sign of a term: " + b, fmt::format("in {} the term {} has the other sign", all, b));
+      add(PlaceFault::swapped, n.op == Op::sum ? "sign of a term: " + a : "difference the other way: " + all,
           n.op == Op::sum ? fmt::format("in {} the term {} has the other sign", all, a) : fmt::format("{} is taken the other way", all));
-      add(Slip::first_twice, "term twice: " + a, fmt::format("in {} the term {} counts twice", all, a));
-      add(Slip::second_twice, "term twice: " + b, fmt::format("in {} the term {} counts twice", all, b));
-      add(Slip::rooted, "root for square: " + all,
+      add(PlaceFault::first_twice, "term twice: " + a, fmt::format("in {} the term {} counts twice", all, a));
+      add(PlaceFault::second_twice, "term twice: " + b, fmt::format("in {} the term {} counts twice", all, b));
+      add(PlaceFault::rooted, "root for square: " + all,
           fmt::format("the square root of {} is taken in place of it: a length for its square", all));
       break;
     case Op::product:
       if (same) {
-        add(Slip::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
+        add(PlaceFault::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
       } else {
-        add(Slip::first, "factor left out: " + b, fmt::format("of {} the factor {} is left out", all, b));
-        add(Slip::second, "factor left out: " + a, fmt::format("of {} the factor {} is left out", all, a));
-        add(Slip::first_squared, "factor twice: " + a, fmt::format("in {} the factor {} is taken twice, or squared", all, a));
-        add(Slip::second_squared, "factor twice: " + b, fmt::format("in {} the factor {} is taken twice, or squared", all, b));
-        add(Slip::inverted, "divided for multiplied: " + all, fmt::format("in {} is divided by {}", all, b));
+        add(PlaceFault::first, "factor left out: " + b, fmt::format("of {} the factor {} is left out", all, b));
+        add(PlaceFault::second, "factor left out: " + a, fmt::format("of {} the factor {} is left out", all, a));
+        add(PlaceFault::first_squared, "factor twice: " + a, fmt::format("in {} the factor {} is taken twice, or squared", all, a));
+        add(PlaceFault::second_squared, "factor twice: " + b, fmt::format("in {} the factor {} is taken twice, or squared", all, b));
+        add(PlaceFault::inverted, "divided for multiplied: " + all, fmt::format("in {} is divided by {}", all, b));
       }
-      add(Slip::squared, "squared: " + all, fmt::format("{} is squared", all));
-      add(Slip::negated, "sign of a product: " + all, fmt::format("{} has the other sign", all));
-      add(Slip::doubled, "twice as large: " + all, fmt::format("{} is twice as large: a diameter for a radius, a factor 2", all));
-      add(Slip::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter, a factor 1/2", all));
+      add(PlaceFault::squared, "squared: " + all, fmt::format("{} is squared", all));
+      add(PlaceFault::negated, "sign of a product: " + all, fmt::format("{} has the other sign", all));
+      add(PlaceFault::doubled, "twice as large: " + all, fmt::format("{} is twice as large: a diameter for a radius, a factor 2", all));
+      add(PlaceFault::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter, a factor 1/2", all));
       break;
     case Op::quotient:
-      add(Slip::first, "division left out: by " + b, fmt::format("{} is not divided by {}", a, b));
-      add(Slip::swapped, "quotient upside down: " + all, fmt::format("{} is taken upside down", all));
-      add(Slip::inverted, "multiplied for divided: " + all, fmt::format("{} is multiplied by {}", a, b));
+      add(PlaceFault::first, "division left out: by " + b, fmt::format("{} is not divided by {}", a, b));
+      add(PlaceFault::swapped, "quotient upside down: " + all, fmt::format("{} is taken upside down", all));
+      add(PlaceFault::inverted, "multiplied for divided: " + all, fmt::format("{} is multiplied by {}", a, b));
       break;
     case Op::negation:
-      add(Slip::first, "sign of a term: " + a, fmt::format("{} has the other sign", a));
+      add(PlaceFault::first, "sign of a term: " + a, fmt::format("{} has the other sign", a));
       break;
     case Op::minimum:
     case Op::maximum: {
       const char* const name = n.op == Op::minimum ? "min" : "max";
-      add(Slip::first, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, a));
-      add(Slip::second, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, b));
-      add(Slip::other, fmt::format("{} for {}: {}", n.op == Op::minimum ? "max" : "min", name, all),
+      add(PlaceFault::first, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, a));
+      add(PlaceFault::second, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, b));
+      add(PlaceFault::other, fmt::format("{} for {}: {}", n.op == Op::minimum ? "max" : "min", name, all),
           fmt::format("{} is taken the other way", all));
       break;
     }
     case Op::magnitude:
-      add(Slip::first, "abs left out: " + a, fmt::format("the sign of {} is kept", a));
+      add(PlaceFault::first, "abs left out: " + a, fmt::format("the sign of {} is kept", a));
       break;
     case Op::root:
-      add(Slip::first, "root left out: " + all, fmt::format("{} is taken without the root", all));
-      add(Slip::doubled, "twice as large: " + all, fmt::format("{} is twice as large: a diameter for a radius", all));
-      add(Slip::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter", all));
+      add(PlaceFault::first, "root left out: " + all, fmt::format("{} is taken without the root", all));
+      add(PlaceFault::doubled, "twice as large: " + all, fmt::format("{} is twice as large: a diameter for a radius", all));
+      add(PlaceFault::halved, "half as large: " + all, fmt::format("{} is half as large: a radius for a diameter", all));
       break;
     case Op::square:
-      add(Slip::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
-      add(Slip::other, "cube for square: " + a, fmt::format("{} is cubed", a));
-      add(Slip::squared, "squared twice: " + a, fmt::format("{} is squared twice", a));
+      add(PlaceFault::first, "not squared: " + a, fmt::format("{} is taken for its square", a));
+      add(PlaceFault::other, "cube for square: " + a, fmt::format("{} is cubed", a));
+      add(PlaceFault::squared, "squared twice: " + a, fmt::format("{} is squared twice", a));
       break;
     case Op::floor:
-      add(Slip::first, "floor left out: " + a, fmt::format("{} is not rounded down", a));
-      add(Slip::other, "rounding for floor: " + a, fmt::format("{} is rounded to nearest", a));
+      add(PlaceFault::first, "floor left out: " + a, fmt::format("{} is not rounded down", a));
+      add(PlaceFault::other, "rounding for floor: " + a, fmt::format("{} is rounded to nearest", a));
       break;
     case Op::fract:
-      add(Slip::first, "fract left out: " + a, fmt::format("{} keeps its whole part", a));
+      add(PlaceFault::first, "fract left out: " + a, fmt::format("{} keeps its whole part", a));
       break;
     case Op::exponential:
     case Op::exponential2:
-      add(Slip::other, n.op == Op::exponential ? "exp2 for exp: " + all : "exp for exp2: " + all,
+      add(PlaceFault::other, n.op == Op::exponential ? "exp2 for exp: " + all : "exp for exp2: " + all,
           fmt::format("the base of {} is another", all));
-      add(Slip::first, "exponential left out: " + all, fmt::format("for {} stands {}", all, a));
-      add(Slip::linear, "linear for an exponential: " + all, fmt::format("for {} stands 1 + {}", all, a));
+      add(PlaceFault::first, "exponential left out: " + all, fmt::format("for {} stands {}", all, a));
+      add(PlaceFault::linear, "linear for an exponential: " + all, fmt::format("for {} stands 1 + {}", all, a));
       break;
     case Op::power:
-      add(Slip::first, "power left out: " + all, fmt::format("for {} stands {}", all, a));
-      add(Slip::inverted, "exponent inverted: " + all, fmt::format("the exponent of {} is 1 over what it should be", all));
+      add(PlaceFault::first, "power left out: " + all, fmt::format("for {} stands {}", all, a));
+      add(PlaceFault::inverted, "exponent inverted: " + all, fmt::format("the exponent of {} is 1 over what it should be", all));
       break;
     case Op::sine:
     case Op::cosine:
-      add(Slip::other, n.op == Op::sine ? "cosine for sine: " + all : "sine for cosine: " + all,
+      add(PlaceFault::other, n.op == Op::sine ? "cosine for sine: " + all : "sine for cosine: " + all,
           "the angle is measured from the other axis");
-      add(Slip::negated, "sign of a term: " + all, fmt::format("{} has the other sign", all));
+      add(PlaceFault::negated, "sign of a term: " + all, fmt::format("{} has the other sign", all));
       break;
     case Op::angle:
-      add(Slip::swapped, "atan2 arguments swapped: " + all, fmt::format("{} gets (x, y)", all));
+      add(PlaceFault::swapped, "atan2 arguments swapped: " + all, fmt::format("{} gets (x, y)", all));
       break;
     case Op::mix:
-      add(Slip::swapped, "mix ends swapped: " + all, fmt::format("the ends of {} are exchanged", all));
-      add(Slip::first, "mix left out: " + all, fmt::format("for {} stands {}", all, a));
-      add(Slip::second, "mix left out: " + all, fmt::format("for {} stands {}", all, b));
-      add(Slip::added, "added for mixed: " + all, fmt::format("in {} the second is added to the first", all));
-      add(Slip::in_gamma, "blended in gamma space: " + all, fmt::format("{} mixes numbers encoded by a power of 1/2.2", all));
+      add(PlaceFault::swapped, "mix ends swapped: " + all, fmt::format("the ends of {} are exchanged", all));
+      add(PlaceFault::first, "mix left out: " + all, fmt::format("for {} stands {}", all, a));
+      add(PlaceFault::second, "mix left out: " + all, fmt::format("for {} stands {}", all, b));
+      add(PlaceFault::added, "added for mixed: " + all, fmt::format("in {} the second is added to the first", all));
+      add(PlaceFault::in_gamma, "blended in gamma space: " + all, fmt::format("{} mixes numbers encoded by a power of 1/2.2", all));
       break;
     case Op::smoothstep:
-      add(Slip::swapped, "smoothstep's edges swapped: " + all, fmt::format("the edges of {} are exchanged", all));
-      add(Slip::other, "linear for smoothstep: " + all, fmt::format("{} is a linear ramp", all));
+      add(PlaceFault::swapped, "smoothstep's edges swapped: " + all, fmt::format("the edges of {} are exchanged", all));
+      add(PlaceFault::other, "linear for smoothstep: " + all, fmt::format("{} is a linear ramp", all));
       break;
     case Op::choice:
-      add(Slip::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
+      add(PlaceFault::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
       break;
     case Op::comparison:
-      add(Slip::always, fmt::format("condition left out: {} < {}", a, b), fmt::format("{} < {} is taken to hold everywhere", a, b));
-      add(Slip::never, fmt::format("condition never holds: {} < {}", a, b), fmt::format("{} < {} is taken to hold nowhere", a, b));
+      add(PlaceFault::always, fmt::format("condition left out: {} < {}", a, b), fmt::format("{} < {} is taken to hold everywhere", a, b));
+      add(PlaceFault::never, fmt::format("condition never holds: {} < {}", a, b), fmt::format("{} < {} is taken to hold nowhere", a, b));
       break;
     case Op::coordinate: {
       const std::string image = image_of(p, at);
-      add(Slip::nearest, "nearest for linear: " + image, fmt::format("a lookup of {} takes the nearest texel", image));
-      add(Slip::half_less, "half a texel off: " + image, fmt::format("a lookup of {} lies half a texel too low", image));
-      add(Slip::half_more, "half a texel off: " + image, fmt::format("a lookup of {} lies half a texel too high", image));
-      add(Slip::one_less, "one texel off: " + image, fmt::format("a lookup of {} lies one texel too low", image));
-      add(Slip::one_more, "one texel off: " + image, fmt::format("a lookup of {} lies one texel too high", image));
+      add(PlaceFault::nearest, "nearest for linear: " + image, fmt::format("a lookup of {} takes the nearest texel", image));
+      add(PlaceFault::half_less, "half a texel off: " + image, fmt::format("a lookup of {} lies half a texel too low", image));
+      add(PlaceFault::half_more, "half a texel off: " + image, fmt::format("a lookup of {} lies half a texel too high", image));
+      add(PlaceFault::one_less, "one texel off: " + image, fmt::format("a lookup of {} lies one texel too low", image));
+      add(PlaceFault::one_more, "one texel off: " + image, fmt::format("a lookup of {} lies one texel too high", image));
       break;
     }
     case Op::level: {
       const std::string image = image_of(p, at);
-      add(Slip::one_more, "mip level above: " + image, fmt::format("a lookup of {} takes one level too coarse", image));
-      add(Slip::one_less, "mip level below: " + image, fmt::format("a lookup of {} takes one level too fine", image));
-      add(Slip::zero, "mip level 0: " + image, fmt::format("a lookup of {} takes level 0", image));
+      add(PlaceFault::one_more, "mip level above: " + image, fmt::format("a lookup of {} takes one level too coarse", image));
+      add(PlaceFault::one_less, "mip level below: " + image, fmt::format("a lookup of {} takes one level too fine", image));
+      add(PlaceFault::zero, "mip level 0: " + image, fmt::format("a lookup of {} takes level 0", image));
       break;
     }
     case Op::lookup:
-      add(Slip::zero, "lookup left out: " + a, fmt::format("{} counts as 0", all));
+      add(PlaceFault::zero, "lookup left out: " + a, fmt::format("{} counts as 0", all));
       break;
     default:
       break;
@@ -196,7 +198,7 @@ void add_place_faults(std::vector<Deviation>& out, const std::vector<Probe>& pro
         if (occurrence >= 0 && (count == 1 || count > most)) continue;
         if (!done.insert({n.shape, occurrence}).second) continue;
         for (const Words& w : words_of(p, at))
-          add(w, {perturbed::Place{n.shape, occurrence, w.slip}, {}},
+          add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
               occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
       }
       if (n.op != Op::lookup) continue;
@@ -211,7 +213,7 @@ void add_place_faults(std::vector<Deviation>& out, const std::vector<Probe>& pro
       const Node &u = p.trace.nodes[static_cast<std::size_t>(x)], &v = p.trace.nodes[static_cast<std::size_t>(y)];
       if (!done.insert({u.shape ^ v.shape * 3, u.occurrence}).second) continue;
       for (const Words& w : words_of(p, static_cast<std::size_t>(x)))
-        add(w, {perturbed::Place{u.shape, u.occurrence, w.slip}, perturbed::Place{v.shape, v.occurrence, w.slip}}, ", in u and v");
+        add(w, {perturbed::Place{u.shape, u.occurrence, w.fault}, perturbed::Place{v.shape, v.occurrence, w.fault}}, ", in u and v");
     }
   }
 }

@@ -33,7 +33,7 @@ std::int64_t highest_half(float x, const StoreRules& rules) {
   return code;
 }
 
-double floor_of(double x) { return floor(plain::Plain<double>(plain::Plain<double>(x))).v; }
+double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 double ceil_of(double x) { return -floor_of(-x); }
 
 // Codes within ulp of the reals [low, high]; above half a code at most the neighbours.

@@ -7,21 +7,21 @@
 
 /// The same number as the reference's, for points under the profile `ieee`.
 template <class T>
-RAINREF_FN Level<plain::Plain<float>> plain_level(const Level<T>& l) {
-  Level<plain::Plain<float>> out;
+RAINREF_FN Level<scalar::Scalar<float>> plain_level(const Level<T>& l) {
+  Level<scalar::Scalar<float>> out;
   out.width = {l.width.i};
   out.height = {l.height.i};
   out.offset = {l.offset.i};
   out.pitch = {l.pitch.i};
-  out.width_number = plain::Plain<float>(l.width_number.lo);
-  out.height_number = plain::Plain<float>(l.height_number.lo);
+  out.width_number = scalar::Scalar<float>(l.width_number.lo);
+  out.height_number = scalar::Scalar<float>(l.height_number.lo);
   return out;
 }
 inline bool as_reference(enclosed::Enclosure u, enclosed::Enclosure v) {
   return enclosed::profile().reference && u.is_point() && v.is_point();
 }
 template <int Count>
-RAINREF_FN Channels<enclosed::Enclosure, Count> points(const Channels<plain::Plain<float>, Count>& texel) {
+RAINREF_FN Channels<enclosed::Enclosure, Count> points(const Channels<scalar::Scalar<float>, Count>& texel) {
   Channels<enclosed::Enclosure, Count> out;
   for (int k = 0; k < Count; ++k) out[k] = enclosed::Enclosure(texel[k].v);
   return out;
@@ -34,7 +34,7 @@ RAINREF_FN enclosed::Texels texels_of(const T& t, const Level<enclosed::Enclosur
 
 template <int First, int Count, class N, class T>
 requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_nearest(const T& t, N u, N v) {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   if (as_reference(u, v)) return points(sample_nearest<First, Count, Single>(t, Single(u.lo), Single(v.lo)));
   const enclosed::Texels texels = texels_of(t, uniform_level<N>(t, 0));
   const enclosed::Span x = nearest_span(t.address_u, u, texels.width), y = nearest_span(t.address_v, v, texels.height);
@@ -46,7 +46,7 @@ requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> samp
 
 template <int First, int Count, class N, class T>
 requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   if (as_reference(u, v)) {
     return points(sample_level<First, Count, Single>(t, plain_level(l), Single(u.lo), Single(v.lo)));
   }
@@ -60,7 +60,7 @@ requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> samp
 
 template <int Channel, class N, class T>
 requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   if (as_reference(u, v)) {
     const Neighbours<Single> near = sample_neighbours<Channel, Single>(t, Single(u.lo), Single(v.lo));
     return {N(near.left.v), N(near.right.v), N(near.down.v), N(near.up.v)};
@@ -105,7 +105,7 @@ RAINREF_FN JointLevel<Count> sample_level_jointly(const T& t, int level, enclose
 }
 template <int First, int Count, class N, class T>
 requires std::same_as<N, enclosed::Enclosure> RAINREF_FN Channels<N, Count> sample_trilinear(const T& t, N u, N v, N lod) {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   if (as_reference(u, v) && lod.is_point()) {
     return points(sample_trilinear<First, Count, Single>(t, Single(u.lo), Single(v.lo), Single(lod.lo)));
   }

@@ -15,14 +15,23 @@ RAINREF_FN Address altered(Address address) {
       return address;
   }
 }
+/// Counts on which side of the texels a lookup's coordinate lies: where the address rule decides.
+RAINREF_FN void address_decided(Address address, float u, float size) {
+  static constexpr const char* rules[] = {"clamp", "repeat", "mirror", "border"};
+  perturbed::Perturbed::decided(rules[static_cast<int>(address)], 0, perturbed::DecisionKind::address,
+                                u * size < 0.5f          ? 0
+                                : u * size > size - 0.5f ? 2
+                                                         : 1);
+}
 RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
+  address_decided(address, u.v, size.v);
   const auto result = [&] {
     const perturbed::Unseen parts;
     const perturbed::Sampler sampler;
     const perturbed::Perturbed x =
         texel_coordinate<perturbed::Perturbed>(altered(address), perturbed::Perturbed::of(sampler.coordinate(u.v)), size);
     const auto of = [](float value) { return perturbed::Perturbed::of(value); };
-    const auto floor_of = [](float value) { return floor(plain::Plain<float>(value)).v; };
+    const auto floor_of = [](float value) { return floor(scalar::Scalar<float>(value)).v; };
     switch (perturbed::behaviour().fault) {
       case perturbed::Fault::nearest_filter:
         return of(floor_of(x.v + 0.5f));
@@ -72,8 +81,8 @@ RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Pertu
   return perturbed::Perturbed::met(perturbed::Op::lookup, result(), fx, fy, a);
 }
 /// Any integer has a texel, whatever a fault has done to it.
-RAINREF_FN plain::Index<perturbed::Perturbed> texel_index(Address address, plain::Index<perturbed::Perturbed> i,
-                                                          plain::Index<perturbed::Perturbed> size) {
+RAINREF_FN scalar::Index<perturbed::Perturbed> texel_index(Address address, scalar::Index<perturbed::Perturbed> i,
+                                                           scalar::Index<perturbed::Perturbed> size) {
   if (altered(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};
   return clamp_index(i, size);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "judge/conclude.h"
+#include "judge/coverage.h"
 #include "judge/evaluations.h"
 #include "judge/half_votes.h"
 #include "judge/keyed.h"
@@ -93,8 +94,8 @@ std::string null_port_of(const PassTask& task, const PassJudgement& judged, cons
   return ports.passing();
 }
 
-/// Every run of a pass, under each rounding that may be its port's.
-std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options) {
+/// Every run of a pass, under each rounding that may be its port's; what they exercise is added to `coverage`.
+std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions& options, perturbed::Coverage& coverage) {
   const PassRuns& runs = task.runs;
   std::vector<ModeJudgements> cases;
   for (std::size_t k = 0; k < runs.count; ++k) {
@@ -105,6 +106,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
       cases.push_back(not_judged(run));
     } else {
       cases.push_back(judge_case(run.c, model.get(), run.stored, options));
+      if (runs.counts_coverage) coverage.add(coverage_of(run.c, model.get(), *options.executor));
       for (CaseJudgement& j : cases.back().judgements) {
         if (run.broken.empty()) continue;
         j.status = Status::fail;
@@ -122,8 +124,9 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
 std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, const JudgeOptions& options) {
   std::vector<std::vector<ModeJudgements>> cases;
   std::vector<HalfVotes> votes;
+  std::vector<perturbed::Coverage> coverage(tasks.size());
   for (const PassTask& task : tasks) {
-    cases.push_back(judge_runs(task, options));
+    cases.push_back(judge_runs(task, options, coverage[cases.size()]));
     votes.push_back(votes_of(task.pass->name, cases.back()));
   }
   std::vector<PassJudgement> all;
@@ -132,6 +135,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     PassJudgement& judged = all.emplace_back();
     judged.pass = task.pass->name;
     judged.formula = task.pass->formula;
+    judged.coverage = summary(coverage[k]);
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged);
     if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {

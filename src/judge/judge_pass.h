@@ -50,6 +50,7 @@ struct PassRuns {
   std::function<void()> done_one;  ///< after each run; may be null
   Explain explain;                 ///< asked about a pass that fails; may be null
   bool tries_null_ports = false;   ///< a pass that a port passes which does nothing is UNTESTED
+  bool counts_coverage = false;    ///< PassJudgement::coverage is wanted
 };
 
 /// A pass and what the port has of it. `bind` may be null when no output of the pass is judged by envelope; keyed records

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "judge/slots.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 
 namespace rainref::judge {
 
@@ -24,7 +24,7 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
   }
   if (slots.empty()) return out;
   executor.for_tiles(model.width(), model.height(), model.width(), 4, [&](const parallel::Tile& tile) {
-    std::vector<plain::Plain<float>> values(slots.size());
+    std::vector<scalar::Scalar<float>> values(slots.size());
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
         model.evaluate(x, y, values.data());

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "image/colour.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "rainref/error.h"
 
 namespace rainref::judge {
@@ -57,9 +57,9 @@ Rounding rounding_of(const Slot& slot, HalfMode mode) {
   return mode == HalfMode::rne ? Rounding::rne : Rounding::rtz;
 }
 void store_value(const Slot& slot, float value, Rounding rounding, std::byte* at) {
-  const plain::Plain<float> x(value);
+  const scalar::Scalar<float> x(value);
   const auto put = [&](auto stored) {
-    plain::store(&stored, x, rounding);
+    scalar::store(&stored, x, rounding);
     std::memcpy(at, &stored, sizeof stored);
   };
   switch (slot.kind) {

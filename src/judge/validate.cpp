@@ -167,7 +167,7 @@ PortJudgement validate(const Pack& pack, const std::filesystem::path& folder, co
     PassRuns runs;
     runs.count = cases.size();
     runs.explain = options.explain;
-    runs.tries_null_ports = true;
+    runs.tries_null_ports = runs.counts_coverage = true;
     runs.load = [&, cases](std::size_t k) {
       PortRun run;
       run.c = read_case(pack, *cases[k]);

@@ -126,6 +126,12 @@ struct Explanation {
   std::string where = "";     ///< "only channel y of wave": what the failures share; "": nothing
 };
 
+/// What the pack's runs exercise of a pass text, whatever the port did.
+struct PassCoverage {
+  int taken = 0, alternatives = 0;  ///< sides of its decisions; 0: there are none, or the pass has no model
+  std::vector<std::string> never;   ///< those not taken: "shade.pass.h:71 refract: total reflection"
+};
+
 struct PassJudgement {
   std::string pass, formula;
   Status status = Status::untested;
@@ -138,6 +144,7 @@ struct PassJudgement {
   std::vector<Cause> causes;  ///< best first; empty: unknown
   std::string null_port;      ///< a port that does nothing and passes, which makes the pass UNTESTED: "zeros"; "": none
   std::string where = "";     ///< Explanation::where
+  PassCoverage coverage;
 };
 
 /// A file of the port that is missing or cannot be used.

@@ -1,4 +1,4 @@
-// The oracle's arithmetic in lanes: a number is a vector of doubles, and every lane has the bits of plain::Plain<double>.
+// The oracle's arithmetic in lanes: a number is a vector of doubles, and every lane has the bits of scalar::Scalar<double>.
 //
 // For the formulas of passes that the compositor evaluates in double for many places at once. Re-included for every
 // target; see foreach_target.h.

@@ -145,7 +145,7 @@ Enclosure sqrt(Enclosure a) {
 
 Enclosure floor(Enclosure a) {
   if (a.is_vacuous()) return a;
-  const plain::Plain<float> low = floor(plain::Plain<float>(a.lo)), high = floor(plain::Plain<float>(a.hi));
+  const scalar::Scalar<float> low = floor(scalar::Scalar<float>(a.lo)), high = floor(scalar::Scalar<float>(a.hi));
   const double count = static_cast<double>(high.v) - low.v + 1;
   if (count == 1) return {low.v, low.v};
   if (count > PathEnumeration::max_runs) return {low.v, high.v};

@@ -5,14 +5,14 @@
 // runs what an interval does not settle (paths.h). Where a profile lets a result be either neighbour, operations round
 // outward, which covers fusion too; where it rounds to nearest, a product remembers what it was before its rounding for
 // the addition that fuses it. Exact results stay points. Under the profile `ieee` nothing is widened and a point has the
-// bits of Plain<float>.
+// bits of Scalar<float>.
 //
 // What may be infinite, not a number or undefined is vacuous, the interval of everything; it stays vacuous through all
 // that is computed from it.
 #pragma once
 
 #include "math/directed.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/path_enumeration.h"
 
 namespace rainref::enclosed {
@@ -20,7 +20,7 @@ namespace rainref::enclosed {
 class Enclosure {
  public:
   using Mask = bool;
-  using Int = plain::Index<Enclosure>;
+  using Int = scalar::Index<Enclosure>;
   static constexpr int size() { return 1; }
 
   float lo, hi;  ///< never NaN; lo <= hi
@@ -46,9 +46,9 @@ class Enclosure {
   template <class Storage>
   static Enclosure load(const Storage* p) {
     if constexpr (std::is_same_v<Storage, Unorm8>)
-      return load_unorm(plain::to_float(*p));
+      return load_unorm(scalar::to_float(*p));
     else
-      return Enclosure(plain::to_float(*p));
+      return Enclosure(scalar::to_float(*p));
   }
   static Enclosure index(int first) { return {static_cast<float>(first), static_cast<float>(first)}; }
   static Int uniform_int(int value) { return {value}; }
@@ -165,7 +165,7 @@ Enclosure smoothstep(float edge0, float edge1, Enclosure x);
 /// One decision, not one for each octave.
 Enclosure nearest_octave(Enclosure x);
 /// By (1 / length(a)) a, a / length(a) or a inversesqrt(dot(a, a)).
-plain::Vec3<Enclosure> normalize(const plain::Vec3<Enclosure>& a);
+scalar::Vec3<Enclosure> normalize(const scalar::Vec3<Enclosure>& a);
 
 /// The interval of reals [low, high] computed with that accuracy and rounded outward.
 Enclosure widened(double low, double high, const Accuracy& accuracy, double x_magnitude);

@@ -9,13 +9,13 @@
 namespace rainref::enclosed {
 namespace {
 
-using Single = plain::Plain<float>;
+using Single = scalar::Scalar<float>;
 
 Enclosure point(Single x) { return Enclosure::checked(x.v, x.v); }
 // Whether the reference itself answers.
 bool as_reference(Enclosure a) { return profile().reference && a.is_point(); }
 
-double floor_of(double x) { return floor(plain::Plain<double>(plain::Plain<double>(x))).v; }
+double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 
 Enclosure not_negative(Enclosure a) { return a.is_vacuous() ? a : Enclosure(std::max(a.lo, 0.0f), a.hi); }
 
@@ -124,7 +124,7 @@ Enclosure atan2(Enclosure y, Enclosure x) {
 }
 
 Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c) {
-  if (profile().reference) return plain::sum_any_order<Enclosure>(a, b, c);
+  if (profile().reference) return scalar::sum_any_order<Enclosure>(a, b, c);
   const auto add = [](Enclosure x, Enclosure y) { return outward_sum(x, y); };
   return hull(add(add(a, b), c), hull(add(add(a, c), b), add(add(b, c), a)));
 }
@@ -141,15 +141,15 @@ Enclosure sum_by_all_trees(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
 }  // namespace
 
 Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
-  return profile().reference ? plain::sum_any_order<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
+  return profile().reference ? scalar::sum_any_order<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
 }
 Enclosure sum_any_order_in_pairs(Enclosure a, Enclosure b, Enclosure c, Enclosure d) {
-  return profile().reference ? plain::sum_any_order_in_pairs<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
+  return profile().reference ? scalar::sum_any_order_in_pairs<Enclosure>(a, b, c, d) : sum_by_all_trees(a, b, c, d);
 }
 
 Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
-  if (profile().reference) return plain::smoothstep<Enclosure>(edge0, edge1, x);
-  const Enclosure t = plain::saturate((x - Enclosure(edge0)) / (Enclosure(edge1) - Enclosure(edge0)));
+  if (profile().reference) return scalar::smoothstep<Enclosure>(edge0, edge1, x);
+  const Enclosure t = scalar::saturate((x - Enclosure(edge0)) / (Enclosure(edge1) - Enclosure(edge0)));
   if (t.is_vacuous()) return t;
   if (t.is_point() && (t.lo == 0 || t.lo == 1)) return t;
   // The cubic grows with t; its three roundings are relative to it.
@@ -169,9 +169,9 @@ Enclosure nearest_octave(Enclosure x) {
   return {static_cast<float>(level), static_cast<float>(level)};
 }
 
-plain::Vec3<Enclosure> normalize(const plain::Vec3<Enclosure>& a) {
+scalar::Vec3<Enclosure> normalize(const scalar::Vec3<Enclosure>& a) {
   const Profile& p = profile();
-  if (p.reference) return plain::normalize<Enclosure>(a);
+  if (p.reference) return scalar::normalize<Enclosure>(a);
   const Enclosure squared = sum_any_order(square(a.x), square(a.y), square(a.z));
   const Enclosure length = sqrt(squared), inverse = Enclosure(1.0f) / length, direct = inverse_sqrt(squared);
   // No component is longer than the whole, but for the errors of the formulas: two divisions, a root, a sum and

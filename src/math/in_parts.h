@@ -8,7 +8,7 @@ namespace rainref::enclosed {
 /// f(x, y) over the parts of a grid that covers both intervals: what a device has for x and y lies in one of them, so the hull of
 /// f over each holds its result, whatever f is. f should decide nothing: a decision is asked anew in each part.
 template <class F>
-plain::Vec3<Enclosure> in_parts(Enclosure x, Enclosure y, const F& f) {
+scalar::Vec3<Enclosure> in_parts(Enclosure x, Enclosure y, const F& f) {
   constexpr int most = 16;
   constexpr double fine = 0x1p-10;  // narrower intervals stay whole
   if (x.is_vacuous() || y.is_vacuous()) return f(x, y);
@@ -24,10 +24,10 @@ plain::Vec3<Enclosure> in_parts(Enclosure x, Enclosure y, const F& f) {
     return Enclosure(edge(k), edge(k + 1));
   };
   const int columns = count(x), rows = count(y);
-  plain::Vec3<Enclosure> all = f(part(x, 0, columns), part(y, 0, rows));
+  scalar::Vec3<Enclosure> all = f(part(x, 0, columns), part(y, 0, rows));
   for (int k = 1; k < columns * rows; ++k) {
-    const plain::Vec3<Enclosure> one = f(part(x, k % columns, columns), part(y, k / columns, rows));
-    all = plain::Vec3<Enclosure>(hull(all.x, one.x), hull(all.y, one.y), hull(all.z, one.z));
+    const scalar::Vec3<Enclosure> one = f(part(x, k % columns, columns), part(y, k / columns, rows));
+    all = scalar::Vec3<Enclosure>(hull(all.x, one.x), hull(all.y, one.y), hull(all.z, one.z));
   }
   return all;
 }

@@ -9,7 +9,7 @@
 namespace rainref::perturbed {
 namespace {
 
-using Reference = plain::Plain<float>;
+using Reference = scalar::Scalar<float>;
 using enclosed::Accuracy;
 using enclosed::Profile;
 
@@ -115,17 +115,21 @@ Perturbed Perturbed::opposite() const {
 }
 bool operator<(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::weak_for_strict) ? a.v <= b.v : a.v < b.v, a, b); }
 bool operator<=(Perturbed a, Perturbed b) { return Perturbed::met(is(Fault::strict_for_weak) ? a.v < b.v : a.v <= b.v, a, b); }
-Perturbed select(bool m, Perturbed a, Perturbed b) { return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f)); }
-Perturbed min(Perturbed a, Perturbed b) {
+Perturbed Perturbed::chosen(bool m, Perturbed a, Perturbed b) {
+  return Perturbed::met(Op::choice, m ? a : b, a, b, Perturbed::of(m ? 1.0f : 0.0f));
+}
+Perturbed Perturbed::lesser(Perturbed a, Perturbed b) {
   return Perturbed::met(Op::minimum, Perturbed::of(is(Fault::minimum_missing) || !(b.v < a.v) ? a.v : b.v), a, b);
 }
-Perturbed max(Perturbed a, Perturbed b) {
+Perturbed Perturbed::greater(Perturbed a, Perturbed b) {
   return Perturbed::met(Op::maximum, Perturbed::of(is(Fault::maximum_missing) || !(a.v < b.v) ? a.v : b.v), a, b);
 }
 Perturbed abs(Perturbed a) { return Perturbed::met(Op::magnitude, a.v < 0 && !is(Fault::abs_missing) ? a.opposite() : a, a); }
 Perturbed operator-(Perturbed a) { return Perturbed::met(Op::negation, a.opposite(), a); }
 Perturbed operator+(Perturbed a, Perturbed b) { return Perturbed::met(Op::sum, Perturbed::add(a, b), a, b); }
 Perturbed operator-(Perturbed a, Perturbed b) { return Perturbed::met(Op::difference, Perturbed::add(a, b.opposite()), a, b); }
+
+void Perturbed::count(const char* file, int line, DecisionKind kind, int side) { current.coverage->met(file, line, kind, side); }
 
 Perturbed Perturbed::add(Perturbed a, Perturbed b) {
   if (a.product_ || b.product_) {
@@ -170,8 +174,8 @@ Perturbed quotient(Perturbed a, Perturbed b) {
 Perturbed operator/(Perturbed a, Perturbed b) { return Perturbed::met(Op::quotient, quotient(a, b), a, b); }
 Perturbed Perturbed::load_unorm(Unorm8 code) {
   // 0 and 1 are exact everywhere.
-  if (code.code == 0 || code.code == 255) return of(plain::to_float(code));
-  return erring(plain::to_float(code), code.code / 255.0, &Profile::unorm_load);
+  if (code.code == 0 || code.code == 255) return of(scalar::to_float(code));
+  return erring(scalar::to_float(code), code.code / 255.0, &Profile::unorm_load);
 }
 Perturbed inverse_sqrt(Perturbed a) {
   const double root = 1 / __builtin_sqrt(exact(a));
@@ -328,13 +332,42 @@ Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbe
   if (take(&Variations::reorder)) return shuffled_sum<4>({a, b, c, d});
   return (a + b) + (c + d);
 }
-Perturbed smoothstep(float edge0, float edge1, Perturbed x) {
+namespace {
+
+/// While it lives decisions are parts of one that is counted already.
+class Counted {
+ public:
+  Counted() : coverage_(current.coverage) { current.coverage = nullptr; }
+  ~Counted() { current.coverage = coverage_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  Coverage* coverage_;
+};
+
+}  // namespace
+
+Perturbed clamp(Perturbed x, Perturbed low, Perturbed high, const char* file, int line) {
+  Perturbed::decided(file, line, DecisionKind::clamp, x.v < low.v ? 0 : x.v > high.v ? 2 : 1);
+  const Counted parts;
+  return scalar::clamp<Perturbed>(x, low, high);
+}
+Perturbed saturate(Perturbed x, const char* file, int line) {
+  Perturbed::decided(file, line, DecisionKind::clamp, x.v < 0 ? 0 : x.v > 1 ? 2 : 1);
+  const Counted parts;
+  return scalar::saturate<Perturbed>(x);
+}
+Perturbed smoothstep(float edge0, float edge1, Perturbed x, const char* file, int line) {
+  const float ramp = (x.v - edge0) / (edge1 - edge0);
+  Perturbed::decided(file, line, DecisionKind::clamp, ramp < 0 ? 0 : ramp > 1 ? 2 : 1);
+  const Counted counted;
   const auto result = [&]() -> Perturbed {
     const Unseen parts;
-    if (is(Fault::smoothstep_linear)) return plain::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
-    if (!current.variations) return plain::smoothstep<Perturbed>(edge0, edge1, x);
+    if (is(Fault::smoothstep_linear)) return scalar::saturate((x - Perturbed(edge0)) / Perturbed(edge1 - edge0));
+    if (!current.variations) return scalar::smoothstep<Perturbed>(edge0, edge1, x);
     // The edges' difference is the device's own.
-    const Perturbed t = plain::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
+    const Perturbed t = scalar::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
     return t * t * (Perturbed(3.0f) - Perturbed(2.0f) * t);
   };
   if (!current.follows()) return result();
@@ -342,27 +375,30 @@ Perturbed smoothstep(float edge0, float edge1, Perturbed x) {
   return Perturbed::met(Op::smoothstep, result(), x, from, to);
 }
 Perturbed uniform_quotient(float a, float b, Perturbed) { return current.variations ? Perturbed(a) / Perturbed(b) : Perturbed(a / b); }
-plain::Vec3<Perturbed> normalize(const plain::Vec3<Perturbed>& a) {
+scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a) {
   if (is(Fault::normalize_missing)) return a;
   if (take(&Variations::normalize_any)) {
-    const Perturbed squared = plain::dot(a, a);
+    const Perturbed squared = scalar::dot(a, a);
     if (coin()) return inverse_sqrt(squared) * a;
     const Perturbed length = sqrt(squared);
     return {a.x / length, a.y / length, a.z / length};
   }
-  return plain::normalize<Perturbed>(a);
+  return scalar::normalize<Perturbed>(a);
 }
-plain::Vec3<Perturbed> reflect(const plain::Vec3<Perturbed>& v, const plain::Vec3<Perturbed>& n) {
-  if (is(Fault::reflect_doubled_missing)) return v - plain::dot(n, v) * n;
-  return plain::reflect<Perturbed>(v, n);
+scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n) {
+  if (is(Fault::reflect_doubled_missing)) return v - scalar::dot(n, v) * n;
+  return scalar::reflect<Perturbed>(v, n);
 }
-plain::Vec3<Perturbed> refract(const plain::Vec3<Perturbed>& v, const plain::Vec3<Perturbed>& n, float eta) {
-  return plain::refract<Perturbed>(v, n, is(Fault::refract_ratio_inverted) ? 1.0f / eta : eta);
+scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta, const char* file, int line) {
+  const float along = n.x.v * v.x.v + n.y.v * v.y.v + n.z.v * v.z.v;
+  Perturbed::decided(file, line, DecisionKind::total_reflection, eta * eta * (1 - along * along) > 1);
+  const Counted parts;
+  return scalar::refract<Perturbed>(v, n, is(Fault::refract_ratio_inverted) ? 1.0f / eta : eta);
 }
 Perturbed nearest_octave(Perturbed x) {
-  const Perturbed level = plain::nearest_octave<Perturbed>(x);
+  const Perturbed level = scalar::nearest_octave<Perturbed>(x);
   if (is(Fault::level_above)) return level + Perturbed(1.0f);
-  if (is(Fault::level_below)) return plain::nearest_octave<Perturbed>(x * Perturbed(0.5f));
+  if (is(Fault::level_below)) return scalar::nearest_octave<Perturbed>(x * Perturbed(0.5f));
   return level;
 }
 

@@ -2,7 +2,7 @@
 //
 // Two uses. A *fault* is one realistic mistake, taken everywhere in a pass: `mutate` asks whether it would be caught,
 // the diagnosis whether it explains what a port did. *Variations* are what a conforming GPU may do, drawn at random: the
-// envelopes are tested with them. Without either, a Perturbed is Plain<float>, bit for bit.
+// envelopes are tested with them. Without either, a Perturbed is Scalar<float>, bit for bit.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "math/coverage.h"
 #include "math/places.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/profile.h"
 
 namespace rainref::perturbed {
@@ -105,7 +106,8 @@ struct Behaviour {
   std::size_t loaded = 0;                     ///< of these so far: 0 before each invocation
   float column_offset = 0;                    ///< added to the element's own column
   bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
-  bool follows() const { return trace || places[0].slip != Slip::none; }
+  Coverage* coverage = nullptr;               ///< counts which sides of decisions are taken
+  bool follows() const { return trace || places[0].fault != PlaceFault::none; }
 };
 Behaviour& behaviour();
 /// Sets the behaviour for a scope.
@@ -132,7 +134,7 @@ class Unseen {
 class Perturbed {
  public:
   using Mask = bool;
-  using Int = plain::Index<Perturbed>;
+  using Int = scalar::Index<Perturbed>;
   static constexpr int size() { return 1; }
 
   float v = 0;
@@ -150,7 +152,7 @@ class Perturbed {
     if constexpr (std::is_same_v<Storage, Unorm8>)
       return loaded(load_unorm(*p));
     else
-      return loaded(of(plain::to_float(*p)));
+      return loaded(of(scalar::to_float(*p)));
   }
   static Perturbed index(int first);
   static Int uniform_int(int value) { return {value}; }
@@ -164,9 +166,19 @@ class Perturbed {
   friend bool operator<=(Perturbed a, Perturbed b);
   friend bool operator>(Perturbed a, Perturbed b) { return b < a; }
   friend bool operator>=(Perturbed a, Perturbed b) { return b <= a; }
-  friend Perturbed select(bool m, Perturbed a, Perturbed b);
-  friend Perturbed min(Perturbed a, Perturbed b);
-  friend Perturbed max(Perturbed a, Perturbed b);
+  // The place of the call is that of a decision in the pass text.
+  friend Perturbed select(bool m, Perturbed a, Perturbed b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    decided(file, line, DecisionKind::choice, !m);
+    return chosen(m, a, b);
+  }
+  friend Perturbed min(Perturbed a, Perturbed b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    decided(file, line, DecisionKind::minimum, b.v < a.v);
+    return lesser(a, b);
+  }
+  friend Perturbed max(Perturbed a, Perturbed b, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    decided(file, line, DecisionKind::maximum, a.v < b.v);
+    return greater(a, b);
+  }
   friend Perturbed abs(Perturbed a);
   friend Perturbed sqrt(Perturbed a);
   friend Perturbed square(Perturbed a);
@@ -196,7 +208,16 @@ class Perturbed {
   }
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
 
+  /// Counts a side of a decision of the pass text, where that is asked for.
+  static void decided(const char* file, int line, DecisionKind kind, int side) {
+    if (behaviour().coverage) count(file, line, kind, side);
+  }
+
  private:
+  static void count(const char* file, int line, DecisionKind kind, int side);
+  static Perturbed chosen(bool m, Perturbed a, Perturbed b);
+  static Perturbed lesser(Perturbed a, Perturbed b);
+  static Perturbed greater(Perturbed a, Perturbed b);
   static Perturbed add(Perturbed a, Perturbed b);
   static Perturbed load_unorm(Unorm8 code);
   static Perturbed loaded(Perturbed texel);
@@ -204,7 +225,7 @@ class Perturbed {
   void leaf(Op op, std::uint32_t shape);
   static Perturbed follow(Op op, Perturbed result, std::initializer_list<Perturbed> of);
   static bool follow(bool result, const Perturbed& a, const Perturbed& b);
-  static Perturbed slipped(Op op, const Perturbed& result, const Perturbed* of, std::size_t count, Slip slip);
+  static Perturbed with_fault(Op op, const Perturbed& result, const Perturbed* of, std::size_t count, PlaceFault fault);
   Perturbed opposite() const;
 
   // A product that the next addition may fuse: v = factor_ times other_, rounded.
@@ -219,10 +240,17 @@ class Perturbed {
 Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c);
 Perturbed sum_any_order(Perturbed a, Perturbed b, Perturbed c, Perturbed d);
 Perturbed sum_any_order_in_pairs(Perturbed a, Perturbed b, Perturbed c, Perturbed d);
-Perturbed smoothstep(float edge0, float edge1, Perturbed x);
-plain::Vec3<Perturbed> normalize(const plain::Vec3<Perturbed>& a);
-plain::Vec3<Perturbed> reflect(const plain::Vec3<Perturbed>& v, const plain::Vec3<Perturbed>& n);
-plain::Vec3<Perturbed> refract(const plain::Vec3<Perturbed>& v, const plain::Vec3<Perturbed>& n, float eta);
+Perturbed clamp(Perturbed x, Perturbed low, Perturbed high, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+Perturbed saturate(Perturbed x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+Perturbed smoothstep(float edge0, float edge1, Perturbed x, const char* file = __builtin_FILE(), int line = __builtin_LINE());
+inline scalar::Vec3<Perturbed> select(bool m, const scalar::Vec3<Perturbed>& a, const scalar::Vec3<Perturbed>& b,
+                                      const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+  return {select(m, a.x, b.x, file, line), select(m, a.y, b.y, file, line), select(m, a.z, b.z, file, line)};
+}
+scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a);
+scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n);
+scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta,
+                                const char* file = __builtin_FILE(), int line = __builtin_LINE());
 Perturbed nearest_octave(Perturbed x);
 Perturbed uniform_quotient(float a, float b, Perturbed);
 

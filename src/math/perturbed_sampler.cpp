@@ -15,7 +15,7 @@ namespace {
 /// x in fixed point: cut, rounded, or anything between.
 float snapped(float x, int bits) {
   const double steps = power_of_two(bits), offset = std::min(0.5 + 0.5 * swing(), 1 - 0x1p-20);
-  return static_cast<float>(floor(plain::Plain<double>(plain::Plain<double>(x * steps + offset))).v / steps);
+  return static_cast<float>(floor(scalar::Scalar<double>(scalar::Scalar<double>(x * steps + offset))).v / steps);
 }
 }  // namespace
 float Sampler::texel(float x) const { return is_used ? snapped(x, behaviour().variations->rules.subtexel_bits) : x; }
@@ -34,7 +34,7 @@ float Sampler::stored(float in_float, int bits) const {
   double value = in_float;
   const bool up = behaviour().lean != 0 && (draw() & 7) != 0 ? behaviour().lean > 0 : coin();
   if (bits == 0) {
-    value = floor(plain::Plain<double>(plain::Plain<double>(value * 255 + (up ? 1 - 0x1p-20 : 0)))).v / 255;
+    value = floor(scalar::Scalar<double>(scalar::Scalar<double>(value * 255 + (up ? 1 - 0x1p-20 : 0)))).v / 255;
   } else if (bits == 11) {
     const float x = static_cast<float>(value);
     const Half cut = to_half(x, Rounding::rtz);
@@ -57,7 +57,7 @@ float Sampler::weighted(float a, float b, float c, float d, float fx, float fy, 
   const double steps = power_of_two(behaviour().variations->rules.subtexel_bits), whole = steps * static_cast<double>(share);
   // To the nearest; which way a tie goes is anyone's.
   const auto rounded = [](double x) {
-    const double down = floor(plain::Plain<double>(plain::Plain<double>(x))).v, rest = x - down;
+    const double down = floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v, rest = x - down;
     return rest > 0.5 || (rest == 0.5 && coin()) ? down + 1 : down;
   };
   const double right = rounded(whole * static_cast<double>(fx)), left = whole - right;

@@ -42,9 +42,9 @@ Perturbed Perturbed::follow(Op op, Perturbed r, std::initializer_list<Perturbed>
     for (std::size_t k = 1; k < depth.size(); ++k) depth[k] = hashed(depth[k], operand.shape_[k - 1]);
   const std::uint32_t shape = depth.back();
   for (Place& place : b.places) {
-    if (place.slip == Slip::none || place.shape != shape) continue;
+    if (place.fault == PlaceFault::none || place.shape != shape) continue;
     const std::int32_t occurrence = place.seen++;
-    if (place.occurrence < 0 || place.occurrence == occurrence) r = slipped(op, r, of.begin(), of.size(), place.slip);
+    if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of.begin(), of.size(), place.fault);
   }
   std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
   if (!b.trace) return r;
@@ -58,31 +58,31 @@ bool Perturbed::follow(bool result, const Perturbed& a, const Perturbed& b) {
   return follow(Op::comparison, of(result ? 1.0f : 0.0f), {a, b}).v != 0;
 }
 
-Perturbed Perturbed::slipped(Op op, const Perturbed& r, const Perturbed* of_, std::size_t count, Slip slip) {
+Perturbed Perturbed::with_fault(Op op, const Perturbed& r, const Perturbed* of_, std::size_t count, PlaceFault fault) {
   const Unseen parts;
   const Perturbed zero = of(0.0f), one = of(1.0f), half = of(0.5f);
   const Perturbed a = of_[0], b = count > 1 ? of_[1] : a, c = count > 2 ? of_[2] : a;
   const bool minus = op == Op::difference;
-  switch (slip) {
-    case Slip::none:
+  switch (fault) {
+    case PlaceFault::none:
       return r;
-    case Slip::first:
+    case PlaceFault::first:
       return a;
-    case Slip::second:
+    case PlaceFault::second:
       return minus ? -b : b;
-    case Slip::negated:
+    case PlaceFault::negated:
       return -r;
-    case Slip::second_negated:
+    case PlaceFault::second_negated:
       return minus ? a + b : a - b;
-    case Slip::first_twice:
+    case PlaceFault::first_twice:
       return minus ? (a + a) - b : (a + a) + b;
-    case Slip::second_twice:
+    case PlaceFault::second_twice:
       return minus ? a - (b + b) : a + (b + b);
-    case Slip::first_squared:
+    case PlaceFault::first_squared:
       return a * a * b;
-    case Slip::second_squared:
+    case PlaceFault::second_squared:
       return a * (b * b);
-    case Slip::swapped:
+    case PlaceFault::swapped:
       return minus                  ? b - a
              : op == Op::sum        ? b - a
              : op == Op::quotient   ? b / a
@@ -93,9 +93,9 @@ Perturbed Perturbed::slipped(Op op, const Perturbed& r, const Perturbed* of_, st
              : op == Op::choice     ? (c.v != 0 ? b : a)
              : op == Op::comparison ? one - r
                                     : r;
-    case Slip::inverted:
+    case PlaceFault::inverted:
       return op == Op::quotient ? a * b : op == Op::power ? pow(a, one / b) : b.v != 0 ? a / b : zero;
-    case Slip::other:
+    case PlaceFault::other:
       return op == Op::sine           ? cos(a)
              : op == Op::cosine       ? sin(a)
              : op == Op::minimum      ? max(a, b)
@@ -103,42 +103,42 @@ Perturbed Perturbed::slipped(Op op, const Perturbed& r, const Perturbed* of_, st
              : op == Op::exponential  ? exp2(a)
              : op == Op::exponential2 ? exp(a)
              : op == Op::floor        ? floor(a + half)
-             : op == Op::smoothstep   ? plain::saturate((a - b) / (c - b))
+             : op == Op::smoothstep   ? scalar::saturate((a - b) / (c - b))
              : op == Op::square       ? a * a * a
              : op == Op::fract        ? a
                                       : r;
-    case Slip::doubled:
+    case PlaceFault::doubled:
       return r + r;
-    case Slip::halved:
+    case PlaceFault::halved:
       return r * half;
-    case Slip::squared:
+    case PlaceFault::squared:
       return r * r;
-    case Slip::rooted:
+    case PlaceFault::rooted:
       return r.v > 0 ? sqrt(r) : r;
-    case Slip::linear:
+    case PlaceFault::linear:
       return one + a;
-    case Slip::added:
+    case PlaceFault::added:
       return a + b * c;
-    case Slip::in_gamma: {
+    case PlaceFault::in_gamma: {
       const Perturbed gamma = of(2.2f), encoding = of(1 / 2.2f);
       return pow(mix(pow(max(a, zero), encoding), pow(max(b, zero), encoding), c), gamma);
     }
-    case Slip::saturated:
-      return plain::saturate(r);
-    case Slip::nearest:
+    case PlaceFault::saturated:
+      return scalar::saturate(r);
+    case PlaceFault::nearest:
       return floor(r + half);
-    case Slip::half_less:
+    case PlaceFault::half_less:
       return r - half;
-    case Slip::half_more:
+    case PlaceFault::half_more:
       return r + half;
-    case Slip::one_less:
+    case PlaceFault::one_less:
       return r - one;
-    case Slip::one_more:
+    case PlaceFault::one_more:
       return r + one;
-    case Slip::zero:
-    case Slip::never:
+    case PlaceFault::zero:
+    case PlaceFault::never:
       return zero;
-    case Slip::always:
+    case PlaceFault::always:
       return one;
   }
   return r;

@@ -47,7 +47,7 @@ enum class Op : std::uint8_t {
 };
 
 /// What one mistake makes of the operation at a place.
-enum class Slip : std::uint8_t {
+enum class PlaceFault : std::uint8_t {
   none,
   first,   ///< the first operand alone: the other is left out
   second,  ///< the second alone
@@ -81,7 +81,7 @@ enum class Slip : std::uint8_t {
 struct Place {
   std::uint32_t shape = 0;
   std::int32_t occurrence = -1;  ///< of this shape in an invocation; -1: each
-  Slip slip = Slip::none;
+  PlaceFault fault = PlaceFault::none;
   std::int32_t seen = 0;  ///< of this shape so far: 0 before each invocation
 };
 

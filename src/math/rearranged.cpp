@@ -213,7 +213,7 @@ Rearranged fract(const Rearranged& a) {
 
 Rearranged smoothstep(float edge0, float edge1, const Rearranged& x) {
   const Rearranged ramp = (x - Rearranged(edge0)) / (Rearranged(edge1) - Rearranged(edge0));
-  const Enclosure t = plain::saturate(ramp.settled());
+  const Enclosure t = scalar::saturate(ramp.settled());
   if (t.is_vacuous()) return Rearranged::vacuous();
   if (t.is_point() && (t.lo == 0 || t.lo == 1)) return Rearranged(t);
   // It grows with t. Five roundings, relative to 3 t t + 2 t t t.
@@ -223,8 +223,8 @@ Rearranged smoothstep(float edge0, float edge1, const Rearranged& x) {
   return Rearranged(Enclosure::checked(float_below(std::max(low, 0.0)), float_above(high)));
 }
 
-plain::Vec3<Rearranged> normalize(const plain::Vec3<Rearranged>& a) {
-  const plain::Vec3<Enclosure> n = normalize(plain::Vec3<Enclosure>(a.x.settled(), a.y.settled(), a.z.settled()));
+scalar::Vec3<Rearranged> normalize(const scalar::Vec3<Rearranged>& a) {
+  const scalar::Vec3<Enclosure> n = normalize(scalar::Vec3<Enclosure>(a.x.settled(), a.y.settled(), a.z.settled()));
   return {Rearranged(n.x), Rearranged(n.y), Rearranged(n.z)};
 }
 

@@ -22,7 +22,7 @@ namespace rainref::enclosed {
 class Rearranged {
  public:
   using Mask = bool;
-  using Int = plain::Index<Rearranged>;
+  using Int = scalar::Index<Rearranged>;
   static constexpr int size() { return 1; }
 
   Rearranged() : Rearranged(Enclosure(0.0f)) {}
@@ -113,6 +113,6 @@ inline Rearranged uniform_quotient(float a, float b, const Rearranged&) { return
 /// By t t (3 - 2 t) or 3 t t - 2 t t t.
 Rearranged smoothstep(float edge0, float edge1, const Rearranged& x);
 inline Rearranged nearest_octave(const Rearranged& x) { return Rearranged(nearest_octave(x.settled())); }
-plain::Vec3<Rearranged> normalize(const plain::Vec3<Rearranged>& a);
+scalar::Vec3<Rearranged> normalize(const scalar::Vec3<Rearranged>& a);
 
 }  // namespace rainref::enclosed

@@ -1,6 +1,6 @@
 // The named mathematics of passes, written once over a number N and included by every evaluation.
 //
-// Text only: no guard, no includes, no namespace. plain.h and lanes-inl.h include it inside theirs, with RAINREF_FN as
+// Text only: no guard, no includes, no namespace. scalar.h and lanes-inl.h include it inside theirs, with RAINREF_FN as
 // the linkage of a function and RAINREF_LAMBDA as the attribute of a lambda.
 
 // any(mask) says whether the mask is set in some lane. It may guard work whose result a select of the same mask takes,

@@ -2,7 +2,7 @@
 #include "pass/display.h"
 
 #include "math/real64.h"
-#include "pass/display_plain.h"
+#include "pass/display_scalar.h"
 #include "pass/info.h"
 #include "pass/model.h"
 

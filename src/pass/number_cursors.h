@@ -1,13 +1,13 @@
 // Cursors of every number but lanes, over decoded rows.
 #pragma once
 
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "pass/planes.h"
 #include "pass/row_pointers.h"
 
 namespace rainref::pass {
 namespace number_text {
-using plain::Vec3;
+using scalar::Vec3;
 
 template <class N, class Storage>
 inline void load4(const Storage* p, N (&c)[4]) {
@@ -46,7 +46,7 @@ struct NumberCursors {
       out[1] = second;
       for (int c = 2; c < channels; ++c) out[c] = N(0.0f);
     }
-    void operator()(const plain::Vec3<N>& v, N w) const {
+    void operator()(const scalar::Vec3<N>& v, N w) const {
       out[0] = v.x;
       out[1] = v.y;
       out[2] = v.z;

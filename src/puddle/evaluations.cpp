@@ -5,7 +5,7 @@
 #include "capture/bound_texture.h"
 #include "pass/model.h"
 #include "puddle/bounds.h"
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 #include "puddle/rainfall.h"
 
 namespace rainref::puddle {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 #include "random/counter.h"
 
 namespace rainref::puddle {
@@ -91,7 +91,7 @@ Image make_shore(const Settings& s, const Texture& bed) {
   Image shore(Format::r32f, s.grid[0], s.grid[1]);
   for (int y = 0; y < s.grid[1]; ++y) {
     for (int x = 0; x < s.grid[0]; ++x) {
-      const scalar::Plain<double> u((x + 0.5) / s.grid[0]), v((y + 0.5) / s.grid[1]);
+      const scalar::Scalar<double> u((x + 0.5) / s.grid[0]), v((y + 0.5) / s.grid[1]);
       const double depth = scalar::sample_bilinear<0, 1>(bed, u, v)[0].v;
       const double t = std::clamp(depth / (2 * s.shore_width), 0.0, 1.0);
       shore.row<float>(y)[x] = static_cast<float>(t * t * (3 - 2 * t));

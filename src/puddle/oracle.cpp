@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 
 namespace rainref::puddle {
 namespace {
 
 template <class Storage>
-using Number = scalar::Plain<std::conditional_t<std::is_same_v<Storage, double>, double, float>>;
+using Number = scalar::Scalar<std::conditional_t<std::is_same_v<Storage, double>, double, float>>;
 
 // The texel that stands for index i outside [0, size); fixed boundaries have none.
 int inner_index(int i, int size, Boundary boundary) {

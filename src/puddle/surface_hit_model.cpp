@@ -14,7 +14,7 @@
 
 #include "capture/bound_texture.h"
 #include "math/whole.h"
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 #include "puddle/evaluations.h"
 
 namespace rainref::puddle {
@@ -23,7 +23,7 @@ namespace {
 using capture::BoundTexture;
 using capture::PassCase;
 using enclosed::Enclosure;
-using Vector = plain::Vec3<Enclosure>;
+using Vector = scalar::Vec3<Enclosure>;
 
 struct MarchedPass {
   int width, height, values = 8;

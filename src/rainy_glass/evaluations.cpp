@@ -9,7 +9,7 @@
 #include "pass/model.h"
 #include "rainref/error.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/plain.h"
+#include "rainy_glass/scalar.h"
 #include "rainy_glass/rain_on_glass_text.h"
 
 namespace rainref::rainy_glass {

@@ -1,7 +1,7 @@
 // rain_on_glass for every number but lanes: its inputs as the text takes them.
 #pragma once
 
-#include "rainy_glass/plain.h"
+#include "rainy_glass/scalar.h"
 
 namespace rainref::rainy_glass {
 
@@ -12,7 +12,7 @@ struct RainOnGlassText {
     const float* c = scene.texels + 4 * (static_cast<std::ptrdiff_t>(y) * scene.width[0] + x);
     const scalar::GlassMaps<Texture, Texture, Texture> maps{io.raindrops.texture, io.rivulets.texture, io.scene.texture,
                                                             io.near_depth.texture, io.probe.texture};
-    scalar::give_glass<N, corrected>(u, io, plain::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)), maps, x, y);
+    scalar::give_glass<N, corrected>(u, io, scalar::Vec3<N>(N::load(c), N::load(c + 1), N::load(c + 2)), maps, x, y);
   }
 };
 

@@ -2,11 +2,11 @@
 
 #include "math/half.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/plain.h"
+#include "rainy_glass/scalar.h"
 
 namespace rainref::rainy_glass {
 
-using Number = plain::Plain<double>;
+using Number = scalar::Scalar<double>;
 
 ShownGlass::ShownGlass(const Settings& settings, const Surroundings& around, const RainyGlass& rendered)
     : surroundings_(around),

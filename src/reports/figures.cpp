@@ -194,6 +194,13 @@ std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
   return all;
 }
 
+std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
+  if (c.alternatives == 0) return "";
+  std::string out = fmt::format("exercises {} of {} alternatives", c.taken, c.alternatives);
+  for (std::size_t k = 0; k < std::min(shown, c.never.size()); ++k) out += (k == 0 ? "; never: " : ", ") + c.never[k];
+  return out + (c.never.size() > shown ? fmt::format(" and {} more", c.never.size() - shown) : "");
+}
+
 const char* cause_word(const Cause& c) { return c.is_likely ? "likely cause" : "may be"; }
 std::string cause_text(const Cause& c) {
   return fmt::format("{}: {}: {} (gives {} of {} failing {} bit for bit, comes near {})", cause_word(c), c.name, c.sentence, c.explained,

@@ -77,6 +77,9 @@ struct QuantitiesOfOutput {
 };
 std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 
+/// "exercises 41 of 44 alternatives; never: shade.pass.h:71 refract: total reflection", at most `shown` of them; "" where nothing is counted.
+std::string coverage_text(const judge::PassCoverage& coverage, std::size_t shown);
+constexpr std::size_t shown_alternatives = 3;  // the others are in the JSON report and in the pack's manifest
 /// "likely cause", or "may be".
 const char* cause_word(const judge::Cause& cause);
 /// "likely cause: upside down: the buffer is stored from the bottom up (gives 400 of 400 failing texels bit for bit, comes near 400)".

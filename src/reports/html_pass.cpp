@@ -198,6 +198,8 @@ std::string pass_html(const PassJudgement& p, const PortJudgement& j, const Page
   out += broken_html(p);
   out += known_html(p) + takes_html(p, j, source) + causes_html(p);
   if (const std::string half = half_text(p); !half.empty()) out += fmt::format("<p class=\"dim\">S{}.</p>\n", marked_up(half.substr(1)));
+  if (p.coverage.alternatives > 0)
+    out += fmt::format("<p class=\"dim\">The pack {}.</p>\n", marked_up(coverage_text(p.coverage, shown_alternatives)));
   const Figures f = figures_of(p);
   if (f.other_branch > 0)
     out += fmt::format("<p class=\"dim\">{} of {} ambiguous invocations took another branch than the reference.</p>\n", f.other_branch,

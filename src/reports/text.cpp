@@ -103,6 +103,7 @@ std::vector<std::string> remarks_on(const PassJudgement& p) {
     if (const std::string fields = o.counted == judge::Counted::fields ? fields_text(o) : ""; !fields.empty()) out.push_back(fields);
   if (f.free > 0) out.push_back(fmt::format("{} of {} elements are free: declared as not reproducible", f.free, f.elements));
   if (const std::string half = half_text(p); !half.empty()) out.push_back(half);
+  if (!p.coverage.never.empty()) out.push_back(coverage_text(p.coverage, shown_alternatives));
   return out;
 }
 

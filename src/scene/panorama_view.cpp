@@ -6,13 +6,13 @@
 
 #include "image/texture.h"
 #include "math/constants.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
 namespace rainref::scene {
 namespace scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
@@ -25,7 +25,7 @@ using namespace rainref::plain;
 }  // namespace scalar
 
 Image panorama_view(const Image& panorama, const Camera& camera, int width, int height, const parallel::Executor& executor) {
-  using N = plain::Plain<float>;
+  using N = scalar::Scalar<float>;
   constexpr int tile_rows = 8;
   if (panorama.channels() != 4) throw Error(ExitCode::usage, fmt::format("a panorama has four channels, found {}", panorama.channels()));
   TextureData data(panorama, Address::repeat, Address::clamp);
@@ -42,8 +42,8 @@ Image panorama_view(const Image& panorama, const Camera& camera, int width, int 
       for (int x = tile.x0; x < tile.x1; ++x, to += 4) {
         const Vector3 way =
             basis.forward + ((2 * x + 1.0) / width - 1) * half_width * basis.right + ((2 * y + 1.0) / height - 1) * half_height * basis.up;
-        const plain::Vec3<N> seen = scalar::sample_latlong(
-            texture, plain::Vec3<N>(N(static_cast<float>(way.x)), N(static_cast<float>(way.y)), N(static_cast<float>(way.z))), level);
+        const scalar::Vec3<N> seen = scalar::sample_latlong(
+            texture, scalar::Vec3<N>(N(static_cast<float>(way.x)), N(static_cast<float>(way.y)), N(static_cast<float>(way.z))), level);
         to[0] = seen.x.v;
         to[1] = seen.y.v;
         to[2] = seen.z.v;

@@ -1,7 +1,7 @@
 #include "screen_drops/cells.h"
 
 #include "random/counter.h"
-#include "screen_drops/plain.h"
+#include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {
 
@@ -45,13 +45,13 @@ CellState CellLine::at(int column) const {
 }
 
 void cells_rows(const CellsUniforms& u, std::span<DrawnCell> drawn, Image& cells, int begin, int end) {
-  using N = plain::Plain<float>;
+  using N = scalar::Scalar<float>;
   for (int y = begin; y < end; ++y) {
     const CellLine line(u, y);
     DrawnCell* cell = drawn.data() + static_cast<std::ptrdiff_t>(y) * cells.width();
     float* out = cells.row<float>(y);
     for (int x = 0; x < cells.width(); ++x) {
-      scalar::give_cell<N>(u, line.at(x, cell[x]), [&](const plain::Vec3<N>& drop, N phase) {
+      scalar::give_cell<N>(u, line.at(x, cell[x]), [&](const scalar::Vec3<N>& drop, N phase) {
         for (const N n : {drop.x, drop.y, drop.z, phase}) *out++ = n.v;
       });
     }

@@ -3,7 +3,7 @@
 #include "pass/display.h"
 #include "pass/model.h"
 #include "screen_drops/flow_info.h"
-#include "screen_drops/plain.h"
+#include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {
 namespace {

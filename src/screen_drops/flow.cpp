@@ -67,15 +67,15 @@ std::vector<drops::Drop> Flow::drops() const {
   state_->water.drops.gather(all, state_->executor);
   return all;
 }
-const drops::Ledger& Flow::ledger() const { return state_->water.ledger; }
-std::int64_t Flow::balance() const { return state_->water.balance(); }
+const drops::MassBalance& Flow::mass_balance() const { return state_->water.mass_balance; }
+std::int64_t Flow::residual() const { return state_->water.residual(); }
 
 void Flow::set_drops(std::span<const drops::Drop> records) {
   drops::WetGlass& water = state_->water;
   const std::int64_t before = water.drops.water();
   water.drops.assign(records);
-  water.ledger.removed += before;
-  water.ledger.spawned += water.drops.water();
+  water.mass_balance.removed += before;
+  water.mass_balance.spawned += water.drops.water();
 }
 
 }  // namespace rainref::screen_drops

@@ -47,15 +47,15 @@ class Flow {
   int frame() const;
 
   const Image& height() const;  ///< r16f, of splat's size: height of the water over the whole pane, row 0 = bottom [mm]
-  const Image& film() const;    ///< r32f of the same size: whole quanta in a texel
+  const Image& film() const;    ///< r32f of the same size: whole mass units in a texel
   /// The live drops, in slot order.
   std::vector<drops::Drop> drops() const;
-  /// Water since the start of the warm-up, in whole quanta of drops::quantum kg.
-  const drops::Ledger& ledger() const;
-  /// Of the ledger against drops and film: exactly 0.
-  std::int64_t balance() const;
+  /// Water since the start of the warm-up, in whole mass units of drops::mass_unit kg.
+  const drops::MassBalance& mass_balance() const;
+  /// Of the mass balance, against drops and film: exactly 0.
+  std::int64_t residual() const;
 
-  /// Makes these the only drops, of whole quanta; the ledger counts them as arrived and the ones before as removed. Throws
+  /// Makes these the only drops, of whole mass units; the mass balance counts them as arrived and the ones before as removed. Throws
   /// Error(port_files) as drops::DropArrays::assign does.
   void set_drops(std::span<const drops::Drop> records);
 

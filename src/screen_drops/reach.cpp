@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "screen_drops/plain.h"
+#include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {
 namespace {
 
-using Number = plain::Plain<float>;
+using Number = scalar::Scalar<float>;
 
 int floor_of(Number x) { return to_int(floor(x)).i; }
 Number centre(int pixel) { return Number(static_cast<float>(pixel) + 0.5f); }

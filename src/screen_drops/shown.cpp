@@ -4,11 +4,11 @@
 #include "screen_drops/host.h"
 #include "pass/run.h"
 #include "screen_drops/background.pass.h"
-#include "screen_drops/plain.h"
+#include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {
 
-using Number = plain::Plain<double>;
+using Number = scalar::Scalar<double>;
 
 double glass_distance(const Settings& settings) { return 0.5 * settings.pane_height / camera(settings).half_height(); }
 

@@ -91,8 +91,9 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
       const float* hit = puddle.hit().row<float>(y) + 4 * static_cast<std::ptrdiff_t>(x);
       const Half* stored = puddle.normal().row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
       const Vec position(hit[0], hit[1], hit[2]), normal(to_float(stored[0]), to_float(stored[1]), to_float(stored[2]));
-      const scalar::Number u(position.x * shade_uniforms.inverse_size[0] + 0.5), v(position.z * shade_uniforms.inverse_size[1] + 0.5);
-      const double depth = scalar::sample_bilinear<0, 1>(bed.view(), u, v)[0].v;
+      const compositor::scalar::Number u(position.x * shade_uniforms.inverse_size[0] + 0.5),
+          v(position.z * shade_uniforms.inverse_size[1] + 0.5);
+      const double depth = compositor::scalar::sample_bilinear<0, 1>(bed.view(), u, v)[0].v;
       const bool is_water = to_float(stored[3]) > 0.5f && depth > 0,
                  is_truly_water = hits[x].is_surface() && scene.material(hits[x].surface).is_masked;
       auto& count = counts[static_cast<std::size_t>(y)];
@@ -112,8 +113,8 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
       }
       if (is_truly_water) {
         const double cosine = std::clamp(-dot(view, normals[x]), 0.0, 1.0);
-        out.differences[schlick].at(x, y) =
-            scalar::fresnel_schlick(scalar::Number(cosine), f0).v - scalar::fresnel_dielectric(scalar::Number(cosine), water_ior).v;
+        out.differences[schlick].at(x, y) = compositor::scalar::fresnel_schlick(compositor::scalar::Number(cosine), f0).v -
+                                            compositor::scalar::fresnel_dielectric(compositor::scalar::Number(cosine), water_ior).v;
       }
       const Half* passes = puddle.colour().row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
       const Half* true_colour = truth.beauty.row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);

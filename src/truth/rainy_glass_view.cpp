@@ -155,9 +155,9 @@ RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction)
       deepest = std::max(deepest, unbarred_->depth.row<float>(y)[x]);
   }
   if (!(deepest >= 0.98 * (is_sky ? rainy_glass::backdrop_far : z) - 0.1)) return {from_eye, seen.radiance};
-  using scalar::Number;
-  const auto s =
-      scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(colour_.view()), Number(u), Number(v));
+  using compositor::scalar::Number;
+  const auto s = compositor::scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(colour_.view()),
+                                                                   Number(u), Number(v));
   return {from_eye, {s[0].v, s[1].v, s[2].v}};
 }
 

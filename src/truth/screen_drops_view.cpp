@@ -67,10 +67,10 @@ ScreenDropsView::ScreenDropsView(const screen_drops::Settings& s, const Image& c
 Vec ScreenDropsView::radiance(const Vec& direction) const {
   const double ahead = dot(direction, basis_.forward);
   if (!(ahead > 0)) return {0, 0, 0};
-  using scalar::Number;
+  using compositor::scalar::Number;
   const double inverse = 1 / std::max(ahead, 1e-6);
   const Number u(0.5 + dot(direction, basis_.right) * inverse * scale_[0]), v(0.5 + dot(direction, basis_.up) * inverse * scale_[1]);
-  const auto s = scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(scene_.view()), u, v);
+  const auto s = compositor::scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(scene_.view()), u, v);
   return {s[0].v, s[1].v, s[2].v};
 }
 

@@ -4,8 +4,8 @@
 #include "drops/evaluations.h"
 #include "pass/display.h"
 #include "pass/model.h"
-#include "windshield/plain.h"
-#include "windshield/surface_plain.h"
+#include "windshield/scalar.h"
+#include "windshield/surface_scalar.h"
 
 namespace rainref::windshield {
 

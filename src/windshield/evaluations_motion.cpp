@@ -12,7 +12,7 @@
 #include "drops/evaluations.h"
 #include "math/whole.h"
 #include "rainref/error.h"
-#include "windshield/motion_plain.h"
+#include "windshield/motion_scalar.h"
 #include "windshield/evaluations.h"
 #include "windshield/wipe_drops.h"
 
@@ -26,7 +26,7 @@ using drops::Drop;
 using drops::ListedDrop;
 using enclosed::Enclosure;
 using perturbed::Perturbed;
-using Number = plain::Plain<float>;
+using Number = scalar::Scalar<float>;
 
 // ---- windshield_frame ----------------------------------------------------------------------------------------------
 class Frame : public capture::KeyedModel {
@@ -140,9 +140,9 @@ struct Sweep {
   }
 };
 
-constexpr std::uint64_t most = static_cast<std::uint64_t>(drops::most_quanta);
-/// Whole quanta, as the pass has them.
-std::uint64_t quanta_of(float x) { return x > 0 ? static_cast<std::uint64_t>(std::min(x, drops::most_quanta)) : 0; }
+constexpr std::uint64_t most = static_cast<std::uint64_t>(drops::most_mass);
+/// Whole mass units, as the pass has them.
+std::uint64_t mass_units_of(float x) { return x > 0 ? static_cast<std::uint64_t>(std::min(x, drops::most_mass)) : 0; }
 
 /// A record and one of its radial bins; none: nothing is handed on there.
 using Place = int;
@@ -169,7 +169,7 @@ bool places(Decide decide, std::vector<Place>& out) {
   return whole;
 }
 
-/// The drops after the sweep. What a texel of the film hands on is whole quanta, so the water that a place gets is a sum
+/// The drops after the sweep. What a texel of the film hands on is whole mass units, so the water that a place gets is a sum
 /// of integers: of the texels that surely go there, and of those beside a border, each of which may or may not. Drops that
 /// may get the water of one place are one group, because which of them gets it hangs on where the others are.
 class SweptDrops : public capture::KeyedModel {
@@ -199,7 +199,7 @@ class SweptDrops : public capture::KeyedModel {
     for (const auto& [place, at] : takers) {
       if (at < first) continue;
       Enclosure& mass = out[at].floats[4];
-      const std::uint64_t have = quanta_of(mass.lo);
+      const std::uint64_t have = mass_units_of(mass.lo);
       const auto [least, greatest] = film_of(place);
       const auto with = [&](std::uint64_t gained) { return static_cast<float>(std::min(have + gained, most)); };
       mass = Enclosure(with(least), with(greatest));
@@ -225,7 +225,7 @@ class SweptDrops : public capture::KeyedModel {
       for (const Place place : found) {
         if (place == none) continue;
         if (whole && found.size() == 1)
-          shares_[place].sure += quanta_of(s_->film[static_cast<std::size_t>(texel)]);
+          shares_[place].sure += mass_units_of(s_->film[static_cast<std::size_t>(texel)]);
         else
           shares_[place].open.push_back(texel);
       }
@@ -271,7 +271,7 @@ class SweptDrops : public capture::KeyedModel {
     std::vector<Place> all;
     for (const int texel : found->second.open) {
       const bool whole = places([&] { return decided_place(s_->uniforms, s_->swept<Enclosure>(texel)); }, all);
-      const std::uint64_t water = quanta_of(s_->film[static_cast<std::size_t>(texel)]);
+      const std::uint64_t water = mass_units_of(s_->film[static_cast<std::size_t>(texel)]);
       const bool may = !whole || std::binary_search(all.begin(), all.end(), place);
       if (may) greatest += water;
       if (may && whole && all.size() == 1) least += water;
@@ -285,7 +285,7 @@ class SweptDrops : public capture::KeyedModel {
     for (const int texel : s_->wet_texels()) {
       const motion_scalar::SweptTexel<N> swept = s_->swept<N>(texel);
       const Place place = place_of(s_->uniforms, swept.wiper.v, swept.bin.v);
-      if (place != none) film[place] += quanta_of(s_->film[static_cast<std::size_t>(texel)]);
+      if (place != none) film[place] += mass_units_of(s_->film[static_cast<std::size_t>(texel)]);
     }
     std::vector<Drop> out;
     std::map<Place, std::size_t> takers;
@@ -299,7 +299,7 @@ class SweptDrops : public capture::KeyedModel {
       const auto [taker, is_first] = takers.emplace(place, out.size() - 1);
       if (!is_first && drop.id < out[taker->second].id) taker->second = out.size() - 1;
     }
-    for (const auto& [place, at] : takers) out[at].mass = static_cast<float>(std::min(quanta_of(out[at].mass) + film[place], most));
+    for (const auto& [place, at] : takers) out[at].mass = static_cast<float>(std::min(mass_units_of(out[at].mass) + film[place], most));
     return drops::bytes_of(out);
   }
 

@@ -64,7 +64,7 @@ void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wip
 }
 
 void WipeFilmRows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                  std::uint64_t* quanta) {
+                  std::uint64_t* mass_units) {
   const int n = Lanes::size();
   HWY_ALIGN float held[lane_room], swept_by[lane_room], swept_in[lane_room];
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -87,7 +87,7 @@ void WipeFilmRows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const 
       for (int k = 0; k < count; ++k) {
         if (swept_by[k] < 0 || held[k] <= 0) continue;
         const int bin = static_cast<int>(swept_by[k]) * uniforms.bin_count + static_cast<int>(swept_in[k]);
-        quanta[bin] += static_cast<std::uint64_t>(held[k]);
+        mass_units[bin] += static_cast<std::uint64_t>(held[k]);
       }
       store(row + x, select(is_swept, Lanes(0.0f), here), Rounding::rne, count);
     }
@@ -112,8 +112,8 @@ void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const W
   RAINREF_DISPATCH(WipeDropsRange)(uniforms, corrected, wipers, drops, wiper, bin, begin, end);
 }
 void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                    std::uint64_t* quanta) {
-  RAINREF_DISPATCH(WipeFilmRows)(uniforms, wipers, boxes, film, tile, quanta);
+                    std::uint64_t* mass_units) {
+  RAINREF_DISPATCH(WipeFilmRows)(uniforms, wipers, boxes, film, tile, mass_units);
 }
 
 }  // namespace rainref::windshield

@@ -30,9 +30,9 @@ void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const W
 struct TexelBox {
   int x0, y0, x1, y1;
 };
-/// corrected: sets the swept texels of the tile's rows to 0 and adds what they held to quanta[wiper * bin_count + bin].
+/// corrected: sets the swept texels of the tile's rows to 0 and adds what they held to mass_units[wiper * bin_count + bin].
 /// boxes: one for each record.
 void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
-                    std::uint64_t* quanta);
+                    std::uint64_t* mass_units);
 
 }  // namespace rainref::windshield

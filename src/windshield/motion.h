@@ -33,7 +33,7 @@ struct WipeDropsUniforms {
   float inverse_frame[3];      ///< u = i0 x + i1 y, v = i2 y
   float inherit;               ///< as-published: share of the blade's velocity in a frame
   float gain;                  ///< as-published: mass gained in a frame
-  float radius_scale;          ///< corrected: base radius of a drop of one quantum [m]
+  float radius_scale;          ///< corrected: base radius of a drop of one mass unit [m]
   std::int32_t wiper_count;    ///< records in the list
   std::int32_t bin_count;      ///< corrected: radial bins that share out the film
   float texel[2];              ///< corrected: 1 / columns and rows of the film

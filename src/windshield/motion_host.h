@@ -17,7 +17,7 @@ struct Capture {
 };
 constexpr int film_bins = 64;  ///< about 1 cm of a blade each
 
-/// radius_scale [m]: base radius of a drop of one quantum, corrected. columns and rows: of the film; 0 without one.
+/// radius_scale [m]: base radius of a drop of one mass unit, corrected. columns and rows: of the film; 0 without one.
 WipeDropsUniforms wipe_drops_uniforms(const Glass& glass, bool corrected, int wiper_count, const Capture& capture, double radius_scale,
                                       int columns, int rows);
 

@@ -49,7 +49,7 @@ PassInfo wipe_drops_info(const char* from) {
        member<&U::inverse_frame>("inverse_frame", "1/m", {-1e9, 1e9}, "u = i0 x + i1 y, v = i2 y."),
        member<&U::inherit>("inherit", "1", share, "as-published: share of the blade's velocity that a captured drop takes over."),
        member<&U::gain>("gain", "1", {0, 100}, "as-published: mass that a captured drop gains."),
-       member<&U::radius_scale>("radius_scale", "m", share, "corrected: base radius of a drop of one quantum."),
+       member<&U::radius_scale>("radius_scale", "m", share, "corrected: base radius of a drop of one mass unit."),
        member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Records in the list of wipers."),
        member<&U::bin_count>("bin_count", "1", {0, 4096}, "corrected: radial bins that share out the film."),
        member<&U::texel>("texel", "1", share, "corrected: 1 over the film's columns and rows."),

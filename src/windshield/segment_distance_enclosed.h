@@ -35,8 +35,8 @@ inline enclosed::Enclosure segment_distance(enclosed::Enclosure px, enclosed::En
   using enclosed::Enclosure;
   const Enclosure along_x = bx - ax, along_y = by - ay, from_x = px - ax, from_y = py - ay;
   const Enclosure length_sq = max(square(along_x) + square(along_y), Enclosure(1e-12f));
-  const Enclosure t = plain::saturate((from_x * along_x + from_y * along_y) / length_sq);
-  const Enclosure written = plain::length(from_x - t * along_x, from_y - t * along_y);
+  const Enclosure t = rainref::scalar::saturate((from_x * along_x + from_y * along_y) / length_sq);
+  const Enclosure written = rainref::scalar::length(from_x - t * along_x, from_y - t * along_y);
   const enclosed::Profile& p = enclosed::profile();
   if (p.reference || written.is_vacuous() || !(t.lo > 0 && t.hi < 1 && length_sq.lo > 1e-6f)) return written;
 

@@ -1,10 +1,10 @@
 #include "windshield/shown.h"
 
-#include "windshield/plain.h"
+#include "windshield/scalar.h"
 
 namespace rainref::windshield {
 
-using Number = plain::Plain<double>;
+using Number = scalar::Scalar<double>;
 
 ShownScene::ShownScene(const Settings& settings, const Windshield& rendered)
     : uniforms_(composite_uniforms(settings.picture, settings.corners)),

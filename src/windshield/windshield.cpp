@@ -142,7 +142,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
       steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
   wipers.insert(wipers.end(), swept.begin(), swept.end());
   const WipeDropsUniforms wipe =
-      wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_quantum(settings.drops),
+      wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_mass_unit(settings.drops),
                           corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
   if (recorder) {
     if (corrected) {
@@ -158,8 +158,8 @@ void Windshield::State::step(Recorder* recorder, int substep) {
       wipe, corrected, swept, {drops.u(), drops.v(), drops.velocity_u(), drops.velocity_v(), drops.mass(), drops.life(), drops.id()},
       corrected ? &water.film : nullptr, executor));
   // What the drops gained, or lost less than what is gone, came from the film.
-  water.ledger.removed += gone;
-  if (corrected) water.ledger.to_film -= drops.water() - drops_before + gone;
+  water.mass_balance.removed += gone;
+  if (corrected) water.mass_balance.to_film -= drops.water() - drops_before + gone;
   const double wiped_time = wipe_clock.seconds();
   if (recorder) {
     if (corrected) {
@@ -286,11 +286,11 @@ std::vector<DropView> Windshield::drops() const {
   for (const drops::Drop& d : all) out.push_back({d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life, d.id});
   return out;
 }
-WaterLedger Windshield::ledger() const {
+MassBalance Windshield::mass_balance() const {
   const FloatingPointGuard guard;
   const State& s = *state_;
   const drops::WetGlass& w = s.water;
-  return {w.ledger.spawned, w.ledger.evaporated, w.ledger.removed, s.corrected ? drops::film_water(w.film) : 0,
+  return {w.mass_balance.spawned, w.mass_balance.evaporated, w.mass_balance.removed, s.corrected ? drops::film_water(w.film) : 0,
           s.corrected ? w.drops.water() : w.drops.live()};
 }
 const Image& Windshield::height() const { return state_->height; }

@@ -10,7 +10,7 @@ constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 16;
 constexpr std::uint64_t largest_mass = std::uint64_t{1} << 24;  // whole numbers up to here are floats
 
-// Quanta by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
+// MassRange by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
 std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
                                       const parallel::Executor& executor) {
   std::vector<TexelBox> boxes;
@@ -21,11 +21,11 @@ std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<cons
   executor.for_tiles(film.width(), film.height(), film.width(), rows_to_a_tile, [&](const parallel::Tile& tile) {
     wipe_film_rows(u, wipers.data(), boxes.data(), film, tile, by_tile[static_cast<std::size_t>(tile.y0 / rows_to_a_tile)].data());
   });
-  std::vector<std::uint64_t> quanta(bins);
+  std::vector<std::uint64_t> mass_units(bins);
   for (const auto& tile : by_tile) {
-    for (std::size_t k = 0; k < bins; ++k) quanta[k] += tile[k];
+    for (std::size_t k = 0; k < bins; ++k) mass_units[k] += tile[k];
   }
-  return quanta;
+  return mass_units;
 }
 
 }  // namespace
@@ -59,9 +59,9 @@ std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<c
   });
   if (!corrected) return 0;
 
-  std::vector<std::uint64_t> quanta = sweep_film(u, wipers, *film, executor);
+  std::vector<std::uint64_t> mass_units = sweep_film(u, wipers, *film, executor);
   // The drop of lowest id for each record and bin.
-  std::vector<std::int64_t> taker(quanta.size(), -1);
+  std::vector<std::int64_t> taker(mass_units.size(), -1);
   std::uint64_t removed = 0;
   for (std::size_t i = 0; i < slots; ++i) {
     if (wiper[i] == -2) removed += static_cast<std::uint64_t>(drops.mass[i]);
@@ -70,15 +70,15 @@ std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<c
         taker[static_cast<std::size_t>(wiper[i]) * static_cast<std::size_t>(u.bin_count) + static_cast<std::size_t>(bin[i])];
     if (best < 0 || drops.id[i] < drops.id[static_cast<std::size_t>(best)]) best = static_cast<std::int64_t>(i);
   }
-  for (std::size_t k = 0; k < quanta.size(); ++k) {
+  for (std::size_t k = 0; k < mass_units.size(); ++k) {
     if (taker[k] >= 0) {
       float& mass = drops.mass[static_cast<std::size_t>(taker[k])];
       const std::uint64_t have = static_cast<std::uint64_t>(mass),
-                          gained = std::min(quanta[k], largest_mass - std::min(have, largest_mass));
+                          gained = std::min(mass_units[k], largest_mass - std::min(have, largest_mass));
       mass = static_cast<float>(have + gained);
-      quanta[k] -= gained;
+      mass_units[k] -= gained;
     }
-    removed += quanta[k];
+    removed += mass_units[k];
   }
   return removed;
 }

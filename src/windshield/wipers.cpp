@@ -13,7 +13,7 @@ namespace rainref::windshield {
 namespace {
 
 constexpr double largest_sweep = 170;   // [deg] below a half turn, so that the sector is what two half planes share
-constexpr double largest_drop = 0.010;  // [m] base radius of the heaviest drop, 2^24 quanta: 8 mm
+constexpr double largest_drop = 0.010;  // [m] base radius of the heaviest drop, 2^24 mass units: 8 mm
 
 // Angle by cycles since time 0.
 double angle_at(const Blade& b, double cycles) {

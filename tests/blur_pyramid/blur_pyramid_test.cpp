@@ -7,7 +7,7 @@
 #include <random>
 
 #include "blur_pyramid/blur_pyramid.h"
-#include "blur_pyramid/plain.h"
+#include "blur_pyramid/scalar.h"
 #include "image/texture.h"
 #include "math/half.h"
 #include "math/half_array.h"
@@ -15,7 +15,7 @@
 #include "pass/same_as_definition.h"
 
 namespace rainref::blur_pyramid::sampled {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "image/sampling-inl.h"
@@ -26,8 +26,8 @@ using namespace rainref::plain;
 namespace rainref::blur_pyramid {
 namespace {
 
-using F = plain::Plain<float>;
-using D = plain::Plain<double>;
+using F = scalar::Scalar<float>;
+using D = scalar::Scalar<double>;
 
 const parallel::Executor& two_threads() {
   static const parallel::Executor executor(2);

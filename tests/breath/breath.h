@@ -16,7 +16,7 @@
 
 namespace rainref::breath {
 namespace scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #include "breath/condense.pass.h"
 #include "breath/veil.pass.h"

@@ -85,7 +85,7 @@ TEST_F(Defaults, Windshield) {
   windshield::Windshield windshield(SceneText{"", {"run.size=[160, 90]", "scene.size=[160, 90]"}}, {}, executor);
   windshield.next_frame();
   expect_lit(windshield.picture());
-  EXPECT_EQ(windshield.ledger().balance(), 0);
+  EXPECT_EQ(windshield.mass_balance().residual(), 0);
 }
 
 /// The settings of a scene that names effect and variant and nothing else.

@@ -32,7 +32,7 @@ TEST(CaptureRecorder, InputsAreThoseBeforeThePassOverwroteThem) {
     EXPECT_EQ(cases[i].input("picture")->array.levels, cases[i - 2].output("picture")->array.levels);
 }
 
-TEST(CaptureRecorder, KeepsWhatWasAnnounced) {
+TEST(CaptureRecorder, KeepsWhatWasRecorded) {
   const PassCase c = example_cases()[5];
   EXPECT_EQ(c.effect, "puddle");
   EXPECT_TRUE(c.corrected());

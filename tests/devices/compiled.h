@@ -6,14 +6,14 @@
 #include <cstdint>
 
 #include "math/half.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/unorm.h"
 
 namespace rainref::devices {
 
 struct Compiled {
   using Mask = bool;
-  using Int = plain::Index<Compiled>;
+  using Int = scalar::Index<Compiled>;
   static constexpr int size() { return 1; }
 
   float v = 0;
@@ -25,7 +25,7 @@ struct Compiled {
     if constexpr (std::is_same_v<Storage, Unorm8>)
       return Compiled(static_cast<float>(p->code) / 255.0f);
     else
-      return Compiled(plain::to_float(*p));
+      return Compiled(scalar::to_float(*p));
   }
   static Compiled index(int first) { return Compiled(static_cast<float>(first)); }
   static Int uniform_int(int value) { return {value}; }

@@ -3,17 +3,17 @@
 
 #include <string>
 
-#include "blur_pyramid/plain.h"
+#include "blur_pyramid/scalar.h"
 #include "capture/pass_case.h"
-#include "edge_splash/plain.h"
-#include "pass/display_plain.h"
+#include "edge_splash/scalar.h"
+#include "pass/display_scalar.h"
 #include "pass/model.h"
-#include "puddle/plain.h"
-#include "rainy_glass/plain.h"
+#include "puddle/scalar.h"
+#include "rainy_glass/scalar.h"
 #include "rainy_glass/rain_on_glass_text.h"
-#include "screen_drops/plain.h"
-#include "windshield/plain.h"
-#include "windshield/surface_plain.h"
+#include "screen_drops/scalar.h"
+#include "windshield/scalar.h"
+#include "windshield/surface_scalar.h"
 
 namespace rainref::devices {
 

@@ -20,7 +20,7 @@ IntegrateUniforms plain_drag(double dt, float drag) {
   return c;
 }
 
-// W4: x(t) = x0 + v_inf t + (v0 - v_inf)(1 - e^-dt) / d. A drop of one quantum has the constants as they are.
+// W4: x(t) = x0 + v_inf t + (v0 - v_inf)(1 - e^-dt) / d. A drop of one mass unit has the constants as they are.
 TEST(IntegrateCorrected, IsTheExactSolution) {
   const GlassFrame glass{{0.25f, -5.5f}, {}, {}, 0, 0, {}, {}};
   for (const int fps : {24, 60, 144}) {
@@ -74,7 +74,7 @@ std::vector<Drop> after(int steps, const GlassFrame& glass, float mass, float ve
   a.gather(out, executor);
   return out;
 }
-float mass_of(double diameter) { return static_cast<float>(test::quanta_of_diameter(diameter)); }
+float mass_of(double diameter) { return static_cast<float>(test::mass_units_of_diameter(diameter)); }
 
 // W3: level braking at a is parking on a slope of atan(a / g) with g' = sqrt(g^2 + a^2): one specific force.
 TEST(IntegrateCorrected, BrakingIsASlope) {
@@ -155,16 +155,16 @@ TEST(IntegrateCorrected, EvaporatesAtTheRateOfHuAndLarson) {
   const double d = 2e-3, seconds = 20;
   const float mass = mass_of(d);
   // dm/dt = -k m^(1/3): m^(2/3) falls evenly.
-  // The base of a cap of one quantum, and the fit of H. Hu and R. G. Larson, J. Phys. Chem. B 106 (2002), which DropPhysics holds against
+  // The base of a cap of one mass unit, and the fit of H. Hu and R. G. Larson, J. Phys. Chem. B 106 (2002), which DropPhysics holds against
   // exact diffusion.
   const double angle = 35 * degree, c = std::cos(angle), sine = std::sin(angle);
   const double base = std::cbrt(3 * (2e-11 / 998.2) * sine * sine * sine / (test::pi * (2 + c) * (1 - c) * (1 - c)));
   const double k = test::pi * base * 2.4e-5 * (1 - 0.2) * 17.3e-3 * (0.27 * angle * angle + 1.30) / 2e-11;
-  const double quanta = mass - std::pow(std::pow(static_cast<double>(mass), 2.0 / 3) - 2 * k * seconds / 3, 1.5);
+  const double mass_units = mass - std::pow(std::pow(static_cast<double>(mass), 2.0 / 3) - 2 * k * seconds / 3, 1.5);
   for (const double fps : {30.0, 60.0, 240.0}) {
     const auto drops = after(static_cast<int>(seconds * fps), test::parked(0), mass, 0, s, fps);
-    // The golden section spreads the phases so evenly that the roundings of n steps add up to less than log2(n) quanta.
-    EXPECT_NEAR(mass - drops.at(0).mass, quanta, std::log2(seconds * fps)) << fps;
+    // The golden section spreads the phases so evenly that the roundings of n steps add up to less than log2(n) mass units.
+    EXPECT_NEAR(mass - drops.at(0).mass, mass_units, std::log2(seconds * fps)) << fps;
   }
 }
 
@@ -173,7 +173,7 @@ TEST(IntegrateCorrected, ADropThatDriesUpIsGoneAndSoIsItsWater) {
   Settings s;
   s.humidity = 0;
   DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 50, 0, 0, 0, 1000)});
-  Ledger sum;
+  MassBalance sum;
   int steps = 0;
   for (; a.live() > 0 && steps < 6000; ++steps) sum += integrate_corrected(executor, a, uniforms(1.0 / 60, s), test::parked(0));
   EXPECT_LT(steps, 6000);
@@ -189,7 +189,7 @@ TEST(IntegrateCorrected, LifeAndTheEdgeRemove) {
   const std::int64_t before = a.water();
   Settings s;
   s.humidity = 1;
-  Ledger sum;
+  MassBalance sum;
   for (int n = 0; n < 3; ++n) sum += integrate_corrected(executor, a, uniforms(1.0 / 60, s), test::parked(27 * degree));
   EXPECT_EQ(a.live(), 1);  // the last one lies within the margin of 0.02
   EXPECT_EQ(sum.evaporated, 0);

@@ -29,7 +29,7 @@ Settings settings(bool corrected) {
 }
 IntegrateUniforms integrate(bool corrected) { return integrate_uniforms(settings(corrected), test::frame, 1.0 / 60); }
 
-// Everything that a run of the passes leaves: the arrays, the film, the ledger.
+// Everything that a run of the passes leaves: the arrays, the film, the balance.
 std::string run(const std::vector<Drop>& start, bool corrected, int threads, std::uint64_t shuffle, int frames) {
   parallel::Executor executor(threads);
   executor.shuffle_tiles(shuffle);
@@ -37,7 +37,7 @@ std::string run(const std::vector<Drop>& start, bool corrected, int threads, std
   Arrivals arrivals(settings(corrected));
   Merger merger;
   Image film(Format::r32f, 33, 17);
-  Ledger sum;
+  MassBalance sum;
   const MergeUniforms merge = merge_uniforms(settings(corrected), test::frame, 1.0 / 60, 33, 17, 1);
   for (int n = 0; n < frames; ++n) {
     const SpawnPlan& plan = arrivals.plan({0.1, 0.8, -10}, n, 60, a.next_id(), a.free_slots());
@@ -110,8 +110,8 @@ TEST_P(DropsDeterminism, LanesEqualTheScalarEvaluation) {
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     DropArrays a = test::arrays_of(start);
-    Ledger ledger = corrected ? integrate_corrected(executor, a, c, glass()) : integrate_as_published(executor, a, c, glass());
-    Ledger expected;
+    MassBalance balance = corrected ? integrate_corrected(executor, a, c, glass()) : integrate_as_published(executor, a, c, glass());
+    MassBalance expected;
     for (std::size_t i = 0; i < start.size(); ++i) {
       const auto before = test::state_of<F>(start[i]);
       Drop d;
@@ -127,7 +127,7 @@ TEST_P(DropsDeterminism, LanesEqualTheScalarEvaluation) {
       const Drop found = a.get(static_cast<std::int64_t>(i));
       ASSERT_EQ(std::memcmp(&found, &d, sizeof d), 0) << target << " drop " << i;
     }
-    EXPECT_EQ(ledger, expected) << target;
+    EXPECT_EQ(balance, expected) << target;
     if (!corrected) continue;
     Image film(Format::r32f, 64, 32), expected_film(Format::r32f, 64, 32);
     std::vector<Drop> before(start.size());
@@ -135,8 +135,9 @@ TEST_P(DropsDeterminism, LanesEqualTheScalarEvaluation) {
     leave_trails(executor, a, merge, film);
     for (std::size_t i = 0; i < before.size(); ++i) {
       const auto left = scalar::trail(merge, test::state_of<F>(before[i]));
-      ASSERT_EQ(a.mass()[i], before[i].mass - left.quanta.v) << target << " drop " << i;
-      if (left.quanta.v > 0) expected_film.row<float>(static_cast<int>(left.v.v * 32))[static_cast<int>(left.u.v * 64)] += left.quanta.v;
+      ASSERT_EQ(a.mass()[i], before[i].mass - left.mass_units.v) << target << " drop " << i;
+      if (left.mass_units.v > 0)
+        expected_film.row<float>(static_cast<int>(left.v.v * 32))[static_cast<int>(left.u.v * 64)] += left.mass_units.v;
     }
     EXPECT_GT(film_water(film), 0);
     for (int y = 0; y < 32; ++y)

@@ -1,7 +1,7 @@
 // The texts of this room in every evaluation: they compile, agree, and enclose.
 #include <gtest/gtest.h>
 
-#include "drops/plain.h"
+#include "drops/scalar.h"
 #include "support.h"
 
 namespace rainref::drops {
@@ -61,7 +61,7 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
             left.u,
             left.v,
             scalar::base_radius<N>(merge, d.mass)};
-  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.quanta, scalar::dried<N>(merge, N(drop.mass))};
+  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.mass_units, scalar::dried<N>(merge, N(drop.mass))};
 }
 
 class DropsEvaluations : public testing::Test {
@@ -72,8 +72,8 @@ class DropsEvaluations : public testing::Test {
 TEST_F(DropsEvaluations, DoubleLiesWithinTheErrorOfFloats) {
   int unequal = 0;
   for (std::size_t i = 0; i + 1 < drops_.size(); ++i) {
-    std::vector<plain::Plain<float>> motion, whole;
-    std::vector<plain::Plain<double>> motion_oracle, whole_oracle;
+    std::vector<scalar::Scalar<float>> motion, whole;
+    std::vector<scalar::Scalar<double>> motion_oracle, whole_oracle;
     evaluate(drops_[i], drops_[i + 1], motion, whole);
     evaluate(drops_[i], drops_[i + 1], motion_oracle, whole_oracle);
     // All are of order 1 and made by fewer than 60 roundings of 2^-24, of which those of the force, up to 50 per s^2,
@@ -92,7 +92,7 @@ TEST_F(DropsEvaluations, DoubleLiesWithinTheErrorOfFloats) {
 
 TEST_F(DropsEvaluations, PerturbedWithoutASlipIsTheScalarEvaluation) {
   for (std::size_t i = 0; i + 1 < drops_.size(); i += 10) {
-    std::vector<plain::Plain<float>> motion, whole;
+    std::vector<scalar::Scalar<float>> motion, whole;
     std::vector<perturbed::Perturbed> motion_perturbed, whole_perturbed;
     evaluate(drops_[i], drops_[i + 1], motion, whole);
     evaluate(drops_[i], drops_[i + 1], motion_perturbed, whole_perturbed);
@@ -103,7 +103,7 @@ TEST_F(DropsEvaluations, PerturbedWithoutASlipIsTheScalarEvaluation) {
 
 TEST_F(DropsEvaluations, EnclosureHoldsTheScalarEvaluation) {
   for (std::size_t i = 0; i + 1 < drops_.size(); i += 10) {
-    std::vector<plain::Plain<float>> motion, whole;
+    std::vector<scalar::Scalar<float>> motion, whole;
     std::vector<enclosed::Enclosure> motion_enclosed, whole_enclosed;
     evaluate(drops_[i], drops_[i + 1], motion, whole);
     evaluate(drops_[i], drops_[i + 1], motion_enclosed, whole_enclosed);

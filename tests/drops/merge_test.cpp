@@ -99,11 +99,11 @@ TEST(Merge, BeyondTheLargestMassItDoesNotHappen) {
   EXPECT_EQ(ended, 2);
 }
 
-// 2^24 + 1 is no float: a sum that is rounded before it is compared would lose a quantum.
+// 2^24 + 1 is no float: a sum that is rounded before it is compared would lose a mass unit.
 TEST(Merge, AFullDropTakesNotEvenOneQuantum) {
-  const auto out = merged({drop(0.5f, 0.5f, most_quanta, 0), drop(0.5001f, 0.5f, 1, 1)});
+  const auto out = merged({drop(0.5f, 0.5f, most_mass, 0), drop(0.5001f, 0.5f, 1, 1)});
   ASSERT_EQ(out.size(), 2u);
-  EXPECT_EQ(out[0].mass, most_quanta);
+  EXPECT_EQ(out[0].mass, most_mass);
   EXPECT_EQ(out[1].mass, 1);
 }
 
@@ -137,7 +137,7 @@ std::vector<Drop> by_brute_force(std::vector<Drop> drops, const MergeUniforms& u
     while (to.contains(root)) root = to[root];
     Drop& r = all[root];
     const Drop& d = before.at(id);
-    if (d.mass > most_quanta - r.mass) continue;
+    if (d.mass > most_mass - r.mass) continue;
     const auto s = scalar::absorb(test::state_of<F>(r), test::state_of<F>(d));
     r = {{s.u.v, s.v.v}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, s.mass.v, s.life.v, root, 0};
     all[id].life = 0;
@@ -205,14 +205,14 @@ TEST(Trails, LieUnderTheTailAndTheDropKeepsTheRest) {
   Image film(Format::r32f, 64, 32);
   const float mass = 1e6f, speed_y = -0.25f;
   DropArrays a = test::arrays_of({drop(0.5f, 0.5f, mass, 0, 0, speed_y)});
-  const Ledger ledger = leave_trails(executor, a, uniforms, film);
+  const MassBalance balance = leave_trails(executor, a, uniforms, film);
   // 2 radius * thickness * way of water.
-  const double radius = radius_of(mass), way = 0.25 * test::glass_height / 60, quanta = 2 * radius * 2e-6 * way * 998.2 / quantum;
-  EXPECT_NEAR(static_cast<double>(ledger.to_film), quanta, 1.5);
-  EXPECT_EQ(a.mass()[0], mass - static_cast<float>(ledger.to_film));
-  EXPECT_EQ(film_water(film), ledger.to_film);
+  const double radius = radius_of(mass), way = 0.25 * test::glass_height / 60, mass_units = 2 * radius * 2e-6 * way * 998.2 / mass_unit;
+  EXPECT_NEAR(static_cast<double>(balance.to_film), mass_units, 1.5);
+  EXPECT_EQ(a.mass()[0], mass - static_cast<float>(balance.to_film));
+  EXPECT_EQ(film_water(film), balance.to_film);
   const int row = static_cast<int>((0.5 + radius / test::glass_height) * 32);
-  EXPECT_EQ(film.row<float>(row)[32], static_cast<float>(ledger.to_film));
+  EXPECT_EQ(film.row<float>(row)[32], static_cast<float>(balance.to_film));
 }
 
 TEST(Trails, RestingOrTinyDropsLeaveNothingAndNoneLosesItsLastQuantum) {
@@ -220,12 +220,12 @@ TEST(Trails, RestingOrTinyDropsLeaveNothingAndNoneLosesItsLastQuantum) {
   Image film(Format::r32f, 64, 32);
   DropArrays a = test::arrays_of({drop(0.5f, 0.5f, 1e6f, 0), drop(0.2f, 0.5f, 1, 1, 1, 1), drop(0.3f, 0.5f, 5, 2, 40, 40),
                                   drop(0.999f, 0.5f, 1e6f, 3, -1, 0), drop(0.5f, 0.5f, 1e6f, 4, 1, 1, 0)});
-  const Ledger ledger = leave_trails(executor, a, uniforms, film);
+  const MassBalance balance = leave_trails(executor, a, uniforms, film);
   EXPECT_EQ(a.mass()[0], 1e6f);
   EXPECT_EQ(a.mass()[1], 1);
   EXPECT_EQ(a.mass()[2], 1);
   EXPECT_EQ(a.mass()[3], 1e6f);  // its tail lies beyond the edge
-  EXPECT_EQ(ledger.to_film, 4);
+  EXPECT_EQ(balance.to_film, 4);
 }
 
 TEST(Film, OverflowAndDryingAreAccountedFor) {
@@ -234,14 +234,14 @@ TEST(Film, OverflowAndDryingAreAccountedFor) {
   const float mass = 1e6f;
   DropArrays a = test::arrays_of({drop(0.5f, 0.5f, mass, 0, 0.25f, 0)});
   const int column = static_cast<int>((0.5 - radius_of(mass) / test::glass_width) * 64);
-  film.row<float>(16)[column] = most_quanta - 3;
-  const Ledger trail = leave_trails(executor, a, uniforms, film);
+  film.row<float>(16)[column] = most_mass - 3;
+  const MassBalance trail = leave_trails(executor, a, uniforms, film);
   EXPECT_EQ(trail.to_film, 3);
   EXPECT_GT(trail.removed, 10);
   EXPECT_EQ(static_cast<float>(trail.to_film + trail.removed), mass - a.mass()[0]);
   film.row<float>(3)[5] = 2;
   film.row<float>(3)[6] = 9;
-  const Ledger dried = dry_film(executor, uniforms, film);
+  const MassBalance dried = dry_film(executor, uniforms, film);
   EXPECT_EQ(dried.evaporated, 2 + 4 + 4);
   EXPECT_EQ(dried.to_film, -10);
   EXPECT_EQ(film.row<float>(3)[5], 0);
@@ -250,7 +250,7 @@ TEST(Film, OverflowAndDryingAreAccountedFor) {
 
 TEST(Film, DriesAtItsRateInTheLongRun) {
   const Settings s;
-  const double area = 1.12 / (1024 * 592), rate = s.film_drying * area * 998.2 / quantum;
+  const double area = 1.12 / (1024 * 592), rate = s.film_drying * area * 998.2 / mass_unit;
   for (const double fps : {30.0, 144.0}) {
     std::int64_t sum = 0;
     for (int n = 0; n < static_cast<int>(100 * fps); ++n) sum += film_loss(s, area, n, fps);

@@ -174,10 +174,10 @@ TEST(Spawn, MassesFollowTheDistribution) {
     }
     mean += m / 1024.0;
   }
-  EXPECT_GE(plan.masses.front().mass, test::quanta_of_diameter(0.5e-3));
+  EXPECT_GE(plan.masses.front().mass, test::mass_units_of_diameter(0.5e-3));
   // The classes are medians of their parts; the tail's is below its mean.
   const Flux f = flux(s, std::cos(beta), -100 / 3.6 * std::sin(beta));
-  EXPECT_NEAR(mean, f.water / f.drops / quantum, 0.02 * mean);
+  EXPECT_NEAR(mean, f.water / f.drops / mass_unit, 0.02 * mean);
 }
 
 TEST(Spawn, AsPublishedCountsAreExactAndMassesEven) {
@@ -203,7 +203,7 @@ TEST(Spawn, RoomIsFilledAndTheRestIsLost) {
   Settings s = rain(50);
   Arrivals a(s);
   DropArrays drops(100);
-  Ledger sum;
+  MassBalance sum;
   for (int n = 0; n < 5; ++n) {
     const SpawnPlan& plan = a.plan(exposure(100), n, 60, drops.next_id(), drops.free_slots());
     const auto inside = arrivals(plan, false);

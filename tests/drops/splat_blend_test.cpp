@@ -46,7 +46,7 @@ TEST(SplatBlending, HalvesKeepTheVolumeWithinHalfAnUlpForEachDrop) {
   s.keys.half_accumulation = true;
   const Image halves = splatted(two_threads(), s, drops);
   const SplatUniforms u = splat_uniforms(s);
-  const auto stamps = stamps_of<plain::Plain<double>>(u, drops);
+  const auto stamps = stamps_of<scalar::Scalar<double>>(u, drops);
   double worst = 0;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -104,7 +104,7 @@ TEST(SplatBlending, TheFilmKeepsItsWater) {
   for (const Glass& glass : {oblong_glass, sheared_glass}) {
     SplatSettings s = settings_on(glass, true, width, height);
     SplatUniforms u = splat_uniforms(s);
-    EXPECT_NEAR(u.film_scale, 1e3 * quantum / 998.2 / (glass.u * glass.v * std::sin(glass.phi) / (width * height)), 1e-6 * u.film_scale);
+    EXPECT_NEAR(u.film_scale, 1e3 * mass_unit / 998.2 / (glass.u * glass.v * std::sin(glass.phi) / (width * height)), 1e-6 * u.film_scale);
     u.film_scale = 0x1p-6f;
     Image film(Format::r32f, width, height), image(Format::r16f, width, height);
     film.row<float>(0)[0] = 16;            // in the corner,

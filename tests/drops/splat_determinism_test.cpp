@@ -9,8 +9,8 @@
 namespace rainref::drops {
 namespace {
 
-using F = plain::Plain<float>;
-using D = plain::Plain<double>;
+using F = scalar::Scalar<float>;
+using D = scalar::Scalar<double>;
 
 struct Case {
   SplatSettings settings;

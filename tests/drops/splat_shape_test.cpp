@@ -65,7 +65,7 @@ TEST(SplatShape, VolumeAndRoundnessOnEveryGlass) {
       for (int i = 0; i < 60; ++i) {
         const auto [ox, oy] = offset(i);
         const Shape shape = shape_of(splatted(two_threads(), s, {drop_at((side / 2 + ox) / side, (side / 2 + oy) / side, mass)}), glass);
-        volume = std::max(volume, std::abs(shape.volume / (mass * quantum / 998.2) - 1));
+        volume = std::max(volume, std::abs(shape.volume / (mass * mass_unit / 998.2) - 1));
         ratio = std::max(ratio, std::abs(shape.ratio - 1));
         second = std::max(second, std::abs(shape.second_moment / (radius * radius) / c.second - 1));
       }
@@ -111,7 +111,7 @@ TEST(SplatShape, RadiusAndHeightGrowWithTheCubeRootOfTheMass) {
     const SplatUniforms u = splat_uniforms(settings_on(square_glass, corrected, 4096, 4096));
     const double unit = corrected ? 1e6 : 1;
     const auto stamp = [&](double mass) {
-      using D = plain::Plain<double>;
+      using D = scalar::Scalar<double>;
       return scalar::splat_stamp<D>(u, D(0.5), D(0.5), D(mass), D(1.0));
     };
     // The exponent is the float next to 1/3.
@@ -125,8 +125,8 @@ TEST(SplatShape, TheCapHasTheDropsVolume) {
   const double table[4][3] = {{1.07, 2.13, 3.20}, {0.874, 1.747, 2.621}, {0.742, 1.485, 2.227}, {0.63, 1.26, 1.89}};
   for (int a = 0; a < 4; ++a) {
     for (int d = 1; d <= 3; ++d) {
-      const double quanta = 998.2 * pi / 6 * std::pow(d * 1e-3, 3) / quantum;
-      EXPECT_NEAR(1e3 * cap_radius((30 + 20 * a) * pi / 180) * std::cbrt(quanta), table[a][d - 1], 5.1e-3) << a << " " << d;
+      const double mass_units = 998.2 * pi / 6 * std::pow(d * 1e-3, 3) / mass_unit;
+      EXPECT_NEAR(1e3 * cap_radius((30 + 20 * a) * pi / 180) * std::cbrt(mass_units), table[a][d - 1], 5.1e-3) << a << " " << d;
     }
   }
 }
@@ -143,7 +143,7 @@ TEST(SplatShape, ADropBetweenTexelsKeepsItsVolume) {
     const auto [ox, oy] = offset(i);
     const Drop d = drop_at((side / 2 + ox) / side, (side / 2 + oy) / side, mass);
     const double volume = shape_of(splatted(two_threads(), s, {d}), square_glass).volume;
-    EXPECT_NEAR(volume / (mass * quantum / 998.2), 1, 0.13) << "a paraboloid of 1.5 texels, sampled";
+    EXPECT_NEAR(volume / (mass * mass_unit / 998.2), 1, 0.13) << "a paraboloid of 1.5 texels, sampled";
     const Drop one = drop_at(d.position[0], d.position[1], 1);
     const Image image = splatted(two_threads(), published, {one});
     double sum = 0;

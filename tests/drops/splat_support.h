@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drops/splat.h"
-#include "drops/splat_plain.h"
+#include "drops/splat_scalar.h"
 #include "math/half.h"
 #include "rainref/executor.h"
 
@@ -63,7 +63,7 @@ inline std::vector<Drop> any_drops(int count, unsigned seed, double mass) {
   }
   return drops;
 }
-/// Whole quanta.
+/// Whole mass units.
 inline Image any_film(int width, int height, unsigned seed) {
   std::mt19937 words(seed);
   Image film(Format::r32f, width, height);
@@ -85,7 +85,7 @@ N plain_texel(SplatUniforms u, bool half_accumulation, Rounding rounding, const 
               int x, int y) {
   u.drop_count = static_cast<std::int32_t>(stamps.size());
   const N sum = scalar::splat_drops(u, stamps.data(), x, y, [&](N h) {
-    if constexpr (std::is_same_v<N, plain::Plain<float>>) {
+    if constexpr (std::is_same_v<N, scalar::Scalar<float>>) {
       if (!half_accumulation) return h;
       Half stored;
       store(&stored, h, rounding);

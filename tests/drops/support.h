@@ -8,13 +8,13 @@
 #include "drops/drops.h"
 #include "drops/host.h"
 #include "drops/passes.h"
-#include "drops/plain.h"
+#include "drops/scalar.h"
 #include "random/counter.h"
 
 namespace rainref::drops::test {
 
-using D = plain::Plain<double>;
-using F = plain::Plain<float>;
+using D = scalar::Scalar<double>;
+using F = scalar::Scalar<float>;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double degree = pi / 180;
@@ -34,7 +34,7 @@ inline GlassFrame glass_of(double force_x, double force_y, double wind_x = 0, do
 /// A parked car: only gravity, on glass inclined by beta [rad] from the horizontal.
 inline GlassFrame parked(double beta) { return glass_of(0, -standard_gravity * std::sin(beta)); }
 
-inline double quanta_of_diameter(double d) { return std::round(998.2 * pi / 6 * d * d * d / quantum); }
+inline double mass_units_of_diameter(double d) { return std::round(998.2 * pi / 6 * d * d * d / mass_unit); }
 
 inline Drop drop(float u, float v, float mass, std::uint32_t id, float velocity_u = 0, float velocity_v = 0, float life = 100) {
   return {{u, v}, {velocity_u, velocity_v}, mass, life, id, 0};

@@ -12,7 +12,7 @@
 #include "base/error_of.h"
 #include "edge_splash/host.h"
 #include "edge_splash/splash.pass.h"
-#include "edge_splash/plain.h"
+#include "edge_splash/scalar.h"
 #include "math/half.h"
 #include "math/unorm.h"
 #include "rainref/edge_splash.h"
@@ -20,8 +20,8 @@
 
 namespace rainref::edge_splash {
 
-using F = plain::Plain<float>;
-using D = plain::Plain<double>;
+using F = scalar::Scalar<float>;
+using D = scalar::Scalar<double>;
 constexpr double pi = 3.141592653589793;
 
 using DepthOf = std::function<double(int x, int y)>;

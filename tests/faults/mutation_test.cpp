@@ -114,8 +114,7 @@ TEST_P(Mutation, UnderVulkanEveryLargeEffectIsCaughtAndMostSmallOnes) {
 
   const capture::Pack pack(pack_folder(GetParam()));
   int large = 0;
-  for (const BoundPass& pass : enveloped_passes()) {
-    if (pass.pack != GetParam()) continue;
+  for (const BoundPass& pass : enveloped_passes({GetParam()})) {
     const BoundCase& b = pass.cases.front();
     const Bind bind = binder(pack.effect, pass.pass);
     for (const Deviation& d : deviations_of(pack.pass(pass.pass), *b.c, *b.model, nullptr)) {

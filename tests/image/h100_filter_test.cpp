@@ -15,7 +15,7 @@
 
 namespace rainref::test {
 namespace h100 {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "image/sampling-inl.h"

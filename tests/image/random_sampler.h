@@ -15,7 +15,7 @@ inline RandomGpu texel_coordinate(Address address, RandomGpu u, RandomGpu size) 
   if (const int bits = rules().subtexel_bits; bits > 0)
     x = RandomGpu::exactly(static_cast<float>(x.v + uniform(-1, 1) * std::ldexp(0.999, -bits)));
   if (address == Address::repeat) return x;
-  return address == Address::border ? plain::clamp(x, RandomGpu(-1.0f), size) : plain::clamp(x, RandomGpu(0.0f), size - RandomGpu(1.0f));
+  return address == Address::border ? scalar::clamp(x, RandomGpu(-1.0f), size) : scalar::clamp(x, RandomGpu(0.0f), size - RandomGpu(1.0f));
 }
 
 }  // namespace rainref::random_gpu

@@ -13,7 +13,7 @@
 
 namespace rainref::test {
 namespace enclosed_reading {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "image/sampling-inl.h"
@@ -176,7 +176,7 @@ TEST(SamplingEnclosed, NeighboursHoldTheScalarEvaluation) {
       const TextureData data = noise_texture(16, 9, 1, a, a);
       for (int i = 0; i < 400; ++i) {
         const float u = static_cast<float>(random(-0.5, 1.5)), v = static_cast<float>(random(-0.5, 1.5));
-        using Single = plain::Plain<float>;
+        using Single = scalar::Scalar<float>;
         const auto near = enclosed_reading::sample_neighbours<0, Single>(data.view(), Single(u), Single(v));
         PathEnumeration paths;
         ASSERT_TRUE(paths.for_each_alternative([&] {

@@ -1,7 +1,7 @@
 // Compiled once for each SIMD target.
 #include "image/sampling_kernels.h"
 
-#include "math/plain.h"
+#include "math/scalar.h"
 
 #define RAINREF_KERNELS "image/sampling_kernels.cpp"
 #include "math/foreach_target.h"
@@ -29,7 +29,7 @@ RAINREF_TARGET_END(test)
 #if RAINREF_ONCE
 namespace rainref::test {
 namespace plain_reading {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "image/sampling-inl.h"
@@ -45,7 +45,7 @@ void look_up_by_lanes(Lookup lookup, const Texture& texture, const Place* places
   RAINREF_DISPATCH(LookUp)(lookup, texture, places, out, count);
 }
 Texel look_up_by_plain(Lookup lookup, const Texture& texture, const Place& place) {
-  using N = plain::Plain<float>;
+  using N = scalar::Scalar<float>;
   N texel[4];
   plain_reading::look_up<N>(lookup, texture, N(place.u), N(place.v), N(place.w), N(place.lod), texel);
   return {{texel[0].v, texel[1].v, texel[2].v, texel[3].v}};

@@ -9,7 +9,7 @@
 
 namespace rainref {
 namespace perturbed_evaluations {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "image/sampling_perturbed-inl.h"

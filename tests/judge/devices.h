@@ -42,7 +42,7 @@ inline std::string described(const BoundCase& b, int x, int y, const std::vector
 }
 
 inline bool is_reference(const BoundCase& b, int x, int y, const std::vector<float>& values) {
-  std::vector<plain::Plain<float>> reference(values.size());
+  std::vector<scalar::Scalar<float>> reference(values.size());
   b.model->evaluate(x, y, reference.data());
   for (std::size_t v = 0; v < values.size(); ++v)
     if (reference[v].v != values[v]) return false;
@@ -106,7 +106,7 @@ inline void judge_devices(const BoundCase& b, const enclosed::Profile& of, const
 inline void expect_reference(const std::vector<BoundPass>& passes) {
   for (const BoundPass& pass : passes) {
     for (const BoundCase& b : pass.cases) {
-      std::vector<plain::Plain<float>> reference(b.slots.size());
+      std::vector<scalar::Scalar<float>> reference(b.slots.size());
       std::vector<perturbed::Perturbed> perturbed(b.slots.size());
       int differing = 0;
       for (int y = 0; y < b.model->height(); ++y) {
@@ -144,7 +144,7 @@ inline void expect_honest(const std::vector<BoundPass>& passes) {
       EXPECT_EQ(tally.outside, 0) << pass.name() << ' ' << name << '\n' << tally.first;
       // Devices that differ nowhere prove nothing. Rounding on the way hides most of what floats differ by, masks even more.
       const bool hides = pass.cases.front().model->rounds_inside();
-      if (pass.is_of_quanta()) continue;
+      if (pass.is_of_mass_units()) continue;
       EXPECT_GT(tally.differing, hides ? 0 : tally.judged / (pass.is_of_masks() ? 2000 : 200)) << pass.name() << ' ' << name;
     }
   }
@@ -159,7 +159,7 @@ inline void expect_looser_outside(const std::vector<BoundPass>& passes) {
     // Halves of the windshield's textures hide more.
     const int devices = pass.pack.starts_with("windshield") ? 6000 : 2000;
     for (const BoundCase& b : pass.cases) judge_devices(b, profile("vulkan"), narrow, 0, devices, tally);
-    if (pass.is_of_quanta()) continue;
+    if (pass.is_of_mass_units()) continue;
     EXPECT_GT(tally.outside, 20) << pass.name();
   }
 }

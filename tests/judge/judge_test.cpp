@@ -317,7 +317,7 @@ TEST(Judge, TheReferenceOfTheSmallPacksPasses) {
         if (p.half_store == enclosed::StoreRounding::rtz && !b.model->rounds_inside()) {
           for (int y = 0; y < b.model->height(); ++y)
             for (int x = 0; x < b.model->width(); ++x) {
-              std::vector<plain::Plain<float>> values(b.slots.size());
+              std::vector<scalar::Scalar<float>> values(b.slots.size());
               b.model->evaluate(x, y, values.data());
               for (std::size_t v = 0; v < values.size(); ++v) {
                 const Slot& s = b.slots[v];

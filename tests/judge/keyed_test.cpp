@@ -118,7 +118,7 @@ class Keyed : public testing::Test {
   Keyed() { set(some_beads(200)); }
   void set(std::vector<Bead> beads) {
     model.emplace(std::move(beads));
-    port = model->stored<plain::Plain<float>>();
+    port = model->stored<scalar::Scalar<float>>();
     expected.name = "beads";
     expected.judge = capture::Judge::keyed;
     expected.range = {0, 100};

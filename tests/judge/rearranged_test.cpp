@@ -315,7 +315,7 @@ TEST(RearrangedPort, TheSecondTierHoldsTheFirst) {
           }
           EXPECT_TRUE(is_held) << pass.name() << ' ' << name << " at " << x << ',' << y;
         }
-        if (b.model->needs_port() || pass.is_of_masks() || pass.is_of_quanta()) continue;  // these have the first tier alone
+        if (b.model->needs_port() || pass.is_of_masks() || pass.is_of_mass_units()) continue;  // these have the first tier alone
         EXPECT_GT(checked, 20) << pass.name();
       }
 }

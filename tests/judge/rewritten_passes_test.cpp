@@ -60,7 +60,7 @@ void rewrite(const test::BoundCase& b, const std::string& pass_name, const enclo
       std::vector<float> reference;
       for (const Recorded& r : values) reference.push_back(r.v);
       // What is recorded is what the pass computes, lookups included.
-      std::vector<plain::Plain<float>> plain_values(values.size());
+      std::vector<scalar::Scalar<float>> plain_values(values.size());
       b.model->evaluate(x, y, plain_values.data());
       for (std::size_t v = 0; v < values.size(); ++v) ASSERT_EQ(reference[v], plain_values[v].v) << pass_name << " at " << x << ',' << y;
       Alternatives written, rearranged;

@@ -24,7 +24,7 @@ inline void measure(const BoundCase& b, int x, int y, const enclosed::Profile& d
   if (b.model->rounds_inside()) p.half_store = enclosed::StoreRounding::rne;
   const perturbed::Variations variations = perturbed::variations_of(p);
   const std::size_t n = b.slots.size();
-  std::vector<plain::Plain<float>> reference(n);
+  std::vector<scalar::Scalar<float>> reference(n);
   b.model->evaluate(x, y, reference.data());
   std::vector<float> port, low;
   for (std::size_t v = 0; v < n; ++v) {
@@ -113,7 +113,7 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
         EXPECT_LE(at(m.widths, 0.9), 0x1p13) << pass.name() << ' ' << name;
         continue;
       }
-      if (pass.is_of_quanta()) continue;
+      if (pass.is_of_mass_units()) continue;
       EXPECT_TRUE(pass.is_of_masks() || m.ratios.size() > 10) << pass.name() << ' ' << name;
       // Most of its elements have no bound there: sines of hundreds.
       if (pass.name() == "screen_drops-as-published drops" && (name == "webgpu" || name == "metal")) continue;

@@ -43,9 +43,9 @@ struct BoundCase {
 struct BoundPass {
   /// Of masks of 0 and 1, which hide most of what devices do: nearly every value is one number.
   bool is_of_masks() const { return name() == "edge_splash-as-published splash"; }
-  /// Of whole quanta, and the pack has no place where a device could tip one: nothing spreads. windshield_motion_test.cpp has
+  /// Of whole mass units, and the pack has no place where a device could tip one: nothing spreads. windshield_motion_test.cpp has
   /// places where one can.
-  bool is_of_quanta() const {
+  bool is_of_mass_units() const {
     return name() == "screen_drops-corrected merge" || name() == "windshield-corrected merge" ||
            name() == "windshield-corrected wipe_drops";
   }

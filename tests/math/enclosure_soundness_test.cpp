@@ -14,7 +14,7 @@
 namespace rainref::test {
 namespace {
 
-using namespace rainref::plain;  // the vocabulary, as a pass sees it
+using namespace rainref::scalar;  // the vocabulary, as a pass sees it
 using enclosed::Enclosure;
 using enclosed::PathEnumeration;
 using enclosed::Profile;
@@ -99,13 +99,13 @@ const std::vector<Operation>& operations() {
       OPERATION("sin", sin(held(a, -3, 3))),
       OPERATION("cos", cos(held(a, -3, 3))),
       OPERATION("atan2", atan2(held(a, -4, 4), held(b, -4, 4))),
-      OPERATION("normalize", normalize(plain::Vec3<N>(held(a, -4, 4), held(b, -4, 4), N(1.0f))).x),
-      OPERATION("length", length(plain::Vec3<N>(held(a, -4, 4), held(b, -4, 4), held(c, -4, 4)))),
-      OPERATION("dot", dot(plain::Vec3<N>(a, b, c), plain::Vec3<N>(b, c, a))),
+      OPERATION("normalize", normalize(scalar::Vec3<N>(held(a, -4, 4), held(b, -4, 4), N(1.0f))).x),
+      OPERATION("length", length(scalar::Vec3<N>(held(a, -4, 4), held(b, -4, 4), held(c, -4, 4)))),
+      OPERATION("dot", dot(scalar::Vec3<N>(a, b, c), scalar::Vec3<N>(b, c, a))),
       OPERATION("reflect",
-                reflect(plain::Vec3<N>(held(a, -1, 1), held(b, -1, 1), N(0.5f)), plain::Vec3<N>(N(0.6f), held(c, 0, 1), N(0.0f))).y),
+                reflect(scalar::Vec3<N>(held(a, -1, 1), held(b, -1, 1), N(0.5f)), scalar::Vec3<N>(N(0.6f), held(c, 0, 1), N(0.0f))).y),
       OPERATION("refract",
-                refract(plain::Vec3<N>(N(0.6f), N(-0.8f), N(0.0f)), plain::Vec3<N>(held(a, -0.5f, 0.5f), N(1.0f), N(0.0f)), 0.75f).x),
+                refract(scalar::Vec3<N>(N(0.6f), N(-0.8f), N(0.0f)), scalar::Vec3<N>(held(a, -0.5f, 0.5f), N(1.0f), N(0.0f)), 0.75f).x),
       OPERATION("octave", nearest_octave(abs(a))),
       OPERATION("a threshold", select(a < b, a, c)),
   };

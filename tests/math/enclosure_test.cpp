@@ -12,7 +12,7 @@
 namespace rainref::test {
 namespace {
 
-using namespace rainref::plain;  // the vocabulary, as a pass sees it
+using namespace rainref::scalar;  // the vocabulary, as a pass sees it
 using enclosed::BasicRounding;
 using enclosed::Enclosure;
 using enclosed::Flush;
@@ -20,7 +20,7 @@ using enclosed::PathEnumeration;
 using enclosed::Profile;
 using enclosed::ProfileScope;
 
-using Single = plain::Plain<float>;
+using Single = scalar::Scalar<float>;
 
 std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
 ::testing::AssertionResult is_point(Enclosure e, Single expected) {
@@ -73,9 +73,9 @@ std::vector<N> every_operation(N a, N b) {
                      pow(abs(a), N(2.2f)),
                      a / max(abs(b), N(1e-10f)),
                      to_number(to_int(floor(clamp(a, N(-1e6f), N(1e6f)))))};
-  const plain::Vec3<N> v(a, b, N(1.0f)), n = normalize(v), r = reflect(v, n),
-                                         t = refract(n, plain::Vec3<N>(N(0.0f), N(1.0f), N(0.0f)), 0.75f);
-  for (const plain::Vec3<N>& w : {n, r, t}) out.insert(out.end(), {w.x, w.y, w.z});
+  const scalar::Vec3<N> v(a, b, N(1.0f)), n = normalize(v), r = reflect(v, n),
+                                          t = refract(n, scalar::Vec3<N>(N(0.0f), N(1.0f), N(0.0f)), 0.75f);
+  for (const scalar::Vec3<N>& w : {n, r, t}) out.insert(out.end(), {w.x, w.y, w.z});
   out.push_back(dot(v, n));
   out.push_back(length(v));
   return out;
@@ -107,7 +107,7 @@ TEST(Enclosure, ExactResultsStayPoints) {
         const Enclosure x(a), y(b);
         for (const Enclosure& e : {x + y, x - y, x * y, square(x), abs(x), floor(x), min(x, y), max(x, y), fract(x), sum_any_order(x, y, x),
                                    sum_any_order(x, y, x, y), sum_any_order_in_pairs(x, y, y, x), mix(x, y, Enclosure(0.0f)),
-                                   mix(x, y, Enclosure(0.5f)), dot(plain::Vec3<Enclosure>(x, y, x), plain::Vec3<Enclosure>(y, y, x))}) {
+                                   mix(x, y, Enclosure(0.5f)), dot(scalar::Vec3<Enclosure>(x, y, x), scalar::Vec3<Enclosure>(y, y, x))}) {
           EXPECT_TRUE(e.is_point()) << p.name << ' ' << a << ' ' << b << ": " << e.lo << ' ' << e.hi;
         }
       }
@@ -196,7 +196,7 @@ TEST(Enclosure, FunctionsKeepTheirCodomain) {
       EXPECT_TRUE(s.is_vacuous() || (s.lo >= -1 && s.hi <= 1));
       EXPECT_TRUE(f.lo >= 0 && f.hi <= 1);
       if (p.reference) continue;
-      const plain::Vec3<Enclosure> n = normalize(plain::Vec3<Enclosure>(a, Enclosure(1e-6f), Enclosure(1e-6f)));
+      const scalar::Vec3<Enclosure> n = normalize(scalar::Vec3<Enclosure>(a, Enclosure(1e-6f), Enclosure(1e-6f)));
       EXPECT_TRUE(n.x.is_vacuous() || (n.x.lo >= -1.00001f && n.x.hi <= 1.00001f)) << p.name;
     }
   }

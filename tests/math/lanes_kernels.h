@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "math/lanes_operations.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "rainref/image.h"
 
 namespace rainref::test {
@@ -35,7 +35,7 @@ template <class Storage>
 void store4_by_lanes(Storage* out, const float* in, Rounding rounding);
 
 namespace plain_reading {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
@@ -45,7 +45,7 @@ using namespace rainref::plain;
 }  // namespace plain_reading
 
 inline float apply_by_plain(Operation operation, float a, float b, float c) {
-  using N = plain::Plain<float>;
+  using N = scalar::Scalar<float>;
   return plain_reading::apply_operation<N>(operation, N(a), N(b), N(c)).v;
 }
 

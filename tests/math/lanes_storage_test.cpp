@@ -12,7 +12,7 @@
 namespace rainref::test {
 namespace {
 
-using plain::Plain;
+using scalar::Scalar;
 constexpr Rounding both[] = {Rounding::rne, Rounding::rtz};
 
 /// Numbers that meet every branch of every store: signs of zero, subnormals, ties, both ends, overflow.
@@ -48,7 +48,7 @@ void check_stores() {
           ASSERT_TRUE(same_bits(out[0], mark));
           for (int i = 0; i <= size; ++i) {
             Storage expected = mark;
-            if (i < count) plain::store(&expected, Plain<float>(x[first + static_cast<std::size_t>(i)]), rounding);
+            if (i < count) scalar::store(&expected, Scalar<float>(x[first + static_cast<std::size_t>(i)]), rounding);
             ASSERT_TRUE(same_bits(out[static_cast<std::size_t>(i) + 1], expected))
                 << x[first + static_cast<std::size_t>(i)] << ", " << name(rounding) << ", " << i << " of " << count;
           }
@@ -85,7 +85,7 @@ void check_loads(const std::vector<Storage>& stored) {
       load_by_lanes(stored.data() + first, out.data());
       for (int i = 0; i < lane_count(); ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const float expected = Plain<float>::load(stored.data() + first + k).v;
+        const float expected = Scalar<float>::load(stored.data() + first + k).v;
         ASSERT_TRUE(same_bits(out[k], expected)) << out[k] << ", expected " << expected;
       }
     }
@@ -112,7 +112,7 @@ std::vector<Storage> stored_numbers() {
   std::vector<Storage> out;
   for (const float x : numbers()) {
     Storage s;
-    plain::store(&s, Plain<float>(x), Rounding::rtz);
+    scalar::store(&s, Scalar<float>(x), Rounding::rtz);
     out.push_back(s);
   }
   return out;
@@ -127,7 +127,7 @@ void check_load4() {
       load4_by_lanes(texels.data() + first, out.data());
       for (std::size_t i = 0; i < static_cast<std::size_t>(lane_count()); ++i) {
         for (std::size_t c = 0; c < 4; ++c) {
-          ASSERT_TRUE(same_bits(out[c * padded_count + i], Plain<float>::load(texels.data() + first + 4 * i + c).v)) << i << ' ' << c;
+          ASSERT_TRUE(same_bits(out[c * padded_count + i], Scalar<float>::load(texels.data() + first + 4 * i + c).v)) << i << ' ' << c;
         }
       }
     }
@@ -148,7 +148,7 @@ void check_store4() {
         for (std::size_t i = 0; i < size; ++i) {
           for (std::size_t c = 0; c < 4; ++c) {
             Storage expected;
-            plain::store(&expected, Plain<float>(x[first + c * padded_count + i]), rounding);
+            scalar::store(&expected, Scalar<float>(x[first + c * padded_count + i]), rounding);
             ASSERT_TRUE(same_bits(out[4 * i + c], expected)) << x[first + c * padded_count + i] << ' ' << name(rounding);
           }
         }

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "math/plain.h"
+#include "math/scalar.h"
 
 namespace rainref::test {
 namespace evaluations {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
@@ -17,8 +17,8 @@ using namespace rainref::plain;
 
 namespace {
 
-using F = plain::Plain<float>;
-using D = plain::Plain<double>;
+using F = scalar::Scalar<float>;
+using D = scalar::Scalar<double>;
 constexpr double pi = 3.14159265358979323846;
 
 /// Fresnel by angles, which never meet in the source.

@@ -16,9 +16,9 @@
 namespace rainref::perturbed {
 namespace {
 
-using plain::Plain;
-using plain::Vec3;
-using Single = Plain<float>;
+using scalar::Scalar;
+using scalar::Vec3;
+using Single = Scalar<float>;
 using enclosed::Accuracy;
 using enclosed::Profile;
 

@@ -22,95 +22,95 @@ Trace traced(const std::function<Perturbed()>& text, const std::vector<float>* k
   text();
   return trace;
 }
-/// The text's value with a slip at its last operation.
-float slipped(const std::function<Perturbed()>& text, Slip slip) {
+/// The text's value with a fault at its last operation.
+float with_fault(const std::function<Perturbed()>& text, PlaceFault fault) {
   const Trace trace = traced(text);
   Behaviour b;
-  b.places[0] = {trace.nodes.back().shape, -1, slip};
+  b.places[0] = {trace.nodes.back().shape, -1, fault};
   const Scope scope(b);
   return text().v;
 }
 
 struct Case {
-  Slip slip;
+  PlaceFault fault;
   std::function<Perturbed()> text;
   float with;
 };
 // Each value worked out by hand.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
-      {Slip::first, [] { return d(5) + d(3); }, 5},
-      {Slip::second, [] { return d(5) + d(3); }, 3},
-      {Slip::second_negated, [] { return d(5) + d(3); }, 2},
-      {Slip::swapped, [] { return d(5) + d(3); }, -2},
-      {Slip::first_twice, [] { return d(5) + d(3); }, 13},
-      {Slip::second_twice, [] { return d(5) + d(3); }, 11},
-      {Slip::first, [] { return d(5) - d(3); }, 5},
-      {Slip::second, [] { return d(5) - d(3); }, -3},
-      {Slip::second_negated, [] { return d(5) - d(3); }, 8},
-      {Slip::swapped, [] { return d(5) - d(3); }, -2},
-      {Slip::second_twice, [] { return d(5) - d(3); }, -1},
-      {Slip::rooted, [] { return d(5) + d(4); }, 3},
-      {Slip::first, [] { return d(5) * d(3); }, 5},
-      {Slip::second, [] { return d(5) * d(3); }, 3},
-      {Slip::first_squared, [] { return d(5) * d(3); }, 75},
-      {Slip::second_squared, [] { return d(5) * d(3); }, 45},
-      {Slip::inverted, [] { return d(6) * d(3); }, 2},
-      {Slip::negated, [] { return d(5) * d(3); }, -15},
-      {Slip::doubled, [] { return d(5) * d(3); }, 30},
-      {Slip::halved, [] { return d(5) * d(3); }, 7.5f},
-      {Slip::squared, [] { return d(5) * d(3); }, 225},
-      {Slip::first, [] { return d(6) / d(3); }, 6},
-      {Slip::swapped, [] { return d(6) / d(3); }, 0.5f},
-      {Slip::inverted, [] { return d(6) / d(3); }, 18},
-      {Slip::first, [] { return -d(5); }, 5},
-      {Slip::first, [] { return min(d(5), d(3)); }, 5},
-      {Slip::other, [] { return min(d(5), d(3)); }, 5},
-      {Slip::other, [] { return max(d(5), d(3)); }, 3},
-      {Slip::first, [] { return abs(d(-5)); }, -5},
-      {Slip::first, [] { return sqrt(d(9)); }, 9},
-      {Slip::first, [] { return square(d(3)); }, 3},
-      {Slip::other, [] { return square(d(3)); }, 27},
-      {Slip::other, [] { return floor(d(1.75f)); }, 2},
-      {Slip::first, [] { return fract(d(1.75f)); }, 1.75f},
-      {Slip::other, [] { return exp(d(1)); }, 2},
-      {Slip::linear, [] { return exp(d(1)); }, 2},
-      {Slip::other, [] { return exp2(d(0)); }, 1},
-      {Slip::first, [] { return pow(d(4), d(2)); }, 4},
-      {Slip::inverted, [] { return pow(d(4), d(2)); }, 2},
-      {Slip::other, [] { return sin(d(0)); }, 1},
-      {Slip::other, [] { return cos(d(0)); }, 0},
-      {Slip::swapped, [] { return atan2(d(1), d(0)); }, 0},
-      {Slip::swapped, [] { return mix(d(1), d(2), d(0.25f)); }, 1.75f},
-      {Slip::first, [] { return mix(d(1), d(2), d(0.25f)); }, 1},
-      {Slip::added, [] { return mix(d(1), d(2), d(0.25f)); }, 1.5f},
-      {Slip::swapped, [] { return smoothstep(0, 1, d(0.25f)); }, 1 - 0.15625f},
-      {Slip::other, [] { return smoothstep(0, 1, d(0.25f)); }, 0.25f},
-      {Slip::swapped, [] { return select(true, d(1), d(2)); }, 2},
-      {Slip::swapped, [] { return select(false, d(1), d(2)); }, 1},
-      {Slip::saturated, [] { return d(5) + d(3); }, 1},
-      {Slip::zero, [] { return d(5) + d(3); }, 0},
+      {PlaceFault::first, [] { return d(5) + d(3); }, 5},
+      {PlaceFault::second, [] { return d(5) + d(3); }, 3},
+      {PlaceFault::second_negated, [] { return d(5) + d(3); }, 2},
+      {PlaceFault::swapped, [] { return d(5) + d(3); }, -2},
+      {PlaceFault::first_twice, [] { return d(5) + d(3); }, 13},
+      {PlaceFault::second_twice, [] { return d(5) + d(3); }, 11},
+      {PlaceFault::first, [] { return d(5) - d(3); }, 5},
+      {PlaceFault::second, [] { return d(5) - d(3); }, -3},
+      {PlaceFault::second_negated, [] { return d(5) - d(3); }, 8},
+      {PlaceFault::swapped, [] { return d(5) - d(3); }, -2},
+      {PlaceFault::second_twice, [] { return d(5) - d(3); }, -1},
+      {PlaceFault::rooted, [] { return d(5) + d(4); }, 3},
+      {PlaceFault::first, [] { return d(5) * d(3); }, 5},
+      {PlaceFault::second, [] { return d(5) * d(3); }, 3},
+      {PlaceFault::first_squared, [] { return d(5) * d(3); }, 75},
+      {PlaceFault::second_squared, [] { return d(5) * d(3); }, 45},
+      {PlaceFault::inverted, [] { return d(6) * d(3); }, 2},
+      {PlaceFault::negated, [] { return d(5) * d(3); }, -15},
+      {PlaceFault::doubled, [] { return d(5) * d(3); }, 30},
+      {PlaceFault::halved, [] { return d(5) * d(3); }, 7.5f},
+      {PlaceFault::squared, [] { return d(5) * d(3); }, 225},
+      {PlaceFault::first, [] { return d(6) / d(3); }, 6},
+      {PlaceFault::swapped, [] { return d(6) / d(3); }, 0.5f},
+      {PlaceFault::inverted, [] { return d(6) / d(3); }, 18},
+      {PlaceFault::first, [] { return -d(5); }, 5},
+      {PlaceFault::first, [] { return min(d(5), d(3)); }, 5},
+      {PlaceFault::other, [] { return min(d(5), d(3)); }, 5},
+      {PlaceFault::other, [] { return max(d(5), d(3)); }, 3},
+      {PlaceFault::first, [] { return abs(d(-5)); }, -5},
+      {PlaceFault::first, [] { return sqrt(d(9)); }, 9},
+      {PlaceFault::first, [] { return square(d(3)); }, 3},
+      {PlaceFault::other, [] { return square(d(3)); }, 27},
+      {PlaceFault::other, [] { return floor(d(1.75f)); }, 2},
+      {PlaceFault::first, [] { return fract(d(1.75f)); }, 1.75f},
+      {PlaceFault::other, [] { return exp(d(1)); }, 2},
+      {PlaceFault::linear, [] { return exp(d(1)); }, 2},
+      {PlaceFault::other, [] { return exp2(d(0)); }, 1},
+      {PlaceFault::first, [] { return pow(d(4), d(2)); }, 4},
+      {PlaceFault::inverted, [] { return pow(d(4), d(2)); }, 2},
+      {PlaceFault::other, [] { return sin(d(0)); }, 1},
+      {PlaceFault::other, [] { return cos(d(0)); }, 0},
+      {PlaceFault::swapped, [] { return atan2(d(1), d(0)); }, 0},
+      {PlaceFault::swapped, [] { return mix(d(1), d(2), d(0.25f)); }, 1.75f},
+      {PlaceFault::first, [] { return mix(d(1), d(2), d(0.25f)); }, 1},
+      {PlaceFault::added, [] { return mix(d(1), d(2), d(0.25f)); }, 1.5f},
+      {PlaceFault::swapped, [] { return smoothstep(0, 1, d(0.25f)); }, 1 - 0.15625f},
+      {PlaceFault::other, [] { return smoothstep(0, 1, d(0.25f)); }, 0.25f},
+      {PlaceFault::swapped, [] { return select(true, d(1), d(2)); }, 2},
+      {PlaceFault::swapped, [] { return select(false, d(1), d(2)); }, 1},
+      {PlaceFault::saturated, [] { return d(5) + d(3); }, 1},
+      {PlaceFault::zero, [] { return d(5) + d(3); }, 0},
   };
   return all;
 }
 TEST(Places, EachSlipIsWhatItsNameSays) {
-  for (const Case& c : cases()) EXPECT_EQ(slipped(c.text, c.slip), c.with) << static_cast<int>(c.slip) << ": " << c.text().v;
+  for (const Case& c : cases()) EXPECT_EQ(with_fault(c.text, c.fault), c.with) << static_cast<int>(c.fault) << ": " << c.text().v;
 }
 TEST(Places, AMixInGammaSpaceEncodesByThePower) {
   const double encoded = 0.75 * std::pow(0.2, 1 / 2.2) + 0.25 * std::pow(0.8, 1 / 2.2);
   // 4 ULP of a float: three powers, and the rounding of 1 / 2.2.
-  EXPECT_NEAR(slipped([] { return mix(d(0.2f), d(0.8f), d(0.25f)); }, Slip::in_gamma), std::pow(encoded, 2.2), 4 * 0x1p-24);
+  EXPECT_NEAR(with_fault([] { return mix(d(0.2f), d(0.8f), d(0.25f)); }, PlaceFault::in_gamma), std::pow(encoded, 2.2), 4 * 0x1p-24);
 }
 TEST(Places, AConditionMayHoldAlwaysOrNever) {
   const auto smaller = [](float a) { return [a] { return select(d(a) < d(2), d(10), d(20)); }; };
   const Trace trace = traced(smaller(1));
   ASSERT_EQ(trace.nodes[0].op, Op::comparison);
   for (const float a : {1.0f, 3.0f})
-    for (const Slip slip : {Slip::always, Slip::never}) {
+    for (const PlaceFault fault : {PlaceFault::always, PlaceFault::never}) {
       Behaviour b;
-      b.places[0] = {trace.nodes[0].shape, -1, slip};
+      b.places[0] = {trace.nodes[0].shape, -1, fault};
       const Scope scope(b);
-      EXPECT_EQ(smaller(a)().v, slip == Slip::always ? 10 : 20);
+      EXPECT_EQ(smaller(a)().v, fault == PlaceFault::always ? 10 : 20);
     }
 }
 
@@ -122,7 +122,7 @@ TEST(Places, OperationsOfOneShapeAreToldApartByTheirOrder) {
   std::vector<float> values;
   for (const Trace::Node& n : trace.nodes) {
     Behaviour b;
-    b.places[0] = {n.shape, n.occurrence, Slip::zero};
+    b.places[0] = {n.shape, n.occurrence, PlaceFault::zero};
     const Scope scope(b);
     values.push_back(two_sums().v);
   }
@@ -132,7 +132,7 @@ TEST(Places, OperationsOfOneShapeAreToldApartByTheirOrder) {
   EXPECT_EQ(values, (std::vector<float>{0, 0, 0}));
   for (const std::int32_t occurrence : {-1, 0, 1}) {
     Behaviour b;
-    b.places[0] = {trace.nodes[0].shape, occurrence, Slip::doubled};
+    b.places[0] = {trace.nodes[0].shape, occurrence, PlaceFault::doubled};
     const Scope scope(b);
     EXPECT_EQ(two_sums().v, occurrence < 0 ? 84 : 42);
   }
@@ -143,8 +143,8 @@ TEST(Places, TwoPlacesMayBelongTogether) {
   const Trace trace = traced(text);
   Behaviour b;
   for (const Trace::Node& n : trace.nodes) {
-    if (n.op == Op::root) b.places[0] = {n.shape, -1, Slip::first};
-    if (n.op == Op::square) b.places[1] = {n.shape, -1, Slip::first};
+    if (n.op == Op::root) b.places[0] = {n.shape, -1, PlaceFault::first};
+    if (n.op == Op::square) b.places[1] = {n.shape, -1, PlaceFault::first};
   }
   const Scope scope(b);
   EXPECT_EQ(text().v, 48);

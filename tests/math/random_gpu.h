@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/path_enumeration.h"
 
 namespace rainref::random_gpu {
@@ -55,7 +55,7 @@ inline float perturbed(double y, const Accuracy& a, double x = 0) {
 
 struct RandomGpu {
   using Mask = bool;
-  using Int = plain::Index<RandomGpu>;
+  using Int = scalar::Index<RandomGpu>;
   static constexpr int size() { return 1; }
 
   float v = 0;
@@ -74,7 +74,7 @@ struct RandomGpu {
     if constexpr (std::is_same_v<Storage, Unorm8>)
       return exactly(p->code == 0 || p->code == 255 ? to_float(*p) : perturbed(p->code / 255.0, rules().unorm_load));
     else
-      return plain::to_float(*p);
+      return scalar::to_float(*p);
   }
   static RandomGpu index(int first) { return exactly(static_cast<float>(first)); }
   static Int uniform_int(int value) { return {value}; }
@@ -166,8 +166,8 @@ inline RandomGpu sum_any_order(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu 
 }
 inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) { return sum_any_order(a, b, c, d); }
 inline RandomGpu uniform_quotient(float a, float b, RandomGpu) { return RandomGpu(a) / RandomGpu(b); }
-inline plain::Vec3<RandomGpu> normalize(const plain::Vec3<RandomGpu>& a) {
-  const RandomGpu squared = plain::dot(a, a);
+inline scalar::Vec3<RandomGpu> normalize(const scalar::Vec3<RandomGpu>& a) {
+  const RandomGpu squared = scalar::dot(a, a);
   switch (words()() % 3) {
     case 0:
       return (RandomGpu(1.0f) / sqrt(squared)) * a;

@@ -71,7 +71,7 @@ TEST(Rearranged, HoldsRandomRewritesOfRandomFormulas) {
       const Enclosure all = as_written<Rearranged>(formula, values).settled(), written = as_written<Enclosure>(formula, values).unrounded();
       if (all.is_vacuous()) continue;
       ++bounded;
-      const double exact = as_written<plain::Plain<double>>(formula, values).v;
+      const double exact = as_written<scalar::Scalar<double>>(formula, values).v;
       double worst = 0;
       for (int rewrite = 0; rewrite < 8; ++rewrite) {
         Tree t = formula;
@@ -122,7 +122,7 @@ TEST(Rearranged, GradesGrow) {
     }
     for (int k = 0; k < 3 && !grades[2].is_vacuous() && !grades[1].is_vacuous() && !grades[0].is_vacuous(); ++k) {
       const Enclosure e = grades[k];
-      const float middle = std::max(1e-30f, std::abs(as_written<plain::Plain<float>>(formula, values).v));
+      const float middle = std::max(1e-30f, std::abs(as_written<scalar::Scalar<float>>(formula, values).v));
       width[k] += std::log2((static_cast<double>(e.hi) - e.lo) / middle + 0x1p-24);
     }
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rewriter.h"
 #include "rainref/texture.h"
 
@@ -19,10 +19,10 @@ inline std::vector<float>& recorded_values() {
 }
 
 struct Recorded {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   using Gpu = random_gpu::RandomGpu;
   using Mask = bool;
-  using Int = plain::Index<Recorded>;
+  using Int = scalar::Index<Recorded>;
   static constexpr int size() { return 1; }
 
   float v = 0;
@@ -34,7 +34,7 @@ struct Recorded {
   Recorded(float x, Tree t) : v(x), tree(std::move(t)) {}
   template <class Storage>
   static Recorded load(const Storage* p) {
-    return Recorded(plain::to_float(*p));
+    return Recorded(scalar::to_float(*p));
   }
   static Recorded index(int first) { return Recorded(static_cast<float>(first)); }
   static Int uniform_int(int value) { return {value}; }
@@ -98,21 +98,21 @@ struct Recorded {
 };
 
 /// A built-in: a function of its arguments.
-inline plain::Vec3<Recorded> normalize(const plain::Vec3<Recorded>& a) {
+inline scalar::Vec3<Recorded> normalize(const scalar::Vec3<Recorded>& a) {
   using Gpu = random_gpu::RandomGpu;
-  using Single = plain::Plain<float>;
-  const auto n = plain::normalize(plain::Vec3<Single>(Single(a.x.v), Single(a.y.v), Single(a.z.v)));
+  using Single = scalar::Scalar<float>;
+  const auto n = scalar::normalize(scalar::Vec3<Single>(Single(a.x.v), Single(a.y.v), Single(a.z.v)));
   return {Recorded(n.x.v,
-                   applied([](const Gpu* x) { return normalize(plain::Vec3<Gpu>(x[0], x[1], x[2])).x; }, {a.x.tree, a.y.tree, a.z.tree})),
+                   applied([](const Gpu* x) { return normalize(scalar::Vec3<Gpu>(x[0], x[1], x[2])).x; }, {a.x.tree, a.y.tree, a.z.tree})),
           Recorded(n.y.v,
-                   applied([](const Gpu* x) { return normalize(plain::Vec3<Gpu>(x[0], x[1], x[2])).y; }, {a.x.tree, a.y.tree, a.z.tree})),
+                   applied([](const Gpu* x) { return normalize(scalar::Vec3<Gpu>(x[0], x[1], x[2])).y; }, {a.x.tree, a.y.tree, a.z.tree})),
           Recorded(n.z.v,
-                   applied([](const Gpu* x) { return normalize(plain::Vec3<Gpu>(x[0], x[1], x[2])).z; }, {a.x.tree, a.y.tree, a.z.tree}))};
+                   applied([](const Gpu* x) { return normalize(scalar::Vec3<Gpu>(x[0], x[1], x[2])).z; }, {a.x.tree, a.y.tree, a.z.tree}))};
 }
 
 // Where a sampler looks and how it weighs is decided as the reference does.
 inline Recorded texel_coordinate(Address address, const Recorded& u, const Recorded& size) {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   const float w = size.v;
   const auto held = [](float x, float low, float high) { return std::min(std::max(x, low), high); };
   const float half_turn = fract(Single(u.v * 0.5f)).v;
@@ -130,7 +130,7 @@ inline Recorded texel_coordinate(Address address, const Recorded& u, const Recor
 inline Recorded level_of_detail(const Recorded& lod) { return Recorded(lod.v); }
 inline Recorded blend(TexelPrecision, const Recorded& a, const Recorded& b, const Recorded& c, const Recorded& d, const Recorded& fx,
                       const Recorded& fy) {
-  using Single = plain::Plain<float>;
+  using Single = scalar::Scalar<float>;
   const Single x(fx.v), y(fy.v);
   return Recorded::looked_up(mix(mix(Single(a.v), Single(b.v), x), mix(Single(c.v), Single(d.v), x), y).v);
 }

@@ -17,7 +17,7 @@
 
 namespace rainref::frost {
 namespace scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "image/sampling_perturbed-inl.h"
@@ -230,8 +230,8 @@ TEST(Definition, TheJudgesEvaluationsAreOfTheSameText) {
     ASSERT_EQ(grow->values(), 1);
     for (int y = 0; y < 5; ++y) {
       for (int x = 0; x < 9; ++x) {
-        plain::Plain<float> f;
-        plain::Plain<double> d;
+        scalar::Scalar<float> f;
+        scalar::Scalar<double> d;
         perturbed::Perturbed perturbed;
         enclosed::Enclosure e;
         grow->evaluate(x, y, &f);
@@ -248,7 +248,7 @@ TEST(Definition, TheJudgesEvaluationsAreOfTheSameText) {
     if (!corrected) continue;
     const auto shine = pass::bind<ShinePass, scalar::ShinePassText>(cases[1]);
     ASSERT_EQ(shine->values(), 5);
-    plain::Plain<float> out[5];
+    scalar::Scalar<float> out[5];
     shine->evaluate(3, 2, out);
     const float v = p.shine.scale * p.expected_thickness(true, 3, 2);
     EXPECT_EQ(out[1].v, v * 0.75f * to_float(p.tint.row<Half>(2)[4 * 3 + 1]));

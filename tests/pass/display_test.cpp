@@ -8,13 +8,13 @@
 #include "math/unorm.h"
 #include "rainref/error.h"
 #include "pass/display.h"
-#include "pass/display_plain.h"
+#include "pass/display_scalar.h"
 
 namespace rainref::pass {
 namespace {
 
-using F = plain::Plain<float>;
-using D = plain::Plain<double>;
+using F = scalar::Scalar<float>;
+using D = scalar::Scalar<double>;
 
 /// Every finite half that is not negative, somewhere, and some below 0; of any width.
 Image ramp(int width, int height) {
@@ -35,10 +35,10 @@ TEST(Display, IsTheStandardsCurve) {
       const double shown = std::min(1.0, c * std::exp2(exposure));
       const double code = shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055;
       // The constants of the pass are floats: 3e-8 each.
-      EXPECT_NEAR(scalar::display(u, plain::Vec3<D>(D(0.0f), D{c}, D(1.0f))).y.v, code, 2e-7) << c << " at " << exposure;
+      EXPECT_NEAR(scalar::display(u, scalar::Vec3<D>(D(0.0f), D{c}, D(1.0f))).y.v, code, 2e-7) << c << " at " << exposure;
     }
   }
-  const auto beyond = scalar::display(display_uniforms(0), plain::Vec3<D>(D{-1.0}, D{7.0}, D{65504.0}));
+  const auto beyond = scalar::display(display_uniforms(0), scalar::Vec3<D>(D{-1.0}, D{7.0}, D{65504.0}));
   EXPECT_EQ(beyond.x.v, 0);
   EXPECT_NEAR(beyond.y.v, 1, 2e-7);
   EXPECT_EQ(beyond.y.v, beyond.z.v);
@@ -59,7 +59,7 @@ TEST(Display, LanesAndTableGiveThePlainCodes) {
         for (int y = 0; y < height; ++y) {
           for (int x = 0; x < width; ++x) {
             const Half* in = colour.row<Half>(y) + 4 * x;
-            const auto c = scalar::display(u, plain::Vec3<F>(F::load(in), F::load(in + 1), F::load(in + 2)));
+            const auto c = scalar::display(u, scalar::Vec3<F>(F::load(in), F::load(in + 1), F::load(in + 2)));
             const int expected[4] = {to_unorm8(c.x.v, rounding).code, to_unorm8(c.y.v, rounding).code, to_unorm8(c.z.v, rounding).code,
                                      255};
             for (int k = 0; k < 4; ++k) {

@@ -25,14 +25,14 @@ std::vector<capture::PassCase> captured(const capture::EffectInfo& info, bool co
 }
 
 template <class Storage>
-bool is_stored(plain::Plain<float> value, Rounding rounding, const std::byte* at) {
+bool is_stored(scalar::Scalar<float> value, Rounding rounding, const std::byte* at) {
   Storage expected;
   store(&expected, value, rounding);
   return std::memcmp(&expected, at, sizeof expected) == 0;
 }
 /// Whether every stored value of the outputs is the definition's, to the bit.
 inline testing::AssertionResult is_as_defined(const capture::PassCase& c, const capture::PassModel& model) {
-  std::vector<plain::Plain<float>> values(static_cast<std::size_t>(model.values()));
+  std::vector<scalar::Scalar<float>> values(static_cast<std::size_t>(model.values()));
   for (int y = 0; y < model.height(); ++y) {
     for (int x = 0; x < model.width(); ++x) {
       model.evaluate(x, y, values.data());

@@ -82,7 +82,7 @@ TEST(Port, AnH100WeighsTwoLevelsTogether) {
 
 // One or two bugs of each pass; scripts/full/mutants has them all.
 TEST(Port, SeededBugsGetTheirVerdicts) {
-  const Outcome all = judge_mutants("puddle.json", "101,106,138,139,203,252,322,334,353,412,456,461,504,507");
+  const Outcome all = judge_mutants("puddle.json", "101,139,203,322,353,461,507");
   EXPECT_EQ(all.code, 0) << all.text;
 }
 
@@ -126,7 +126,7 @@ TEST_P(Port, OfRainyGlassPasses) {
   EXPECT_THAT(verdict.text, HasSubstr("(4 PASS)"));
 }
 TEST(Port, SeededBugsOfRainyGlassGetTheirVerdicts) {
-  const Outcome all = judge_mutants("rainy_glass.json", "702,713,734,762,784,796");
+  const Outcome all = judge_mutants("rainy_glass.json", "702,734,784");
   EXPECT_EQ(all.code, 0) << all.text;
   EXPECT_GE(check_mutants("rainy_glass.json"), 40u);
 }

@@ -41,9 +41,9 @@ TEST_P(WindshieldPort, RunsTwiceAlikeAndPassesUnderTheProfileOfItsApi) {
 
 // Some bugs of each pass; scripts/full/mutants has them all.
 TEST(WindshieldPort, SeededBugsGetTheirVerdicts) {
-  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1511,1533,1541,1562,1570,1581,1590,1412,1435,1450");
+  const Outcome surface = judge_mutants("windshield_surface.json", "1503,1533,1562,1581,1412,1450");
   EXPECT_EQ(surface.code, 0) << surface.text;
-  const Outcome motion = judge_mutants("windshield_motion.json", "1104,1107,1126,1130,1146,1154,1176,1181,1189,1207,1210,1217");
+  const Outcome motion = judge_mutants("windshield_motion.json", "1104,1126,1146,1176,1189,1210");
   EXPECT_EQ(motion.code, 0) << motion.text;
 }
 

@@ -12,14 +12,14 @@
 #include "puddle/ground.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 #include "rainref/puddle.h"
 #include "settings.h"
 
 namespace rainref::puddle {
 namespace {
 
-using F = plain::Plain<float>;
+using F = scalar::Scalar<float>;
 
 // An environment and a ground with structure, small enough to be made for every case.
 Image pattern(int width, int height, float scale) {

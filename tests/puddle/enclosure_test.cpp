@@ -16,7 +16,7 @@
 #include "puddle/captured_scene.h"
 #include "puddle/checkerboard.h"
 #include "puddle/host.h"
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 #include "puddle/uniforms.h"
 
 namespace rainref::puddle {
@@ -29,9 +29,9 @@ using enclosed::PathEnumeration;
 using enclosed::Profile;
 using enclosed::ProfileScope;
 using random_gpu::RandomGpu;
-using Single = plain::Plain<float>;
+using Single = scalar::Scalar<float>;
 template <class N>
-using Vec3 = plain::Vec3<N>;
+using Vec3 = scalar::Vec3<N>;
 
 template <class N>
 using Values = std::array<N, 3>;

@@ -8,12 +8,12 @@
 #include <set>
 #include <vector>
 
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 
 namespace rainref::puddle {
 namespace {
 
-using N = plain::Plain<float>;
+using N = scalar::Scalar<float>;
 
 struct Point {
   float x, y;

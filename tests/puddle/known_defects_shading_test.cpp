@@ -94,7 +94,7 @@ TEST(PuddleKnownDefects, Defect21_CheckerNoiseIsChaotic) {
   GroundNoiseUniforms u = ground_noise_uniforms(as_published(1, 1));
   u.camera = single_ray({0, 18, 0}, {0, -1, 0});
   const auto noise = [&](auto x) {
-    using N = plain::Plain<decltype(x)>;
+    using N = scalar::Scalar<decltype(x)>;
     const N zero(0.0f), one(1.0f);
     return static_cast<double>(
         scalar::ground_noise_as_published<N>(u, scalar::Surface<N>{Vec3<N>(N(x), N(4.5f), zero), Vec3<N>(zero, one, zero), one}, 0, 0).v);

@@ -144,7 +144,7 @@ TEST(PuddleRainfall, EdgesTakeNoWaterAway) {
     for (int k = 0; k < 400; ++k) {
       const std::vector<Drop> drops = rain.drops(k);
       for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < columns; ++x) sum += scalar::impulse_corrected<plain::Plain<double>>(drops, x, y).v;
+        for (int x = 0; x < columns; ++x) sum += scalar::impulse_corrected<scalar::Scalar<double>>(drops, x, y).v;
       }
     }
     return sum;

@@ -14,17 +14,17 @@
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"
-#include "puddle/plain.h"
+#include "puddle/scalar.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
 #include "scene/toml.h"
 
 namespace rainref::puddle::test {
 
-using Single = plain::Plain<float>;
-using Double = plain::Plain<double>;
+using Single = scalar::Scalar<float>;
+using Double = scalar::Scalar<double>;
 template <class N>
-using Vec3 = plain::Vec3<N>;
+using Vec3 = scalar::Vec3<N>;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double degree = pi / 180;

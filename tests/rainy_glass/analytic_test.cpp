@@ -206,7 +206,7 @@ TEST(RainyGlassRefraction, FallsShortOfSnellsLawAsTheDocumentsSay) {
     const double a = std::atan(k.slope), degree = pi / 180;
     EXPECT_NEAR((std::asin(1.333 * std::sin(a)) - a) / degree, k.snell, 0.05);
     RainOnGlassUniforms u = rain_on_glass_uniforms(settings(Variant::corrected, 8, 8), 0, {0.5, 0.5}, {0.5, 0.5});
-    const scalar::Two<Double> moved = scalar::prism(u, plain::Vec3<Double>(Double(0.0), Double(0.0), Double(1.0)), Double(1.0),
+    const scalar::Two<Double> moved = scalar::prism(u, scalar::Vec3<Double>(Double(0.0), Double(0.0), Double(1.0)), Double(1.0),
                                                     scalar::Two<Double>(Double(k.slope), Double(0.0)));
     const double bent = std::atan(std::hypot(moved.a.v, moved.b.v)) / degree;
     EXPECT_NEAR(bent, k.prism, 0.05);

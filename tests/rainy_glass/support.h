@@ -13,13 +13,13 @@
 #include "rainref/executor.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/host.h"
-#include "rainy_glass/plain.h"
+#include "rainy_glass/scalar.h"
 #include "settings.h"
 
 namespace rainref::rainy_glass::test {
 
-using Single = plain::Plain<float>;
-using Double = plain::Plain<double>;
+using Single = scalar::Scalar<float>;
+using Double = scalar::Scalar<double>;
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -115,12 +115,12 @@ struct Pixel {
           Double(0.0f),
           Double(1.0f),
           Double(1.0f),
-          plain::Vec3<Double>(Double(0.0f), Double(0.0f), Double(1.0f)),
-          plain::Vec3<Double>(Double(-1.0f), Double(-1.0f), Double(0.0f)),
+          scalar::Vec3<Double>(Double(0.0f), Double(0.0f), Double(1.0f)),
+          scalar::Vec3<Double>(Double(-1.0f), Double(-1.0f), Double(0.0f)),
           Double(1e9f)};
   }
-  void set_normal(double x, double y, double z) { at.normal = plain::Vec3<Double>(Double(x), Double(y), Double(z)); }
-  plain::Vec3<Double> colour() const {
+  void set_normal(double x, double y, double z) { at.normal = scalar::Vec3<Double>(Double(x), Double(y), Double(z)); }
+  scalar::Vec3<Double> colour() const {
     const scalar::GlassMaps<Texture, Texture, Texture> maps{&raindrops.view(), &rivulets.view(), &scene.view(), &near.view(), nullptr};
     return settings.variant == Variant::corrected ? scalar::rain_on_glass_corrected<Double>(uniforms, maps, at, column, row)
                                                   : scalar::rain_on_glass_as_published<Double>(uniforms, maps, at, column, row);

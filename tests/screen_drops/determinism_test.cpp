@@ -3,7 +3,7 @@
 #include "capture/hash_of_frames.h"
 #include "math/simd_target.h"
 #include "pass/display.h"
-#include "pass/display_plain.h"
+#include "pass/display_scalar.h"
 #include "screen_drops/support.h"
 
 namespace rainref::screen_drops {
@@ -119,7 +119,7 @@ TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluationWhichIsNearDouble) {
         expect_same(below[2], blurred.z, "background.b", x, y);
         const auto window_of = [&](auto n) {
           using N = decltype(n);
-          const plain::Vec3<N> own(N::load(below), N::load(below + 1), N::load(below + 2));
+          const scalar::Vec3<N> own(N::load(below), N::load(below + 1), N::load(below + 2));
           return corrected ? scalar::drops_corrected<N>(d, scene, cells.view(), height.view(), own, x, y)
                            : scalar::drops_as_published<N>(p, scene, noise.view(), own, x, y);
         };
@@ -131,7 +131,7 @@ TEST_P(ScreenDropsDeterminism, LanesEqualTheScalarEvaluationWhichIsNearDouble) {
         ASSERT_EQ(window.water().row<Unorm8>(y)[x].code, to_unorm8(w.water.v).code) << target << " " << x << "," << y;
         const auto shown =
             pass::scalar::display<Single>(pass::display_uniforms(s.exposure),
-                                          plain::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
+                                          scalar::Vec3<Single>(Single::load(stored), Single::load(stored + 1), Single::load(stored + 2)));
         ASSERT_EQ(window.picture().row<Unorm8>(y)[4 * x + 1].code, to_unorm8(shown.y.v).code) << target << " " << x << "," << y;
         const auto exact = window_of(Double());
         wet += w.water.v > 0;

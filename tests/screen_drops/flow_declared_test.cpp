@@ -156,7 +156,7 @@ TEST(FlowDeclared, EvaluationsGiveWhatThePassesGave) {
       double sum = 0;
       for (int y = 0; y < o.array.height; ++y) {
         for (int x = 0; x < o.array.width; ++x) {
-          plain::Plain<float> value;
+          scalar::Scalar<float> value;
           model->evaluate(x, y, &value);
           const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(o.array.width) + static_cast<std::size_t>(x);
           float found = 0;

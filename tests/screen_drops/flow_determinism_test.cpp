@@ -16,8 +16,8 @@ std::string run(const FlowSettings& settings, const parallel::Executor& executor
     flow.simulate();
     all += bytes_of(flow.height(), 2) + bytes_of(flow.film(), 4) + bytes_of(flow.drops());
   }
-  const drops::Ledger& ledger = flow.ledger();
-  return all + std::string(reinterpret_cast<const char*>(&ledger), sizeof ledger);
+  const drops::MassBalance& balance = flow.mass_balance();
+  return all + std::string(reinterpret_cast<const char*>(&balance), sizeof balance);
 }
 
 class FlowDeterminism : public testing::Test {

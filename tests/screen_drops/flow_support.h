@@ -40,10 +40,10 @@ inline FlowSettings wet_pane() {
   return s;
 }
 
-inline double volume_of(double mass) { return mass * drops::quantum / drops::water_density; }
-/// Of a drop that had this diameter [m] in the air, in quanta.
+inline double volume_of(double mass) { return mass * drops::mass_unit / drops::water_density; }
+/// Of a drop that had this diameter [m] in the air, in mass units.
 inline float mass_of(double diameter) {
-  return static_cast<float>(std::round(drops::water_density * pi / 6 * diameter * diameter * diameter / drops::quantum));
+  return static_cast<float>(std::round(drops::water_density * pi / 6 * diameter * diameter * diameter / drops::mass_unit));
 }
 inline Drop drop_at(float u, float v, float mass, std::uint32_t id = 0) { return {{u, v}, {0, 0}, mass, 4096, id, 0}; }
 

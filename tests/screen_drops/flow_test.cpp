@@ -101,7 +101,7 @@ TEST(Flow, TwoStuckDropsRunAsOne) {
     EXPECT_EQ(left[0].id, 0u);
     EXPECT_EQ(left[0].mass, distance < 2 ? 2 * mass : mass);
     EXPECT_EQ(left[0].position[1] < 0.75f, distance < 2);
-    EXPECT_EQ(flow.balance(), 0);
+    EXPECT_EQ(flow.residual(), 0);
   }
 }
 
@@ -127,7 +127,7 @@ TEST(Flow, MergingKeepsTheWater) {
   for (const Drop& d : left) water_left += static_cast<std::int64_t>(d.mass);
   EXPECT_EQ(water_left, water);
   EXPECT_LT(left.size(), 300u);
-  EXPECT_EQ(flow.ledger().removed, 0);
+  EXPECT_EQ(flow.mass_balance().removed, 0);
 }
 
 TEST(Flow, NothingDependsOnTheOrderOfTheSlots) {
@@ -140,7 +140,7 @@ TEST(Flow, NothingDependsOnTheOrderOfTheSlots) {
     for (int n = 0; n < 40; ++n) flow.simulate();
     std::vector<Drop> left = flow.drops();
     std::sort(left.begin(), left.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
-    EXPECT_GT(flow.ledger().to_film, 0);
+    EXPECT_GT(flow.mass_balance().to_film, 0);
     EXPECT_LT(left.size(), 400u);
     return bytes_of(left) + bytes_of(flow.film(), 4);
   };
@@ -164,9 +164,9 @@ TEST(Flow, TrailsStayInTheFilm) {
   const Drop d = flow.drops().at(0);
   const std::int64_t lost = static_cast<std::int64_t>(mass - d.mass);
   EXPECT_GT(lost, 10000);
-  EXPECT_EQ(flow.ledger().to_film, lost);
+  EXPECT_EQ(flow.mass_balance().to_film, lost);
   EXPECT_EQ(drops::film_water(flow.film()), lost);
-  EXPECT_EQ(flow.balance(), 0);
+  EXPECT_EQ(flow.residual(), 0);
   const double radius = drops::cap_radius_over_root(35 * degree) * std::cbrt(volume_of(d.mass)) / s.pane[1];
   const int column = flow.film().width() / 2, first = static_cast<int>((d.position[1] + radius) * flow.film().height()),
             last = static_cast<int>((0.75 + radius) * flow.film().height());
@@ -237,18 +237,18 @@ TEST(Flow, WindBringsTheRainOfItsPath) {
     const double mean = path * 8000 / lambda * (std::exp(-lambda * s.drops.smallest_drop) - std::exp(-lambda * 6));
     // A Poisson number: 4 of its deviations. The seed is fixed.
     EXPECT_NEAR(static_cast<double>(arrivals.count), mean, 4 * std::sqrt(mean)) << wind;
-    EXPECT_EQ(flow.balance(), 0);
+    EXPECT_EQ(flow.residual(), 0);
   }
 }
 
 /// What every texel of the film lost.
 struct Drying : Recorder {
-  double quanta = 0;
+  double mass_units = 0;
   void before(const PassStart& start) override {
     if (start.pass != "merge") return;
     drops::MergeUniforms u;
     std::memcpy(&u, start.uniforms.data(), sizeof u);
-    quanta += static_cast<double>(u.drying);
+    mass_units += static_cast<double>(u.drying);
   }
   void pass(const PassCall&) override {}
 };
@@ -262,7 +262,7 @@ TEST(Flow, TheFilmDriesAtItsRateWhateverTheFrameRate) {
       Flow flow(s, two_threads());
       Drying drying;
       for (int n = 0; n < 5 * fps; ++n) flow.simulate(&drying);
-      EXPECT_NEAR(drying.quanta, 5 * s.drops.film_drying * texel * drops::water_density / drops::quantum, 1) << fps;
+      EXPECT_NEAR(drying.mass_units, 5 * s.drops.film_drying * texel * drops::water_density / drops::mass_unit, 1) << fps;
     }
   }
 }
@@ -280,11 +280,11 @@ TEST(Flow, WarmingUpIsRunningOn) {
   EXPECT_EQ(warm.frame(), 20);
   EXPECT_EQ(bytes_of(warm.drops()), bytes_of(from_dry.drops()));
   EXPECT_EQ(bytes_of(warm.height(), 2), bytes_of(from_dry.height(), 2));
-  EXPECT_EQ(warm.ledger(), from_dry.ledger());
+  EXPECT_EQ(warm.mass_balance(), from_dry.mass_balance());
 }
 
-// W8: every quantum that arrived is in a drop, in the film, in the air, or gone.
-TEST(Flow, TheLedgerIsZeroToTheQuantum) {
+// W8: every mass unit that arrived is in a drop, in the film, in the air, or gone.
+TEST(Flow, TheMassBalanceIsZeroToTheUnit) {
   for (const int substeps : {1, 2}) {
     FlowSettings s = wet_pane();
     s.substeps = substeps;
@@ -292,13 +292,13 @@ TEST(Flow, TheLedgerIsZeroToTheQuantum) {
     std::int64_t film_peak = 0;
     for (int n = 0; n < 2400; ++n) {
       flow.simulate();
-      ASSERT_EQ(flow.balance(), 0) << n;
+      ASSERT_EQ(flow.residual(), 0) << n;
       film_peak = std::max(film_peak, drops::film_water(flow.film()));
-      ASSERT_EQ(flow.ledger().to_film, drops::film_water(flow.film())) << n;
+      ASSERT_EQ(flow.mass_balance().to_film, drops::film_water(flow.film())) << n;
     }
     // Every way that water takes was taken. With room for more and lives that last, drops end where they run off below.
-    EXPECT_GT(flow.ledger().evaporated, 0);
-    EXPECT_GT(flow.ledger().removed, mass_of(3e-3));
+    EXPECT_GT(flow.mass_balance().evaporated, 0);
+    EXPECT_GT(flow.mass_balance().removed, mass_of(3e-3));
     EXPECT_LT(static_cast<std::int64_t>(flow.drops().size()), s.drops.capacity / 2);
     EXPECT_GT(film_peak, 0);
     EXPECT_FALSE(flow.drops().empty());
@@ -312,12 +312,12 @@ TEST(Flow, AFullPaneLosesArrivalsNotTheCount) {
   Flow flow(s, two_threads());
   for (int n = 0; n < 120; ++n) {
     flow.simulate();
-    ASSERT_EQ(flow.balance(), 0);
+    ASSERT_EQ(flow.residual(), 0);
     ASSERT_LE(flow.drops().size(), 20u);
   }
-  EXPECT_GT(flow.ledger().removed, 0);
+  EXPECT_GT(flow.mass_balance().removed, 0);
   flow.set_drops({});
-  EXPECT_EQ(flow.balance(), 0);
+  EXPECT_EQ(flow.residual(), 0);
   EXPECT_TRUE(flow.drops().empty());
 }
 

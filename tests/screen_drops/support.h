@@ -17,13 +17,13 @@
 #include "screen_drops/host.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/drops.pass.h"
-#include "screen_drops/plain.h"
+#include "screen_drops/scalar.h"
 #include "settings.h"
 
 namespace rainref::screen_drops::test {
 
-using Single = plain::Plain<float>;
-using Double = plain::Plain<double>;
+using Single = scalar::Scalar<float>;
+using Double = scalar::Scalar<double>;
 
 inline const parallel::Executor& executor() {
   static const parallel::Executor one(1);
@@ -95,7 +95,7 @@ struct Pixel {
   Settings s = rainref::test::screen_drops_settings();
   DropsUniforms u{};
   TextureData scene = ramp(64), cells, height{std::vector<float>{0}, 1, 1, 1, Address::clamp, Address::clamp};
-  plain::Vec3<Double> background{Double(0.25f), Double(0.5f), Double(0.75f)};
+  scalar::Vec3<Double> background{Double(0.25f), Double(0.5f), Double(0.75f)};
 
   /// A pane of 1 mm a pixel, without drops.
   Pixel() : s(settings(Variant::corrected, side, side)) {

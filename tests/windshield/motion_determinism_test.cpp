@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "math/simd_target.h"
-#include "windshield/motion_plain.h"
+#include "windshield/motion_scalar.h"
 #include "windshield/support.h"
 #include "windshield/wipe_drops.h"
 
@@ -60,12 +60,12 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
   const std::uint64_t removed = wipe_drops(s.uniforms, corrected, s.wipers, drops.spans(), corrected ? &film : nullptr, executor);
 
   // The same, one at a time; then the film by record and bin.
-  using F = plain::Plain<float>;
+  using F = scalar::Scalar<float>;
   std::vector<motion_scalar::WipedDrop<F>> expected;
   for (std::size_t i = 0; i < count; ++i) expected.push_back(wiped<F>(s.uniforms, corrected, s.wipers, before, i));
   std::uint64_t expected_removed = 0;
   if (corrected) {
-    std::vector<std::uint64_t> quanta(s.wipers.size() * film_bins);
+    std::vector<std::uint64_t> mass_units(s.wipers.size() * film_bins);
     const Image was = film_of(columns, rows);
     for (int y = 0; y < rows; ++y) {
       for (int x = 0; x < columns; ++x) {
@@ -73,11 +73,11 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
         const float held = was.row<float>(y)[x];
         same_bits(film.row<float>(y)[x], swept.wiper.v >= 0 ? 0.0f : held);
         if (swept.wiper.v >= 0)
-          quanta[static_cast<std::size_t>(swept.wiper.v) * film_bins + static_cast<std::size_t>(swept.bin.v)] +=
+          mass_units[static_cast<std::size_t>(swept.wiper.v) * film_bins + static_cast<std::size_t>(swept.bin.v)] +=
               static_cast<std::uint64_t>(held);
       }
     }
-    for (std::size_t k = 0; k < quanta.size(); ++k) {
+    for (std::size_t k = 0; k < mass_units.size(); ++k) {
       std::int64_t first = -1;  // ids ascend with slots here
       for (std::size_t i = 0; i < count && first < 0; ++i) {
         if (expected[i].wiper.v >= 0 && static_cast<std::size_t>(expected[i].wiper.v * film_bins + expected[i].bin.v) == k)
@@ -85,9 +85,9 @@ void expect_plain_bits(bool corrected, std::size_t count, int columns, int rows,
       }
       if (first >= 0)
         expected[static_cast<std::size_t>(first)].mass =
-            F(expected[static_cast<std::size_t>(first)].mass.v + static_cast<float>(quanta[k]));
+            F(expected[static_cast<std::size_t>(first)].mass.v + static_cast<float>(mass_units[k]));
       else
-        expected_removed += quanta[k];
+        expected_removed += mass_units[k];
     }
     for (std::size_t i = 0; i < count; ++i) expected_removed += expected[i].wiper.v == -2 ? static_cast<std::uint64_t>(before.mass[i]) : 0;
   }
@@ -128,7 +128,7 @@ TEST(MotionDeterminism, TheFrameHasPlainBits) {
     for (const bool corrected : {false, true}) {
       for (double t = 0; t < 9; t += 0.7) {
         const WindshieldFrameUniforms u = windshield_frame_uniforms(default_glass(), car.at(t), {1, 2, -0.5}, 9.8, corrected);
-        using F = plain::Plain<float>;
+        using F = scalar::Scalar<float>;
         const auto expected =
             corrected ? motion_scalar::windshield_frame_corrected<F>(u) : motion_scalar::windshield_frame_as_published<F>(u);
         const drops::GlassFrame out = windshield_frame(u, corrected);
@@ -155,8 +155,8 @@ TEST(MotionDeterminism, FloatsAreNearTheDoubleReading) {
     const DropArrays drops = random_drops(20000, 11);
     int different = 0, moved = 0;
     for (std::size_t i = 0; i < drops.size(); ++i) {
-      const auto f = wiped<plain::Plain<float>>(s.uniforms, corrected, s.wipers, drops, i);
-      const auto d = wiped<plain::Plain<double>>(s.uniforms, corrected, s.wipers, drops, i);
+      const auto f = wiped<scalar::Scalar<float>>(s.uniforms, corrected, s.wipers, drops, i);
+      const auto d = wiped<scalar::Scalar<double>>(s.uniforms, corrected, s.wipers, drops, i);
       const bool alike = corrected ? f.wiper.v == d.wiper.v
                                    : (f.mass.v == drops.mass[i]) == (d.mass.v == drops.mass[i]) && std::abs(f.mass.v - d.mass.v) < 0.03;
       if (!alike) {

@@ -1,4 +1,4 @@
-// Pass wipe_drops, corrected: the film that the blades sweep goes to drops, to the quantum.
+// Pass wipe_drops, corrected: the film that the blades sweep goes to drops, to the unit.
 #include <gtest/gtest.h>
 
 #include "windshield/sweep_geometry.h"
@@ -6,21 +6,21 @@
 namespace rainref::windshield {
 namespace {
 
-using N = plain::Plain<float>;
+using N = scalar::Scalar<float>;
 
-std::uint64_t quanta_in(const Image& film) {
+std::uint64_t mass_units_in(const Image& film) {
   std::uint64_t sum = 0;
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) sum += static_cast<std::uint64_t>(film.row<float>(y)[x]);
   }
   return sum;
 }
-std::uint64_t quanta_in(const DropArrays& d) {
+std::uint64_t mass_units_in(const DropArrays& d) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < d.size(); ++i) sum += d.life[i] > 0 ? static_cast<std::uint64_t>(d.mass[i]) : 0;
   return sum;
 }
-// Film and drops lose to the quantum what is returned, whatever the sizes, with drops that can hold no more.
+// Film and drops lose to the unit what is returned, whatever the sizes, with drops that can hold no more.
 TEST(MotionFilm, WaterIsConservedToTheQuantum) {
   std::mt19937 random(10);
   for (const auto& [columns, rows] : {std::pair{64, 40}, std::pair{257, 129}, std::pair{1, 1}, std::pair{3, 500}}) {
@@ -34,11 +34,12 @@ TEST(MotionFilm, WaterIsConservedToTheQuantum) {
         for (int y = 0; y < rows; ++y) {
           for (int x = 0; x < columns; ++x) film.row<float>(y)[x] = static_cast<float>(random() % 7 == 0 ? 1u << 24 : random() % 3000);
         }
-        const std::uint64_t film_before = quanta_in(film), drops_before = quanta_in(drops);
+        const std::uint64_t film_before = mass_units_in(film), drops_before = mass_units_in(drops);
         const std::uint64_t removed = wipe(drops, wipers_between(s, default_glass().plane(), n / 60.0, (n + 1) / 60.0, corrected), film);
-        ASSERT_EQ(film_before + drops_before, quanta_in(film) + quanta_in(drops) + removed) << columns << "x" << rows << " step " << n;
+        ASSERT_EQ(film_before + drops_before, mass_units_in(film) + mass_units_in(drops) + removed)
+            << columns << "x" << rows << " step " << n;
         for (const float m : drops.mass) ASSERT_LE(m, 0x1p24f);
-        taken += quanta_in(drops) > drops_before;
+        taken += mass_units_in(drops) > drops_before;
         removed_in_all += removed;
       }
       if (columns > 1) {
@@ -113,12 +114,12 @@ TEST(MotionFilm, TheLowestIdTakesTheFilm) {
   }
   Image film(Format::r32f, 700, 400);
   for (int y = 0; y < film.height(); ++y) std::fill_n(film.row<float>(y), film.width(), 1.0f);
-  const std::uint64_t before = quanta_in(film);
+  const std::uint64_t before = mass_units_in(film);
   const std::uint64_t removed = wipe(drops, records, film);
   EXPECT_EQ(drops.mass[0], 100);
   EXPECT_EQ(drops.mass[2], 100);
   EXPECT_GT(drops.mass[1], 100);
-  EXPECT_EQ(before - quanta_in(film), removed + static_cast<std::uint64_t>(drops.mass[1]) - 100);
+  EXPECT_EQ(before - mass_units_in(film), removed + static_cast<std::uint64_t>(drops.mass[1]) - 100);
   // A bin is 1/64 of the blade's length: its share of the swept film is as much of r^2.
   const double near = 0.15 - 0.008, far = 0.6 + 0.008, width = (far - near) / film_bins;
   const double r0 = near + width * std::floor((0.4 - near) / width), r1 = r0 + width;

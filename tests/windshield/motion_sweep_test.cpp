@@ -6,7 +6,7 @@
 namespace rainref::windshield {
 namespace {
 
-using N = plain::Plain<float>;
+using N = scalar::Scalar<float>;
 
 struct Area {
   double value, error;  // error: half a cell along the outline

@@ -13,15 +13,15 @@
 #include "math/unorm.h"
 #include "pass/run.h"
 #include "pass/display.h"
-#include "pass/display_plain.h"
+#include "pass/display_scalar.h"
 #include "windshield/picture.h"
-#include "windshield/plain.h"
+#include "windshield/scalar.h"
 #include "windshield/street.h"
 
 namespace rainref::windshield {
 namespace {
 
-using F = plain::Plain<float>;
+using F = scalar::Scalar<float>;
 
 /// Values in [0, 1] with structure, as they are stored and as the scalar evaluation takes them.
 template <class Stored>
@@ -151,7 +151,7 @@ TEST_P(PictureDeterminism, LanesEqualTheScalarEvaluation) {
     View plain = s.make();
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const plain::Vec3<F> c =
+        const scalar::Vec3<F> c =
             GetParam() ? scalar::composite_corrected<F>(s.composite, s.pyramid.plain, s.plain_depth.view(), s.plain_water.view(),
                                                         s.plain_normal.view(), s.plain_mask.view(), s.lights.data(), x, y)
                        : scalar::composite_as_published<F>(s.composite, s.pyramid.plain, s.plain_water.view(), s.plain_normal.view(),
@@ -159,8 +159,8 @@ TEST_P(PictureDeterminism, LanesEqualTheScalarEvaluation) {
         Half* colour = plain.colour.row<Half>(y) + 4 * x;
         const float rgba[4] = {c.x.v, c.y.v, c.z.v, 1};
         for (int k = 0; k < 4; ++k) colour[k] = to_half(rgba[k] + 0.0f);
-        const plain::Vec3<F> code =
-            pass::scalar::display<F>(s.display, plain::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
+        const scalar::Vec3<F> code =
+            pass::scalar::display<F>(s.display, scalar::Vec3<F>(F(to_float(colour[0])), F(to_float(colour[1])), F(to_float(colour[2]))));
         const float codes[4] = {code.x.v, code.y.v, code.z.v, 1};
         for (int k = 0; k < 4; ++k) plain.picture.row<Unorm8>(y)[4 * x + k] = to_unorm8(codes[k], Rounding::rne);
       }

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "windshield/picture.h"
-#include "windshield/plain.h"
+#include "windshield/scalar.h"
 
 namespace rainref::windshield {
 namespace {
 
-using Real = plain::Plain<double>;
-using Real3 = plain::Vec3<Real>;
+using Real = scalar::Scalar<double>;
+using Real3 = scalar::Vec3<Real>;
 using glm::dvec3;
 
 const Corners raked{{{1.0, 0.7, 0.95}, {1.0, -0.7, 0.95}, {0.2872, 0.7, 1.3132}}};

@@ -64,7 +64,7 @@ struct DropArrays {
   std::size_t size() const { return u.size(); }
   bool operator==(const DropArrays&) const = default;
 };
-/// Drops spread uniformly over the glass, of 1 to 200000 quanta.
+/// Drops spread uniformly over the glass, of 1 to 200000 mass units.
 inline DropArrays random_drops(std::size_t n, std::uint32_t seed) {
   DropArrays d(n);
   std::mt19937 random(seed);
@@ -80,7 +80,7 @@ inline DropArrays random_drops(std::size_t n, std::uint32_t seed) {
   return d;
 }
 
-/// Base radius [m] of a drop of one quantum: 3.5e-5 m gives a drop of 4 mm^3, 2 mm across in the air, a radius of 2 mm.
+/// Base radius [m] of a drop of one mass unit: 3.5e-5 m gives a drop of 4 mm^3, 2 mm across in the air, a radius of 2 mm.
 inline constexpr double radius_scale = 3.5e-5;
 
 }  // namespace rainref::windshield

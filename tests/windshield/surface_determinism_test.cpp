@@ -10,8 +10,8 @@
 namespace rainref::windshield {
 namespace {
 
-using F = plain::Plain<float>;
-using D = plain::Plain<double>;
+using F = scalar::Scalar<float>;
+using D = scalar::Scalar<double>;
 
 void fill(Image& image, unsigned seed, double scale) {
   std::mt19937 words(seed);
@@ -44,7 +44,7 @@ struct Around {
   N mask(int dx, int dy) const { return at(masks, x + dx, y + dy); }
 };
 template <class N>
-plain::Vec3<N> normal_at(const NormalsUniforms& u, bool corrected, const Around<N>& around) {
+scalar::Vec3<N> normal_at(const NormalsUniforms& u, bool corrected, const Around<N>& around) {
   return corrected ? scalar::normal_of<N, true>(u, around) : scalar::normal_of<N, false>(u, around);
 }
 

@@ -9,7 +9,7 @@
 namespace rainref::windshield {
 namespace {
 
-using D = plain::Plain<double>;
+using D = scalar::Scalar<double>;
 
 struct Slope {
   double x, y;

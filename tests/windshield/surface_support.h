@@ -9,7 +9,7 @@
 #include "pass/run.h"
 #include "rainref/executor.h"
 #include "windshield/surface.h"
-#include "windshield/surface_plain.h"
+#include "windshield/surface_scalar.h"
 
 namespace rainref::windshield {
 

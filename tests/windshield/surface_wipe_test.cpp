@@ -84,7 +84,7 @@ TEST(SurfaceWipe, AsPublishedLeavesGapsAtSpeedAndCorrectedNone) {
 TEST(SurfaceWipe, CoverageIsExactInsideAndNoneOutside) {
   const SurfaceSettings s = settings_on(true, 64, 64);
   const Blade b;
-  using D = plain::Plain<double>;
+  using D = scalar::Scalar<double>;
   std::mt19937 words(2);
   const double from = 0.8;
   for (const double turn : {0.0, 0.004, 0.1, 0.9, 1.9, 3.1}) {

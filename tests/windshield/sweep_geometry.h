@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "windshield/motion_plain.h"
+#include "windshield/motion_scalar.h"
 #include "windshield/support.h"
 #include "windshield/wipe_drops.h"
 

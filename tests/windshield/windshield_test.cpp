@@ -42,36 +42,36 @@ TEST_P(Golden, TheSameBitsForEveryTargetAndNumberOfThreads) {
   }
 }
 
-// Every quantum that arrived is in a drop, in the film, in the air, or gone: exactly (W8), through wipers and merging.
-TEST(Ledger, IsZeroToTheQuantum) {
+// Every mass unit that arrived is in a drop, in the film, in the air, or gone: exactly (W8), through wipers and merging.
+TEST(MassBalance, IsZeroToTheUnit) {
   const parallel::Executor executor(2);
   for (const int substeps : {1, 3}) {
     const std::string more = fmt::format("substeps = {}\nmobility = 0.05\ntrail_thickness = 2e-5\n[rain]\nrate = 150\n", substeps);
     Windshield windshield(config_of("corrected", wet_drive + more), small_surroundings(), executor);
     for (int frame = 0; frame < 240; ++frame) {
       windshield.simulate();
-      ASSERT_EQ(windshield.ledger().balance(), 0) << "frame " << frame << ", " << substeps << " substeps";
+      ASSERT_EQ(windshield.mass_balance().residual(), 0) << "frame " << frame << ", " << substeps << " substeps";
     }
     // Nothing of it is idle.
-    const WaterLedger ledger = windshield.ledger();
-    EXPECT_GT(ledger.spawned, 1'000'000);
-    EXPECT_GT(ledger.evaporated, 0);
-    EXPECT_GT(ledger.removed, 0);
-    EXPECT_GT(ledger.film, 0);
-    EXPECT_GT(ledger.drops, 0);
+    const MassBalance balance = windshield.mass_balance();
+    EXPECT_GT(balance.spawned, 1'000'000);
+    EXPECT_GT(balance.evaporated, 0);
+    EXPECT_GT(balance.removed, 0);
+    EXPECT_GT(balance.film, 0);
+    EXPECT_GT(balance.drops, 0);
   }
 }
 
 // As published counts drops.
-TEST(Ledger, AsPublishedCountsDrops) {
+TEST(MassBalance, AsPublishedCountsDrops) {
   const parallel::Executor executor(1);
   Windshield windshield(config_of("as-published", std::string(wet_drive) + "lifetime = 0.5\n"), small_surroundings(), executor);
   for (int frame = 0; frame < 90; ++frame) {
     windshield.simulate();
-    ASSERT_EQ(windshield.ledger().balance(), 0) << frame;
+    ASSERT_EQ(windshield.mass_balance().residual(), 0) << frame;
   }
-  EXPECT_GT(windshield.ledger().removed, 100);
-  EXPECT_EQ(windshield.ledger().spawned, 600);  // 400 a second
+  EXPECT_GT(windshield.mass_balance().removed, 100);
+  EXPECT_EQ(windshield.mass_balance().spawned, 600);  // 400 a second
 }
 
 // A dry glass shows the scene through a film at most: corrected, without rain and haze, the picture is the scene's own.

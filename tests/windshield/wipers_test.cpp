@@ -1,7 +1,7 @@
 // Wipers: the law of motion (physics: W11), records of a step, arrangements and what they clear.
 #include <gtest/gtest.h>
 
-#include "windshield/motion_plain.h"
+#include "windshield/motion_scalar.h"
 #include "windshield/support.h"
 
 namespace rainref::windshield {
@@ -168,7 +168,7 @@ double share_cleared(const Quad& area, const Glass& glass, const WiperSettings& 
   // The whole stroke, blades of no width.
   std::vector<Wiper> stroke = wipers_between(s, glass.plane(), 0, 30 / s.cycles_per_minute, true);
   for (Wiper& w : stroke) w.half_width = 0;
-  using N = plain::Plain<float>;
+  using N = scalar::Scalar<float>;
   int inside = 0, cleared = 0;
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {

@@ -61,7 +61,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
 Array read_npy(const fs::path& file) {
   const std::vector<std::uint8_t> all = read_file(file);
   const std::string_view text(reinterpret_cast<const char*>(all.data()), all.size());
-  if (!text.starts_with(magic) || all.size() < 10) throw FileError(file.string() + ": expected an NPY 1.0 file");
+  if (all.size() < 10 || text.substr(0, magic.size()) != magic) throw FileError(file.string() + ": expected an NPY 1.0 file");
   const std::size_t length = all[8] + 256u * all[9];
   if (all.size() < 10 + length) throw FileError(file.string() + ": the NPY header is cut off");
   const std::string header(text.substr(10, length));

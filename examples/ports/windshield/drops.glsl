@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 struct Drop {
   vec2 position;    //   0  [1] Glass coordinates u, v.
   vec2 velocity;    //   8  [1/s] Change of the position.
-  float mass;       //  16  [1] as-published: 1 is an ordinary drop; corrected: whole quanta of 2e-11 kg, at most 2^24.
+  float mass;       //  16  [1] as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24.
   float life;       //  20  [s] What remains; not above 0: no drop.
   uint id;          //  24  [1] Its own for ever, ascending in the order of birth.
   float padding_0;  //  28  padding

@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform IntegrateUniforms {
   float drag;              //  24  [1/s] as-published: rate of slowing down; corrected: that times mass^(2/3).
   float wind_push;         //  28  [1/m] corrected: acceleration over wind speed squared, times mass^(1/3).
   float hold;              //  32  [m/s^2] corrected: acceleration that hysteresis holds, times mass^(2/3).
-  float evaporation;       //  36  [1/s] corrected: quanta lost in a second over mass^(1/3).
+  float evaporation;       //  36  [1/s] corrected: mass units lost in a second over mass^(1/3).
   float margin;            //  40  [1] corrected: how far outside the glass a drop lives.
   float rest_speed;        //  44  [m/s] corrected: a held drop below this speed rests.
   float phase_rate;        //  48  [1] corrected: turns in 64 s of the phase that rounds losses.

@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform MergeUniforms {
   float trail;      //  16  [1/m^2] Quanta left over base radius and way.
   float dt;         //  20  [s] The step.
   ivec2 film;       //  24  [texel] Columns and rows of the film.
-  float drying;     //  32  [1] Quanta that each texel of the film loses in this step.
+  float drying;     //  32  [1] Mass units that each texel of the film loses in this step.
   float padding_0;  //  36  padding
   float padding_1;  //  40  padding
   float padding_2;  //  44  padding
@@ -21,7 +21,7 @@ layout(binding = 2) uniform sampler2D film;
 layout(binding = 4) uniform writeonly image2D film_given;
 
 const int none = -1;
-const float most_quanta = 16777216.0;
+const float most_mass = 16777216.0;
 
 float base_radius(float mass) { return u.radius * pow(max(mass, 1.0), 1.0 / 3.0); }
 vec2 to_plane(vec2 uv) { return vec2(u.frame.x * uv.x + u.frame.y * uv.y, u.frame.z * uv.y); }
@@ -34,7 +34,7 @@ bool is_larger(Drop a, Drop b) {
   return a.mass != b.mass ? a.mass > b.mass : a.id < b.id;
 }
 
-// Quanta that a drop leaves, and the texel where.
+// Mass units that a drop leaves, and the texel where.
 float trail(Drop d, out ivec2 texel) {
   float radius = base_radius(d.mass), speed = length(to_plane(d.velocity));
   vec2 at = d.position - d.velocity * (radius / max(speed, 1e-12));
@@ -81,7 +81,7 @@ void main() {
       if (!any_left) break;
       Drop d = drops[next];
       after = d.id + 1u;
-      if (sum.mass + d.mass > most_quanta) continue;
+      if (sum.mass + d.mass > most_mass) continue;
       sum.mass += d.mass;
       float share = d.mass / max(sum.mass, 1.0);
       sum.position = mix(sum.position, d.position, share);
@@ -115,7 +115,7 @@ void main() {
       d.mass += d.padding_0;
       ivec2 texel;
       trail(d, texel);
-      if (texel == here) water = min(water + d.padding_0, most_quanta);
+      if (texel == here) water = min(water + d.padding_0, most_mass);
     }
     imageStore(film_given, here, vec4(water));
   }

@@ -8,12 +8,12 @@ layout(std140, binding = 0) uniform SplatUniforms {
   int kernel;             //  32  [1] 0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc.
   int blend;              //  36  [1] 0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does.
   int drop_count;         //  40  [1] Drops in the list.
-  float film_scale;       //  44  [mm] corrected: height of a quantum in a texel.
+  float film_scale;       //  44  [mm] corrected: height of a mass unit in a texel.
 } u;
 struct Drop {
   vec2 position;    //   0  [1] Glass coordinates u, v.
   vec2 velocity;    //   8  [1/s] Change of the position.
-  float mass;       //  16  [1] as-published: 1 is an ordinary drop; corrected: whole quanta of 2e-11 kg, at most 2^24.
+  float mass;       //  16  [1] as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24.
   float life;       //  20  [s] What remains; not above 0: no drop.
   uint id;          //  24  [1] Its own for ever, ascending in the order of birth.
   float padding_0;  //  28  padding

@@ -2,7 +2,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 #extension GL_EXT_shader_image_load_formatted : enable
-// Whole quanta are integers here, so that sums are exact in any order.
+// Whole mass units are integers here, so that sums are exact in any order.
 #define DROPS_OUT 4
 #include "drops.glsl"
 #include "wiper.glsl"
@@ -11,7 +11,7 @@ layout(binding = 3) uniform sampler2D film;
 layout(binding = 5) uniform writeonly image2D film_given;
 
 const int most_places = 1024, none = -1, thrown_off = -2;
-const uint most_quanta = 1u << 24;
+const uint most_mass = 1u << 24;
 // For each record and bin: what the film gives, 64 bits of it, and the lowest id among the drops there.
 shared uint quanta_low[most_places], quanta_high[most_places], taker[most_places];
 
@@ -98,7 +98,7 @@ void main() {
     int place = floatBitsToInt(given[i].padding_0);
     given[i].padding_0 = 0.0;
     if (place < 0 || taker[place] != given[i].id) continue;
-    uint have = uint(given[i].mass), room = most_quanta - min(have, most_quanta);
+    uint have = uint(given[i].mass), room = most_mass - min(have, most_mass);
     uint gained = quanta_high[place] > 0u ? room : min(quanta_low[place], room);
     given[i].mass = float(have + gained);
   }

@@ -8,7 +8,7 @@ layout(std140, binding = 0) uniform WipeDropsUniforms {
   vec3 inverse_frame;  //  16  [1/m] u = i0 x + i1 y, v = i2 y.
   float inherit;       //  28  [1] as-published: share of the blade's velocity that a captured drop takes over.
   float gain;          //  32  [1] as-published: mass that a captured drop gains.
-  float radius_scale;  //  36  [m] corrected: base radius of a drop of one quantum.
+  float radius_scale;  //  36  [m] corrected: base radius of a drop of one mass unit.
   int wiper_count;     //  40  [1] Records in the list of wipers.
   int bin_count;       //  44  [1] corrected: radial bins that share out the film.
   vec2 texel;          //  48  [1] corrected: 1 over the film's columns and rows.

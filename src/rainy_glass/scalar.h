@@ -1,4 +1,4 @@
-// The scalar evaluations of the passes of rainy_glass: Plain, Enclosure and Perturbed, for the oracle, the tests and the judge. A
+// The scalar evaluations of the passes of rainy_glass: Scalar, Enclosure and Perturbed, for the oracle, the tests and the judge. A
 // namespace of their own, so that argument types of this room do not pull them into the lanes.
 #pragma once
 
@@ -6,14 +6,14 @@
 #include "image/texture.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/uniforms.h"
 
 namespace rainref::rainy_glass::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

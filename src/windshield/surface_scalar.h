@@ -1,16 +1,16 @@
-// The scalar evaluations of wipe_texture and normals: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of
+// The scalar evaluations of wipe_texture and normals: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of
 // this room do not pull them into the lanes.
 #pragma once
 
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "windshield/segment_distance_enclosed.h"
 #include "windshield/surface.h"
 
 namespace rainref::windshield::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

@@ -1,14 +1,14 @@
-// The text of display with every number but lanes: Plain, Enclosure and Perturbed; like puddle::scalar.
+// The text of display with every number but lanes: Scalar, Enclosure and Perturbed; like puddle::scalar.
 #pragma once
 
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "pass/display.pass.h"
 
 namespace rainref::pass::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

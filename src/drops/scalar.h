@@ -1,4 +1,4 @@
-// The scalar evaluations of integrate and merge: Plain, Enclosure, Rearranged and Perturbed. A namespace of their own, so that argument
+// The scalar evaluations of integrate and merge: Scalar, Enclosure, Rearranged and Perturbed. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 
@@ -6,11 +6,11 @@
 #include "drops/uniforms.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 
 namespace rainref::drops::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

@@ -1,4 +1,4 @@
-// The scalar evaluations of splat: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// The scalar evaluations of splat: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
 // room do not pull them into the lanes.
 #pragma once
 
@@ -6,11 +6,11 @@
 #include "drops/splat_uniforms.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 
 namespace rainref::drops::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 /// The quotient grows with x, and the two x in it are one.
 inline enclosed::Enclosure over_larger(enclosed::Enclosure x, float least) {

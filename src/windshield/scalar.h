@@ -1,4 +1,4 @@
-// The scalar evaluations of the picture: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// The scalar evaluations of the picture: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
 // room do not pull them into the lanes.
 #pragma once
 
@@ -6,12 +6,12 @@
 #include "image/texture.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "windshield/composite.pass.h"
 
 namespace rainref::windshield::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

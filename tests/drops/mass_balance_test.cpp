@@ -1,4 +1,4 @@
-// The water ledger over a long run is exactly zero.
+// The water balance over a long run is exactly zero.
 #include <gtest/gtest.h>
 
 #include "support.h"
@@ -6,7 +6,7 @@
 namespace rainref::drops {
 namespace {
 
-TEST(DropsLedger, IsExactlyZeroOverALongRun) {
+TEST(DropsMassBalance, IsExactlyZeroOverALongRun) {
   Settings s;
   s.seed = 6;
   s.rain_rate = 40;
@@ -18,7 +18,7 @@ TEST(DropsLedger, IsExactlyZeroOverALongRun) {
   Arrivals arrivals(s);
   Merger merger;
   Image film(Format::r32f, 64, 32);
-  Ledger sum;
+  MassBalance sum;
   std::int64_t merged = 0, most_live = 0, film_peak = 0;
   constexpr double fps = 60;
   for (int n = 0; n < 2400; ++n) {

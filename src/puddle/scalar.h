@@ -1,4 +1,4 @@
-// The scalar evaluations of the puddle's passes: Plain, Enclosure and Perturbed. A namespace of their own, so that argument types of this
+// The scalar evaluations of the puddle's passes: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
 // room do not pull them into the lanes.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include "image/texture.h"
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "puddle/display.pass.h"
 #include "puddle/raindrops.pass.h"
@@ -16,7 +16,7 @@
 #include "puddle/wave_step.pass.h"
 
 namespace rainref::puddle::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

@@ -1,4 +1,4 @@
-// What the puddle tells a recorder about its passes: enough to run each of them elsewhere.
+// What the puddle records of its passes: enough to run each of them elsewhere.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -66,9 +66,9 @@ std::vector<T> values(const std::vector<std::byte>& bytes) {
   return out;
 }
 
-class Announce : public testing::TestWithParam<Variant> {};
+class RecordedPasses : public testing::TestWithParam<Variant> {};
 
-TEST_P(Announce, EveryInputIsDeclaredAndEveryDeclaredInputComes) {
+TEST_P(RecordedPasses, EveryInputIsDeclaredAndEveryDeclaredInputComes) {
   const std::string variant = GetParam() == Variant::corrected ? "corrected" : "as-published";
   for (const Shape shape : {Shape::natural, Shape::basin}) {
     Settings s = small(GetParam());
@@ -90,7 +90,7 @@ TEST_P(Announce, EveryInputIsDeclaredAndEveryDeclaredInputComes) {
 }
 
 // Along every edge of the graph an input holds the bits of the output it comes from.
-TEST_P(Announce, InputsAreTheOutputsThatTheGraphNames) {
+TEST_P(RecordedPasses, InputsAreTheOutputsThatTheGraphNames) {
   const std::vector<PassCase> cases = cases_of(small(GetParam()), 3);
   int edges = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -109,7 +109,7 @@ TEST_P(Announce, InputsAreTheOutputsThatTheGraphNames) {
   EXPECT_GT(edges, 15);
 }
 
-TEST_P(Announce, TheBoundaryIsAnAddressRule) {
+TEST_P(RecordedPasses, TheBoundaryIsAnAddressRule) {
   for (const auto& [boundary, address] : {std::pair(Boundary::reflecting, Address::clamp), std::pair(Boundary::periodic, Address::repeat),
                                           std::pair(Boundary::fixed, Address::border)}) {
     for (const Format storage : {Format::rg16f, Format::rgba8}) {
@@ -139,7 +139,7 @@ TEST_P(Announce, TheBoundaryIsAnAddressRule) {
   }
 }
 
-TEST_P(Announce, ListeningChangesNothing) {
+TEST_P(RecordedPasses, ListeningChangesNothing) {
   const Settings s = small(GetParam());
   const std::vector<PassCase> cases = cases_of(s, 3);
   const parallel::Executor executor(1);
@@ -150,10 +150,10 @@ TEST_P(Announce, ListeningChangesNothing) {
   EXPECT_EQ(cases.back().output("picture")->array.levels, capture::array_of(BufferView(alone.picture()), none).levels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Puddle, Announce, testing::Values(Variant::as_published, Variant::corrected),
+INSTANTIATE_TEST_SUITE_P(Puddle, RecordedPasses, testing::Values(Variant::as_published, Variant::corrected),
                          [](const auto& tested) { return tested.param == Variant::corrected ? "corrected" : "as_published"; });
 
-TEST(AnnounceTime, IsThatOfTheFrameAndOfTheStep) {
+TEST(RecordedTime, IsThatOfTheFrameAndOfTheStep) {
   Settings s = small(Variant::corrected);
   s.fps = 24;
   s.step_rate = 120;
@@ -197,7 +197,7 @@ std::vector<Drop> drawn(const PassCase& c) {
   return out;
 }
 
-TEST(AnnounceRain, HoldsAllThatTheDropsDependOn) {
+TEST(RecordedRain, HoldsAllThatTheDropsDependOn) {
   for (const Boundary boundary : {Boundary::reflecting, Boundary::periodic, Boundary::fixed}) {
     for (const double rate : {0.0, 3.0, 200.0}) {
       Settings s = small(Variant::corrected);

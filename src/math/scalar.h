@@ -1,4 +1,4 @@
-// The scalar evaluations of a pass: Plain<float> defines the bits, Plain<double> is the oracle.
+// The scalar evaluations of a pass: Scalar<float> defines the bits, Scalar<double> is the oracle.
 //
 // Both offer exactly the interface that ARCHITECTURE.md lists for a number; lanes-inl.h offers it for SIMD lanes.
 #pragma once
@@ -10,7 +10,7 @@
 #include "math/real64.h"
 #include "math/unorm.h"
 
-namespace rainref::plain {
+namespace rainref::scalar {
 
 using rainref::to_float;
 /// A load from storage widens exactly. double storage exists for the oracle's own state only.
@@ -45,92 +45,92 @@ struct Index {
 };
 
 template <class T>
-struct Plain {
+struct Scalar {
   static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
   using Mask = bool;
-  using Int = Index<Plain>;
+  using Int = Index<Scalar>;
   static constexpr int size() { return 1; }
 
   T v;
 
-  Plain() : v(0) {}
-  Plain(float x) : v(x) {}
+  Scalar() : v(0) {}
+  Scalar(float x) : v(x) {}
   template <class U, class = std::enable_if_t<std::is_same_v<U, double> && std::is_same_v<T, double>>>
-  Plain(U x) : v(x) {}
+  Scalar(U x) : v(x) {}
 
   template <class Storage>
-  static Plain load(const Storage* p) {
-    return Plain(static_cast<T>(to_float(*p)));
+  static Scalar load(const Storage* p) {
+    return Scalar(static_cast<T>(to_float(*p)));
   }
   /// The number first + lane, exact below 2^24.
-  static Plain index(int first) { return Plain(static_cast<T>(first)); }
+  static Scalar index(int first) { return Scalar(static_cast<T>(first)); }
   static Int uniform_int(int value) { return {value}; }
 
-  friend Plain operator+(Plain a, Plain b) { return Plain(a.v + b.v); }
-  friend Plain operator-(Plain a, Plain b) { return Plain(a.v - b.v); }
-  friend Plain operator*(Plain a, Plain b) { return Plain(a.v * b.v); }
-  friend Plain operator/(Plain a, Plain b) { return Plain(a.v / b.v); }
-  friend Plain operator-(Plain a) { return Plain(-a.v); }
-  friend bool operator<(Plain a, Plain b) { return a.v < b.v; }
-  friend bool operator<=(Plain a, Plain b) { return a.v <= b.v; }
-  friend bool operator>(Plain a, Plain b) { return a.v > b.v; }
-  friend bool operator>=(Plain a, Plain b) { return a.v >= b.v; }
-  friend Plain select(bool m, Plain a, Plain b) { return m ? a : b; }
-  friend Plain min(Plain a, Plain b) { return b.v < a.v ? b : a; }
-  friend Plain max(Plain a, Plain b) { return a.v < b.v ? b : a; }
-  friend Plain abs(Plain a) { return a.v < 0 ? Plain(-a.v) : a; }
-  friend Plain sqrt(Plain a) {
+  friend Scalar operator+(Scalar a, Scalar b) { return Scalar(a.v + b.v); }
+  friend Scalar operator-(Scalar a, Scalar b) { return Scalar(a.v - b.v); }
+  friend Scalar operator*(Scalar a, Scalar b) { return Scalar(a.v * b.v); }
+  friend Scalar operator/(Scalar a, Scalar b) { return Scalar(a.v / b.v); }
+  friend Scalar operator-(Scalar a) { return Scalar(-a.v); }
+  friend bool operator<(Scalar a, Scalar b) { return a.v < b.v; }
+  friend bool operator<=(Scalar a, Scalar b) { return a.v <= b.v; }
+  friend bool operator>(Scalar a, Scalar b) { return a.v > b.v; }
+  friend bool operator>=(Scalar a, Scalar b) { return a.v >= b.v; }
+  friend Scalar select(bool m, Scalar a, Scalar b) { return m ? a : b; }
+  friend Scalar min(Scalar a, Scalar b) { return b.v < a.v ? b : a; }
+  friend Scalar max(Scalar a, Scalar b) { return a.v < b.v ? b : a; }
+  friend Scalar abs(Scalar a) { return a.v < 0 ? Scalar(-a.v) : a; }
+  friend Scalar sqrt(Scalar a) {
     if constexpr (std::is_same_v<T, float>)
-      return Plain(__builtin_sqrtf(a.v));
+      return Scalar(__builtin_sqrtf(a.v));
     else
-      return Plain(__builtin_sqrt(a.v));
+      return Scalar(__builtin_sqrt(a.v));
   }
-  friend Plain square(Plain a) { return a * a; }
+  friend Scalar square(Scalar a) { return a * a; }
   /// Largest integer not above a; the zero is positive.
-  friend Plain floor(Plain a) {
+  friend Scalar floor(Scalar a) {
     constexpr T all_integers = std::is_same_v<T, float> ? T(0x1p23) : T(0x1p52);
     if (!(abs(a).v < all_integers)) return a;
     const T cut = static_cast<T>(static_cast<std::int64_t>(a.v));
-    return Plain(cut > a.v ? cut - 1 : cut);
+    return Scalar(cut > a.v ? cut - 1 : cut);
   }
-  friend Plain fract(Plain a) { return a - floor(a); }
+  friend Scalar fract(Scalar a) { return a - floor(a); }
   /// a (1 - t) + b t, in this order.
-  friend Plain mix(Plain a, Plain b, Plain t) { return a * (Plain(1.0f) - t) + b * t; }
+  friend Scalar mix(Scalar a, Scalar b, Scalar t) { return a * (Scalar(1.0f) - t) + b * t; }
   /// 0 for what no int32 is near, a NaN included.
-  friend Int to_int(Plain a) { return {a.v > T(-0x1p30) && a.v < T(0x1p30) ? static_cast<std::int32_t>(a.v) : 0}; }
-  friend Plain to_number(Int a) { return Plain(static_cast<T>(a.i)); }
+  friend Int to_int(Scalar a) { return {a.v > T(-0x1p30) && a.v < T(0x1p30) ? static_cast<std::int32_t>(a.v) : 0}; }
+  friend Scalar to_number(Int a) { return Scalar(static_cast<T>(a.i)); }
 
-  friend Plain exp(Plain a) { return real(exp_real(Real64{a.v})); }
-  friend Plain exp2(Plain a) { return real(exp2_real(Real64{a.v})); }
-  friend Plain log(Plain a) { return real(log_real(Real64{a.v})); }
-  friend Plain pow(Plain a, Plain b) { return real(pow_real(Real64{a.v}, Real64{b.v})); }
-  friend Plain sin(Plain a) { return real(sin_real(Real64{a.v})); }
-  friend Plain cos(Plain a) { return real(cos_real(Real64{a.v})); }
-  friend Plain atan2(Plain y, Plain x) { return real(atan2_real(Real64{y.v}, Real64{x.v})); }
+  friend Scalar exp(Scalar a) { return real(exp_real(Real64{a.v})); }
+  friend Scalar exp2(Scalar a) { return real(exp2_real(Real64{a.v})); }
+  friend Scalar log(Scalar a) { return real(log_real(Real64{a.v})); }
+  friend Scalar pow(Scalar a, Scalar b) { return real(pow_real(Real64{a.v}, Real64{b.v})); }
+  friend Scalar sin(Scalar a) { return real(sin_real(Real64{a.v})); }
+  friend Scalar cos(Scalar a) { return real(cos_real(Real64{a.v})); }
+  friend Scalar atan2(Scalar y, Scalar x) { return real(atan2_real(Real64{y.v}, Real64{x.v})); }
 
   /// One channel of a decoded texel.
-  friend Plain fetch(const float* texels, Int offset, Plain) { return Plain(static_cast<T>(texels[offset.i])); }
+  friend Scalar fetch(const float* texels, Int offset, Scalar) { return Scalar(static_cast<T>(texels[offset.i])); }
 
  private:
-  static Plain real(Real64 x) {
+  static Scalar real(Real64 x) {
     if constexpr (std::is_same_v<T, float>)
-      return Plain(round_to_float(x));
+      return Scalar(round_to_float(x));
     else
-      return Plain(x.v);
+      return Scalar(x.v);
   }
 };
 
 inline bool any(bool m) { return m; }
 
 /// Stores one value in the storage type's own rounding.
-inline void store(float* p, Plain<float> x, Rounding) { *p = x.v + 0.0f; }
+inline void store(float* p, Scalar<float> x, Rounding) { *p = x.v + 0.0f; }
 /// A small negative number that rounds to zero is stored as +0.
-inline void store(Half* p, Plain<float> x, Rounding rounding) {
+inline void store(Half* p, Scalar<float> x, Rounding rounding) {
   const Half rounded = to_half(x.v + 0.0f, rounding);
   *p = rounded.bits == 0x8000u ? Half{0} : rounded;
 }
-inline void store(Unorm8* p, Plain<float> x, Rounding rounding) { *p = to_unorm8(x.v, rounding); }
-inline void store(double* p, Plain<double> x, Rounding) { *p = x.v; }
+inline void store(Unorm8* p, Scalar<float> x, Rounding rounding) { *p = to_unorm8(x.v, rounding); }
+inline void store(double* p, Scalar<double> x, Rounding) { *p = x.v; }
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
@@ -138,4 +138,4 @@ inline void store(double* p, Plain<double> x, Rounding) { *p = x.v; }
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
-}  // namespace rainref::plain
+}  // namespace rainref::scalar

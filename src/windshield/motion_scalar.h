@@ -1,16 +1,16 @@
-// The scalar evaluations of windshield_frame and wipe_drops: Plain, Enclosure and Perturbed. A namespace of their own, so that argument
+// The scalar evaluations of windshield_frame and wipe_drops: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 
 #include "math/perturbed.h"
 #include "math/enclosure.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "windshield/motion.h"
 #include "windshield/uniforms.h"
 
 namespace rainref::windshield::motion_scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA

@@ -1,4 +1,4 @@
-// The scalar evaluations of the passes of screen_drops: Plain, Enclosure and Perturbed. A namespace of their own, so that argument
+// The scalar evaluations of the passes of screen_drops: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument
 // types of this room do not pull them into the lanes.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/in_parts.h"
-#include "math/plain.h"
+#include "math/scalar.h"
 #include "math/rearranged.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
@@ -15,7 +15,7 @@
 #include "screen_drops/uniforms.h"
 
 namespace rainref::screen_drops::scalar {
-using namespace rainref::plain;
+using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
