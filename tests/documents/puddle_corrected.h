@@ -93,7 +93,7 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
     if (delta <= safe + std::max(ahead, 0.0f) / std::max(h - f, 1e-4f)) {
       t = t + delta;
       e = ahead;
-      delta = e / (f + constant(r, 0.5f, 0.1f) * h);
+      delta = e / (f + h / 2);
       if (e < epsilon || t >= t2) break;
     } else {
       delta = safe;
@@ -105,7 +105,7 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
   Float2 at = s(t);
   at = {std::min(std::max(at.x, 0.5f * texel.x), 1 - 0.5f * texel.x), std::min(std::max(at.y, 0.5f * texel.y), 1 - 0.5f * texel.y)};
   const auto wave = [&](float du, float dv) { return r.linear("wave", at.x + du, at.y + dv); };
-  const float gain = r.u("normal_gain") * r.u("height_scale");
+  const float gain = constant(r, 1, 0.8f) * (r.u("normal_gain") * r.u("height_scale"));
   const Float2 g{gain * (wave(-texel.x, 0) - wave(texel.x, 0)), gain * (wave(0, -texel.y) - wave(0, texel.y))};
   const float c = f - (g.x * d.x + g.y * d.z);
   if (0 <= e && e < epsilon && c >= f / 2) t = t + e * std::min(1 / c, 2 / (f + h));
