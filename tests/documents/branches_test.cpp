@@ -12,6 +12,7 @@ using cli::run_rainref;
 struct Branch {
   std::string name, pack;
   std::vector<std::string> settings;
+  std::string pass, mistake = "wrong branch";  ///< what this way is taken by, and what shows there alone
 };
 void PrintTo(const Branch& b, std::ostream* out) { *out << b.name; }
 
@@ -37,30 +38,34 @@ TEST_P(PrintedBranches, AreJudgedRight) {
   const Outcome packed = run_rainref(folder.path(), arguments, c);
   ASSERT_EQ(packed.code, 0) << packed.err;
   const Pack pack(folder / "pack");
-  expect_pass(judged(pack, false), b.pack);
+  expect_pass(judged(pack), b.pack);
+  const PortJudgement wrong = judged(pack, [&](const Written& w) { return w.pass == b.pass ? b.mistake : ""; });
+  EXPECT_EQ(pass_of(wrong, b.pass).status, Status::fail) << b.pass << ": " << b.mistake;
 }
 
+const std::string ground = rainref::test::source_folder() + "/tests/packs/ground.png";
+
 const std::vector<Branch> branches{
-    {"StepBetweenTexels", "puddle-as-published", {"puddle.step=1.5"}},
-    {"StepOfThree", "puddle-as-published", {"puddle.step=3", "puddle.boundary=periodic"}},
-    {"EightBits", "puddle-as-published", {"puddle.storage=rgba8"}},
-    {"GroundImage", "puddle-as-published", {"puddle.use_checkerboard=false", "puddle.ground_image=ground.png"}},
-    {"Cube", "puddle-as-published", {"environment.layout=cube", "environment.image=faces.png"}},
-    {"CorrectedCube", "puddle-corrected", {"environment.layout=cube", "environment.image=faces.png"}},
-    {"Shore", "puddle-corrected", {"puddle.shape=natural"}},
-    {"Reflecting", "puddle-corrected", {"puddle.boundary=reflecting"}},
-    {"Periodic", "puddle-corrected", {"puddle.boundary=periodic"}},
-    {"EightBitsOfMetres", "puddle-corrected", {"puddle.storage=rgba8"}},
-    {"Schlick", "puddle-corrected", {"puddle.fresnel=schlick", "puddle.fog_depth=0", "puddle.use_checkerboard=true"}},
-    {"Misprint", "screen_drops-as-published", {"drops.printed_misprint=true"}},
-    {"DryWindow", "screen_drops-corrected", {"flow.on=false"}},
-    {"Probe", "rainy_glass-as-published", {"glass.background=probe"}},
-    {"CorrectedProbe", "rainy_glass-corrected", {"glass.background=probe"}},
-    {"Ball", "rainy_glass-corrected", {"glass.shape=sphere"}},
-    {"Quartic", "windshield-as-published", {"windshield.kernel=quartic", "windshield.blend=max"}},
-    {"Smoothstep", "windshield-as-published", {"windshield.kernel=smoothstep", "windshield.accumulate=float"}},
-    {"Hemisphere", "windshield-corrected", {"windshield.kernel=hemisphere", "windshield.blend=max"}},
-    {"Disc", "windshield-as-published", {"windshield.kernel=disc"}},
+    {"StepBetweenTexels", "puddle-as-published", {"puddle.step=1.5"}, "wave_step"},
+    {"StepOfThree", "puddle-as-published", {"puddle.step=3", "puddle.boundary=periodic"}, "wave_step", "centre of s0 forgotten"},
+    {"EightBits", "puddle-as-published", {"puddle.storage=rgba8"}, "wave_step", "not packed"},
+    {"GroundImage", "puddle-as-published", {"puddle.use_checkerboard=false", "puddle.ground_image=" + ground}, "shade"},
+    {"Cube", "puddle-as-published", {"environment.layout=cube", "environment.image=faces.png"}, "shade"},
+    {"CorrectedCube", "puddle-corrected", {"environment.layout=cube", "environment.image=faces.png"}, "shade"},
+    {"Shore", "puddle-corrected", {"puddle.shape=natural"}, "wave_step"},
+    {"Reflecting", "puddle-corrected", {"puddle.boundary=reflecting"}, "raindrops"},
+    {"Periodic", "puddle-corrected", {"puddle.boundary=periodic"}, "raindrops"},
+    {"EightBitsOfMetres", "puddle-corrected", {"puddle.storage=rgba8"}, "wave_step", "crater 2 s for 4 s"},
+    {"Schlick", "puddle-corrected", {"puddle.fresnel=schlick", "puddle.fog_depth=0", "puddle.use_checkerboard=true"}, "shade"},
+    {"Misprint", "screen_drops-as-published", {"drops.printed_misprint=true"}, "drops", "threshold 0.3"},
+    {"DryWindow", "screen_drops-corrected", {"flow.on=false"}, "drops", "wrong constant"},
+    {"Probe", "rainy_glass-as-published", {"glass.background=probe"}, "rain_on_glass"},
+    {"CorrectedProbe", "rainy_glass-corrected", {"glass.background=probe"}, "rain_on_glass"},
+    {"Ball", "rainy_glass-corrected", {"glass.shape=sphere"}, "rain_on_glass", "wrong constant"},
+    {"Quartic", "windshield-as-published", {"windshield.kernel=quartic", "windshield.blend=max"}, "splat"},
+    {"Smoothstep", "windshield-as-published", {"windshield.kernel=smoothstep", "windshield.accumulate=float"}, "splat"},
+    {"Hemisphere", "windshield-corrected", {"windshield.kernel=hemisphere", "windshield.blend=max"}, "splat"},
+    {"Disc", "windshield-as-published", {"windshield.kernel=disc"}, "splat"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Settings, PrintedBranches, testing::ValuesIn(branches), [](const auto& tested) { return tested.param.name; });

@@ -168,7 +168,7 @@ inline bool splat(const Run& r, int x, int y, float* out) {
                         : kernel == 2 ? 1 - smoothstep(0, 1, std::sqrt(squared))
                         : kernel == 3 ? std::sqrt(cap)
                                       : (squared <= 1 ? 1.0f : 0.0f);
-    const float given = h * shape;
+    const float given = h * (kernel == 0 ? shape : in_branch(r, 1, 0.9f) * shape);
     if (blend == 1)
       sum = std::max(sum, given);
     else

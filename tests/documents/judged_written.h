@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "documents/all_written.h"
-#include "faults/diagnose.h"
 #include "judge/mini_port.h"
 
 namespace rainref::documents {
@@ -32,21 +31,25 @@ inline std::vector<capture::Array> given(const Written& w, const Pack& pack, con
     w.give(run, out);
   return out.arrays;
 }
-/// A port of the functions, all right or all wrong, judged.
-inline PortJudgement judged(const Pack& pack, bool is_wrong) {
+/// A port of the functions, each with a mistake or with "", judged.
+template <class MistakeOf>
+PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of) {
   const TemporaryFolder folder;
   for (const PackCase& entry : pack.cases) {
     const PassCase c = pack.read(entry);
     const Written* w = written(pack.effect + "-" + c.variant, c.pass);
     if (!w) continue;
-    const std::vector<capture::Array> arrays = given(*w, pack, c, is_wrong ? w->wrong : "");
+    const std::vector<capture::Array> arrays = given(*w, pack, c, mistake_of(*w));
     for (std::size_t o = 0; o < arrays.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, arrays[o]);
   }
   ValidateOptions options;
   options.partial = true;
   options.executor = &test_executor();
-  if (!is_wrong) options.explain = faults::diagnose;
   return validate(pack, folder.path(), options);
+}
+
+inline PortJudgement judged(const Pack& pack) {
+  return judged(pack, [](const Written&) { return std::string(); });
 }
 
 /// Every pass that a port is judged by.
@@ -54,8 +57,7 @@ inline void expect_pass(const PortJudgement& j, const std::string& pack) {
   for (const PassJudgement& p : j.passes) {
     const Written* w = written(pack, p.pass);
     if (!w || w->wrong.empty()) continue;
-    EXPECT_EQ(p.status, Status::pass) << p.pass << ' ' << name(p.status) << ' ' << p.reason << ' ' << p.where
-                                      << (p.causes.empty() ? "" : ", " + p.causes[0].name);
+    EXPECT_EQ(p.status, Status::pass) << p.pass << ' ' << name(p.status) << ' ' << p.reason << ' ' << p.where;
   }
 }
 

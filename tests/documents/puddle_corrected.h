@@ -26,7 +26,7 @@ inline void raindrops_corrected(const Run& r, Given& out) {
     };
     const auto reaches = [&](float x, float extent) { return x + drop.radius > 0 && x - drop.radius < extent; };
     const auto xs = images(drop.x, columns), ys = images(drop.y, rows);
-    for (std::size_t k = 1; k < 9; ++k)
+    for (std::size_t k = r.is("wrong branch") ? 2 : 1; k < 9; ++k)
       if (reaches(xs[k % 3], columns) && reaches(ys[k / 3], rows))
         out.append("drops", Crater{xs[k % 3], ys[k / 3], drop.amplitude, drop.radius});
   }
@@ -36,7 +36,7 @@ inline void raindrops_corrected(const Run& r, Given& out) {
 inline bool wave_step_of_document(const Run& r, int x, int y, float* out) {
   if (!r.taken().input("shore")) return wave_step_corrected(r, x, y, out);
   wave_step_corrected(r, x, y, out);
-  const float u = r.at("wave", x, y), rest = r.u("rest"), w = r.at("shore", x, y), craters = out[1] - u;
+  const float u = r.at("wave", x, y), rest = r.u("rest"), w = in_branch(r, 1, 0.9f) * r.at("shore", x, y), craters = out[1] - u;
   out[0] = rest + w * (out[0] - rest);
   out[1] = u + w * craters;
   return true;
@@ -139,7 +139,8 @@ inline bool shade_corrected(const Run& r, int x, int y, float* out) {
     n = normalize(mix(relief, n, w));
   }
   const float c = std::min(std::max(-dot(v, n), 0.001f), 1.0f), reflected = r.u("reflectivity") * mix(r.u("wetness"), 1, w);
-  const float f = (r.whole("exact_fresnel") != 0 ? exact_fresnel(c, constant(r, 1.333f, 1.4f)) : schlick(c)) * reflected;
+  const float f =
+      (r.whole("exact_fresnel") != 0 ? exact_fresnel(c, constant(r, 1.333f, 1.4f)) : schlick(c, in_branch(r, 1.333f, 1.5f))) * reflected;
   Float3 m = reflect(v, n);
   m.y = std::abs(m.y);
   const Float3 mirror = environment(r, rotated(r, m), mix(r.u("gloss_level"), r.u("mirror_level"), w));

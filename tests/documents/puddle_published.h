@@ -45,7 +45,7 @@ inline void raindrops_published(const Run& r, Given& out) {
 
 /// As the hand-made one, with neighbours between texels.
 inline bool wave_step_published_of_document(const Run& r, int x, int y, float* out) {
-  const float step = r.u("step"), f = fract(step);
+  const float step = r.u("step"), f = in_branch(r, 1, 0.8f) * fract(step);
   if (f == 0) return wave_step_published(r, x, y, out);
   const int k = static_cast<int>(step);
   const auto s = [&](int dx, int dy) {
@@ -132,7 +132,7 @@ inline Float3 cube(const Run& r, Float3 d, float lod) {
   const int levels = static_cast<int>(r.input("environment").array.levels.size());
   const int level = std::clamp(static_cast<int>(std::floor(lod + 0.5f)), 0, levels - 1);
   const float side = static_cast<float>(r.input("environment").array.level_width(level)), inside = 0.5f / side;
-  const auto held = [&](float c) { return std::min(std::max(0.5f * (c / most) + 0.5f, inside), 1 - inside); };
+  const auto held = [&](float c) { return std::min(std::max(in_branch(r, 0.5f, 0.4f) * (c / most) + 0.5f, inside), 1 - inside); };
   return r.linear3("environment", held(s), (static_cast<float>(face) + held(t)) / 6, level);
 }
 inline Float3 environment(const Run& r, Float3 d, float lod) {
@@ -144,8 +144,8 @@ inline Float3 checkerboard(float x, float z, float scale) {
   const float k = std::floor(x * scale) + std::floor(z * scale);
   return mix({0.15f, 0.12f, 0.10f}, {0.25f, 0.22f, 0.20f}, k - 2 * std::floor(k * 0.5f));
 }
-inline float schlick(float cosine) {
-  const float ratio = (1 - 1.333f) / (1 + 1.333f), f0 = ratio * ratio, m = 1 - cosine;
+inline float schlick(float cosine, float n = 1.333f) {
+  const float ratio = (1 - n) / (1 + n), f0 = ratio * ratio, m = 1 - cosine;
   return f0 + (1 - f0) * ((m * m) * (m * m) * m);
 }
 
@@ -161,8 +161,9 @@ inline bool shade_published(const Run& r, int x, int y, float* out) {
   Float3 below = constant(r, 0.3f, 0.4f) * tint;
   if (g.t > 0) {
     const float scale = r.u("ground_scale"), grain = (r.at("noise", x, y) - 0.5f) * 0.05f;
-    const Float3 ground = r.whole("use_checkerboard") != 0 ? checkerboard(g.x, g.z, scale) + Float3{grain, grain, grain}
-                                                           : 0.6f * decoded(r.linear3("ground", g.x * scale, g.z * scale));
+    const Float3 ground = r.whole("use_checkerboard") != 0
+                              ? checkerboard(g.x, g.z, scale) + Float3{grain, grain, grain}
+                              : in_branch(r, 0.6f, 0.5f) * decoded(r.linear3("ground", g.x * scale, g.z * scale));
     const float share = exponential(-(r.u("water_turbidity") * std::max(g.t, 0.0f)));
     below = (constant(r, 0.7f, 0.75f) * (Float3{1, 1, 1} - 0.5f * tint)) * mix(tint, ground, share);
   }

@@ -52,7 +52,7 @@ inline bool bake_rivulets(const Run& r, int i, int j, float* out) {
 
 /// The probe along a direction in world axes.
 inline Float3 probe(const Run& r, Float2 at) {
-  const Float3 d = (r.u3("forward") + at.x * r.u3("right")) + at.y * r.u3("up");
+  const Float3 d = (r.u3("forward") + (in_branch(r, 1, 0.8f) * at.x) * r.u3("right")) + at.y * r.u3("up");
   return r.trilinear3("probe", 0.5f + arc(d.z, d.x) / two_pi, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) / (0.5f * two_pi),
                       r.u("probe_level"));
 }

@@ -94,6 +94,9 @@ struct Written {
 /// A constant, and the wrong one of the negative control.
 inline float constant(const Run& r, float right, float wrong) { return r.is("wrong constant") ? wrong : right; }
 
+/// A number in a way that the small packs do not take, and the wrong one of branches_test.cpp.
+inline float in_branch(const Run& r, float right, float wrong) { return r.is("wrong branch") ? wrong : right; }
+
 inline const std::string porting = "docs/porting.md";
 inline const std::string functions_of_all_passes =
     R"(- mix(a, b, t) = a (1 − t) + b t. smoothstep(a, b, x) = t t (3 − 2t) with t = clamp((x − a) / (b − a), 0, 1), also where a > b.

@@ -83,7 +83,7 @@ TEST_P(PrintedFormulasOf, AreThereForEachPass) {
   for (const PackPass& pass : pack.passes) EXPECT_TRUE(written(GetParam(), pass.name)) << pass.name << " is written by nobody";
 }
 
-TEST_P(PrintedFormulasOf, AreJudgedRight) { expect_pass(judged(pack, false), GetParam()); }
+TEST_P(PrintedFormulasOf, AreJudgedRight) { expect_pass(judged(pack), GetParam()); }
 
 // What no port is judged by is compared here: floats in the printed order give the same bits.
 TEST_P(PrintedFormulasOf, GiveTheDataToTheBit) {
@@ -100,7 +100,7 @@ TEST_P(PrintedFormulasOf, GiveTheDataToTheBit) {
 }
 
 TEST_P(PrintedFormulasOf, AreJudgedWrongWithOneWrongConstant) {
-  const PortJudgement j = judged(pack, true);
+  const PortJudgement j = judged(pack, [](const Written& w) { return w.wrong; });
   int wrong = 0;
   for (const PassJudgement& p : j.passes) {
     const Written* w = written(GetParam(), p.pass);
