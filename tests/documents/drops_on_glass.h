@@ -80,13 +80,13 @@ inline void integrate_corrected(const Run& r, Given& out) {
   const Float2 gravity{frame("gravity", 0), frame("gravity", 1)}, wind{frame("wind", 0), frame("wind", 1)};
   const float dt = r.u("dt"), margin = r.u("margin");
   for (Drop& d : drops) {
-    const float m = cube_root(std::max(d.mass, 1.0f)), phase = fract(fract(d.life / 64) * r.u("phase_rate"));
+    const float m = cube_root(std::max(d.mass, 1.0f)), i = 1 / m, j = i * i, phase = fract(fract(d.life / 64) * r.u("phase_rate"));
     const Float2 a =
-        ((gravity + matrix("spin", d.position)) + matrix("coriolis", d.velocity)) + (r.u("wind_push") * length(plane(r, wind)) / m) * wind;
-    const float size = length(plane(r, a)), held = r.u("hold") / (m * m), kept = 1 - held / std::max(size, 1e-6f);
+        ((gravity + matrix("spin", d.position)) + matrix("coriolis", d.velocity)) + (r.u("wind_push") * length(plane(r, wind)) * i) * wind;
+    const float size = length(plane(r, a)), held = r.u("hold") * j, kept = 1 - held / std::max(size, 1e-6f);
     const Float2 pulled = dt * (std::max(kept, 0.0f) * a);
-    const float x = r.u("drag") / (m * m) * dt, e = exponential(-x);
-    float g = 0.5f - x * (1 / 6.0f - x * (1 / 24.0f - x * (1 / 120.0f - x / 720))), f = 1 - x * g;
+    const float x = r.u("drag") * j * dt, e = exponential(-x);
+    float g = 0.5f - x * (1 / 6.0f - x * (1 / 24.0f - x * (1 / 120.0f - x * (1 / 720.0f)))), f = 1 - x * g;
     if (x >= 0.125f) {
       f = (1 - e) / x;
       g = (1 - f) / x;
@@ -162,7 +162,7 @@ inline bool splat(const Run& r, int x, int y, float* out) {
     const float h = r.of("drops", i, "life") > 0 ? (r.u("height_scale") * root) * (shrunk * shrunk) : 0;
     const Float2 away = centre - Float2{r.of("drops", i, "position", 0) * r.u("size", 0), r.of("drops", i, "position", 1) * r.u("size", 1)};
     const Float2 in_plane = plane(r, away);
-    const float squared = dot(in_plane, in_plane) / (radius * radius), cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
+    const float squared = dot(in_plane, in_plane) * (1 / (radius * radius)), cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
     const float shape = kernel == 0   ? cap
                         : kernel == 1 ? cap * cap
                         : kernel == 2 ? 1 - smoothstep(0, 1, std::sqrt(squared))
@@ -215,10 +215,10 @@ drop i: r = block(6, step, i);  position = (r[0] >> 8, r[1] >> 8) / 2²⁴, velo
        {plane_and_life,
         {document,
          R"(                  stored row by row: (u of e_u, u of e_v, v of e_u, v of e_v)
-integrate         m = max(mass, 1)^(1/3);   |x| of glass vectors in the plane
-                  a = gravity + spin·position + coriolis·velocity + (wind_push |wind| / m) wind          any order
-                  A = a · max(1 − (hold / m²) / max(|a|, 10⁻⁶), 0) · dt;   x = drag / m² · dt
-                  e = exp(−x);  x < 1/8: g = 1/2 − x (1/6 − x (1/24 − x (1/120 − x/720))), f = 1 − x g;  else f = (1 − e)/x, g = (1 − f)/x
+integrate         m = max(mass, 1)^(1/3),  i = 1/m,  j = i i;   |x| of glass vectors in the plane
+                  a = gravity + spin·position + coriolis·velocity + ((wind_push |wind|) i) wind          any order
+                  A = a · max(1 − hold j / max(|a|, 10⁻⁶), 0) · dt;   x = drag j dt
+                  e = exp(−x);  x < 1/8: g = 1/2 − x (1/6 − x (1/24 − x (1/120 − x (1/720)))), f = 1 − x g;  else f = (1 − e)/x, g = (1 − f)/x
                   position += (velocity f + A g) dt;   velocity = velocity e + A f;   0 where that max is 0 and |velocity| < rest_speed
                   loss = floor(evaporation·m·dt + phase),  phase = fract(fract(life / 64) · phase_rate), life of before;   mass = max(mass − loss, 0)
                   life −= dt;  lives on while life > 0, mass > 0 and u, v in [−margin, 1 + margin])"}}},
@@ -244,7 +244,7 @@ integrate         m = max(mass, 1)^(1/3);   |x| of glass vectors in the plane
         {document,
          R"(of a drop   root = max(mass, 0)^(1/3),  own = radius_scale · root,  R = max(own, smallest_radius),
             h = (height_scale · root) (own / R)²,  0 for a dead drop
-gives       h · kernel(q²),  q² = |(frame.x Δx + frame.y Δy, frame.z Δy)|² / R²,  (Δx, Δy) = (x, y) − position · size
+gives       h · kernel(q²),  q² = |(frame.x Δx + frame.y Δy, frame.z Δy)|² (1/R²),  (Δx, Δy) = (x, y) − position · size
 kernel      0: max(1 − q², 0)   1: max(1 − q², 0)²   2: 1 − smoothstep(0, 1, q)   3: √max(1 − q², 0)   4: 1 where q² ≤ 1
 blend       in the order of the list, from 0:  0: add   1: max   2: add, rounded to half after each drop
 corrected   + film_scale · tent(film),  tent(a, b, c) = ½ b + ¼ (a + c) of columns, then of rows, edge texels repeated)"}}},

@@ -33,7 +33,7 @@ inline std::vector<capture::Array> given(const Written& w, const Pack& pack, con
 }
 /// A port of the functions, each with a mistake or with "", judged.
 template <class MistakeOf>
-PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of) {
+PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::string& profile = "vulkan") {
   const TemporaryFolder folder;
   for (const PackCase& entry : pack.cases) {
     const PassCase c = pack.read(entry);
@@ -43,21 +43,20 @@ PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of) {
     for (std::size_t o = 0; o < arrays.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, arrays[o]);
   }
   ValidateOptions options;
+  options.profile = profile;
   options.partial = true;
   options.executor = &test_executor();
   return validate(pack, folder.path(), options);
 }
 
-inline PortJudgement judged(const Pack& pack) {
-  return judged(pack, [](const Written&) { return std::string(); });
-}
+inline std::string without_mistake(const Written&) { return ""; }
 
 /// Every pass that a port is judged by.
 inline void expect_pass(const PortJudgement& j, const std::string& pack) {
   for (const PassJudgement& p : j.passes) {
     const Written* w = written(pack, p.pass);
     if (!w || w->wrong.empty()) continue;
-    EXPECT_EQ(p.status, Status::pass) << p.pass << ' ' << name(p.status) << ' ' << p.reason << ' ' << p.where;
+    EXPECT_EQ(p.status, Status::pass) << j.profile << ", " << p.pass << ' ' << name(p.status) << ' ' << p.reason << ' ' << p.where;
   }
 }
 

@@ -57,7 +57,7 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
     return Float2{(o.x * inverse.x + 0.5f) + t * (d.x * inverse.x), (o.z * inverse.y + 0.5f) + t * (d.z * inverse.y)};
   };
   const auto height = [&](Float2 at) { return r.u("height_scale") * r.linear("wave", at.x, at.y) + r.u("height_bias"); };
-  const float t0 = o.y / f;
+  const float per_fall = 1 / f, t0 = o.y * per_fall;
   const auto no_water = [&](int steps) { return give(o + t0 * d, steps, up, 1); };
 
   const Float2 place = s(t0);
@@ -71,7 +71,7 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
     if (!(bounds.x * ray > r.u("bounds_reach") * f)) top = bounds.x, slope = bounds.y;
   }
 
-  float t1 = 0, t2 = std::min((o.y + top) / f, 1e4f);
+  float t1 = 0, t2 = std::min((o.y + top) * per_fall, 1e4f);
   const auto cut = [&](float from, float along, float half) {
     const float k = 1 / (std::abs(along) < 1e-8f ? 1e-8f : along);
     const float a = (-half - from) * k, b = (half - from) * k;
@@ -81,19 +81,19 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
   cut(o.x, d.x, r.u("half_size", 0));
   cut(o.z, d.z, r.u("half_size", 2));
   if (t1 > t0) return no_water(0);
-  t1 = std::max(t1, (o.y - top) / f);
+  t1 = std::max(t1, (o.y - top) * per_fall);
   if (t1 >= t2) return no_water(0);
 
   const float h = slope * ray, epsilon = r.u("epsilon");
   float t = t1, e = 0, delta = 0;
   int steps = 0;
   for (int i = 0; i < r.whole("max_steps"); ++i) {
-    const float ahead = (o.y + (t + delta) * d.y) - height(s(t + delta)), safe = e / (f + h);
+    const float ahead = (o.y + (t + delta) * d.y) - height(s(t + delta)), safe = e * (1 / (f + h));
     steps = i;
-    if (delta <= safe + std::max(ahead, 0.0f) / std::max(h - f, 1e-4f)) {
+    if (delta <= safe + std::max(ahead, 0.0f) * (1 / std::max(h - f, 1e-4f))) {
       t = t + delta;
       e = ahead;
-      delta = e / (f + h / 2);
+      delta = e * (1 / (f + h / 2));
       if (e < epsilon || t >= t2) break;
     } else {
       delta = safe;
@@ -101,14 +101,12 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
   }
   if (t >= t2) return no_water(steps);
 
-  const Float2 texel = u2(r, "texel");
-  Float2 at = s(t);
-  at = {std::min(std::max(at.x, 0.5f * texel.x), 1 - 0.5f * texel.x), std::min(std::max(at.y, 0.5f * texel.y), 1 - 0.5f * texel.y)};
-  const auto wave = [&](float du, float dv) { return r.linear("wave", at.x + du, at.y + dv); };
+  const Float2 at = s(t);
+  const auto wave = [&](int across, int along) { return r.linear("wave", at.x, at.y, 0, 0, nullptr, across, along); };
   const float gain = constant(r, 1, 0.8f) * (r.u("normal_gain") * r.u("height_scale"));
-  const Float2 g{gain * (wave(-texel.x, 0) - wave(texel.x, 0)), gain * (wave(0, -texel.y) - wave(0, texel.y))};
+  const Float2 g{gain * (wave(-1, 0) - wave(1, 0)), gain * (wave(0, -1) - wave(0, 1))};
   const float c = f - (g.x * d.x + g.y * d.z);
-  if (0 <= e && e < epsilon && c >= f / 2) t = t + e * std::min(1 / c, 2 / (f + h));
+  if (0 <= e && e < epsilon && c >= f / 2) t = t + e * std::min(1 / c, 2 * (1 / (f + h)));
   return give(o + t * d, steps, normalize({g.x, 1, g.y}), 1);
 }
 
@@ -190,18 +188,18 @@ with `shore` w:   new newest = rest + w (next − rest),  new previous = u + w c
         {document,
          R"(**surface_hit**, o the eye, d the ray, f = max(−d.y, 10⁻⁴), r = √(d.x² + d.z²), height(s) = height_scale · wave(s) + height_bias, bilinear, clamped:
 no hit       −d.y ≤ 10⁻⁴: position o, steps 0, normal (0, 1, 0), flag 0.   Otherwise flag 1
-place        s(t) = o.xz · inverse_size + ½ + t d.xz · inverse_size;   t₀ = o.y / f, where the ray crosses y = 0
+place        s(t) = o.xz · inverse_size + ½ + t d.xz · inverse_size;   t₀ = o.y (1/f), where the ray crosses y = 0
 bounds       (top, S) = bounds at s(t₀) · bounds_scale, nearest;   surface_top and surface_slope instead
              where s(t₀) is outside [0, 1]² or top · r > bounds_reach · f
-interval     [t₁, t₂] = [0, min((o.y + top) / f, 10⁴)] cut with |x| ≤ half_size.x and |z| ≤ half_size.z (a component of d with |·| < 10⁻⁸ counts as 10⁻⁸)
-             t₁ > t₀: no water.   t₁ = max(t₁, (o.y − top) / f);   t₁ ≥ t₂: no water.   No water: position at t₀, normal up, steps 0
+interval     [t₁, t₂] = [0, min((o.y + top) (1/f), 10⁴)] cut with |x| ≤ half_size.x and |z| ≤ half_size.z by 1/d.x, 1/d.z (|·| < 10⁻⁸ counts as 10⁻⁸)
+             t₁ > t₀: no water.   t₁ = max(t₁, (o.y − top) (1/f));   t₁ ≥ t₂: no water.   No water: position at t₀, normal up, steps 0
 march        t = t₁, e = 0, Δ = 0;  h = S r;  for round i = 0, 1, … below max_steps:
-               e′ = (o.y + (t + Δ) d.y) − height(s(t + Δ)),   safe = e / (f + h),   steps = i
-               Δ ≤ safe + max(e′, 0) / max(h − f, 10⁻⁴):  t = t + Δ, e = e′, Δ = e / (f + h/2);  end if e < epsilon or t ≥ t₂
+               e′ = (o.y + (t + Δ) d.y) − height(s(t + Δ)),   safe = e (1 / (f + h)),   steps = i
+               Δ ≤ safe + max(e′, 0) (1 / max(h − f, 10⁻⁴)):  t = t + Δ, e = e′, Δ = e (1 / (f + h/2));  end if e < epsilon or t ≥ t₂
                otherwise:  Δ = safe
 normal       t ≥ t₂: no water, as above but for the steps.   Otherwise with s(t) held between the outermost texel centres, and L, R, D, U the wave
-             one texel to each side of it: g = normal_gain · height_scale (L − R, D − U),   normal = normalize(g.x, 1, g.y)
-Newton       c = f − g · d.xz;   0 ≤ e < epsilon and c ≥ f/2:  t = t + e · min(1 / c, 2 / (f + h));   position = o + t d)"}}},
+             one texel to each side of it, with its weights: g = normal_gain · height_scale (L − R, D − U),   normal = normalize(g.x, 1, g.y)
+Newton       c = f − g · d.xz;   0 ≤ e < epsilon and c ≥ f/2:  t = t + e · min(1 / c, 2 (1 / (f + h)));   position = o + t d)"}}},
       {{"puddle-corrected"},
        "shade",
        "wrong constant",

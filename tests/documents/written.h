@@ -97,14 +97,15 @@ inline float constant(const Run& r, float right, float wrong) { return r.is("wro
 /// A number in a way that the small packs do not take, and the wrong one of branches_test.cpp.
 inline float in_branch(const Run& r, float right, float wrong) { return r.is("wrong branch") ? wrong : right; }
 
-inline const std::string porting = "docs/porting.md";
-inline const std::string functions_of_all_passes =
+/// What every pass stands on: functions here and in hand_made.h, lookups there.
+inline const From rules_of_all_passes{
+    "docs/porting.md",
     R"(- mix(a, b, t) = a (1 − t) + b t. smoothstep(a, b, x) = t t (3 − 2t) with t = clamp((x − a) / (b − a), 0, 1), also where a > b.
-  saturate(x) = clamp(x, 0, 1). fract(x) = x − floor(x). refract and reflect as in GLSL; refract gives 0 beyond the critical angle.)";
-inline const std::string lookups =
-    R"(- Lookups with `filter` linear are bilinear at normalized coordinates: x = u·width − 1/2, texels floor(x) and floor(x) + 1; trilinear
-  between two levels where the mip filter is linear, in level floor(lod + 1/2) where it is nearest. Input filter `none` means a load by
-  integer texel. Beyond the edge the input's address mode decides, of loads too. The sampler's own precision is allowed for.)";
+  saturate(x) = clamp(x, 0, 1). fract(x) = x − floor(x). refract and reflect as in GLSL; refract gives 0 beyond the critical angle.
+- Lookups with `filter` linear are bilinear at normalized coordinates: x = u·width − 1/2, texels floor(x) and floor(x) + 1 joined by mix,
+  columns first. By repeat u is fract(u); by clamp x is held in [0, width − 1], by border in [−1, width]. lod is held in [0, last level]: a mix of
+  levels floor(lod) and the next where the mip filter is linear, level floor(lod + 1/2) where it is nearest. Input filter `none` means a load
+  by integer texel. Beyond the edge the input's address mode decides, of loads too. The sampler's own precision is allowed for.)"};
 
 // What porting.md takes from GLSL.
 inline Float3 normalize(Float3 a) { return (1 / length(a)) * a; }
@@ -118,7 +119,7 @@ inline Float3 cross(Float3 a, Float3 b) { return {a.y * b.z - a.z * b.y, a.z * b
 inline float sine(float x) { return static_cast<float>(std::sin(static_cast<double>(x))); }
 inline float cosine(float x) { return static_cast<float>(std::cos(static_cast<double>(x))); }
 inline float arc(float y, float x) { return static_cast<float>(std::atan2(static_cast<double>(y), static_cast<double>(x))); }
-inline float cube_root(float x) { return static_cast<float>(std::cbrt(static_cast<double>(x))); }
+inline float cube_root(float x) { return power(x, 1 / 3.0f); }
 
 struct Float2 {
   float x = 0, y = 0;
