@@ -111,12 +111,12 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
 }
 
 inline float exact_fresnel(float c, float n) {
-  const float t = std::sqrt(std::max(1 - (1 - c * c) / (n * n), 0.0f));
+  const float t = std::sqrt(std::max(1 - (1 - c * c) * (1 / (n * n)), 0.0f));
   const float across = (n * c - t) / (n * c + t), along = (c - n * t) / (c + n * t);
   return 0.5f * (across * across + along * along);
 }
 inline const From exact_fresnel_line{
-    "docs/effects/puddle.md", R"(Fresnel(c): t = √max(1 − (1 − c²) / n², 0),  ½ (((n c − t) / (n c + t))² + ((c − n t) / (c + n t))²))"};
+    "docs/effects/puddle.md", R"(Fresnel(c): t = √max(1 − (1 − c²) (1/n²), 0),  ½ (((n c − t) / (n c + t))² + ((c − n t) / (c + n t))²))"};
 
 inline bool shade_corrected(const Run& r, int x, int y, float* out) {
   const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };

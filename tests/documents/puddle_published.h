@@ -16,7 +16,7 @@ inline Float3 view_ray(const Run& r, int i, int j) {
 inline const From puddle_conventions{
     "docs/effects/puddle.md",
     R"(| view ray d | normalize(forward + (plane_left + (i + ½) pixel_scale) right + (plane_bottom + (j + ½) pixel_scale) up) |
-| environment, latitude/longitude | u = ½ + atan2(z, x) / 2π, repeat; v = ½ + atan2(y, √(x² + z²)) / π, clamp; row 0 looks straight down |
+| environment, latitude/longitude | u = ½ + atan2(z, x) (1/2π), repeat; v = ½ + atan2(y, √(x² + z²)) (1/π), clamp; row 0 looks straight down |
 | environment, cube | faces +x −x +y −y +z −z in one column, oriented as graphics APIs do, first row first, of equal components x before y before z; level floor(lod + ½); face coordinates are held half a texel inside the face |
 | rotate(d) | (c d.x + s d.z, d.y, c d.z − s d.x), (c, s) = rotation |
 | ground | u = x ground_scale, v = z ground_scale, repeat |)"};
@@ -137,8 +137,8 @@ inline Float3 cube(const Run& r, Float3 d, float lod) {
 }
 inline Float3 environment(const Run& r, Float3 d, float lod) {
   if (r.whole("environment_is_cube") != 0) return cube(r, d, lod);
-  const float pi = 3.14159265f;
-  return r.trilinear3("environment", 0.5f + arc(d.z, d.x) / (2 * pi), 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) / pi, lod);
+  const float per_turn = 0.159154943f, per_half_turn = 0.318309886f;
+  return r.trilinear3("environment", 0.5f + arc(d.z, d.x) * per_turn, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * per_half_turn, lod);
 }
 inline Float3 checkerboard(float x, float z, float scale) {
   const float k = std::floor(x * scale) + std::floor(z * scale);

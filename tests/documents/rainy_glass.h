@@ -53,7 +53,7 @@ inline bool bake_rivulets(const Run& r, int i, int j, float* out) {
 /// The probe along a direction in world axes.
 inline Float3 probe(const Run& r, Float2 at) {
   const Float3 d = (r.u3("forward") + (in_branch(r, 1, 0.8f) * at.x) * r.u3("right")) + at.y * r.u3("up");
-  return r.trilinear3("probe", 0.5f + arc(d.z, d.x) / two_pi, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) / (0.5f * two_pi),
+  return r.trilinear3("probe", 0.5f + arc(d.z, d.x) * 0.159154943f, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * 0.318309886f,
                       r.u("probe_level"));
 }
 
@@ -168,7 +168,7 @@ noise(k)        gradient noise of k cells a side: corner gradients lattice(colum
        nullptr,
        {{document,
          R"(| `surface`, `orientation` | rgba32f: u, v, distance along the view axis, 0; rgba16f: n, coverage |
-| probe | u = ½ + atan2(z, x) / 2π, v = ½ + atan2(y, √(x² + z²)) / π, row 0 looks straight down |
+| probe | u = ½ + atan2(z, x) (1/2π), v = ½ + atan2(y, √(x² + z²)) (1/π), row 0 looks straight down |
 slope(R, G)     (x, y) = ((R, G) − neutral) scale,   −(x, y) / √max(1 − x² − y², .04)              neutral and scale of each map
 droplets        amount = rain_amount · saturate(n · rain_to),   timer = fract(drop_phase + B)
                 shown = saturate((A − (1 − amount) − max(1 − timer (1 / impact), (timer − impact) (1 / (1 − impact)))) sharpness)

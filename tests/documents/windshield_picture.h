@@ -77,7 +77,7 @@ inline bool composite_corrected(const Run& r, int x, int y, float* out) {
   const float vis = smoothstep(r.u("visible_from"), r.u("visible_to"), r.linear("height", u, v));
   const auto place = [&](Float2 p) { return Float2{0.5f + p.x * r.u("scene_scale", 0), 0.5f + p.y * r.u("scene_scale", 1)}; };
   const Float3 d = normalize({g.x, g.y, 1}), outward = r.u3("outward");
-  const Float3 facing = n.x * r.u3("plane_x") + (n.y * r.u3("plane_y") + n.z * outward);
+  const Float3 facing = n.x * r.u3("plane_x") + n.y * r.u3("plane_y") + n.z * outward;
   const float ior = constant(r, 1, 1.05f) * r.u("water_ior");
   const Float3 b = refract(refract(d, -1.0f * outward, 1 / ior), -1.0f * facing, ior);
   const float f = exact_fresnel(saturate(dot(b, facing)), ior);
