@@ -51,15 +51,8 @@ PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::s
 
 inline std::string without_mistake(const Written&) { return ""; }
 
-inline void dev(const PortJudgement& j) {
-  for (const PassJudgement& p : j.passes) for (const auto& c : p.cases) for (const auto& o : c.outputs) {
-    if (o.failing) printf("IEEE %s %s failing %ld of %ld\n", c.id.c_str(), o.name.c_str(), long(o.failing), long(o.elements));
-    for (std::size_t k=0;k<std::min<std::size_t>(6,o.worst.size());++k) {const auto& w=o.worst[k]; printf("IEEE    %s %s %d %d %d got %ld expected %ld %s\n", c.id.c_str(), o.name.c_str(), w.x,w.y,w.channel,long(w.got),long(w.expected),w.field.c_str());}
-  }
-}
 /// Every pass that a port is judged by.
 inline void expect_pass(const PortJudgement& j, const std::string& pack) {
-  dev(j);
   for (const PassJudgement& p : j.passes) {
     const Written* w = written(pack, p.pass);
     if (!w || w->wrong.empty()) continue;

@@ -138,7 +138,8 @@ inline Float3 cube(const Run& r, Float3 d, float lod) {
 inline Float3 environment(const Run& r, Float3 d, float lod) {
   if (r.whole("environment_is_cube") != 0) return cube(r, d, lod);
   const float per_turn = 0.159154943f, per_half_turn = 0.318309886f;
-  return r.trilinear3("environment", 0.5f + arc(d.z, d.x) * per_turn, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * per_half_turn, lod);
+  return r.trilinear3("environment", 0.5f + arc(d.z, d.x) * per_turn, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * per_half_turn,
+                      lod);
 }
 inline Float3 checkerboard(float x, float z, float scale) {
   const float k = std::floor(x * scale) + std::floor(z * scale);
