@@ -80,13 +80,19 @@ class Run {
   }
   Float3 rgb(std::string_view name, int x, int y) const { return {at(name, x, y, 0), at(name, x, y, 1), at(name, x, y, 2)}; }
 
-  /// Bilinear at normalized coordinates.
-  float linear(std::string_view name, float u, float v, int k = 0, int level = 0, const Address* address = nullptr) const {
+  /// Bilinear at normalized coordinates, moved by whole texels.
+  float linear(std::string_view name, float u, float v, int k = 0, int level = 0, const Address* address = nullptr, int across = 0,
+               int along = 0) const {
     const capture::CaseInput& in = input(name);
-    const float x = u * static_cast<float>(in.array.level_width(level)) - 0.5f,
-                y = v * static_cast<float>(in.array.level_height(level)) - 0.5f;
+    const auto held = [&](float c, int size, Address own) {
+      const Address a = address ? *address : own;
+      const float n = static_cast<float>(size), x = (a == Address::repeat ? fract(c) : c) * n - 0.5f;
+      if (a == Address::repeat) return x;
+      return a == Address::border ? std::clamp(x, -1.0f, n) : std::clamp(x, 0.0f, n - 1);
+    };
+    const float x = held(u, in.array.level_width(level), in.address_u), y = held(v, in.array.level_height(level), in.address_v);
     const float x0 = std::floor(x), y0 = std::floor(y);
-    const int i = static_cast<int>(x0), j = static_cast<int>(y0);
+    const int i = static_cast<int>(x0) + across, j = static_cast<int>(y0) + along;
     const auto texel = [&](int dx, int dy) { return at(name, i + dx, j + dy, k, level, address); };
     return mix(mix(texel(0, 0), texel(1, 0), x - x0), mix(texel(0, 1), texel(1, 1), x - x0), y - y0);
   }

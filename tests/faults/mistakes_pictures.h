@@ -35,8 +35,8 @@ inline bool splash_corrected(const Run& r, int x, int y, float* out) {
   const int t = static_cast<int>(held);
   const auto z = [&](int i, int j) { return r.is("inverse distances") ? q(i * t, j * t) : 1 / q(i * t, j * t); };
   const float weight = r.is("Prewitt for Sobel") ? 1.0f : 2.0f;
-  float gx = ((z(1, 1) - z(-1, 1)) + weight * (z(1, 0) - z(-1, 0))) + (z(1, -1) - z(-1, -1));
-  float gy = ((z(1, 1) - z(1, -1)) + weight * (z(0, 1) - z(0, -1))) + (z(-1, 1) - z(-1, -1));
+  float gx = ((z(1, -1) - z(-1, -1)) + weight * (z(1, 0) - z(-1, 0))) + (z(1, 1) - z(-1, 1));
+  float gy = ((z(-1, 1) - z(-1, -1)) + weight * (z(0, 1) - z(0, -1))) + (z(1, 1) - z(1, -1));
   if (r.is("y down")) gy = -gy;
   const float g = std::sqrt(gx * gx + gy * gy);
   const float up = q(0, t), down = q(0, -t), left = q(-t, 0), right = q(t, 0);

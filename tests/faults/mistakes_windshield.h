@@ -96,7 +96,7 @@ inline bool composite_published(const Run& r, int x, int y, float* out) {
   Float3 colour = mix(mix(behind, blur, wetness), sharp, vis);
   if (r.is("film over drops")) colour = mix(mix(behind, sharp, vis), blur, wetness);
   const Float3 ray{gx, gy, 1}, eye = (-1 / length(ray)) * ray;
-  Float3 facing = -1.0f * (n.x * r.u3("plane_x") + (n.y * r.u3("plane_y") + n.z * r.u3("outward")));
+  Float3 facing = -1.0f * (n.x * r.u3("plane_x") + n.y * r.u3("plane_y") + n.z * r.u3("outward"));
   if (r.is("highlight from behind")) facing = -1.0f * facing;
   for (int g = 0; g < r.whole("glint_count") && vis > 0; ++g) {
     const Float3 light{r.of("glints", g, "direction", 0), r.of("glints", g, "direction", 1), r.of("glints", g, "direction", 2)},

@@ -1,0 +1,74 @@
+// Ways through a formula that the small packs do not take: the same functions on packs of other settings.
+#include "cli/support.h"
+#include "documents/judged_written.h"
+
+namespace rainref::documents {
+namespace {
+
+using cli::Circumstances;
+using cli::Outcome;
+using cli::run_rainref;
+
+struct Branch {
+  std::string name, pack;
+  std::vector<std::string> settings;
+  std::string pass, mistake = "wrong branch";  ///< what this way is taken by, and what shows there alone
+};
+void PrintTo(const Branch& b, std::ostream* out) { *out << b.name; }
+
+/// Six faces of 4 x 4 in a column, no two texels alike.
+std::string faces() {
+  std::vector<std::string> rows(24);
+  for (int y = 0; y < 24; ++y)
+    for (int i = 0; i < 12; ++i) rows[static_cast<std::size_t>(y)] += static_cast<char>(30 + (37 * y + 23 * i) % 200);
+  return image_io::png(4, 24, 8, 2, rows);
+}
+
+class PrintedBranches : public testing::TestWithParam<Branch> {};
+
+TEST_P(PrintedBranches, AreJudgedRight) {
+  const Branch& b = GetParam();
+  const TemporaryFolder folder;
+  put(folder / "faces.png", faces());
+  const bool starts = b.pack.starts_with("rainy_glass") || b.pack.starts_with("screen_drops");
+  std::vector<std::string> arguments{"pack", (small_packs / (b.pack + ".toml")).string(), "--at", starts ? "0,12" : "11,12", "-o", "pack"};
+  for (const std::string& setting : b.settings) arguments.insert(arguments.end(), {"--set", setting});
+  Circumstances c;
+  c.is_copy = true;
+  const Outcome packed = run_rainref(folder.path(), arguments, c);
+  ASSERT_EQ(packed.code, 0) << packed.err;
+  const Pack pack(folder / "pack");
+  for (const char* profile : {"vulkan", "ieee"}) expect_pass(judged(pack, without_mistake, profile), b.pack);
+  const PortJudgement wrong = judged(pack, [&](const Written& w) { return w.pass == b.pass ? b.mistake : ""; });
+  EXPECT_EQ(pass_of(wrong, b.pass).status, Status::fail) << b.pass << ": " << b.mistake;
+}
+
+const std::string ground = rainref::test::source_folder() + "/tests/packs/ground.png";
+
+const std::vector<Branch> branches{
+    {"StepBetweenTexels", "puddle-as-published", {"puddle.step=1.5"}, "wave_step"},
+    {"StepOfThree", "puddle-as-published", {"puddle.step=3", "puddle.boundary=periodic"}, "wave_step", "centre of s0 forgotten"},
+    {"EightBits", "puddle-as-published", {"puddle.storage=rgba8"}, "wave_step", "not packed"},
+    {"GroundImage", "puddle-as-published", {"puddle.use_checkerboard=false", "puddle.ground_image=" + ground}, "shade"},
+    {"Cube", "puddle-as-published", {"environment.layout=cube", "environment.image=faces.png"}, "shade"},
+    {"CorrectedCube", "puddle-corrected", {"environment.layout=cube", "environment.image=faces.png"}, "shade"},
+    {"Shore", "puddle-corrected", {"puddle.shape=natural"}, "wave_step"},
+    {"Reflecting", "puddle-corrected", {"puddle.boundary=reflecting"}, "raindrops"},
+    {"Periodic", "puddle-corrected", {"puddle.boundary=periodic"}, "raindrops"},
+    {"EightBitsOfMetres", "puddle-corrected", {"puddle.storage=rgba8"}, "wave_step", "crater 2 s for 4 s"},
+    {"Schlick", "puddle-corrected", {"puddle.fresnel=schlick", "puddle.fog_depth=0", "puddle.use_checkerboard=true"}, "shade"},
+    {"Misprint", "screen_drops-as-published", {"drops.printed_misprint=true"}, "drops", "threshold 0.3"},
+    {"DryWindow", "screen_drops-corrected", {"flow.on=false"}, "drops", "wrong constant"},
+    {"Probe", "rainy_glass-as-published", {"glass.background=probe"}, "rain_on_glass"},
+    {"CorrectedProbe", "rainy_glass-corrected", {"glass.background=probe"}, "rain_on_glass"},
+    {"Ball", "rainy_glass-corrected", {"glass.shape=sphere"}, "rain_on_glass", "wrong constant"},
+    {"Quartic", "windshield-as-published", {"windshield.kernel=quartic", "windshield.blend=max"}, "splat"},
+    {"Smoothstep", "windshield-as-published", {"windshield.kernel=smoothstep", "windshield.accumulate=float"}, "splat"},
+    {"Hemisphere", "windshield-corrected", {"windshield.kernel=hemisphere", "windshield.blend=max"}, "splat"},
+    {"Disc", "windshield-as-published", {"windshield.kernel=disc"}, "splat"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Settings, PrintedBranches, testing::ValuesIn(branches), [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace rainref::documents

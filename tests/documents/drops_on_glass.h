@@ -1,0 +1,254 @@
+// The passes that move drops on glass, of the windshield and of screen_drops' flow, from docs/effects/windshield.md. What wipes is in
+// wipers.h.
+#pragma once
+
+#include <map>
+
+#include "documents/written.h"
+#include "math/half.h"
+
+namespace rainref::documents {
+
+struct Drop {
+  Float2 position, velocity;
+  float mass, life;
+  std::uint32_t id, padding = 0;
+};
+inline std::vector<Drop> drops_of(const Run& r) {
+  std::vector<Drop> drops;
+  for (int i = 0; i < r.count("drops"); ++i) {
+    const auto of = [&](const char* member, int k = 0) { return r.of("drops", i, member, k); };
+    drops.push_back({{of("position", 0), of("position", 1)},
+                     {of("velocity", 0), of("velocity", 1)},
+                     of("mass"),
+                     of("life"),
+                     word_of(r, "drops", i, "id")});
+  }
+  return drops;
+}
+inline void give_live(const std::vector<Drop>& drops, Given& out) {
+  for (const Drop& d : drops)
+    if (d.life > 0) out.append("drops", d);
+}
+/// plane(u, v).
+inline Float2 plane(const Run& r, Float2 p) { return {r.u("frame", 0) * p.x + r.u("frame", 1) * p.y, r.u("frame", 2) * p.y}; }
+inline const From plane_and_life{
+    "docs/effects/windshield.md",
+    R"(| plane(u, v) [m] | (frame.x u + frame.y v, frame.z v); corrected: orthonormal in the glass; as-published: each axis by its own length, frame.y = 0 |
+A drop is live where life > 0. Lists hold live drops in any order; a port leaves dead ones out.)"};
+
+inline void spawn(const Run& r, Given& out) {
+  give_live(drops_of(r), out);
+  const std::uint32_t step = word(r, "step");
+  std::uint32_t count = 0;
+  for (std::uint32_t part = 0; part < word(r, "parts"); ++part) {
+    const std::uint32_t drawn = block(r, 5, step, part)[0];
+    count += word(r, "first_count");
+    for (int k = 0; k < r.whole("threshold_count"); ++k) count += word_of(r, "count_thresholds", k, "threshold") <= drawn;
+  }
+  for (std::uint32_t i = 0; i < std::min(count, word(r, "room")); ++i) {
+    const Words w = block(r, r.is("wrong constant") ? 7 : 6, step, i);
+    const auto place = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) / 16777216.0f; };
+    out.append("drops", Drop{{place(w[0]), place(w[1])},
+                             {},
+                             r.of("spawn_masses", static_cast<int>(w[2] >> 22), "mass"),
+                             r.u("life"),
+                             word(r, "first_id") + i});
+  }
+}
+
+inline void integrate_published(const Run& r, Given& out) {
+  std::vector<Drop> drops = drops_of(r);
+  const auto frame = [&](const char* member) { return Float2{r.of("glass_frame", 0, member, 0), r.of("glass_frame", 0, member, 1)}; };
+  const float dt = r.u("dt"), coupling = constant(r, 1, 1.1f) * r.u("wind_coupling");
+  for (Drop& d : drops) {
+    const Float2 a = ((d.mass * frame("gravity") - r.u("inertia_coupling") * frame("acceleration")) + coupling * frame("wind")) -
+                     r.u("drag") * d.velocity;
+    d.velocity = d.velocity + dt * a;
+    d.position = d.position + dt * d.velocity;
+    d.life -= dt;
+  }
+  give_live(drops, out);
+}
+
+inline void integrate_corrected(const Run& r, Given& out) {
+  std::vector<Drop> drops = drops_of(r);
+  const auto frame = [&](const char* member, int k = 0) { return r.of("glass_frame", 0, member, k); };
+  const auto matrix = [&](const char* member, Float2 v) {
+    return Float2{frame(member, 0) * v.x + frame(member, 1) * v.y, frame(member, 2) * v.x + frame(member, 3) * v.y};
+  };
+  const Float2 gravity{frame("gravity", 0), frame("gravity", 1)}, wind{frame("wind", 0), frame("wind", 1)};
+  const float dt = r.u("dt"), margin = r.u("margin");
+  for (Drop& d : drops) {
+    const float m = cube_root(std::max(d.mass, 1.0f)), i = 1 / m, j = i * i, phase = fract(fract(d.life / 64) * r.u("phase_rate"));
+    const Float2 a =
+        ((gravity + matrix("spin", d.position)) + matrix("coriolis", d.velocity)) + (r.u("wind_push") * length(plane(r, wind)) * i) * wind;
+    const float size = length(plane(r, a)), held = r.u("hold") * j, kept = 1 - held / std::max(size, 1e-6f);
+    const Float2 pulled = dt * (std::max(kept, 0.0f) * a);
+    const float x = r.u("drag") * j * dt, e = exponential(-x);
+    float g = 0.5f - x * (1 / 6.0f - x * (1 / 24.0f - x * (1 / 120.0f - x * (1 / 720.0f)))), f = 1 - x * g;
+    if (x >= 0.125f) {
+      f = (1 - e) / x;
+      g = (1 - f) / x;
+    }
+    d.position = d.position + dt * (f * d.velocity + constant(r, 1, 1.1f) * (g * pulled));
+    d.velocity = e * d.velocity + f * pulled;
+    if (kept <= 0 && length(plane(r, d.velocity)) < r.u("rest_speed")) d.velocity = {};
+    d.mass = std::max(d.mass - std::floor(r.u("evaporation") * m * dt + phase), 0.0f);
+    d.life -= dt;
+    const auto inside = [&](float t) { return t >= -margin && t <= 1 + margin; };
+    if (!(d.mass > 0) || !inside(d.position.x) || !inside(d.position.y)) d.life = 0;
+  }
+  give_live(drops, out);
+}
+
+constexpr float most_quanta = 16777216;  // 2²⁴
+
+inline void merge(const Run& r, Given& out) {
+  std::vector<Drop> drops = drops_of(r);
+  const auto radius = [&](const Drop& d) { return r.u("radius") * cube_root(std::max(d.mass, 1.0f)); };
+  const auto is_larger = [](const Drop& a, const Drop& b) { return a.mass > b.mass || (a.mass == b.mass && a.id < b.id); };
+  std::vector<std::size_t> to(drops.size());
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    to[i] = i;
+    for (std::size_t k = 0; k < drops.size(); ++k) {
+      if (k == i || !is_larger(drops[k], drops[i])) continue;
+      const Float2 apart = plane(r, drops[k].position) - plane(r, drops[i].position);
+      const float reach = radius(drops[i]) + radius(drops[k]);
+      if (dot(apart, apart) < constant(r, 1, 1.5f) * (reach * reach) && (to[i] == i || is_larger(drops[k], drops[to[i]]))) to[i] = k;
+    }
+  }
+  std::map<std::uint32_t, std::size_t> by_id;
+  for (std::size_t i = 0; i < drops.size(); ++i) by_id[drops[i].id] = i;
+  for (const auto& [id, i] : by_id) {
+    std::size_t end = to[i];
+    while (to[end] != end) end = to[end];
+    Drop &own = drops[end], &other = drops[i];
+    if (end == i || other.mass > most_quanta - own.mass) continue;
+    own.mass = own.mass + other.mass;
+    const float share = other.mass / std::max(own.mass, 1.0f);
+    own.position = mix(own.position, other.position, share);
+    own.velocity = mix(own.velocity, other.velocity, share);
+    other.life = 0;
+  }
+
+  const int columns = r.whole("film", 0), rows = r.whole("film", 1);
+  std::vector<float> film;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) film.push_back(std::max(r.at("film", x, y) - r.u("drying"), 0.0f));
+  for (Drop& d : drops) {
+    if (!(d.life > 0)) continue;
+    const float speed = length(plane(r, d.velocity)), base = radius(d), b = base / std::max(speed, 1e-12f);
+    const Float2 at = d.position - b * d.velocity;
+    if (!(at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1)) continue;
+    float& texel = film[static_cast<std::size_t>(static_cast<int>(at.y * static_cast<float>(rows)) * columns +
+                                                 static_cast<int>(at.x * static_cast<float>(columns)))];
+    const float q = std::max(std::min(d.mass - 1, std::floor(r.u("trail") * base * (speed * r.u("dt")))), 0.0f);
+    d.mass -= q;
+    texel += std::min(q, most_quanta - texel);
+  }
+  give_live(drops, out);
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) out.store(out.index("film"), x, y, 0, film[static_cast<std::size_t>(y * columns + x)]);
+}
+
+inline bool splat(const Run& r, int x, int y, float* out) {
+  const Float2 centre{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+  const int kernel = r.whole("kernel"), blend = r.whole("blend");
+  float sum = 0;
+  for (int i = 0; i < r.count("drops"); ++i) {
+    const float root = cube_root(std::max(r.of("drops", i, "mass"), 0.0f)), own = r.u("radius_scale") * root;
+    const float radius = std::max(own, r.u("smallest_radius")), shrunk = own / radius;
+    const float h = r.of("drops", i, "life") > 0 ? (r.u("height_scale") * root) * (shrunk * shrunk) : 0;
+    const Float2 away = centre - Float2{r.of("drops", i, "position", 0) * r.u("size", 0), r.of("drops", i, "position", 1) * r.u("size", 1)};
+    const Float2 in_plane = plane(r, away);
+    const float squared = dot(in_plane, in_plane) * (1 / (radius * radius)), cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
+    const float shape = kernel == 0   ? cap
+                        : kernel == 1 ? cap * cap
+                        : kernel == 2 ? 1 - smoothstep(0, 1, std::sqrt(squared))
+                        : kernel == 3 ? std::sqrt(cap)
+                                      : (squared <= 1 ? 1.0f : 0.0f);
+    const float given = h * (kernel == 0 ? shape : in_branch(r, 1, 0.9f) * shape);
+    if (blend == 1)
+      sum = std::max(sum, given);
+    else
+      sum = sum + given;
+    if (blend == 2) sum = to_float(to_half(sum, Rounding::rne));
+  }
+  if (r.taken().corrected()) {
+    const auto tent = [](float a, float b, float c) { return 0.5f * b + 0.25f * (a + c); };
+    const auto row = [&](int dy) { return tent(r.at("film", x - 1, y + dy), r.at("film", x, y + dy), r.at("film", x + 1, y + dy)); };
+    sum = sum + r.u("film_scale") * tent(row(-1), row(0), row(1));
+  }
+  out[0] = sum;
+  return true;
+}
+
+inline std::vector<Written> drops_on_glass_passes() {
+  const std::string document = "docs/effects/windshield.md";
+  const std::vector<std::string> all{"windshield-as-published", "windshield-corrected", "screen_drops-corrected"},
+      corrected{"windshield-corrected", "screen_drops-corrected"};
+  return {
+      {all,
+       "spawn",
+       "wrong constant",
+       nullptr,
+       spawn,
+       {numbers_without_state,
+        {document,
+         R"(count  = sum over part < parts of first_count + number of thresholds not above block(5, step, part)[0];  at most room
+drop i: r = block(6, step, i);  position = (r[0] >> 8, r[1] >> 8) / 2²⁴, velocity 0, mass = spawn_masses[r[2] >> 22], life, id = first_id + i)"}}},
+      {{"windshield-as-published"},
+       "integrate",
+       "wrong constant",
+       nullptr,
+       integrate_published,
+       {plane_and_life,
+        {document,
+         R"(integrate         a = gravity·mass − acceleration·inertia_coupling + wind·wind_coupling − velocity·drag     of each axis, any order
+                  velocity += a dt;  position += velocity dt;  life −= dt                                  (Euler is chosen))"}}},
+      {corrected,
+       "integrate",
+       "wrong constant",
+       nullptr,
+       integrate_corrected,
+       {plane_and_life,
+        {document,
+         R"(                  stored row by row: (u of e_u, u of e_v, v of e_u, v of e_v)
+integrate         m = max(mass, 1)^(1/3),  i = 1/m,  j = i i;   |x| of glass vectors in the plane
+                  a = gravity + spin·position + coriolis·velocity + ((wind_push |wind|) i) wind          any order
+                  A = a · max(1 − hold j / max(|a|, 10⁻⁶), 0) · dt;   x = drag j dt
+                  e = exp(−x);  x < 1/8: g = 1/2 − x (1/6 − x (1/24 − x (1/120 − x (1/720)))), f = 1 − x g;  else f = (1 − e)/x, g = (1 − f)/x
+                  position += (velocity f + A g) dt;   velocity = velocity e + A f;   0 where that max is 0 and |velocity| < rest_speed
+                  loss = floor(evaporation·m·dt + phase),  phase = fract(fract(life / 64) · phase_rate), life of before;   mass = max(mass − loss, 0)
+                  life −= dt;  lives on while life > 0, mass > 0 and u, v in [−margin, 1 + margin])"}}},
+      {corrected,
+       "merge",
+       "wrong constant",
+       nullptr,
+       merge,
+       {plane_and_life,
+        {document,
+         R"(merge             base radius = radius · max(mass, 1)^(1/3);  drops touch where |P₁ − P₂|² < (r₁ + r₂)²
+                  a drop points to the largest of the larger ones it touches (more mass, of equals lower id); chains end in an absorbing drop, which
+                  takes the others in ascending id, but none with mass₂ > 2²⁴ − mass:
+                  mass = sum, share = mass₂ / max(mass, 1), position and velocity = mix(own, other's, share); its id and life stay
+                  film = max(film − drying, 0);  then trails:  b = r / max(|velocity|, 10⁻¹²),  at = position − velocity b
+                  where at is in [0, 1)²:  q = max(min(mass − 1, floor((trail · r) (|velocity| · dt))), 0) leaves the drop; the texel of at takes it up to 2²⁴, the rest is lost)"}}},
+      {all,
+       "splat",
+       "wrong constant",
+       splat,
+       nullptr,
+       {plane_and_life,
+        {document,
+         R"(of a drop   root = max(mass, 0)^(1/3),  own = radius_scale · root,  R = max(own, smallest_radius),
+            h = (height_scale · root) (own / R)²,  0 for a dead drop
+gives       h · kernel(q²),  q² = |(frame.x Δx + frame.y Δy, frame.z Δy)|² (1/R²),  (Δx, Δy) = (x, y) − position · size
+kernel      0: max(1 − q², 0)   1: max(1 − q², 0)²   2: 1 − smoothstep(0, 1, q)   3: √max(1 − q², 0)   4: 1 where q² ≤ 1
+blend       in the order of the list, from 0:  0: add   1: max   2: add, rounded to half after each drop
+corrected   + film_scale · tent(film),  tent(a, b, c) = ½ b + ¼ (a + c) of columns, then of rows, edge texels repeated)"}}},
+  };
+}
+
+}  // namespace rainref::documents

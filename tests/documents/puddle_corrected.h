@@ -1,0 +1,234 @@
+// The puddle, corrected, from docs/effects/puddle.md.
+#pragma once
+
+#include "documents/puddle_published.h"
+
+namespace rainref::documents {
+
+inline void raindrops_corrected(const Run& r, Given& out) {
+  const std::uint32_t step = word(r, "step");
+  const int boundary = r.whole("boundary");
+  const std::uint32_t drawn = block(r, 1, step, 0)[0];
+  int count = r.whole("first_count");
+  for (int k = 0; k < r.whole("threshold_count"); ++k) count += word_of(r, "count_thresholds", k, "threshold") <= drawn;
+  if (!r.taken().input("craters") || r.count("craters") == 0) count = 0;
+  const float columns = static_cast<float>(word(r, "columns")), rows = static_cast<float>(word(r, "rows"));
+  for (int i = 0; i < count; ++i) {
+    const Words w = block(r, r.is("wrong constant") ? 3 : 2, step, static_cast<std::uint32_t>(i));
+    const int size = static_cast<int>(w[2] >> 22);
+    const Crater drop{static_cast<float>((w[0] >> 16) * word(r, "columns") >> 8) / 256,
+                      static_cast<float>((w[1] >> 16) * word(r, "rows") >> 8) / 256, r.of("craters", size, "amplitude"),
+                      r.of("craters", size, "radius")};
+    out.append("drops", drop);
+    if (boundary == 2) continue;
+    const auto images = [&](float x, float extent) {
+      return boundary == 0 ? std::array{x, -x, 2 * extent - x} : std::array{x, x - extent, x + extent};
+    };
+    const auto reaches = [&](float x, float extent) { return x + drop.radius > 0 && x - drop.radius < extent; };
+    const auto xs = images(drop.x, columns), ys = images(drop.y, rows);
+    for (std::size_t k = r.is("wrong branch") ? 2 : 1; k < 9; ++k)
+      if (reaches(xs[k % 3], columns) && reaches(ys[k / 3], rows))
+        out.append("drops", Crater{xs[k % 3], ys[k / 3], drop.amplitude, drop.radius});
+  }
+}
+
+/// As the hand-made one, with the bed's shore.
+inline bool wave_step_of_document(const Run& r, int x, int y, float* out) {
+  if (!r.taken().input("shore")) return wave_step_corrected(r, x, y, out);
+  wave_step_corrected(r, x, y, out);
+  const float u = r.at("wave", x, y), rest = r.u("rest"), w = in_branch(r, 1, 0.9f) * r.at("shore", x, y), craters = out[1] - u;
+  out[0] = rest + w * (out[0] - rest);
+  out[1] = u + w * craters;
+  return true;
+}
+
+inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
+  const Float3 o = r.u3("camera_position"), d = view_ray(r, x, y);
+  const auto give = [&](Float3 p, int steps, Float3 n, float flag) {
+    const float values[]{p.x, p.y, p.z, static_cast<float>(steps), n.x, n.y, n.z, flag};
+    std::copy(std::begin(values), std::end(values), out);
+    return true;
+  };
+  const Float3 up{0, 1, 0};
+  if (-d.y <= 1e-4f) return give(o, 0, up, 0);
+  const float f = std::max(-d.y, 1e-4f), ray = std::sqrt(d.x * d.x + d.z * d.z);
+  const Float2 inverse = u2(r, "inverse_size");
+  const auto s = [&](float t) {
+    return Float2{(o.x * inverse.x + 0.5f) + t * (d.x * inverse.x), (o.z * inverse.y + 0.5f) + t * (d.z * inverse.y)};
+  };
+  const auto height = [&](Float2 at) { return r.u("height_scale") * r.linear("wave", at.x, at.y) + r.u("height_bias"); };
+  const float per_fall = 1 / f, t0 = o.y * per_fall;
+  const auto no_water = [&](int steps) { return give(o + t0 * d, steps, up, 1); };
+
+  const Float2 place = s(t0);
+  float top = r.u("surface_top"), slope = r.u("surface_slope");
+  if (place.x >= 0 && place.x <= 1 && place.y >= 0 && place.y <= 1) {
+    const Float2 scaled{place.x * r.u("bounds_scale", 0), place.y * r.u("bounds_scale", 1)};
+    const Float3 bounds{r.at("bounds", static_cast<int>(std::floor(scaled.x * static_cast<float>(r.width("bounds")))),
+                             static_cast<int>(std::floor(scaled.y * static_cast<float>(r.height("bounds"))))),
+                        r.at("bounds", static_cast<int>(std::floor(scaled.x * static_cast<float>(r.width("bounds")))),
+                             static_cast<int>(std::floor(scaled.y * static_cast<float>(r.height("bounds")))), 1)};
+    if (!(bounds.x * ray > r.u("bounds_reach") * f)) top = bounds.x, slope = bounds.y;
+  }
+
+  float t1 = 0, t2 = std::min((o.y + top) * per_fall, 1e4f);
+  const auto cut = [&](float from, float along, float half) {
+    const float k = 1 / (std::abs(along) < 1e-8f ? 1e-8f : along);
+    const float a = (-half - from) * k, b = (half - from) * k;
+    t1 = std::max(t1, std::min(a, b));
+    t2 = std::min(t2, std::max(a, b));
+  };
+  cut(o.x, d.x, r.u("half_size", 0));
+  cut(o.z, d.z, r.u("half_size", 2));
+  if (t1 > t0) return no_water(0);
+  t1 = std::max(t1, (o.y - top) * per_fall);
+  if (t1 >= t2) return no_water(0);
+
+  const float h = slope * ray, epsilon = r.u("epsilon");
+  float t = t1, e = 0, delta = 0;
+  int steps = 0;
+  for (int i = 0; i < r.whole("max_steps"); ++i) {
+    const float ahead = (o.y + (t + delta) * d.y) - height(s(t + delta)), safe = e * (1 / (f + h));
+    steps = i;
+    if (delta <= safe + std::max(ahead, 0.0f) * (1 / std::max(h - f, 1e-4f))) {
+      t = t + delta;
+      e = ahead;
+      delta = e * (1 / (f + h / 2));
+      if (e < epsilon || t >= t2) break;
+    } else {
+      delta = safe;
+    }
+  }
+  if (t >= t2) return no_water(steps);
+
+  const Float2 at = s(t);
+  const auto wave = [&](int across, int along) { return r.linear("wave", at.x, at.y, 0, 0, nullptr, across, along); };
+  const float gain = constant(r, 1, 0.8f) * (r.u("normal_gain") * r.u("height_scale"));
+  const Float2 g{gain * (wave(-1, 0) - wave(1, 0)), gain * (wave(0, -1) - wave(0, 1))};
+  const float c = f - (g.x * d.x + g.y * d.z);
+  if (0 <= e && e < epsilon && c >= f / 2) t = t + e * std::min(1 / c, 2 * (1 / (f + h)));
+  return give(o + t * d, steps, normalize({g.x, 1, g.y}), 1);
+}
+
+inline float exact_fresnel(float c, float n) {
+  const float t = std::sqrt(std::max(1 - (1 - c * c) * (1 / (n * n)), 0.0f));
+  const float across = (n * c - t) / (n * c + t), along = (c - n * t) / (c + n * t);
+  return 0.5f * (across * across + along * along);
+}
+inline const From exact_fresnel_line{
+    "docs/effects/puddle.md", R"(Fresnel(c): t = √max(1 − (1 − c²) (1/n²), 0),  ½ (((n c − t) / (n c + t))² + ((c − n t) / (c + n t))²))"};
+
+inline bool shade_corrected(const Run& r, int x, int y, float* out) {
+  const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
+  const Float3 v = view_ray(r, x, y), stored = r.rgb("normal", x, y), p = r.rgb("hit", x, y), eye = r.u3("camera_position");
+  if (!(r.at("normal", x, y, 3) > 0.5f)) return give(environment(r, rotated(r, v), r.u("background_level")));
+  const float depth = r.linear("bed", p.x * r.u("inverse_size", 0) + 0.5f, p.z * r.u("inverse_size", 1) + 0.5f);
+  const float w = smoothstep(0, r.u("shore_width"), depth), distance = length(p - eye);
+  int lod = 0;
+  const float footprint = r.u("ground_footprint") * distance / std::max(-v.y, 0.02f);
+  float edge = 1.41421356f;
+  for (int k = 0; k < 12; ++k, edge *= 2) lod += footprint >= edge;
+  const auto level = [&](std::string_view name) { return std::min(lod, static_cast<int>(r.input(name).array.levels.size()) - 1); };
+  const float scale = r.u("ground_scale");
+  Float3 n = stored;
+  if (w < 1) {
+    const Float3 relief{r.linear("relief", p.x * scale, p.z * scale, 0, level("relief")), 1,
+                        r.linear("relief", p.x * scale, p.z * scale, 1, level("relief"))};
+    n = normalize(mix(relief, n, w));
+  }
+  const float c = std::min(std::max(-dot(v, n), 0.001f), 1.0f), reflected = r.u("reflectivity") * mix(r.u("wetness"), 1, w);
+  const float f =
+      (r.whole("exact_fresnel") != 0 ? exact_fresnel(c, constant(r, 1.333f, 1.4f)) : schlick(c, in_branch(r, 1.333f, 1.5f))) * reflected;
+  Float3 m = reflect(v, n);
+  m.y = std::abs(m.y);
+  const Float3 mirror = environment(r, rotated(r, m), mix(r.u("gloss_level"), r.u("mirror_level"), w));
+  const Float3 b = refract(v, n, 1 / 1.333f);
+  const float column = std::max(depth, 0.0f), path = column / std::max(-b.y, 0.05f);
+  const float gx = p.x + path * b.x, gz = p.z + path * b.z;
+  Float3 albedo =
+      r.whole("use_checkerboard") != 0 ? checkerboard(gx, gz, scale) : r.linear3("ground", gx * scale, gz * scale, level("ground"));
+  if (column > 0) albedo = mix(r.u3("tint"), albedo, exponential(-(r.u("water_turbidity") * (path + column))));
+  const Float3 light = f * mirror + (1 - f) * (albedo * r.u3("ambient"));
+  const float fog = r.u("fog_depth");
+  return give(fog > 0 ? mix(r.u3("fog_colour"), light, exponential(-(fog * distance))) : light);
+}
+
+inline std::vector<Written> puddle_corrected_passes() {
+  const std::string document = "docs/effects/puddle.md";
+  return {
+      {{"puddle-corrected"},
+       "raindrops",
+       "wrong constant",
+       nullptr,
+       raindrops_corrected,
+       {numbers_without_state,
+        {document,
+         R"(drops in the step    = first_count + number of thresholds not above block(1, step, 0)[0];   none where there are no craters
+drop i: r = block(2, step, i)     crater = craters[r[2] >> 22],  x = (((r[0] >> 16) · columns) >> 8) / 256,  y likewise from r[1] and rows
+A crater that reaches over an edge is followed by its images with x' in (x, −x, 2 columns − x) (reflecting) or (x, x − columns, x + columns)
+(periodic), y' likewise, y' in the outer loop, of those that reach into the rectangle (x' + radius > 0, x' − radius < columns), the drop itself)"}}},
+      {{"puddle-corrected"},
+       "wave_step",
+       "crater 2 s for 4 s",
+       wave_step_of_document,
+       nullptr,
+       {{document,
+         R"(L        = ((u₋ₓ + u₊ₓ) + (u₋z + u₊z)) − 4u                     the four neighbours in any order
+craters  = sum over drops, in order:  k = 1 / radius,  s = ((i + ½ − x) k)² + ((j + ½ − y) k)²,
+           amplitude · (max(1 − s, 0)² (1 − 4s))
+next     = ((u + damping (u − p)) + courant_sq · L) + craters
+without `shore`:  new newest = next,  new previous = u + craters
+with `shore` w:   new newest = rest + w (next − rest),  new previous = u + w craters)"}}},
+      {{"puddle-corrected"},
+       "surface_hit",
+       "wrong constant",
+       surface_hit_corrected,
+       nullptr,
+       {puddle_conventions,
+        {document,
+         R"(**surface_hit**, o the eye, d the ray, f = max(−d.y, 10⁻⁴), r = √(d.x² + d.z²), height(s) = height_scale · wave(s) + height_bias, bilinear, clamped:
+no hit       −d.y ≤ 10⁻⁴: position o, steps 0, normal (0, 1, 0), flag 0.   Otherwise flag 1
+place        s(t) = o.xz · inverse_size + ½ + t d.xz · inverse_size;   t₀ = o.y (1/f), where the ray crosses y = 0
+bounds       (top, S) = bounds at s(t₀) · bounds_scale, nearest;   surface_top and surface_slope instead
+             where s(t₀) is outside [0, 1]² or top · r > bounds_reach · f
+interval     [t₁, t₂] = [0, min((o.y + top) (1/f), 10⁴)] cut with |x| ≤ half_size.x and |z| ≤ half_size.z by 1/d.x, 1/d.z (|·| < 10⁻⁸ counts as 10⁻⁸)
+             t₁ > t₀: no water.   t₁ = max(t₁, (o.y − top) (1/f));   t₁ ≥ t₂: no water.   No water: position at t₀, normal up, steps 0
+march        t = t₁, e = 0, Δ = 0;  h = S r;  for round i = 0, 1, … below max_steps:
+               e′ = (o.y + (t + Δ) d.y) − height(s(t + Δ)),   safe = e (1 / (f + h)),   steps = i
+               Δ ≤ safe + max(e′, 0) (1 / max(h − f, 10⁻⁴)):  t = t + Δ, e = e′, Δ = e (1 / (f + h/2));  end if e < epsilon or t ≥ t₂
+               otherwise:  Δ = safe
+normal       t ≥ t₂: no water, as above but for the steps.   Otherwise with s(t) held between the outermost texel centres, and L, R, D, U the wave
+             one texel to each side of it, with its weights: g = normal_gain · height_scale (L − R, D − U),   normal = normalize(g.x, 1, g.y)
+Newton       c = f − g · d.xz;   0 ≤ e < epsilon and c ≥ f/2:  t = t + e · min(1 / c, 2 (1 / (f + h)));   position = o + t d)"}}},
+      {{"puddle-corrected"},
+       "shade",
+       "wrong constant",
+       shade_corrected,
+       nullptr,
+       {puddle_conventions,
+        exact_fresnel_line,
+        {document,
+         R"(**shade**, flag not above ½: environment(rotate(v)) at background_level. Otherwise:
+depth  = bed at p.xz · inverse_size + ½, bilinear, border;   w = smoothstep(0, shore_width, depth)
+lod    = 0, plus 1 for each of √2, 2√2, 4√2, … (twelve) that ground_footprint · |p − eye| / max(−v.y, .02) reaches
+n      = the stored normal;  where w < 1: normalize(mix((relief.x, 1, relief.y), n, w)), relief at p.xz · ground_scale, level lod
+c      = clamp(−v · n, .001, 1)
+F      = Fresnel(c) · (reflectivity · mix(wetness, 1, w))            exact if exact_fresnel, else Schlick as above; n = 1.333
+mirror = environment(rotate(m)) at level mix(gloss_level, mirror_level, w),  m = reflect(v, n) with m.y = |m.y|
+b      = refract(v, n, 1 / 1.333);   column = max(depth, 0);   path = column / max(−b.y, .05);   g = p.xz + path b.xz
+albedo = checkerboard(g), or ground at g · ground_scale, level lod;   where column > 0: mix(tint, albedo, exp(−(water_turbidity · (path + column))))
+L      = F · mirror + (1 − F) · (albedo · ambient)
+colour = mix(fog_colour, L, exp(−(fog_depth · |p − eye|))) where fog_depth > 0, else L
+F       = f0 + (1 − f0) ((m² · m²) · m),  m = 1 − min(|v · n|, 1),  f0 = ((1 − 1.333) / (1 + 1.333))²
+checkerboard: k = floor(x ground_scale) + floor(z ground_scale), mix((.15, .12, .10), (.25, .22, .20), k − 2 floor(k · ½)).)"}}},
+      {{"puddle-corrected"},
+       "display",
+       "offset 0.55 for 0.055",
+       puddle_display,
+       nullptr,
+       {{document,
+         R"(**display**: srgb(clamp((max(1 − vignette · length(as above), 0) · exposure) · colour, 0, 1)); srgb(x) = 12.92 x for x ≤ .0031308, else 1.055 x^(1/2.4) − .055.)"}}},
+  };
+}
+
+}  // namespace rainref::documents

@@ -1,0 +1,245 @@
+// The puddle as published, from docs/effects/puddle.md.
+#pragma once
+
+#include "documents/written.h"
+#include "faults/mistakes_puddle.h"
+
+namespace rainref::documents {
+
+/// puddle.md, "Conventions".
+inline Float3 view_ray(const Run& r, int i, int j) {
+  const float scale = r.u("camera_pixel_scale");
+  const float right = r.u("camera_plane_left") + (static_cast<float>(i) + 0.5f) * scale,
+              up = r.u("camera_plane_bottom") + (static_cast<float>(j) + 0.5f) * scale;
+  return normalize((r.u3("camera_forward") + right * r.u3("camera_right")) + up * r.u3("camera_up"));
+}
+inline const From puddle_conventions{
+    "docs/effects/puddle.md",
+    R"(| view ray d | normalize(forward + (plane_left + (i + ½) pixel_scale) right + (plane_bottom + (j + ½) pixel_scale) up) |
+| environment, latitude/longitude | u = ½ + atan2(z, x) (1/2π), repeat; v = ½ + atan2(y, √(x² + z²)) (1/π), clamp; row 0 looks straight down |
+| environment, cube | faces +x −x +y −y +z −z in one column, oriented as graphics APIs do, first row first, of equal components x before y before z; level floor(lod + ½); face coordinates are held half a texel inside the face |
+| rotate(d) | (c d.x + s d.z, d.y, c d.z − s d.x), (c, s) = rotation |
+| ground | u = x ground_scale, v = z ground_scale, repeat |)"};
+
+struct Crater {
+  float x, y, amplitude, radius;
+};
+
+inline void raindrops_published(const Run& r, Given& out) {
+  const auto hash = [](float x, float y, float a, float b, float c) {
+    const Float3 p{fract(x * a), fract(y * b), fract(x * c)};
+    const float d = dot(p, Float3{p.y + 33.33f, p.z + 33.33f, p.x + 33.33f});
+    return Float3{p.x + d, p.y + d, p.z + d};
+  };
+  const float t = r.u("time") * r.u("rain_speed");
+  for (int i = 0; i < r.whole("drop_count"); ++i) {
+    const float offset = 0.3711f * static_cast<float>(i);
+    const float sx = std::floor(t) + offset, sy = 17.3f * static_cast<float>(i);
+    const Float3 q = hash(sx, sy, 0.1031f, 0.1030f, 0.0973f), s = hash(sx + 1, sy + 1, 0.1031f, 0.1031f, 0.1031f);
+    const float strength = r.u("drop_intensity") * (0.5f + 0.5f * fract((s.x + s.y) * s.z));
+    const float pulse = fract(t + 0.7f * offset);
+    out.append("drops", Crater{fract((q.x + q.y) * q.z) * r.u("width"), fract((q.x + q.z) * q.y) * r.u("height"),
+                               strength * (smoothstep(0, 0.15f, pulse) * smoothstep(0.35f, 0.2f, pulse)), 4});
+  }
+}
+
+/// As the hand-made one, with neighbours between texels.
+inline bool wave_step_published_of_document(const Run& r, int x, int y, float* out) {
+  const float step = r.u("step"), f = in_branch(r, 1, 0.8f) * fract(step);
+  if (f == 0) return wave_step_published(r, x, y, out);
+  const int k = static_cast<int>(step);
+  const auto s = [&](int dx, int dy) {
+    return mix(r.at("wave", x + dx * k, y + dy * k), r.at("wave", x + dx * (k + 1), y + dy * (k + 1)), f);
+  };
+  float d = -2 * (r.at("wave", x, y, 1) - 0.5f) + ((((s(0, -1) + s(-1, 0)) + s(1, 0)) + s(0, 1)) - 2);
+  d = d * r.u("damping");
+  for (int i = 0; i < r.count("drops"); ++i) {
+    if (!(r.of("drops", i, "amplitude") > 0.01f)) continue;
+    const Float2 away{r.of("drops", i, "x") - (static_cast<float>(x) + 0.5f), r.of("drops", i, "y") - (static_cast<float>(y) + 0.5f)};
+    d = d + r.of("drops", i, "amplitude") * smoothstep(4, 0.5f, length(away));
+  }
+  out[0] = d * 0.5f + 0.5f;
+  out[1] = r.at("wave", x, y);
+  return true;
+}
+
+inline bool surface_hit_published(const Run& r, int x, int y, float* out) {
+  const Float3 eye = r.u3("camera_position"), d = view_ray(r, x, y), half = r.u3("half_size");
+  const float epsilon = r.u("epsilon");
+  const int max_steps = r.whole("max_steps");
+  const auto u = [&](Float3 p) { return 0.5f * (p.x / half.x + 1); };
+  const auto v = [&](Float3 p) { return 0.5f * (p.z / half.z + 1); };
+  const auto s = [&](float at_u, float at_v) { return r.linear("wave", at_u, at_v, 1); };
+  Float3 p = eye;
+  float distance = 0;
+  int steps = 0;
+  for (int round = 0; round < max_steps; ++round) {
+    const auto beyond = [](float a, float h) { return std::max(std::abs(a) - h, 0.0f); };
+    distance = length(Float3{beyond(p.x, half.x), beyond(p.y + s(u(p), v(p)), half.y), beyond(p.z, half.z)});
+    steps = round;
+    if (distance < epsilon || distance >= 1000) break;
+    p = p + distance * d;
+  }
+  const bool is_hit = distance < epsilon;
+  if (!is_hit) {
+    p = eye;
+    steps = max_steps - 1;
+  }
+  const float du = r.u("texel", 0), dv = r.u("texel", 1), gain = r.is("wrong constant") ? 2 : r.u("normal_gain");
+  const Float3 n = normalize({gain * (s(u(p) - du, v(p)) - s(u(p) + du, v(p))), 1, gain * (s(u(p), v(p) - dv) - s(u(p), v(p) + dv))});
+  const float values[]{p.x, p.y, p.z, static_cast<float>(steps), n.x, n.y, n.z, is_hit ? 1.0f : 0.0f};
+  std::copy(std::begin(values), std::end(values), out);
+  return true;
+}
+
+/// Where the refracted ray meets the ground; t ≤ 0: nowhere.
+struct PublishedGround {
+  float t = -1, x = 0, z = 0;
+};
+inline PublishedGround ground_of(const Run& r, Float3 p, Float3 n, Float3 v) {
+  const Float3 b = refract(v, n, 1 / 1.333f);
+  PublishedGround g;
+  if (std::abs(b.y) >= 0.0001f) g.t = (-r.u("puddle_depth") - p.y) / b.y;
+  if (g.t <= 0) return {};
+  g.x = p.x + g.t * b.x;
+  g.z = p.z + g.t * b.z;
+  return g;
+}
+
+inline bool ground_noise_published(const Run& r, int x, int y, float* out) {
+  out[0] = 0.5f;
+  const PublishedGround g = ground_of(r, r.rgb("hit", x, y), r.rgb("normal", x, y), view_ray(r, x, y));
+  if (g.t > 0) out[0] = fract(sine(12.9898f * g.x + 78.233f * g.z) * 43758.5453f);
+  return true;
+}
+
+inline Float3 rotated(const Run& r, Float3 d) {
+  const float c = r.u("rotation", 0), s = r.u("rotation", 1);
+  return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+}
+/// Face and coordinates on it as OpenGL, Vulkan and Direct3D have them.
+inline Float3 cube(const Run& r, Float3 d, float lod) {
+  const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z), most = std::max({ax, ay, az});
+  int face;
+  float s, t;
+  if (most == ax) {
+    face = d.x >= 0 ? 0 : 1, s = d.x >= 0 ? -d.z : d.z, t = -d.y;
+  } else if (most == ay) {
+    face = d.y >= 0 ? 2 : 3, s = d.x, t = d.y >= 0 ? d.z : -d.z;
+  } else {
+    face = d.z >= 0 ? 4 : 5, s = d.z >= 0 ? d.x : -d.x, t = -d.y;
+  }
+  const int levels = static_cast<int>(r.input("environment").array.levels.size());
+  const int level = std::clamp(static_cast<int>(std::floor(lod + 0.5f)), 0, levels - 1);
+  const float side = static_cast<float>(r.input("environment").array.level_width(level)), inside = 0.5f / side;
+  const auto held = [&](float c) { return std::min(std::max(in_branch(r, 0.5f, 0.4f) * (c / most) + 0.5f, inside), 1 - inside); };
+  return r.linear3("environment", held(s), (static_cast<float>(face) + held(t)) / 6, level);
+}
+inline Float3 environment(const Run& r, Float3 d, float lod) {
+  if (r.whole("environment_is_cube") != 0) return cube(r, d, lod);
+  const float per_turn = 0.159154943f, per_half_turn = 0.318309886f;
+  return r.trilinear3("environment", 0.5f + arc(d.z, d.x) * per_turn, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * per_half_turn,
+                      lod);
+}
+inline Float3 checkerboard(float x, float z, float scale) {
+  const float k = std::floor(x * scale) + std::floor(z * scale);
+  return mix({0.15f, 0.12f, 0.10f}, {0.25f, 0.22f, 0.20f}, k - 2 * std::floor(k * 0.5f));
+}
+inline float schlick(float cosine, float n = 1.333f) {
+  const float ratio = (1 - n) / (1 + n), f0 = ratio * ratio, m = 1 - cosine;
+  return f0 + (1 - f0) * ((m * m) * (m * m) * m);
+}
+
+inline bool shade_published(const Run& r, int x, int y, float* out) {
+  const auto decoded = [](Float3 c) { return Float3{power(c.x, 2.2f), power(c.y, 2.2f), power(c.z, 2.2f)}; };
+  const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
+  const Float3 v = view_ray(r, x, y), n = r.rgb("normal", x, y), p = r.rgb("hit", x, y), eye = r.u3("camera_position");
+  if (!(r.at("normal", x, y, 3) > 0.5f)) return give(decoded(environment(r, rotated(r, v), 0)));
+  const float f = schlick(std::min(std::abs(dot(v, n)), 1.0f));
+  const Float3 mirror = decoded(environment(r, rotated(r, reflect(v, n)), 0));
+  const PublishedGround g = ground_of(r, p, n, v);
+  const Float3 tint = r.u3("tint");
+  Float3 below = constant(r, 0.3f, 0.4f) * tint;
+  if (g.t > 0) {
+    const float scale = r.u("ground_scale"), grain = (r.at("noise", x, y) - 0.5f) * 0.05f;
+    const Float3 ground = r.whole("use_checkerboard") != 0
+                              ? checkerboard(g.x, g.z, scale) + Float3{grain, grain, grain}
+                              : in_branch(r, 0.6f, 0.5f) * decoded(r.linear3("ground", g.x * scale, g.z * scale));
+    const float share = exponential(-(r.u("water_turbidity") * std::max(g.t, 0.0f)));
+    below = (constant(r, 0.7f, 0.75f) * (Float3{1, 1, 1} - 0.5f * tint)) * mix(tint, ground, share);
+  }
+  Float3 colour = mix(below, mirror, f * (mix(0.3f, 0.8f, r.u("reflectivity")) - 0.3f) + 0.3f) + (0.15f * (1 - f)) * tint;
+  return give(mix(0.7f * colour, colour, exponential(-(r.u("fog_depth") * length(p - eye)))));
+}
+
+inline std::vector<Written> puddle_published_passes() {
+  const std::string document = "docs/effects/puddle.md";
+  return {
+      {{"puddle-as-published"},
+       "raindrops",
+       "",
+       nullptr,
+       raindrops_published,
+       {{document, R"(t = time · rain_speed    offset = .3711 i    seed = (floor(t) + offset, 17.3 i)
+x, y = hash22(seed) · (width, height)        strength = drop_intensity (½ + ½ hash12(seed + 1))
+pulse = fract(t + .7 offset)                 amplitude = strength · (smoothstep(0, .15, pulse) · smoothstep(.35, .2, pulse)),  radius = 4
+hash22(x, y): p = fract(x·.1031, y·.1030, x·.0973), q = p + dot(p, p.yzx + 33.33), (fract((q.x + q.y) q.z), fract((q.x + q.z) q.y))
+hash12(x, y): p = fract(x·.1031, y·.1031, x·.1031), q likewise, fract((q.x + q.y) q.z))"}}},
+      {{"puddle-as-published"},
+       "wave_step",
+       "wider drops",
+       wave_step_published_of_document,
+       nullptr,
+       {{document, R"(**wave_step**, texel (i, j), s0 its previous level, s1 … s4 the newest at −v, −u, +u, +v, `step` texels away:
+d = −2 (s0 − ½) + ((((s1 + s2) + s3) + s4) − 2)          the four neighbours in any order
+d = d · damping
+for each drop with amplitude > .01, in order:  d = d + amplitude · smoothstep(4, .5, length(drop.xy − (i + ½, j + ½)))
+new newest = d · ½ + ½         new previous = newest
+With `step` = k + f, k whole and f > 0, a neighbour is mix(texel k away, texel k + 1 away, f). The channels of an rgba8 wave beyond two are 0.)"}}},
+      {{"puddle-as-published"},
+       "surface_hit",
+       "wrong constant",
+       surface_hit_published,
+       nullptr,
+       {puddle_conventions,
+        {document,
+         R"(**surface_hit**, s(p) the *previous* level at u = ½ (p.x / half_size.x + 1), v = ½ (p.z / half_size.z + 1), bilinear:
+p = eye;  for round = 0, 1, … below max_steps:
+  D = length(max(|p + (0, s(p), 0)| − half_size, 0));  steps = round
+  end if D < epsilon or D ≥ 1000;  p = p + D · d
+hit where D < epsilon, flag 1; otherwise p = eye, steps = max_steps − 1, flag 0
+normal = normalize(normal_gain (sL − sR), 1, normal_gain (sD − sU)), s one `texel` to each side of p)"}}},
+      {{"puddle-as-published"},
+       "ground_noise",
+       "",
+       ground_noise_published,
+       nullptr,
+       {puddle_conventions, {document, R"(noise   = fract(sin(12.9898 g.x + 78.233 g.z) · 43758.5453), ½ where t ≤ 0)"}}},
+      {{"puddle-as-published"},
+       "shade",
+       "wrong constant",
+       shade_published,
+       nullptr,
+       {puddle_conventions,
+        {document,
+         R"(**ground_noise** (of misses too), **shade**, p the stored position, n the stored normal, not normalized again, v the view ray; a hit where the flag is above ½:
+F       = f0 + (1 − f0) ((m² · m²) · m),  m = 1 − min(|v · n|, 1),  f0 = ((1 − 1.333) / (1 + 1.333))²
+mirror  = environment(rotate(reflect(v, n)))^2.2, level 0;  without a hit colour = environment(rotate(v))^2.2 and nothing else
+r       = refract(v, n, 1 / 1.333);   t = (−puddle_depth − p.y) / r.y, or −1 where |r.y| < .0001 or t ≤ 0
+g       = p + t r, or (0, 0) in x and z where t ≤ 0
+noise   = fract(sin(12.9898 g.x + 78.233 g.z) · 43758.5453), ½ where t ≤ 0
+ground  = checkerboard(g) + (noise − ½) · .05,  or  .6 · image(g)^2.2
+below   = (.7 (1 − ½ tint)) · mix(tint, ground, exp(−(water_turbidity · max(t, 0)))),  .3 tint where t ≤ 0
+colour  = mix(below, mirror, F (mix(.3, .8, reflectivity) − .3) + .3) + (.15 (1 − F)) tint
+colour  = mix(.7 colour, colour, exp(−(fog_depth · |p − eye|)))
+checkerboard: k = floor(x ground_scale) + floor(z ground_scale), mix((.15, .12, .10), (.25, .22, .20), k − 2 floor(k · ½)).)"}}},
+      {{"puddle-as-published"},
+       "display",
+       "exponent 1/2.4",
+       puddle_display,
+       nullptr,
+       {{document, R"(**display**: ((1 − vignette · length((i + ½) / width − ½, (j + ½) / height − ½)) · colour)^.4545)"}}},
+  };
+}
+
+}  // namespace rainref::documents

@@ -1,0 +1,195 @@
+// rainy_glass, from docs/effects/rainy_glass.md.
+#pragma once
+
+#include "documents/edge_splash.h"
+#include "faults/mistakes_kept_aside.h"
+
+namespace rainref::documents {
+
+constexpr float two_pi = 6.28318531f;
+inline float wrap(float x) { return x - std::floor(x + 0.5f); }
+
+inline bool bake_rivulets(const Run& r, int i, int j, float* out) {
+  const Float2 p{(static_cast<float>(i) + 0.5f) * r.u("inverse_size", 0), (static_cast<float>(j) + 0.5f) * r.u("inverse_size", 1)};
+  float best = 0;
+  Float2 g;
+  for (int k = 0; k < r.whole("trail_count"); ++k) {
+    const auto of = [&](const char* member) { return r.of("trails", k, member); };
+    const float dy = fract(p.y - of("y") + 0.125f) - 0.125f, a = two_pi * wrap(of("wiggle_rate") * dy + of("wiggle_phase")),
+                dx = wrap(p.x - of("x")) - of("wiggle") * sine(a);
+    const bool is_tail = dy >= 0;
+    const float height = of("height"), squared = of("half_width") * of("half_width");
+    const float along = is_tail ? dy * of("inverse_length") : dy * dy / squared, h = height * (1 - along - dx * dx / squared);
+    if (!(h > best)) continue;
+    best = h;
+    const float c = constant(r, -2, -1) * height * dx / squared;
+    g = {c, (is_tail ? -height * of("inverse_length") : -2 * height * dy / squared) -
+                c * (two_pi * of("wiggle") * of("wiggle_rate") * cosine(a))};
+  }
+  const Float2 w = r.u("normal_scale") * g;
+  const float size = std::sqrt(1 + w.x * w.x + w.y * w.y);
+  out[0] = r.u("neutral") - r.u("span") * (w.x / size);
+  out[1] = r.u("neutral") - r.u("span") * (w.y / size);
+  const auto noise = [&](int cells, int channel) {
+    const Float2 at = static_cast<float>(cells) * p;
+    const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
+    const Float2 t{fract(at.x), fract(at.y)};
+    const auto corner = [&](int dx, int dy) {
+      const int x = (column + dx) % cells, y = (row + dy) % cells;
+      return r.at("lattice", x, y, channel) * (t.x - static_cast<float>(dx)) +
+             r.at("lattice", x, y, channel + 1) * (t.y - static_cast<float>(dy));
+    };
+    const auto ease = [](float s) { return s * s * s * (s * (6 * s - 15) + 10); };
+    return mix(mix(corner(0, 0), corner(1, 0), ease(t.x)), mix(corner(0, 1), corner(1, 1), ease(t.x)), ease(t.y));
+  };
+  const int cells = r.whole("flow_cells");
+  for (int k = 0; k < 2; ++k) {
+    const float flow = r.u("flow_gain") * (noise(cells, 2 * k) + 0.5f * noise(2 * cells, 2 * k));
+    out[2 + k] = r.u("neutral") + r.u("span") * std::min(std::max(flow, -1.0f), 1.0f);
+  }
+  return true;
+}
+
+/// The probe along a direction in world axes.
+inline Float3 probe(const Run& r, Float2 at) {
+  const Float3 d = (r.u3("forward") + (in_branch(r, 1, 0.8f) * at.x) * r.u3("right")) + at.y * r.u3("up");
+  return r.trilinear3("probe", 0.5f + arc(d.z, d.x) * 0.159154943f, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * 0.318309886f,
+                      r.u("probe_level"));
+}
+
+inline bool rain_on_glass_of_article(const Run& r, int i, int j, float* out) {
+  const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
+  if (!(r.at("orientation", i, j, 3) > 0.5f)) return give(r.rgb("scene", i, j));
+  const Float2 uv{r.at("surface", i, j, 0), r.at("surface", i, j, 1)};
+  const Float2 at_drops = r.u("drop_tiles") * uv, drop_rg = linear2(r, "raindrops", at_drops),
+               drop_ba = linear2(r, "raindrops", at_drops, 2);
+  const float timer = fract(r.u("time") * r.u("drop_rate") + drop_ba.x);
+  const float mask = drop_ba.y - (1 - r.u("rain_amount")) - timer > 0 ? 1.0f : 0.0f;
+  const Float2 at = r.u("rivulet_tiles") * uv, flow = linear2(r, "rivulets", at, 2);
+  const float p1 = fract(r.u("time") * r.u("flow_rate")), p2 = fract(r.u("time") * r.u("flow_rate") + 0.5f), w = std::abs(1 - 2 * p1);
+  const auto moved = [&](float p) { return linear2(r, "rivulets", at + (r.u("flow_strength") * p) * flow); };
+  const Float2 d = mask * drop_rg + (1 - std::abs(r.at("orientation", i, j, 1))) * mix(moved(p1), moved(p2), w);
+  const float twice = constant(r, 2, 1), distortion = r.u("distortion");
+  const Float2 s{(static_cast<float>(i) + 0.5f) * r.u("pixel", 0) + distortion * (twice * d.x - 1),
+                 (static_cast<float>(j) + 0.5f) * r.u("pixel", 1) + distortion * (twice * d.y - 1)};
+  if (r.whole("use_probe") == 0) return give(r.linear3("scene", s.x, s.y));
+  return give(probe(r, {(2 * s.x - 1) * r.u("half_width"), (2 * s.y - 1) * r.u("half_height")}));
+}
+
+inline bool rain_on_glass_corrected(const Run& r, int i, int j, float* out) {
+  const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
+  const Float3 own = r.rgb("scene", i, j), n = r.rgb("orientation", i, j);
+  const float u = r.at("surface", i, j, 0), v = r.at("surface", i, j, 1), distance = r.at("surface", i, j, 2);
+  const auto slope = [](Float2 rg, float neutral, float scale) {
+    const Float2 xy{(rg.x - neutral) * scale, (rg.y - neutral) * scale};
+    return (-1 / std::sqrt(std::max(1 - xy.x * xy.x - xy.y * xy.y, 0.04f))) * xy;
+  };
+  const Float2 at_drops = r.u("drop_tiles") * Float2{u, v};
+  const Float2 drop_rg = linear2(r, "raindrops", at_drops), drop_ba = linear2(r, "raindrops", at_drops, 2);
+  const float impact = r.u("impact"), amount = r.u("rain_amount") * saturate(dot(n, r.u3("rain_to"))),
+              timer = fract(r.u("drop_phase") + drop_ba.x);
+  const float dried = std::max(1 - timer * (1 / impact), (timer - impact) * (1 / (1 - impact)));
+  const float shown = saturate((drop_ba.y - (1 - amount) - dried) * r.u("sharpness"));
+
+  const float neutral = r.u("rivulet_neutral"), scale = r.u("rivulet_scale");
+  const Float2 at = r.u("rivulet_tiles") * Float2{u, v}, ba = linear2(r, "rivulets", at, 2);
+  const Float2 flow{(ba.x - neutral) * scale * r.u("flow_strength"), (ba.y - neutral) * scale * r.u("run_strength")};
+  const float p1 = fract(r.u("flow_phase")), p2 = fract(r.u("flow_phase") + 0.5f), w = std::abs(1 - 2 * p1);
+  const auto moved = [&](float p) { return linear2(r, "rivulets", (at + Float2{0, r.u("scroll")}) + (p - 0.5f) * flow); };
+  const Float2 rivulet_rg = mix(moved(p1), moved(p2), w);
+
+  const float steep = std::sqrt(n.x * n.x + n.z * n.z);
+  const Float2 s =
+      shown * slope(drop_rg, r.u("drop_neutral"), r.u("drop_scale")) + (r.u("rivulet_amount") * steep) * slope(rivulet_rg, neutral, scale);
+  const bool is_wet = s.x * s.x + s.y * s.y > 1e-8f;
+  const float k = 1 / std::max(steep, 0.05f);
+  const Float3 a{n.z * k, 0, -n.x * k}, b{n.y * a.z, n.z * a.x - n.x * a.z, -n.y * a.x};
+  const Float3 rise = s.x * a + s.y * b;
+  const float bend = constant(r, 1, 1.2f) * r.u("bend");
+  const Float2 bent = bend * Float2{dot(rise, r.u3("right")), dot(rise, r.u3("up"))};
+
+  const float depth = r.at("scene_depth", i, j), half_width = r.u("half_width"), half_height = r.u("half_height");
+  if (!(r.at("orientation", i, j, 3) > 0.5f && depth > distance && is_wet)) return give(own);
+  const Float2 c{(static_cast<float>(i) + 0.5f) * r.u("pixel", 0), (static_cast<float>(j) + 0.5f) * r.u("pixel", 1)};
+  if (r.whole("use_probe") != 0) return give(probe(r, Float2{(2 * c.x - 1) * half_width, (2 * c.y - 1) * half_height} + bent));
+  const float share = saturate(1 - distance / std::max(depth, 1e-3f));
+  const Float2 place{c.x + bent.x * share * (0.5f / half_width), c.y + bent.y * share * (0.5f / half_height)};
+  return give(r.linear("near_depth", place.x, place.y) > distance ? r.linear3("scene", place.x, place.y) : own);
+}
+
+inline std::vector<Written> rainy_glass_document_passes() {
+  const std::string document = "docs/effects/rainy_glass.md";
+  const std::vector<std::string> both{"rainy_glass-as-published", "rainy_glass-corrected"};
+  const From maps{
+      document,
+      R"(wrap(x) = x − floor(x + ½). Texel centre P, P = ((i, j) + ½) inverse_size. stored(g): w = normal_scale g, neutral − span (w / √(1 + w.x² + w.y²)).)"};
+  return {
+      {both,
+       "bake_raindrops",
+       "axes of the ellipse exchanged",
+       bake_droplets,
+       nullptr,
+       {maps,
+        {document,
+         R"(bake_raindrops  each droplet, in order, M = (m00 m01; m01 m11):  D = wrap(P − (x, y)),  q = M D,  h = height (1 − (q.x² + q.y²))
+                the highest h > 0 gives A = h and g = −2 height M q;  RG = stored(g);  without one A = 0, g = 0
+                B = offset of the droplet of least |D|² (as-published) or |D|² − radius² (corrected), the first of equals, below 4)"}}},
+      {both,
+       "bake_rivulets",
+       "wrong constant",
+       bake_rivulets,
+       nullptr,
+       {maps,
+        {document,
+         R"(bake_rivulets   each trail, in order:  dy = fract(P.y − y + ⅛) − ⅛,  a = 2π wrap(wiggle_rate dy + wiggle_phase),  dx = wrap(P.x − x) − wiggle sin a
+                tail: dy ≥ 0;  along = dy inverse_length on the tail, else dy² / half_width²;  h = height (1 − along − dx² / half_width²)
+                the highest h > 0 gives g:  c = −2 height dx / half_width²,  g.x = c,
+                g.y = (−height inverse_length on the tail, else −2 height dy / half_width²) − c (2π wiggle wiggle_rate cos a);  RG = stored(g)
+                B, A = neutral + span clamp(flow_gain (noise(flow_cells) + ½ noise(2 flow_cells)), −1, 1), of the lattice's channels 0, 1 and 2, 3
+noise(k)        gradient noise of k cells a side: corner gradients lattice(column, row), indices modulo k, dot with the offset to the corner,
+                mixed by t³ (t (6t − 15) + 10), columns first)"}}},
+      {{"rainy_glass-as-published"},
+       "rain_on_glass",
+       "wrong constant",
+       rain_on_glass_of_article,
+       nullptr,
+       {{document,
+         R"(rain_on_glass   (R, G, B, A) = raindrops((u, v) drop_tiles);   timer = fract(time · drop_rate + B)
+                mask = 1 where A − (1 − rain_amount) − timer > 0, else 0
+                r = (u, v) rivulet_tiles,  flow = rivulets(r).BA,  p₁ = fract(time · flow_rate),  p₂ = fract(time · flow_rate + ½),  w = |1 − 2 p₁|
+                rivulet = mix(RG at r + flow (flow_strength p₁), RG at r + flow (flow_strength p₂), w)
+                d = mask (R, G) + (1 − |n.y|) rivulet;   s = pixel centre · pixel + distortion (2d − 1)
+                colour = scene(s);  with use_probe the probe along forward + X right + Y up, (X, Y) = (2s − 1)(half_width, half_height)
+                where coverage ≤ ½: the scene's own texel)"}}},
+      {{"rainy_glass-corrected"},
+       "rain_on_glass",
+       "wrong constant",
+       rain_on_glass_corrected,
+       nullptr,
+       {{document,
+         R"(| `surface`, `orientation` | rgba32f: u, v, distance along the view axis, 0; rgba16f: n, coverage |
+| probe | u = ½ + atan2(z, x) (1/2π), v = ½ + atan2(y, √(x² + z²)) (1/π), row 0 looks straight down |
+slope(R, G)     (x, y) = ((R, G) − neutral) scale,   −(x, y) / √max(1 − x² − y², .04)              neutral and scale of each map
+droplets        amount = rain_amount · saturate(n · rain_to),   timer = fract(drop_phase + B)
+                shown = saturate((A − (1 − amount) − max(1 − timer (1 / impact), (timer − impact) (1 / (1 − impact)))) sharpness)
+rivulets        flow = ((BA − neutral) scale)(flow_strength, run_strength),   p₁ = fract(flow_phase),  p₂ = fract(flow_phase + ½),  w = |1 − 2 p₁|
+                RG = mix(at r + (0, scroll) + flow (p₁ − ½), at r + (0, scroll) + flow (p₂ − ½), w),   BA at r
+slope           s = shown · slope(raindrops) + (rivulet_amount · steep) slope(rivulets),   steep = √(n.x² + n.z²);   wet where s.x² + s.y² > 10⁻⁸
+prism           k = 1 / max(steep, .05);   a = (n.z k, 0, −n.x k),   b = (n.y a.z, n.z a.x − n.x a.z, −n.y a.x)
+                rise = s.x a + s.y b;   (x, y) = bend (rise · right, rise · up)
+seen            coverage > ½, scene_depth > distance, wet;   c = pixel centre · pixel
+                use_probe: the probe along forward + X right + Y up, (X, Y) = (2c − 1)(half_width, half_height) + (x, y)
+                else S = c + (x, y) saturate(1 − distance / max(scene_depth, 10⁻³)) (½ / half_width, ½ / half_height)
+                scene(S) where near_depth(S) > distance, bilinear;   elsewhere and where not seen the scene's own texel)"}}},
+      {both,
+       "display",
+       "wrong constant",
+       display_of_document,
+       nullptr,
+       {curve_of_display,
+        {document,
+         R"(| `display` | each frame | `colour` | `picture` rgba8: srgb(clamp(exposure · colour, 0, 1)), srgb as in [puddle](puddle.md#corrected) |)"}}},
+  };
+}
+
+}  // namespace rainref::documents

@@ -1,0 +1,163 @@
+// screen_drops, from docs/effects/screen_drops.md; its flowing drops are those of drops_on_glass.h.
+#pragma once
+
+#include "documents/edge_splash.h"
+#include "documents/puddle_corrected.h"
+#include "faults/mistakes_kept_aside.h"
+
+namespace rainref::documents {
+
+inline bool background_corrected(const Run& r, int x, int y, float* out) {
+  const float level = r.is("wrong constant") ? 2 : r.u("level");
+  const Float2 at{(static_cast<float>(x) + 0.5f) * r.u("scale", 0) + r.u("offset", 0),
+                  (static_cast<float>(y) + 0.5f) * r.u("scale", 1) + r.u("offset", 1)};
+  Float3 sum;
+  for (int k = 0; k < r.whole("tap_count"); ++k)
+    sum = sum + r.trilinear3("scene", at.x + r.of("taps", k, "x"), at.y + r.of("taps", k, "y"), level);
+  sum = r.u("weight") * sum;
+  out[0] = sum.x;
+  out[1] = sum.y;
+  out[2] = sum.z;
+  out[3] = 1;
+  return true;
+}
+
+inline bool cells(const Run& r, int i, int j, float* out) {
+  std::fill(out, out + 4, 0.0f);
+  for (int l = 0; l < 4; ++l) {
+    const int row = j - r.whole("first_row", l);
+    if (row < 0 || row >= r.whole("rows", l) || i >= r.whole("columns", l)) continue;
+    const auto layer = static_cast<std::uint32_t>(l), id = static_cast<std::uint32_t>(i) | static_cast<std::uint32_t>(row) << 16;
+    const Words own = block(r, 62, id, layer);
+    const std::uint32_t length = word(r, "shortest") + ((own[0] >> 16) * word(r, "span") >> 16), start = (own[1] >> 16) * length >> 16;
+    const std::uint32_t time = word(r, "tick") + start, cycle = time / length;
+    const Words drop = block(r, 63, id, 4 * cycle + layer);
+    if (drop[0] >> 16 >= word(r, "keep")) return true;
+    const auto share_of = [](std::uint32_t bits) { return static_cast<float>(bits) / 65536; };
+    const float size = share_of(drop[1] >> 16), x = share_of(drop[2] >> 16), y = share_of(drop[3] >> 16),
+                phase = share_of(((time % length) << 16) / length), impact = r.u("impact");
+    const float radius = r.u("largest") / std::sqrt(1 + constant(r, 3, 4) * size);
+    const float share = std::min(phase * (1 / impact), (1 - phase) * (1 / (1 - impact)));
+    out[0] = 0.5f + (x - 0.5f) * (1 - 2 * radius);
+    out[1] = 0.5f + (y - 0.5f) * (1 - 2 * radius);
+    out[2] = radius * std::sqrt(std::max(share, 0.0f));
+    out[3] = phase;
+  }
+  return true;
+}
+
+inline bool drops_corrected(const Run& r, int i, int j, float* out) {
+  const Float2 p{static_cast<float>(i) + 0.5f, static_cast<float>(j) + 0.5f};
+  Float2 s;
+  float cover = 0, level = 0;
+  const auto blend = [&](Float2 slope, float at_level, float k) {
+    s = mix(s, slope, k);
+    cover = mix(cover, 1, k);
+    level = mix(level, at_level, k);
+  };
+  for (int l = 3; l >= 0; --l) {
+    const Float2 q = r.u("cells_per_pixel", l) * p + Float2{r.u("offset_x", l), r.u("offset_y", l)};
+    const int column = static_cast<int>(std::floor(q.x)), row = static_cast<int>(std::floor(q.y)) + r.whole("first_row", l);
+    const Float2 d = Float2{fract(q.x), fract(q.y)} - Float2{r.at("cells", column, row, 0), r.at("cells", column, row, 1)};
+    const float radius = r.at("cells", column, row, 2), pixels = r.u("pixels_per_cell", l);
+    const float k = saturate((radius - length(d)) * pixels + 0.5f) * std::min(2 * radius * pixels, 1.0f);
+    const float share = r.u("sine") / std::max(radius, 1e-3f);
+    blend(share * d, r.u("level", l), k);
+  }
+  if (r.whole("has_flow") != 0) {
+    const Float2 at{p.x * r.u("flow_pixel", 0), p.y * r.u("flow_pixel", 1)}, texel = u2(r, "flow_texel");
+    const float left = r.linear("height", at.x - texel.x, at.y), right = r.linear("height", at.x + texel.x, at.y),
+                down = r.linear("height", at.x, at.y - texel.y), up = r.linear("height", at.x, at.y + texel.y);
+    const float k = smoothstep(r.u("visible_from"), r.u("visible_to"), 0.25f * (left + right + down + up));
+    const Float2 g{(right - left) * r.u("flow_slope", 0), (up - down) * r.u("flow_slope", 1)};
+    blend((-1 / std::sqrt(1 + g.x * g.x + g.y * g.y)) * g, r.u("flow_level"), k);
+  }
+  const float ior = constant(r, 1, 1.05f) * r.u("water_ior");
+  const Float3 v = normalize({p.x * r.u("pixel", 0) - r.u("half_size", 0), p.y * r.u("pixel", 1) - r.u("half_size", 1), 1});
+  const Float3 n = normalize({s.x, s.y, std::sqrt(std::max(1 - s.x * s.x - s.y * s.y, 0.04f))});
+  const Float3 b = refract(refract(v, {0, 0, -1}, 1 / ior), -1.0f * n, ior);
+  const float f = exact_fresnel(saturate(dot(b, n)), ior), ahead = std::max(b.z, 0.05f);
+  const Float3 seen = r.trilinear3("scene", 0.5f + b.x / ahead * r.u("scene_scale", 0), 0.5f + b.y / ahead * r.u("scene_scale", 1), level);
+  const Float3 background = r.rgb("background", i, j);
+  const Float3 colour = cover > 0 ? mix(background, mix(seen, r.u("inner") * background, f), cover) : background;
+  out[0] = cover;
+  out[1] = colour.x;
+  out[2] = colour.y;
+  out[3] = colour.z;
+  out[4] = 1;
+  return true;
+}
+
+inline std::vector<Written> screen_drops_passes() {
+  const std::string document = "docs/effects/screen_drops.md";
+  return {
+      {{"screen_drops-as-published"},
+       "background",
+       "level 3.5",
+       background_published,
+       nullptr,
+       {{document, R"(background  scene(u, level), trilinear;   u = (pixel + ½) / resolution,  level = 2.5)"}}},
+      {{"screen_drops-as-published"},
+       "drops",
+       "threshold 0.3",
+       screen_drops_published,
+       nullptr,
+       {{document,
+         R"(drops       n = noise(u · .1).rg, bilinear, repeat;   shift = (n − ½) · 2,  with printed_misprint (1 − ½) · 2
+            colour = background, water = 0;   for r = 4, 3, 2, 1, a later one over an earlier:
+              x = resolution · r · grid,   p = 6.28 u x + shift,   d = noise(floor((u x − ¼) + ½) / x)
+              t = (sin p.x + sin p.y) · max(0, 1 − fract(time · (d.b + .1) + d.g) · 2)
+              where d.r < (5 − r) keep and t > ½:
+                v = (cos p.x, cos p.y, mix(.2, 2, t − ½)) / its length
+                colour = scene(u + refraction · v.xy), finest level, bilinear, clamped;   water = r · ¼)"}}},
+      {{"screen_drops-corrected"},
+       "background",
+       "wrong constant",
+       background_corrected,
+       nullptr,
+       {{document,
+         R"(**background**: weight · the sum over taps, in order, of scene(pixel centre · scale + offset + tap, level), trilinear. The taps are 24 on a sunflower's spiral over the)"}}},
+      {{"screen_drops-corrected"},
+       "cells",
+       "wrong constant",
+       cells,
+       nullptr,
+       {numbers_without_state,
+        {document,
+         R"(**cells**, texel (i, j) of layer l with first_row[l] ≤ j < first_row[l] + rows[l], i < columns[l]; elsewhere 0. Unsigned modulo 2³², `block` as in
+id = i | (j − first_row[l]) << 16;   own = block(62, id, l)
+length = shortest + ((own[0] >> 16) · span >> 16),   start = (own[1] >> 16) · length >> 16
+time = tick + start,   cycle = time / length;   drop = block(63, id, 4 cycle + l);   where drop[0] >> 16 ≥ keep: 0
+size, x, y = drop[1], drop[2], drop[3] >> 16, over 65536;   phase = ((time mod length) << 16) / length, over 65536
+R = largest / √(1 + 3 size);   share = min(phase · (1 / impact), (1 − phase) · (1 / (1 − impact)))
+centre = ½ + ((x, y) − ½)(1 − 2R);   radius = R √max(share, 0))"}}},
+      {{"screen_drops-corrected"},
+       "drops",
+       "wrong constant",
+       drops_corrected,
+       nullptr,
+       {exact_fresnel_line,
+        {document,
+         R"(still     s = (x, y, cover, level) = 0;   for l = 3, 2, 1, 0:
+            q = P · cells_per_pixel[l] + (offset_x[l], offset_y[l]),   c = cells(floor(q.x), floor(q.y) + first_row[l])
+            d = fract(q) − c.xy,   k = saturate((c.z − |d|) pixels_per_cell[l] + ½) · min(2 c.z pixels_per_cell[l], 1)
+            s = mix(s, (d · sine / max(c.z, 10⁻³), 1, level[l]), k)
+flow      with has_flow:  heights L, R, D, U at P · flow_pixel, one flow_texel to each side, bilinear
+            k = smoothstep(visible_from, visible_to, ¼ (L + R + D + U)),   g = ((R − L) flow_slope.x, (U − D) flow_slope.y)
+            s = mix(s, (−g / √(1 + g.x² + g.y²), 1, flow_level), k)
+bend      v = normalize(P · pixel − half_size, 1);   n = normalize(s.x, s.y, √max(1 − s.x² − s.y², .04))
+            b = refract(refract(v, (0, 0, −1), 1 / water_ior), −n, water_ior);   F = Fresnel(saturate(b · n)), exact, as in puddle, index water_ior
+            seen = scene(½ + b.xy / max(b.z, .05) · scene_scale, s.level), trilinear, clamped
+colour    where cover > 0: mix(background, mix(seen, inner · background, F), cover);   else background.   water = cover)"}}},
+      {{"screen_drops-as-published", "screen_drops-corrected"},
+       "display",
+       "wrong constant",
+       display_of_document,
+       nullptr,
+       {curve_of_display,
+        {document,
+         R"(| `display` | each frame | `colour` | `picture` rgba8: srgb(clamp(exposure · colour, 0, 1)), srgb as in [puddle](puddle.md#corrected) |)"}}},
+  };
+}
+
+}  // namespace rainref::documents

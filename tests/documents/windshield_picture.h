@@ -1,0 +1,190 @@
+// The windshield's frame of forces, normals, pyramid and picture, from docs/effects/windshield.md.
+#pragma once
+
+#include "documents/edge_splash.h"
+#include "documents/puddle_corrected.h"
+#include "faults/mistakes_windshield.h"
+
+namespace rainref::documents {
+
+struct GlassFrame {
+  Float2 gravity, wind, acceleration;
+  std::uint32_t id = 0, padding = 0;
+  std::array<float, 4> spin{}, coriolis{};
+};
+inline Float3 apparent_wind(const Run& r) {
+  const Float3 w = r.u3("world_wind") - r.u3("vehicle_velocity");
+  const float c = r.u("heading", 0), s = r.u("heading", 1);
+  return {c * w.x + s * w.y, c * w.y - s * w.x, w.z};
+}
+inline void windshield_frame_published(const Run& r, Given& out) {
+  const auto project = [&](Float3 f) {
+    return Float2{dot(f, r.u3("e_u")) * r.u("inverse_metric", 0), dot(f, r.u3("e_v")) * r.u("inverse_metric", 2)};
+  };
+  const float gravity = constant(r, 1, 1.01f) * r.u("gravity");
+  out.append("glass_frame", GlassFrame{project({0, 0, -gravity}), project(apparent_wind(r)), project(r.u3("acceleration"))});
+}
+inline void windshield_frame_corrected(const Run& r, Given& out) {
+  const Float3 e_u = r.u3("e_u"), e_v = r.u3("e_v"), a = r.u3("acceleration");
+  const float uu = r.u("inverse_metric", 0), uv = r.u("inverse_metric", 1), vv = r.u("inverse_metric", 2);
+  const auto project = [&](Float3 f) {
+    const float u = dot(f, e_u), v = dot(f, e_v);
+    return Float2{uu * u + uv * v, uv * u + vv * v};
+  };
+  const float omega = r.u("yaw_rate"), alpha = r.u("yaw_acceleration"), squared = omega * omega;
+  const float two = constant(r, 2, 1) * omega;
+  const auto rotation = [&](Float3 p) { return Float3{alpha * p.y + squared * p.x, squared * p.y - alpha * p.x, 0}; };
+  const auto coriolis = [&](Float3 v) { return Float3{two * v.y, -two * v.x, 0}; };
+  const Float3 down{-a.x, -a.y, -(r.u("gravity") + a.z)};
+  GlassFrame frame{project(down + rotation(r.u3("origin"))), project(apparent_wind(r)), {}};
+  const auto columns = [](Float2 of_u, Float2 of_v) { return std::array{of_u.x, of_v.x, of_u.y, of_v.y}; };
+  frame.spin = columns(project(rotation(e_u)), project(rotation(e_v)));
+  frame.coriolis = columns(project(coriolis(e_u)), project(coriolis(e_v)));
+  out.append("glass_frame", frame);
+}
+
+inline bool blur_pyramid(const Run& r, int x, int y, float* out) {
+  out[3] = 1;
+  if (r.taken().level == 0) return fog_level(r, x, y, out);
+  for (int k = 0; k < 3; ++k) {
+    const auto texel = [&](int i, int j) { return r.at("blurred", 2 * x + i, 2 * y + j, k); };
+    if (!r.taken().corrected()) {
+      out[k] = 0.25f * ((texel(0, 0) + texel(1, 0)) + (texel(0, 1) + texel(1, 1)));
+      continue;
+    }
+    const auto weighed = [&](int axis, int at, float t0, float t1, float t2) {
+      const float w1 = r.u("middle", axis), w2 = r.u("last", axis) * static_cast<float>(at + 1);
+      return t0 + w1 * (t1 - t0) + w2 * (t2 - t0);
+    };
+    const auto column = [&](int i) { return weighed(1, y, texel(i, 0), texel(i, 1), texel(i, 2)); };
+    out[k] = weighed(0, x, column(0), column(1), column(2));
+  }
+  return true;
+}
+
+inline bool composite_corrected(const Run& r, int x, int y, float* out) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f);
+  float u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  u = saturate(u);
+  v = saturate(v);
+  const Float2 g{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
+  const float distance = r.u("glass_distance") * k;
+  Float3 n = r.linear3("normal", u, v);
+  n.z = std::max(n.z, 0.05f);
+  const float mask = saturate(r.linear("mask", u, v)), wet = 1 - mask;
+  const float vis = smoothstep(r.u("visible_from"), r.u("visible_to"), r.linear("height", u, v));
+  const auto place = [&](Float2 p) { return Float2{0.5f + p.x * r.u("scene_scale", 0), 0.5f + p.y * r.u("scene_scale", 1)}; };
+  const Float3 d = normalize({g.x, g.y, 1}), outward = r.u3("outward");
+  const Float3 facing = n.x * r.u3("plane_x") + n.y * r.u3("plane_y") + n.z * outward;
+  const float ior = constant(r, 1, 1.05f) * r.u("water_ior");
+  const Float3 b = refract(refract(d, -1.0f * outward, 1 / ior), -1.0f * facing, ior);
+  const float f = exact_fresnel(saturate(dot(b, facing)), ior);
+  const Float2 straight = place(g);
+  const float far = std::max(r.linear("scene_depth", straight.x, straight.y) - distance, 0.0f),
+              share = distance / std::max(distance + far, 1e-3f), ahead = std::max(b.z, 0.05f);
+  const Float2 s = place(mix({b.x / ahead, b.y / ahead}, g, share));
+  const Float3 sharp = r.linear3("blurred", s.x, s.y), blur = r.trilinear3("blurred", s.x, s.y, r.u("blur_lod"));
+  Float3 colour = mix(mix(sharp, blur, r.u("wetness") * wet * (1 - vis)), r.u("inner") * blur, f);
+  const float film = vis * (1 - mask * mask);
+  for (int i = 0; i < r.whole("glint_count") && film > 0; ++i) {
+    const auto of = [&](const char* member) {
+      return Float3{r.of("glints", i, member, 0), r.of("glints", i, member, 1), r.of("glints", i, member, 2)};
+    };
+    const Float3 h = of("direction") - d;
+    const float along = std::max(saturate(dot(-1.0f * facing, h) / std::max(length(h), 1e-4f)), 1e-4f);
+    colour = colour + power(along, r.u("shininess")) * (r.u("glint_strength") * film) * of("radiance");
+  }
+  if (!on) colour = r.u3("cabin");
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
+  return true;
+}
+
+inline std::vector<Written> windshield_picture_passes() {
+  const std::string document = "docs/effects/windshield.md";
+  const std::vector<std::string> both{"windshield-as-published", "windshield-corrected"};
+  const From composite_of_both{
+      document,
+      R"(composite         pixel centre q = (x, y, 1):  m = w_row·q,  k = 1 / max(m, 10⁻⁶),  (u, v) = (u_row·q, v_row·q) k
+                  on glass: m > 10⁻⁶, u and v in [0, 1];  (u, v) clamped;  image plane G = q.xy · pixel − half_size;  distance = glass_distance · k
+                  n, height, mask at (u, v): n.z at least .05, mask saturated;  wet = 1 − mask
+                  vis = smoothstep(visible_from, visible_to, height) · wet;   S = ½ + G · scene_scale
+                  sharp(S) = level 0 of blurred, blur(S) = level blur_lod, trilinear
+                  each glint, where vis > 0: + pow(max(saturate(N·h / max(|h|, 10⁻⁴)), 10⁻⁴), shininess) (glint_strength · vis) radiance
+                  mix(cabin, colour, on glass))"};
+  return {
+      {{"windshield-as-published"},
+       "windshield_frame",
+       "wrong constant",
+       nullptr,
+       windshield_frame_published,
+       {{document,
+         R"(windshield_frame  w = world_wind − vehicle_velocity;   wind = (c w.x + s w.y, c w.y − s w.x, w.z),  (c, s) = heading
+                  each f of (0, 0, −gravity), wind, acceleration:  (f·e_u inverse_metric.x, f·e_v inverse_metric.z);  spin, coriolis, id 0)"}}},
+      {{"windshield-corrected"},
+       "windshield_frame",
+       "wrong constant",
+       nullptr,
+       windshield_frame_corrected,
+       {{document,
+         R"(windshield_frame  w = world_wind − vehicle_velocity;   wind = (c w.x + s w.y, c w.y − s w.x, w.z),  (c, s) = heading
+windshield_frame  project(f) = inverse metric · (f·e_u, f·e_v),  inverse_metric = (uu, uv, vv)
+                  rot(p) = (α p.y + ω² p.x, ω² p.y − α p.x, 0),  cor(v) = (2ω v.y, −2ω v.x, 0),  ω = yaw_rate, α = yaw_acceleration
+                  gravity = project((−a.x, −a.y, −(gravity + a.z)) + rot(origin)), a = acceleration;  wind = project(wind);  acceleration = 0
+                  spin columns project(rot(e_u)), project(rot(e_v));  coriolis columns project(cor(e_u)), project(cor(e_v))
+                  stored row by row: (u of e_u, u of e_v, v of e_u, v of e_v))"}}},
+      {both,
+       "normals",
+       "slope doubled",
+       windshield_normals,
+       nullptr,
+       {{document,
+         R"(normals           H = height·(1 − mask) of each tap, edge texels repeated;  normalize(−slope_x (H₊ₓ − H₋ₓ), −slope_y (H₊y − H₋y), 1)
+normals           k = 1 − mask here;  ∂x = height₊ₓ − height₋ₓ, ∂y likewise
+                  normalize(−k slope_x ∂x, −k (slope_shear ∂x + slope_y ∂y), 1))"}}},
+      {both,
+       "blur_pyramid",
+       "base 2",
+       blur_pyramid,
+       nullptr,
+       {{document,
+         R"(blur_pyramid      level 0: mix(fog_colour, colour, exp(−(fog_density · max(depth, 0))));  else ¼ of the sum of 2 × 2 texels from (2x, 2y)
+blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t₂ − t₀) of three texels from 2x on (edge repeated), w₁ = middle, w₂ = last · (x + 1):
+                  in each of the three columns over rows first, then over the columns)"}}},
+      {{"windshield-as-published"},
+       "composite",
+       "linear visibility",
+       composite_published,
+       nullptr,
+       {composite_of_both,
+        {document, R"(                  colour = mix(mix(sharp(S), blur(S), wetness · wet), sharp(S + refraction · vis · n.xy), vis)
+                  h = direction + eye,  eye = −(G, 1) / |(G, 1)|,  N = −(n.x plane_x + n.y plane_y + n.z outward))"}}},
+      {{"windshield-corrected"},
+       "composite",
+       "wrong constant",
+       composite_corrected,
+       nullptr,
+       {composite_of_both,
+        exact_fresnel_line,
+        {document,
+         R"(composite         as above to vis, which is smoothstep(visible_from, visible_to, height) alone;  d = normalize(G, 1)
+                  N = n.x plane_x + n.y plane_y + n.z outward;  b = refract(refract(d, −outward, 1 / water_ior), −N, water_ior)
+                  F = Fresnel(saturate(b·N)), index water_ior, exact formula of puddle's shade
+                  far = max(scene_depth(S) − distance, 0),  share = distance / max(distance + far, 10⁻³)
+                  S′ = ½ + mix(b.xy / max(b.z, .05), G, share) · scene_scale
+                  colour = mix(mix(sharp(S′), blur(S′), wetness · wet · (1 − vis)), inner · blur(S′), F)
+                  glints as above with film = vis (1 − mask²) for vis and eye = −d, facing −N;   mix(cabin, colour, on glass))"}}},
+      {both,
+       "display",
+       "wrong constant",
+       display_of_document,
+       nullptr,
+       {curve_of_display, {document, R"(**display**: srgb(clamp(exposure · colour, 0, 1)), srgb as in [puddle](puddle.md#corrected).)"}}},
+  };
+}
+
+}  // namespace rainref::documents
