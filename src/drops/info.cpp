@@ -48,7 +48,7 @@ UniformBlock merge_block() {
       "MergeUniforms",
       {member<&MergeUniforms::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
        member<&MergeUniforms::radius>("radius", "m", share, "Base radius over mass^(1/3)."),
-       member<&MergeUniforms::trail>("trail", "1/m^2", {0, 1e12}, "MassRange left over base radius and way."),
+       member<&MergeUniforms::trail>("trail", "1/m^2", {0, 1e12}, "Mass units left over base radius and way."),
        member<&MergeUniforms::dt>("dt", "s", {0, 1}, "The step."),
        member<&MergeUniforms::film>("film", "texel", {1, 65536}, "Columns and rows of the film."),
        member<&MergeUniforms::drying>("drying", "1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});

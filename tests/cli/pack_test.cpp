@@ -1,5 +1,8 @@
 // `rainref pack`, and the captures of `rainref run`.
+#include <nlohmann/json.hpp>
+
 #include "base/hash.h"
+#include "capture/manifest_write.h"
 #include "capture/pack_read.h"
 #include "cli/support.h"
 #include "image_io/tiny_files.h"
@@ -9,6 +12,7 @@ namespace rainref::cli {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -69,8 +73,9 @@ TEST_F(PackVerb, OutputsAreWhatHashHashes) {
 
 TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
   const Outcome o = pack({"published.toml", "-o", "p"});
-  EXPECT_THAT(o.out,
-              MatchesRegex("18 cases of raindrops wave_step surface_hit ground_noise shade display in [0-9]+ files, [0-9.]+ MiB, in p\n"));
+  EXPECT_THAT(o.out, ContainsRegex(
+                         "\n18 cases of raindrops wave_step surface_hit ground_noise shade display in [0-9]+ files, [0-9.]+ MiB, in p\n"));
+  EXPECT_THAT(o.out, HasSubstr("shade exercises "));
   std::vector<std::string> expected = hash({"published.toml", "--frames", "13"}), found = hash_lines(read("p"));
   EXPECT_THAT(found, testing::IsSubsetOf(expected));
   EXPECT_EQ(found.size(), 3u * 7);
@@ -79,7 +84,7 @@ TEST_F(PackVerb, FramesBeyondTheScenesOwnAreReached) {
 
 TEST_F(PackVerb, OneCaseIsOne) {
   EXPECT_THAT(pack({"corrected.toml", "-o", "p", "--at", "0", "--passes", "display"}).out,
-              MatchesRegex("1 case of display in [0-9]+ files, .*"));
+              ContainsRegex("1 case of display in [0-9]+ files, "));
   EXPECT_THAT(rainref({"diff", "p", "p"}).out, testing::StartsWith("equal: 1 run of a pass, 2 buffers\n"));
 }
 
@@ -161,7 +166,12 @@ TEST_F(RunCapture, HoldsTheBuffersOfTheFramesThatAreWritten) {
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_THAT(o.out, EndsWith(", 3 pictures, capture/ and summary.json in o\n"));
   pack({"corrected.toml", "-o", "p", "--at", "0,2,4", "--set", "run.frames=5"});
-  EXPECT_EQ(files("o/capture"), files("p"));  // a capture is a pack
+  // A capture is a pack, but that nobody counts what it exercises.
+  std::map<std::string, std::string> packed = files("p");
+  nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(packed["manifest.json"]);
+  for (nlohmann::ordered_json& pass : manifest["passes"]) pass.erase("coverage");
+  packed["manifest.json"] = capture::manifest_text(manifest);
+  EXPECT_EQ(files("o/capture"), packed);
 
   o = rainref({"run", "corrected.toml", "-o", "o", "--capture", "passes"}, c);  // the older capture is replaced
   EXPECT_EQ(o.code, 0) << o.err;

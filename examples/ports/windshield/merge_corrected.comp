@@ -9,7 +9,7 @@
 layout(std140, binding = 0) uniform MergeUniforms {
   vec3 frame;       //   0  [m] As in IntegrateUniforms.
   float radius;     //  12  [m] Base radius over mass^(1/3).
-  float trail;      //  16  [1/m^2] Quanta left over base radius and way.
+  float trail;      //  16  [1/m^2] Mass units left over base radius and way.
   float dt;         //  20  [s] The step.
   ivec2 film;       //  24  [texel] Columns and rows of the film.
   float drying;     //  32  [1] Mass units that each texel of the film loses in this step.
