@@ -36,7 +36,7 @@ class WetGlass {
   RecordView list_for(const pass::Moment& now, std::string_view pass) {
     return now.is_read(pass) ? list() : RecordView{nullptr, 0, sizeof(Drop)};
   }
-  /// MassRange (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
+  /// Mass units (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
   std::int64_t residual() const;
 
   DropArrays drops;

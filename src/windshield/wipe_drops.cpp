@@ -10,7 +10,7 @@ constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 16;
 constexpr std::uint64_t largest_mass = std::uint64_t{1} << 24;  // whole numbers up to here are floats
 
-// MassRange by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
+// Mass units by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
 std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
                                       const parallel::Executor& executor) {
   std::vector<TexelBox> boxes;
