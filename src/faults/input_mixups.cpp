@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "faults/case_adder.h"
 #include "faults/whole_faults.h"
 #include "image/colour.h"
 #include "judge/rearrange.h"
@@ -17,22 +18,6 @@ namespace {
 using capture::Array;
 using capture::CaseInput;
 using capture::PassCase;
-
-class Adder {
- public:
-  explicit Adder(std::vector<Fault>& out) : out_(out) {}
-  void operator()(std::string name, std::string sentence, std::function<void(PassCase&)> alter) {
-    Fault d;
-    d.name = std::move(name);
-    d.sentence = std::move(sentence);
-    d.alter_case = std::move(alter);
-    d.for_diagnosis = true;
-    out_.push_back(std::move(d));
-  }
-
- private:
-  std::vector<Fault>& out_;
-};
 
 /// Passes the colours of every level through a function; codes become floats, which hold the result.
 template <class Change>
@@ -79,7 +64,7 @@ void drop_first_level(Array& a) {
   a.height = a.height > 1 ? a.height / 2 : 1;
 }
 
-void add_image(Adder& add, const PassCase& c, std::size_t i) {
+void add_image(CaseAdder& add, const PassCase& c, std::size_t i) {
   const std::string name = c.inputs[i].name;
   const Array& a = c.inputs[i].array;
   const FormatInfo& f = info(a.format);
@@ -138,7 +123,7 @@ void add_image(Adder& add, const PassCase& c, std::size_t i) {
 }
 
 /// Every record of a list with one thing of it changed.
-void add_records(Adder& add, const PassCase& c, std::size_t i) {
+void add_records(CaseAdder& add, const PassCase& c, std::size_t i) {
   const std::string name = c.inputs[i].name;
   const scene::UniformBlock record = c.inputs[i].array.record;
   add(fmt::format("input {} left out", name), fmt::format("no record of {} counts", name), [i](PassCase& altered) {
@@ -188,7 +173,7 @@ void add_records(Adder& add, const PassCase& c, std::size_t i) {
 }  // namespace
 
 void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
-  Adder add(out);
+  CaseAdder add(out);
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
     if (p.c.inputs[i].array.is_records) continue;
     const std::string& name = p.c.inputs[i].name;
@@ -204,7 +189,7 @@ void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
 }
 
 void add_input_mixups(std::vector<Fault>& out, const Probed& p) {
-  Adder add(out);
+  CaseAdder add(out);
   const std::string other = p.c.corrected() ? "as-published" : "corrected";
   add(fmt::format("the {} formula", other), fmt::format("this is the {} formula of the pass, not the {} one", other, p.c.variant),
       [other](PassCase& c) { c.variant = other; });

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "capture/bound_texture.h"
 #include "faults/whole_faults.h"
 #include "math/half.h"
-#include "math/unorm.h"
 #include "rainref/error.h"
 
 namespace rainref::faults {
@@ -33,25 +33,6 @@ struct Taps {
   bool is_neighbour(const Tap& t) const { return t.dx != 0 || t.dy != 0; }
 };
 
-/// What a channel of a texel holds.
-float read(const Array& a, int x, int y, int channel) {
-  const FormatInfo& f = info(a.format);
-  const std::byte* at =
-      a.levels[0].data() +
-      (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x)) * a.element_bytes() +
-      static_cast<std::size_t>(channel * f.channel_bytes);
-  float v = 0;
-  if (f.kind == FormatInfo::float32) {
-    std::memcpy(&v, at, 4);
-  } else if (f.kind == FormatInfo::float16) {
-    Half h;
-    std::memcpy(&h, at, 2);
-    v = to_float(h);
-  } else {
-    v = to_float(Unorm8{std::to_integer<std::uint8_t>(*at)});
-  }
-  return v;
-}
 /// Writes a whole number so that whole_of() finds it: up to 255 of codes, 2000 of halves.
 void write_whole(const Array& a, std::byte* at, int number) {
   const FormatInfo& f = info(a.format);
@@ -141,7 +122,10 @@ int placed(int i, int size, Address address) {
 class Adder {
  public:
   Adder(std::vector<Fault>& out, std::string name) : out_(out), name_(std::move(name)) {}
-  void take(const CaseInput& input, const Taps& taps) { of_.push_back({std::make_shared<const CaseInput>(input), taps.all}); }
+  void take(const CaseInput& input, const Taps& taps) {
+    of_.push_back(
+        {std::make_shared<const CaseInput>(input), std::make_shared<const std::vector<float>>(capture::decoded(input.array)), taps.all});
+  }
   const std::string& name() const { return name_; }
 
   /// change(tap): what is read in place of it.
@@ -168,9 +152,10 @@ class Adder {
           const Array& a = from.input->array;
           const int x = placed(at.x + t.dx, a.width, address.value_or(from.input->address_u)),
                     y = placed(at.y + t.dy, a.height, address.value_or(from.input->address_v));
-          loads[t.load] = x >= 0 && y >= 0 ? read(a, x, y, t.channel)
-                          : address        ? 0.0f
-                                           : from.input->border[static_cast<std::size_t>(t.channel)];
+          loads[t.load] = x >= 0 && y >= 0
+                              ? (*from.texels)[static_cast<std::size_t>((y * a.width + x) * info(a.format).channels + t.channel)]
+                          : address ? 0.0f
+                                    : from.input->border[static_cast<std::size_t>(t.channel)];
         }
       b.loads = &loads;
     };
@@ -181,6 +166,7 @@ class Adder {
  private:
   struct Read {
     std::shared_ptr<const CaseInput> input;
+    std::shared_ptr<const std::vector<float>> texels;  ///< decoded
     std::vector<Tap> taps;
   };
   std::vector<Fault>& out_;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "faults/case_adder.h"
 #include "faults/whole_faults.h"
 #include "image/colour.h"
 
@@ -36,23 +37,7 @@ bool same_value(const PassCase& c, const Member& a, const Member& b) {
   return std::memcmp(c.uniforms.data() + a.offset, c.uniforms.data() + b.offset, a.size()) == 0;
 }
 
-class Adder {
- public:
-  explicit Adder(std::vector<Fault>& out) : out_(out) {}
-  void operator()(std::string name, std::string sentence, std::function<void(PassCase&)> alter) {
-    Fault d;
-    d.name = std::move(name);
-    d.sentence = std::move(sentence);
-    d.alter_case = std::move(alter);
-    d.for_diagnosis = true;
-    out_.push_back(std::move(d));
-  }
-
- private:
-  std::vector<Fault>& out_;
-};
-
-void add_exchanges(Adder& add, const PassCase& c, const std::vector<Member>& members) {
+void add_exchanges(CaseAdder& add, const PassCase& c, const std::vector<Member>& members) {
   for (std::size_t i = 0; i < members.size(); ++i)
     for (std::size_t j = i + 1; j < members.size(); ++j) {
       const Member a = members[i], b = members[j];
@@ -69,7 +54,7 @@ void add_exchanges(Adder& add, const PassCase& c, const std::vector<Member>& mem
     }
 }
 
-void add_permutations(Adder& add, const PassCase& c, const std::vector<Member>& members) {
+void add_permutations(CaseAdder& add, const PassCase& c, const std::vector<Member>& members) {
   for (const Member& m : members) {
     if (m.components < 2) continue;
     std::vector<int> order(static_cast<std::size_t>(m.components));
@@ -116,7 +101,7 @@ void add_permutations(Adder& add, const PassCase& c, const std::vector<Member>& 
 }
 
 /// Three vectors that may be the rows of a matrix.
-void add_transposes(Adder& add, const PassCase& c, const std::vector<Member>& members) {
+void add_transposes(CaseAdder& add, const PassCase& c, const std::vector<Member>& members) {
   std::vector<Member> rows;
   std::copy_if(members.begin(), members.end(), std::back_inserter(rows), [](const Member& m) { return m.components == 3; });
   if (rows.size() > 8) return;
@@ -168,7 +153,7 @@ class Replacer {
 
 void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used) {
   const std::vector<Member> members = floats_of(p.pass, used);
-  Adder add(out);
+  CaseAdder add(out);
   add_permutations(add, p.c, members);
   add_transposes(add, p.c, members);
   add_exchanges(add, p.c, members);

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "judge/invocation_judge.h"
+#include "capture/bound_texture.h"
 #include "faults/failing_texels.h"
-#include "math/half.h"
+#include "judge/invocation_judge.h"
 
 namespace rainref::faults {
 namespace {
@@ -83,26 +84,11 @@ void add_groups(std::vector<Place>& out, int width, int height) {
 /// A channel of an image as large as the run, where it is above, at, or below 0.
 void add_masks(std::vector<Place>& out, const std::string& name, const Array& a, int width, int height) {
   if (a.is_records || a.levels.size() != 1 || a.width != width || a.height != height) return;
-  const FormatInfo f = info(a.format);
-  for (int k = 0; k < f.channels; ++k) {
-    const auto value = [&a, f, k](Texel t) {
-      const std::byte* at =
-          a.levels[0].data() +
-          (static_cast<std::size_t>(t.y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(t.x)) * a.element_bytes() +
-          static_cast<std::size_t>(k * f.channel_bytes);
-      float v = 0;
-      if (f.kind == FormatInfo::float32) {
-        std::memcpy(&v, at, 4);
-      } else if (f.kind == FormatInfo::float16) {
-        Half h;
-        std::memcpy(&h, at, 2);
-        v = to_float(h);
-      } else {
-        v = static_cast<float>(std::to_integer<int>(*at));
-      }
-      return v;
-    };
-    const std::string part = f.channels == 1 ? name : fmt::format("{}.{}", name, "xyzw"[k]);
+  const auto texels = std::make_shared<const std::vector<float>>(capture::decoded(a));
+  const int channels = info(a.format).channels;
+  for (int k = 0; k < channels; ++k) {
+    const auto value = [=](Texel t) { return (*texels)[static_cast<std::size_t>((t.y * width + t.x) * channels + k)]; };
+    const std::string part = channels == 1 ? name : fmt::format("{}.{}", name, "xyzw"[k]);
     out.push_back({fmt::format("where {} > 0", part), [value](Texel t) { return value(t) > 0; }});
     out.push_back({fmt::format("where {} is 0", part), [value](Texel t) { return value(t) == 0; }});
     out.push_back({fmt::format("where {} < 0", part), [value](Texel t) { return value(t) < 0; }});

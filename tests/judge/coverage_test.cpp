@@ -1,5 +1,4 @@
-// What the small packs exercise of the pass texts: the same for every number of threads, all that the manifests say, and all but what
-// stands here.
+// What the small packs exercise of the pass texts: what their manifests say, for every number of threads.
 #include "judge/coverage.h"
 
 #include <gmock/gmock.h>
