@@ -12,8 +12,11 @@ test_packages=(chromium libxml2-utils clang-format)
 say() { printf '%s\n' "$*" >&2; }
 die() { say "$*"; exit 1; }
 
+# RAINREF_NO_BUILD=1 takes build/ as it is: for a machine that has a GPU and no compiler, where it was copied to.
+
 # Installs the named Debian packages that are not there yet. Quick when nothing is missing.
 need() {
+  [ -z "${RAINREF_NO_BUILD-}" ] || return 0
   local missing=() name
   for name in "$@"; do
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null || true)" = installed ] || missing+=("$name")
@@ -37,6 +40,7 @@ need() {
 
 # build PRESET [TARGET...]: configures when needed and builds with a progress line.
 build() {
+  [ -z "${RAINREF_NO_BUILD-}" ] || return 0
   local preset=$1
   shift
   local folder="build/$preset"

@@ -14,11 +14,13 @@ const char* words(HalfMode mode) { return mode == HalfMode::rne ? "to nearest" :
 /// The place of a rounding among the two that were tried.
 std::size_t place(const HalfVotes& pass, HalfMode mode) { return pass.modes[0] == mode ? 0 : 1; }
 
+bool has_vote(const HalfVotes& pass) { return pass.modes.size() >= 2 && !pass.rounds_inside; }
+
 /// Passes that can be stored by this rounding alone.
 std::vector<std::string> only_under(HalfMode mode, const std::vector<HalfVotes>& passes) {
   std::vector<std::string> out;
   for (const HalfVotes& p : passes) {
-    if (p.modes.size() < 2) continue;
+    if (!has_vote(p)) continue;
     const std::size_t k = place(p, mode);
     if (p.failing[k] == 0 && p.failing[1 - k] > 0) out.push_back(p.pass);
   }
@@ -28,12 +30,12 @@ std::vector<std::string> only_under(HalfMode mode, const std::vector<HalfVotes>&
 }  // namespace
 
 HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
-  const auto voter = std::find_if(passes.begin(), passes.end(), [](const HalfVotes& p) { return p.modes.size() >= 2; });
+  const auto voter = std::find_if(passes.begin(), passes.end(), has_vote);
   if (voter == passes.end()) return HalfMode::either;
   const auto against = [&](std::size_t k) {
     std::int64_t failing_passes = 0, failing = 0;
     for (const HalfVotes& p : passes) {
-      if (p.modes.size() < 2) continue;
+      if (!has_vote(p)) continue;
       failing_passes += p.failing[k] > 0;
       failing += p.failing[k];
     }
@@ -44,7 +46,8 @@ HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
 
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile) {
   if (pass.modes.size() < 2) return {};
-  const HalfMode port = port_rounding(passes);
+  // A pass without a vote may be all that there is.
+  const HalfMode votes = port_rounding(passes), port = votes == HalfMode::either ? pass.modes[0] : votes;
   const std::size_t own = place(pass, port), other = 1 - own;
   const std::size_t found = pass.failing[other] < pass.failing[own] ? other : own;
   // Stores of one device round one way. Only when both ways fail and a mixture does not is it a mixture.
@@ -54,7 +57,8 @@ FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>&
   std::vector<std::string> doubts;
   if (asked != HalfMode::either && mode != asked && pass.failing[place(pass, asked)] > 0)
     doubts.push_back(fmt::format("stores to binary16 round {}, where the profile {} asks for {}", words(mode), profile, words(asked)));
-  if (const std::vector<std::string> others = only_under(port, passes); mode != port && pass.failing[found] == 0 && !others.empty())
+  if (const std::vector<std::string> others = only_under(port, passes);
+      has_vote(pass) && mode != port && pass.failing[found] == 0 && !others.empty())
     doubts.push_back(fmt::format("stores to binary16 round {} in this pass and {} in {}: a port has one rounding", words(mode), words(port),
                                  fmt::join(others, ", ")));
   return {found, fmt::format("{}", fmt::join(doubts, "; "))};

@@ -15,6 +15,9 @@ struct HalfVotes {
   std::string pass;
   std::vector<HalfMode> modes;  ///< the same two, or two and `either`, of every pass that votes
   std::vector<std::int64_t> failing;
+  /// The pass rounds to binary16 between its operations, too, in the shader or a blending unit, which need not round as stores do:
+  /// it is judged by the way that it fits and has no vote.
+  bool rounds_inside = false;
 };
 
 /// The rounding under which fewest passes fail; of equals that with fewest failing invocations, then the first.

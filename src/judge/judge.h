@@ -27,6 +27,7 @@ HalfMode half_mode_of(const enclosed::Profile& profile);
 struct ModeJudgements {
   std::vector<HalfMode> modes;
   std::vector<CaseJudgement> judgements;  ///< one for each mode
+  bool rounds_inside = false;             ///< the pass rounds between its operations, too (PassModel::rounds_inside)
 };
 
 /// Judges what a port stored: `port` holds its outputs in the order of c.outputs, of the same format and size. Outputs

@@ -41,6 +41,7 @@ HalfVotes votes_of(const std::string& pass, const std::vector<ModeJudgements>& c
   const auto judged = std::find_if(cases.begin(), cases.end(), [](const ModeJudgements& c) { return !c.modes.empty(); });
   if (judged == cases.end()) return votes;
   votes.modes = judged->modes;
+  votes.rounds_inside = judged->rounds_inside;
   votes.failing.resize(votes.modes.size(), 0);
   for (const ModeJudgements& c : cases)
     for (std::size_t m = 0; m < c.modes.size(); ++m) votes.failing[m] += c.judgements[m].failing;
@@ -106,6 +107,7 @@ std::vector<ModeJudgements> judge_runs(const PassTask& task, const JudgeOptions&
       cases.push_back(not_judged(run));
     } else {
       cases.push_back(judge_case(run.c, model.get(), run.stored, options));
+      cases.back().rounds_inside = model && model->rounds_inside();
       if (runs.counts_coverage) coverage.add(coverage_of(run.c, model.get(), *options.executor));
       for (CaseJudgement& j : cases.back().judgements) {
         if (run.broken.empty()) continue;

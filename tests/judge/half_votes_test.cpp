@@ -49,6 +49,22 @@ TEST(HalfVotes, APassThatFitsOnlyTheOtherIsDoubtedAndBothAreNamed) {
   for (std::size_t k : {0, 2, 3}) EXPECT_EQ(found(all, k).doubt, "");
 }
 
+// An H100 truncates what it stores, while the shader of splat as published rounds each sum to nearest: its port was a WARN.
+TEST(HalfVotes, APassThatRoundsInsideHasNoVoteAndNoDoubt) {
+  HalfVotes inside = votes("splat", {0, 430, 0});
+  inside.rounds_inside = true;
+  const std::vector<HalfVotes> all{votes("a", {8, 0, 0}), inside};
+  EXPECT_EQ(port_rounding(all), HalfMode::rtz);
+  EXPECT_EQ(found(all, 0).doubt, "");
+  EXPECT_EQ(found(all, 1).mode, 0u);
+  EXPECT_EQ(found(all, 1).doubt, "");
+  EXPECT_EQ(port_rounding({inside}), HalfMode::either);
+  EXPECT_EQ(found({inside}, 0).mode, 0u) << "alone it is judged by the way that it fits";
+  HalfVotes few = inside;
+  few.failing = {9, 0, 0};
+  EXPECT_EQ(found({few}, 0).mode, 1u);
+}
+
 TEST(HalfVotes, AMixtureIsOneOnlyWhereBothFail) {
   EXPECT_EQ(found({votes("a", {4, 5, 0})}, 0).mode, 2u);
   EXPECT_EQ(found({votes("a", {4, 5, 0})}, 0).doubt, "some stores to binary16 round to nearest and some toward zero");
