@@ -82,9 +82,7 @@ void integrate(benchmark::State& state, bool corrected, std::int64_t count, int 
   GlassFrame glass{};
   glass.gravity[1] = -5.5f;
   glass.wind[1] = 9;
-  const auto step = [&] {
-    corrected ? integrate_corrected(executor, drops, uniforms, glass) : integrate_as_published(executor, drops, uniforms, glass);
-  };
+  const auto step = [&] { drops::integrate(executor, drops, uniforms, glass, corrected); };
   const double bound = stream_seconds(executor, drops);
   for (int n = 0; n < 8; ++n) step();
   const std::string hash = hash_of(drops, executor);

@@ -16,7 +16,7 @@ struct Plate {
 };
 
 /// One part, and one primitive, for each plate; met from both sides. Borders belong to the plates, but plates side by side
-/// are not watertight between them: use a TriangleMesh for that.
+/// are not watertight between them.
 class Plates final : public Surface {
  public:
   /// Throws Error(usage) when a plate's edges are parallel or zero.

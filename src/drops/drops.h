@@ -57,6 +57,9 @@ class DropArrays {
     return {reinterpret_cast<const std::uint32_t*>(array(6)), static_cast<std::size_t>(extent_)};
   }
 
+  /// The same as pass::Host::Listed takes them: the floats of a Drop, in its order.
+  std::vector<float*> columns() { return {array(0), array(1), array(2), array(3), array(4), array(5)}; }
+
   /// The record of a slot, and back; set() needs i < extent().
   Drop get(std::int64_t i) const;
   void set(std::int64_t i, const Drop& drop);

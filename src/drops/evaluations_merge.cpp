@@ -9,14 +9,10 @@
 #include <map>
 #include <numeric>
 
-#include <fmt/format.h>
-
-#include "capture/bound_texture.h"
 #include "drops/scalar.h"
 #include "drops/evaluations.h"
-#include "drops/uniforms.h"
 #include "math/whole.h"
-#include "rainref/error.h"
+#include "pass/record_model.h"
 
 namespace rainref::drops {
 namespace {
@@ -47,8 +43,8 @@ struct Deposit {
 
 class Merging {
  public:
-  Merging(const MergeUniforms& uniforms, std::vector<Drop> drops, std::vector<float> film)
-      : u_(uniforms), drops_(std::move(drops)), film_(std::move(film)) {
+  explicit Merging(pass::Inputs<MergePass> in)
+      : u_(in.uniforms), drops_(std::move(in.captured.drops.records)), film_(std::move(in.captured.film.texels)) {
     std::erase_if(drops_, [](const Drop& d) { return !(d.life > 0); });
     std::sort(drops_.begin(), drops_.end(), [](const Drop& a, const Drop& b) { return a.id < b.id; });
     make_groups();
@@ -226,12 +222,11 @@ class MergedDrops : public capture::KeyedModel {
  public:
   explicit MergedDrops(const Merging& merging) : m_(merging) {}
   int groups() const override { return m_.groups(); }
-  const std::vector<capture::FieldRange>& ranges() const override { return drop_ranges(true); }
+  const std::vector<capture::FieldRange>& ranges() const override { return Drop::ranges(true); }
   void enclose(int group, std::vector<KeyedRecord>& out) const override {
     for (Merging::Member<Enclosure>& one : m_.merged<Enclosure>(group)) {
       if (one.lives) m_.take_trail(one.state);
-      const State& s = one.state;
-      out.push_back(enclosed_record({s.u, s.v, s.velocity_u, s.velocity_v, s.mass, s.life, one.lives}, one.drop->id));
+      out.push_back(pass::keyed_record(one.state, one.lives, one.drop->id));
     }
   }
   std::optional<std::vector<std::byte>> reference() const override { return list<Number>(); }
@@ -244,20 +239,19 @@ class MergedDrops : public capture::KeyedModel {
     for (int group = 0; group < groups(); ++group) {
       for (const Merging::Member<N>& one : m_.merged<N>(group)) {
         if (!one.lives) continue;
-        const scalar::DropState<N>& s = one.state;
-        out.push_back(
-            stored(ListedDrop<N>{s.u, s.v, s.velocity_u, s.velocity_v, s.mass - m_.trail(s).mass_units, s.life, true}, one.drop->id));
+        scalar::DropState<N> left = one.state;
+        left.mass = left.mass - m_.trail(left).mass_units;
+        out.push_back(pass::stored(left, *one.drop));
       }
     }
-    return bytes_of(out);
+    return pass::bytes_of(out);
   }
   const Merging& m_;
 };
 
 class MergeModel : public capture::PassModel {
  public:
-  MergeModel(const MergeUniforms& u, std::vector<Drop> drops, std::vector<float> film)
-      : PassModel(u.film[0], u.film[1], 1), merging_(u, std::move(drops), std::move(film)), drops_(merging_) {}
+  explicit MergeModel(pass::Inputs<MergePass> in) : PassModel(in.width, in.height, in.values), merging_(std::move(in)), drops_(merging_) {}
   void evaluate(int x, int y, Number* out) const override { value(x, y, out); }
   void evaluate(int x, int y, scalar::Scalar<double>* out) const override { value(x, y, out); }
   void evaluate(int x, int y, Perturbed* out) const override { value(x, y, out); }
@@ -322,20 +316,6 @@ class MergeModel : public capture::PassModel {
 
 }  // namespace
 
-std::unique_ptr<capture::PassModel> bind_merge(const PassCase& c) {
-  const auto u = capture::uniforms_of<MergeUniforms>(c);
-  const capture::Array& film = capture::image_input(c, "film").array;
-  if (u.film[0] != film.width || u.film[1] != film.height || !(u.frame[0] > 0) || !(u.frame[2] > 0)) {
-    throw Error(ExitCode::port_files, fmt::format("{}: uniforms film and frame: expected {}x{} and positive scales, found {}x{} and {}, {}",
-                                                  c.folder(), film.width, film.height, u.film[0], u.film[1], u.frame[0], u.frame[2]));
-  }
-  std::vector<Drop> drops = drops_input(c);
-  for (const Drop& d : drops) {
-    for (const float x : {d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life})
-      if (!(x - x == 0))
-        throw Error(ExitCode::port_files, fmt::format("{}/in.drops: expected finite numbers, found {} (id {})", c.folder(), x, d.id));
-  }
-  return std::make_unique<MergeModel>(u, std::move(drops), capture::decoded(film));
-}
+std::unique_ptr<capture::PassModel> bind_merge(const PassCase& c) { return std::make_unique<MergeModel>(pass::inputs_of<MergePass>(c)); }
 
 }  // namespace rainref::drops

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "drops/physics.h"
+#include "drops/spawn.pass.h"
 #include "math/real64.h"
 #include "rain/rain.h"
 #include "random/poisson.h"
@@ -13,8 +14,8 @@ namespace {
 constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double rest_speed = 1e-6;  // m/s: a millimetre in a quarter of an hour
 constexpr double golden_section = 0x1.3c6ef372fe95p-1;
-constexpr int classes = 1024;  // the upper ten bits of a word
-constexpr int cells = 2000;    // of the integral over diameters: the table's corners bound its error to 1e-5
+constexpr int classes = static_cast<int>(arrival_classes);
+constexpr int cells = 2000;  // of the integral over diameters: the table's corners bound its error to 1e-5
 
 double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 double volume_of_mass_unit() { return mass_unit / water_density; }

@@ -1,10 +1,50 @@
-// Pass integrate: how one drop moves in a step.
+// Pass integrate: how one drop moves in a step. Needs drop-inl.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_DROPS_INTEGRATE_PASS_H_
+#define RAINREF_DROPS_INTEGRATE_PASS_H_
+#include "drops/records.h"
+#include "drops/uniforms.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
 
-template <class N>
-struct DropState {
-  N u, v, velocity_u, velocity_v, mass, life;
-  RAINREF_FN DropState() {}
+namespace rainref::drops {
+
+/// Each drop by itself.
+struct IntegratePass {
+  static constexpr pass::About about{"integrate",
+                                     "Forces, motion, evaporation and age of every drop.",
+                                     {1, capture::Judge::keyed},
+                                     {1, capture::Judge::keyed},
+                                     {"the forces", "length"}};
+  using Uniforms = IntegrateUniforms;
+  using Record = Drop;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "IntegrateUniforms",
+        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "corrected: x = frame.x u + frame.y v and y = frame.z v in the plane of the glass."),
+         member<&U::dt>("dt", "s", {0, 1}, "The step."),
+         member<&U::inertia_coupling>("inertia_coupling", "1", {0, 100}, "as-published: share of the vehicle's acceleration."),
+         member<&U::wind_coupling>("wind_coupling", "1/s", {0, 100}, "as-published: acceleration by a unit of wind."),
+         member<&U::drag>("drag", "1/s", {0, 1e9}, "as-published: rate of slowing down; corrected: that times mass^(2/3)."),
+         member<&U::wind_push>("wind_push", "1/m", {0, 1e9}, "corrected: acceleration over wind speed squared, times mass^(1/3)."),
+         member<&U::hold>("hold", "m/s^2", {0, 1e9}, "corrected: acceleration that hysteresis holds, times mass^(2/3)."),
+         member<&U::evaporation>("evaporation", "1/s", {0, 1e9}, "corrected: mass units lost in a second over mass^(1/3)."),
+         member<&U::margin>("margin", "1", scene::share, "corrected: how far outside the glass a drop lives."),
+         member<&U::rest_speed>("rest_speed", "m/s", scene::share, "corrected: a held drop below this speed rests."),
+         member<&U::phase_rate>("phase_rate", "1", {0, 1e7}, "corrected: turns in 64 s of the phase that rounds losses.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template Changed<Drop> drops = {pass::In{.name = "drops", .from = "spawn"}, pass::Out{.name = "drops"}};
+    typename B::template Records<GlassFrame> glass_frame = pass::In{.name = "glass_frame", .records = 1};
+  };
 };
+
+}  // namespace rainref::drops
+#endif
+#else
 
 // ---- as published --------------------------------------------------------------------------------------------------
 //   a = gravity mass - acceleration inertia_coupling + wind wind_coupling - velocity drag           (seed 000)
@@ -36,20 +76,16 @@ RAINREF_FN DropState<N> integrate_as_published(const IntegrateUniforms& c, const
 //   x' = x + v_inf t + (v - v_inf) t f    = x + (v f + a t g) t,   g = (1 - f) / kt
 // On the right nothing cancels, and k may be 0.
 template <class N>
-struct Integrated {
-  DropState<N> drop;
+struct Integrated : DropState<N> {
   N evaporated, removed;  ///< [mass units]
   RAINREF_FN Integrated() {}
+  /// Who stays is decided already: the life of the others is set to 0.
+  auto lives() const { return !is_ended(this->life); }
 };
 /// The length [m] of a vector in glass coordinates.
 template <class N>
 RAINREF_FN N length_on_glass(const float* frame, N u, N v) {
   return length(N(frame[0]) * u + N(frame[1]) * v, N(frame[2]) * v);
-}
-/// The cube root of the mass of a live drop; 1 for a free slot.
-template <class N>
-RAINREF_FN N cube_root_of_mass(N mass) {
-  return pow(max(mass, N(1.0f)), N(0x1.555556p-2f));
 }
 
 /// e^-x, f(x) and g(x) for x >= 0. Below 1/8 by their series, to 1e-8.
@@ -74,7 +110,7 @@ template <class N>
 RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const GlassFrame& g, const DropState<N>& d) {
   const N zero(0.0f), one(1.0f), dt(c.dt);
   const auto alive = d.life > zero;
-  const N mass_3 = cube_root_of_mass(d.mass), inverse = one / mass_3, inverse_sq = square(inverse);
+  const N mass_3 = cube_root_of_mass(d.mass, 1.0f), inverse = one / mass_3, inverse_sq = square(inverse);
 
   const N wind_u(g.wind[0]), wind_v(g.wind[1]);
   const N push = (N(c.wind_push) * length_on_glass(c.frame, wind_u, wind_v)) * inverse;
@@ -101,13 +137,31 @@ RAINREF_FN Integrated<N> integrate_corrected(const IntegrateUniforms& c, const G
   const auto stays = (life > zero) & (mass > zero) & (u >= low) & (u <= high) & (v >= low) & (v <= high);
 
   Integrated<N> out;
-  out.drop.u = select(alive, u, d.u);
-  out.drop.v = select(alive, v, d.v);
-  out.drop.velocity_u = select(alive, select(rests, zero, velocity_u), d.velocity_u);
-  out.drop.velocity_v = select(alive, select(rests, zero, velocity_v), d.velocity_v);
-  out.drop.mass = select(alive & stays, mass, select(alive, zero, d.mass));
-  out.drop.life = select(alive & stays, life, select(alive, zero, d.life));
+  out.u = select(alive, u, d.u);
+  out.v = select(alive, v, d.v);
+  out.velocity_u = select(alive, select(rests, zero, velocity_u), d.velocity_u);
+  out.velocity_v = select(alive, select(rests, zero, velocity_v), d.velocity_v);
+  out.mass = select(alive & stays, mass, select(alive, zero, d.mass));
+  out.life = select(alive & stays, life, select(alive, zero, d.life));
   out.evaporated = select(alive, d.mass - mass, zero);
   out.removed = select(alive & !stays, mass, zero);
   return out;
 }
+
+struct IntegratePassText {
+  template <class N>
+  using State = DropState<N>;
+  /// as-published a drop keeps its mass, the fifth of its floats.
+  template <bool corrected>
+  static constexpr bool gives(int number) {
+    return corrected || number != 4;
+  }
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN auto run_record(const IntegrateUniforms& u, const Io& io, const DropState<N>& d) {
+    if constexpr (corrected)
+      return integrate_corrected<N>(u, *io.glass_frame.data(), d);
+    else
+      return integrate_as_published<N>(u, *io.glass_frame.data(), d);
+  }
+};
+#endif

@@ -6,9 +6,11 @@
 #define RAINREF_KERNELS "drops/kernels.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
+#include "pass/records-inl.h"
 
 RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
+#include "drops/drop-inl.h"
 #include "drops/integrate.pass.h"
 #include "drops/merge.pass.h"
 #undef RAINREF_FN
@@ -22,13 +24,6 @@ HWY_INLINE DropState<Lanes> load_drops(const Slots& s, std::int64_t i) {
   d.mass = Lanes::load(s.mass + i);
   d.life = Lanes::load(s.life + i);
   return d;
-}
-HWY_INLINE void store_motion(const Slots& s, std::int64_t i, const DropState<Lanes>& d, int count) {
-  store(s.u + i, d.u, Rounding::rne, count);
-  store(s.v + i, d.v, Rounding::rne, count);
-  store(s.velocity_u + i, d.velocity_u, Rounding::rne, count);
-  store(s.velocity_v + i, d.velocity_v, Rounding::rne, count);
-  store(s.life + i, d.life, Rounding::rne, count);
 }
 HWY_INLINE int lanes_left(std::int64_t i, std::int64_t end) { return static_cast<int>(std::min<std::int64_t>(Lanes::size(), end - i)); }
 
@@ -46,31 +41,21 @@ HWY_INLINE std::int64_t whole_sum(Lanes x, int count) {
   return sum;
 }
 
-std::int64_t IntegrateAsPublished(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin,
-                                  std::int64_t end) {
-  const Lanes zero(0.0f);
-  std::int64_t ended = 0;
-  for (std::int64_t i = begin; i < end; i += Lanes::size()) {
-    const int count = lanes_left(i, end);
-    const DropState<Lanes> before = load_drops(s, i), after = integrate_as_published(uniforms, glass, before);
-    store_motion(s, i, after, count);
-    ended += whole_sum(select((before.life > zero) & (after.life <= zero), Lanes(1.0f), zero), count);
-  }
-  return ended;
-}
-
-MassBalance IntegrateCorrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& s, std::int64_t begin,
-                               std::int64_t end) {
+MassBalance IntegrateRange(const IntegrateUniforms& uniforms, bool corrected, const pass::HostIo<IntegratePass>& io, std::int64_t begin,
+                           std::int64_t end) {
   MassBalance balance;
-  for (std::int64_t i = begin; i < end; i += Lanes::size()) {
-    const int count = lanes_left(i, end);
-    const DropState<Lanes> before = load_drops(s, i);
-    if (!any(before.life > Lanes(0.0f))) continue;
-    const Integrated<Lanes> after = integrate_corrected(uniforms, glass, before);
-    store_motion(s, i, after.drop, count);
-    store(s.mass + i, after.drop.mass, Rounding::rne, count);
-    balance.evaporated += whole_sum(after.evaporated, count);
-    balance.removed += whole_sum(after.removed, count);
+  const std::vector<float*>& columns = io.drops.columns;
+  if (corrected) {
+    change_records<IntegratePass, IntegratePassText, true>(
+        uniforms, io, columns, begin, end, [&](std::int64_t, int count, const DropState<Lanes>&, const Integrated<Lanes>& after) HWY_ATTR {
+          balance.evaporated += whole_sum(after.evaporated, count);
+          balance.removed += whole_sum(after.removed, count);
+        });
+  } else {
+    change_records<IntegratePass, IntegratePassText, false>(
+        uniforms, io, columns, begin, end,
+        [&](std::int64_t, int count, const DropState<Lanes>& before, const DropState<Lanes>& after)
+            HWY_ATTR { balance.removed += whole_sum(select(before.lives() & !after.lives(), Lanes(1.0f), Lanes(0.0f)), count); });
   }
   return balance;
 }
@@ -155,20 +140,15 @@ RAINREF_TARGET_END(drops)
 #if RAINREF_ONCE
 namespace rainref::drops {
 
-RAINREF_EXPORT(IntegrateAsPublished);
-RAINREF_EXPORT(IntegrateCorrected);
+RAINREF_EXPORT(IntegrateRange);
 RAINREF_EXPORT(Measure);
 RAINREF_EXPORT(FindLarger);
 RAINREF_EXPORT(Trails);
 RAINREF_EXPORT(DryRow);
 
-std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots,
-                                          std::int64_t begin, std::int64_t end) {
-  return RAINREF_DISPATCH(IntegrateAsPublished)(uniforms, glass, slots, begin, end);
-}
-MassBalance integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
-                                      std::int64_t end) {
-  return RAINREF_DISPATCH(IntegrateCorrected)(uniforms, glass, slots, begin, end);
+MassBalance integrate_range(const IntegrateUniforms& uniforms, bool corrected, const pass::HostIo<IntegratePass>& io, std::int64_t begin,
+                            std::int64_t end) {
+  return RAINREF_DISPATCH(IntegrateRange)(uniforms, corrected, io, begin, end);
 }
 void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,
                    float* radius) {

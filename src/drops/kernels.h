@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drops/drops.h"
+#include "drops/integrate.pass.h"
 #include "drops/merge_grid.h"
 #include "drops/records.h"
 #include "drops/uniforms.h"
@@ -23,11 +24,9 @@ struct Slots {
         life(d.life().data()) {}
 };
 
-/// Returns how many lives ended.
-std::int64_t integrate_range_as_published(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots,
-                                          std::int64_t begin, std::int64_t end);
-MassBalance integrate_range_corrected(const IntegrateUniforms& uniforms, const GlassFrame& glass, const Slots& slots, std::int64_t begin,
-                                      std::int64_t end);
+/// as-published the balance counts the lives that ended, as removed.
+MassBalance integrate_range(const IntegrateUniforms& uniforms, bool corrected, const pass::HostIo<IntegratePass>& io, std::int64_t begin,
+                            std::int64_t end);
 
 /// Plane coordinates and base radius [m] of slots, free ones too, into arrays with room for a whole vector beyond `end`.
 void measure_range(const MergeUniforms& uniforms, const Slots& slots, std::int64_t begin, std::int64_t end, float* x, float* y,

@@ -1,10 +1,65 @@
-// Pass merge, corrected: which drops touch, what two of them become, and what a sliding drop leaves behind.
-// Needs integrate.pass.h.
+// Pass merge, corrected: which drops touch, what two of them become, and what a sliding drop leaves behind. Needs integrate.pass.h.
+//
+// What becomes of a drop hangs on those that it touches, and of a texel of the film on those that slide over it: who they are is
+// found by other means (merge.cpp; evaluations_merge.cpp for the judge), so the arithmetic here is that of a pair, a drop and a texel.
+#ifndef RAINREF_FN
+#ifndef RAINREF_DROPS_MERGE_PASS_H_
+#define RAINREF_DROPS_MERGE_PASS_H_
+#include <fmt/format.h>
+
+#include "drops/records.h"
+#include "drops/uniforms.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::drops {
+
+struct MergePass {
+  static constexpr pass::About about{"merge",    "Drops that touch become one; sliding drops leave trails on the film.",
+                                     {},         {1, capture::Judge::keyed},
+                                     {"length"}, "ordered_scatter"};
+  using Uniforms = MergeUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "MergeUniforms",
+        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "As in IntegrateUniforms."),
+         member<&U::radius>("radius", "m", scene::share, "Base radius over mass^(1/3)."),
+         member<&U::trail>("trail", "1/m^2", {0, 1e12}, "Mass units left over base radius and way."),
+         member<&U::dt>("dt", "s", {0, 1}, "The step."), member<&U::film>("film", "texel", {1, 65536}, "Columns and rows of the film."),
+         member<&U::drying>("drying", "1", {0, most_mass}, "Mass units that each texel of the film loses in this step.")});
+  }
+  template <class Inputs>
+  static std::string fault(const Inputs& m) {
+    const MergeUniforms& u = m.uniforms;
+    if (u.film[0] != m.width || u.film[1] != m.height || !(u.frame[0] > 0) || !(u.frame[2] > 0))
+      return fmt::format("uniforms film and frame: expected {}x{} and positive scales, found {}x{} and {}, {}", m.width, m.height,
+                         u.film[0], u.film[1], u.frame[0], u.frame[2]);
+    for (const Drop& d : m.captured.drops.records)
+      for (const float x : {d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life})
+        if (!(x - x == 0)) return fmt::format("in.drops: expected finite numbers, found {} (id {})", x, d.id);
+    return "";
+  }
+  template <class B>
+  struct Io {
+    typename B::template Changed<Drop> drops = {pass::In{.name = "drops", .variant = "corrected"}, pass::Out{.name = "drops"}};
+    typename B::template Texels<Format::r32f> film = pass::In{.name = "film", .variant = "corrected"};
+    typename B::template Result<Format::r32f> new_film =
+        pass::Out{.name = "film",
+                  .sentence = "Water on the glass that is no drop: whole mass units of 2e-11 kg in a texel.",
+                  .range = {0, most_mass}};
+  };
+};
+
+}  // namespace rainref::drops
+#endif
+#else
 
 /// Base radius [m].
 template <class N>
 RAINREF_FN N base_radius(const MergeUniforms& c, N mass) {
-  return N(c.radius) * cube_root_of_mass(mass);
+  return N(c.radius) * cube_root_of_mass(mass, 1.0f);
 }
 /// Plane coordinates [m] of a drop.
 template <class N>
@@ -71,3 +126,4 @@ RAINREF_FN Trail<N> trail(const MergeUniforms& c, const DropState<N>& d) {
   out.mass_units = whole_trail(d.mass, floor(out.mass_units));
   return out;
 }
+#endif

@@ -22,12 +22,9 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& uniforms, std::span<const Cou
 MassBalance spawn(DropArrays& drops, const SpawnUniforms& uniforms, std::span<const CountThreshold> thresholds,
                   std::span<const SpawnMass> masses, bool corrected);
 
-/// integrate, as-published: live drops only. The MassBalance counts the drops whose life ends, as removed.
-MassBalance integrate_as_published(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
-                                   const GlassFrame& glass);
-/// integrate, corrected.
-MassBalance integrate_corrected(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms,
-                                const GlassFrame& glass);
+/// integrate: live drops only. as-published the MassBalance counts the drops whose life ends, as removed.
+MassBalance integrate(const parallel::Executor& executor, DropArrays& drops, const IntegrateUniforms& uniforms, const GlassFrame& glass,
+                      bool corrected);
 
 /// merge, corrected: drops that touch become one, the film (r32f, whole mass units in a texel) dries, and sliding drops leave
 /// trails on it. Keeps its working memory between calls.

@@ -3,6 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
+
+namespace rainref::scene {
+struct UniformBlock;
+}
+namespace rainref::capture {
+struct FieldRange;
+}
 
 namespace rainref::drops {
 
@@ -14,6 +22,10 @@ struct Drop {
   float life;         ///< what remains [s]
   std::uint32_t id;   ///< its own for ever, ascending in the order of birth
   float padding0;
+
+  static scene::UniformBlock layout();
+  /// What the floats ordinarily are: how wide a bound of them may be and still say something.
+  static const std::vector<capture::FieldRange>& ranges(bool corrected);
 };
 /// The mass unit: water [kg].
 constexpr double mass_unit = 2e-11;
@@ -38,6 +50,9 @@ struct GlassFrame {
   float padding0;
   float spin[4];      ///< corrected: specific force per glass coordinate, rows u and v [1/s^2]
   float coriolis[4];  ///< corrected: specific force per velocity, rows u and v [1/s]
+
+  static scene::UniformBlock layout();
+  static const std::vector<capture::FieldRange>& ranges(bool corrected);
 };
 
 static_assert(sizeof(Drop) == 32 && sizeof(GlassFrame) == 64);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "drops/passes.h"
+#include "drops/spawn.pass.h"
 #include "rainref/error.h"
 #include "random/counter.h"
 #include "random/poisson.h"
@@ -14,13 +15,14 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   constexpr std::uint32_t most_parts = 1u << 12;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
   constexpr std::int32_t most_without_thresholds = 1 << 26;
-  if (masses.size() != 1024 || c.threshold_count < 0 || static_cast<std::size_t>(c.threshold_count) > thresholds.size() ||
+  if (masses.size() != arrival_classes || c.threshold_count < 0 || static_cast<std::size_t>(c.threshold_count) > thresholds.size() ||
       c.threshold_count > most || c.parts > most_parts || c.first_count < 0 ||
       c.first_count > (c.threshold_count > 0 ? most : most_without_thresholds)) {
-    throw Error(ExitCode::port_files,
-                fmt::format("spawn: expected 1024 masses, at most {} thresholds and at most {} parts, found {} masses, {} thresholds, "
-                            "threshold_count {}, first_count {}, parts {}",
-                            most, most_parts, masses.size(), thresholds.size(), c.threshold_count, c.first_count, c.parts));
+    throw Error(
+        ExitCode::port_files,
+        fmt::format("spawn: expected {} masses, at most {} thresholds and at most {} parts, found {} masses, {} thresholds, "
+                    "threshold_count {}, first_count {}, parts {}",
+                    arrival_classes, most, most_parts, masses.size(), thresholds.size(), c.threshold_count, c.first_count, c.parts));
   }
   const std::uint64_t seed = c.seed[0] | static_cast<std::uint64_t>(c.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(c.threshold_count));

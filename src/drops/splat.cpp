@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "drops/drops.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
@@ -135,32 +134,5 @@ void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half
     for (std::int64_t band = begin; band < end; ++band) splat_band(job, bands, static_cast<int>(band), chunks);
   });
 }
-
-capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from) {
-  using scene::member;
-  const scene::UniformBlock block = scene::uniform_block<SplatUniforms>(
-      "SplatUniforms",
-      {member<&SplatUniforms::size>("size", "texel", {1, 65536}, "Columns and rows of the height texture."),
-       member<&SplatUniforms::radius_scale>("radius_scale", "m", scene::share, "Radius of a drop of mass 1."),
-       member<&SplatUniforms::height_scale>("height_scale", "mm", {0, 1e4}, "Height of a drop of mass 1."),
-       member<&SplatUniforms::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
-       member<&SplatUniforms::smallest_radius>("smallest_radius", "m", {0, 1e5}, "A smaller drop is drawn this wide, and as much lower."),
-       member<&SplatUniforms::kernel>("kernel", "1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
-       member<&SplatUniforms::blend>("blend", "1", {0, 2},
-                                     "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
-       member<&SplatUniforms::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
-       member<&SplatUniforms::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel.")});
-  return {"splat",
-          "The height of the water: every live drop, in slot order; corrected: on the film.",
-          {{published, 1, capture::Judge::envelope, "SplatUniforms"}, {correct, 1, capture::Judge::envelope, "SplatUniforms"}},
-          {{"drops", drops_from[0], false, published},
-           {"drops", drops_from[1], false, correct},
-           capture::per_texel({"film", film_from, false, correct})},
-          {"height"},
-          {block},
-          "ordered_scatter"};
-}
-
-std::vector<capture::BufferInfo> splat_buffers() { return {{"height", "r16f", "Height of the water over the glass.", "mm", {0, 8}}}; }
 
 }  // namespace rainref::drops

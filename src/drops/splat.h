@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "capture/pass_info.h"
 #include "drops/records.h"
 #include "drops/splat_kernels.h"
 #include "rainref/executor.h"
@@ -56,10 +55,5 @@ struct SplatScratch {
 /// accumulation.
 void splat(const parallel::Executor& executor, SplatUniforms uniforms, bool half_accumulation, Rounding rounding,
            std::span<const Drop> drops, const Image* film, Image& height, SplatScratch& scratch);
-
-/// The pass, and the buffer that it writes; the film is the drops' own. `drops_from` and `film_from` are passes; drops_from of as-published
-/// first.
-capture::PassInfo splat_info(const std::array<std::string, 2>& drops_from, const std::string& film_from);
-std::vector<capture::BufferInfo> splat_buffers();
 
 }  // namespace rainref::drops

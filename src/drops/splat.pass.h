@@ -3,7 +3,66 @@
 //   height = film + drops in slot order,    a drop gives h kernel(q),    q = |distance in the plane of the glass| / R
 //
 // R and h grow as the cube root of the mass. as-published measures each axis by its own length, so frame[1] is 0 there;
-// corrected measures in the plane, where a drop is round on sheared glass too.
+// corrected measures in the plane, where a drop is round on sheared glass too. Needs drop-inl.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_DROPS_SPLAT_PASS_H_
+#define RAINREF_DROPS_SPLAT_PASS_H_
+#include <vector>
+
+#include "drops/drops.h"
+#include "drops/records.h"
+#include "drops/splat_uniforms.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::drops {
+
+/// Its lanes are written by hand, drop by drop: see splat_kernels.cpp.
+struct SplatPass {
+  static constexpr pass::About about{
+      "splat", "The height of the water: every live drop, in slot order; corrected: on the film.", {1}, {1}, {}, "ordered_scatter"};
+  using Uniforms = SplatUniforms;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "SplatUniforms",
+        {member<&U::size>("size", "texel", {1, 65536}, "Columns and rows of the height texture."),
+         member<&U::radius_scale>("radius_scale", "m", scene::share, "Radius of a drop of mass 1."),
+         member<&U::height_scale>("height_scale", "mm", {0, 1e4}, "Height of a drop of mass 1."),
+         member<&U::frame>("frame", "m/texel", {-1e4, 1e4}, "Plane coordinates of a step: x of a column, x and y of a row."),
+         member<&U::smallest_radius>("smallest_radius", "m", {0, 1e5}, "A smaller drop is drawn this wide, and as much lower."),
+         member<&U::kernel>("kernel", "1", {0, 4}, "0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc."),
+         member<&U::blend>("blend", "1", {0, 2}, "0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does."),
+         member<&U::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
+         member<&U::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel.")});
+  }
+  /// Whether a drop may add something to a texel. Others surely add nothing: this one ends a texel and a fiftieth of its radius further out
+  /// than the text says.
+  static bool reaches(const SplatUniforms& u, const Drop& d, int x, int y) {
+    if (!(d.life > 0 && d.mass > 0)) return false;
+    const double column = x + 0.5 - static_cast<double>(d.position[0]) * u.size[0],
+                 row = y + 0.5 - static_cast<double>(d.position[1]) * u.size[1];
+    const double plane_x = u.frame[0] * column + u.frame[1] * row, plane_y = u.frame[2] * row;
+    const auto magnitude = [](double z) { return z < 0 ? -z : z; };
+    const double texel = magnitude(u.frame[0]) + magnitude(u.frame[1]) + magnitude(u.frame[2]);
+    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - texel) / 1.02;  // of the radius
+    const double scale = u.radius_scale;
+    return needed < u.smallest_radius || needed * needed * needed < scale * scale * scale * d.mass;
+  }
+  static bool rounds_inside(const SplatUniforms& u) { return static_cast<SplatBlend>(u.blend) == SplatBlend::add_in_half; }
+  template <class B>
+  struct Io {
+    typename B::template Records<Drop> drops = pass::In{.name = "drops", .count = "drop_count"};
+    typename B::template Texels<Format::r32f, 1> film = pass::In{.name = "film", .from = "merge", .variant = "corrected"};
+    typename B::template Result<Format::r16f> height =
+        pass::Out{.name = "height", .sentence = "Height of the water over the glass.", .unit = "mm", .range = {0, 8}};
+  };
+};
+
+}  // namespace rainref::drops
+#endif
+#else
 
 /// A drop as it is drawn: centre [texel], radius [m], height [mm], 0 for a dead one.
 template <class N>
@@ -21,7 +80,7 @@ RAINREF_FN Stamp<N> splat_stamp(const SplatUniforms& u, N position_u, N position
   Stamp<N> s;
   s.x = position_u * N(u.size[0]);
   s.y = position_v * N(u.size[1]);
-  const N root = pow(max(mass, N(0.0f)), N(1.0f / 3.0f)), own = N(u.radius_scale) * root;
+  const N root = cube_root_of_mass(mass, 0.0f), own = N(u.radius_scale) * root;
   s.radius = max(own, N(u.smallest_radius));
   s.inverse_radius_sq = N(1.0f) / square(s.radius);
   // A drop drawn wider than it is keeps its volume.
@@ -86,3 +145,22 @@ template <class N>
 RAINREF_FN N film_height(const SplatUniforms& u, const float* below, const float* here, const float* above, int x) {
   return N(u.film_scale) * film_tent(film_row<N>(below, x), film_row<N>(here, x), film_row<N>(above, x));
 }
+
+struct SplatPassText {
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const SplatUniforms& uniforms, const Io& io, int x, int y) {
+    std::vector<Stamp<N> > near;
+    SplatUniforms u = uniforms;
+    for (const Drop& d : io.drops.records.first(static_cast<std::size_t>(uniforms.drop_count)))
+      if (SplatPass::reaches(uniforms, d, x, y))
+        near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life)));
+    u.drop_count = static_cast<std::int32_t>(near.size());
+    const bool rounds_each = SplatPass::rounds_inside(u);
+    const N drops = splat_drops<N>(u, near.data(), x, y, [&](N sum) { return rounds_each ? half_of(sum, io.height.rounding) : sum; });
+    if constexpr (corrected)
+      io.height(film_height<N>(u, io.film.row[0], io.film.row[1], io.film.row[2], x) + drops);
+    else
+      io.height(drops);
+  }
+};
+#endif

@@ -1,6 +1,8 @@
 // Shells of splat; compiled once for each SIMD target.
 #include "drops/splat_kernels.h"
 
+#include "drops/splat.pass.h"
+
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
@@ -13,6 +15,7 @@
 RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "drops/drop-inl.h"
 #include "drops/splat.pass.h"
 #undef RAINREF_FN
 

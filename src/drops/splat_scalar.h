@@ -1,16 +1,11 @@
-// The scalar evaluations of splat: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of this
-// room do not pull them into the lanes.
+// The text of splat with every number but lanes.
 #pragma once
 
-#include "drops/records.h"
-#include "drops/splat_uniforms.h"
-#include "math/perturbed.h"
-#include "math/enclosure.h"
-#include "math/scalar.h"
-#include "math/rearranged.h"
+#include "drops/drop_scalar.h"
+#include "drops/half_sum.h"
+#include "drops/splat.pass.h"
 
 namespace rainref::drops::scalar {
-using namespace rainref::scalar;
 
 /// The quotient grows with x, and the two x in it are one.
 inline enclosed::Enclosure over_larger(enclosed::Enclosure x, float least) {

@@ -1,11 +1,12 @@
 #include "drops/wet_glass.h"
 
-#include "capture/pass_clock.h"
+#include "drops/integrate.pass.h"
+#include "drops/merge.pass.h"
+#include "drops/spawn.pass.h"
+#include "drops/splat.pass.h"
+#include "pass/run.h"
 
 namespace rainref::drops {
-
-using capture::records;
-using capture::Stopwatch;
 
 WetGlass::WetGlass(const Settings& settings, const PlaneFrame& frame, double area, double steps_per_second, int columns, int rows,
                    const parallel::Executor& executor)
@@ -21,7 +22,7 @@ WetGlass::WetGlass(const Settings& settings, const PlaneFrame& frame, double are
 
 RecordView WetGlass::list() {
   drops.gather(listed_, executor_);
-  return records(listed_);
+  return capture::records(listed_);
 }
 
 std::int64_t WetGlass::residual() const {
@@ -29,59 +30,58 @@ std::int64_t WetGlass::residual() const {
          (settings_.corrected ? film_water(film) + drops.water() : drops.live());
 }
 
+template <class P>
+void WetGlass::run(const pass::Moment& now, const typename P::Uniforms& uniforms, pass::HostIo<P> io,
+                   const std::function<MassBalance()>& body) {
+  io.drops.list = [this] { return list(); };
+  pass::Run<P> run(uniforms, settings_.corrected, now.rounding, io);
+  run.start(now);
+  run.tile([&] { mass_balance += body(); });
+  run.finish(now);
+}
+
 void WetGlass::spawn(const pass::Moment& now, const Exposure& exposure, std::int64_t n) {
   const SpawnPlan& plan = arrivals_.plan(exposure, n, steps_per_second_, drops.next_id(), drops.free_slots());
-  if (now.recorder) {
-    const PassInput before{"drops", list_for(now, "spawn")}, thresholds{"count_thresholds", records(plan.thresholds)},
-        masses{"spawn_masses", records(plan.masses)};
-    if (settings_.corrected) {
-      now.before("spawn", plan.uniforms, std::array{before, thresholds, masses});
-    } else {
-      now.before("spawn", plan.uniforms, std::array{before, masses});
-    }
-  }
-  const Stopwatch clock;
-  mass_balance += drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected);
-  const double seconds = clock.seconds();
-  if (now.recorder) now.after("spawn", std::array{PassOutput{"drops", list_for(now, "spawn")}}, seconds);
+  pass::HostIo<SpawnPass> io;
+  if (settings_.corrected) io.count_thresholds = plan.thresholds;
+  io.spawn_masses = plan.masses;
+  run<SpawnPass>(now, plan.uniforms, std::move(io),
+                 [&] { return drops::spawn(drops, plan.uniforms, plan.thresholds, plan.masses, settings_.corrected); });
 }
 
 void WetGlass::integrate(const pass::Moment& now, const GlassFrame& glass) {
   const IntegrateUniforms uniforms = integrate_uniforms(settings_, frame_, 1 / steps_per_second_);
-  if (now.recorder)
-    now.before("integrate", uniforms,
-               std::array{PassInput{"drops", list_for(now, "integrate")}, PassInput{"glass_frame", RecordView{&glass, 1, sizeof glass}}});
-  const Stopwatch clock;
-  mass_balance += settings_.corrected ? integrate_corrected(executor_, drops, uniforms, glass)
-                                      : integrate_as_published(executor_, drops, uniforms, glass);
-  const double seconds = clock.seconds();
-  if (now.recorder) now.after("integrate", std::array{PassOutput{"drops", list_for(now, "integrate")}}, seconds);
+  pass::HostIo<IntegratePass> io;
+  io.glass_frame = std::span(&glass, 1);
+  run<IntegratePass>(now, uniforms, std::move(io),
+                     [&] { return drops::integrate(executor_, drops, uniforms, glass, settings_.corrected); });
 }
 
 void WetGlass::merge(const pass::Moment& now, std::int64_t n) {
   const double texel_area = area_ / (static_cast<double>(film.width()) * film.height());
   const std::int64_t drying = film_loss(settings_, texel_area, n, steps_per_second_);
   const MergeUniforms uniforms = merge_uniforms(settings_, frame_, 1 / steps_per_second_, film.width(), film.height(), drying);
-  if (now.recorder) now.before("merge", uniforms, std::array{PassInput{"drops", list_for(now, "merge")}, PassInput{"film", film}});
-  const Stopwatch clock;
-  mass_balance += merger_.run(executor_, drops, uniforms, film);
-  const double seconds = clock.seconds();
-  if (now.recorder) now.after("merge", std::array{PassOutput{"drops", list_for(now, "merge")}, PassOutput{"film", film}}, seconds);
+  pass::HostIo<MergePass> io;
+  io.film = film;
+  io.new_film = film;
+  run<MergePass>(now, uniforms, std::move(io), [&] { return merger_.run(executor_, drops, uniforms, film); });
 }
 
 void WetGlass::splat(const pass::Moment& now, const SplatSettings& splat, Image& height) {
-  const PassInput drawn{"drops", list()};
+  list();
   SplatUniforms uniforms = splat_uniforms(splat);
   uniforms.drop_count = static_cast<std::int32_t>(listed_.size());
-  if (settings_.corrected) {
-    now.before("splat", uniforms, std::array{drawn, PassInput{"film", film}});
-  } else {
-    now.before("splat", uniforms, std::array{drawn});
-  }
-  const Stopwatch clock;
-  drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, settings_.corrected ? &film : nullptr,
-               height, scratch_);
-  now.after("splat", std::array{PassOutput{"height", height}}, clock.seconds());
+  pass::HostIo<SplatPass> io;
+  io.drops = listed_;
+  if (settings_.corrected) io.film = film;
+  io.height = height;
+  pass::Run<SplatPass> run(uniforms, settings_.corrected, splat.keys.rounding, io);
+  run.start(now);
+  run.tile([&] {
+    drops::splat(executor_, uniforms, splat.keys.half_accumulation, splat.keys.rounding, listed_, settings_.corrected ? &film : nullptr,
+                 height, scratch_);
+  });
+  run.finish(now);
 }
 
 }  // namespace rainref::drops

@@ -4,13 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "drops/host.h"
 #include "drops/passes.h"
 #include "drops/splat.h"
+#include "pass/definition.h"
 #include "pass/moment.h"
 #include "rainref/recorder.h"
 
@@ -32,10 +33,6 @@ class WetGlass {
 
   /// The live drops as records, in slot order; valid until the next call or pass.
   RecordView list();
-  /// The same for the recorder of a pass; none where it does not read them.
-  RecordView list_for(const pass::Moment& now, std::string_view pass) {
-    return now.is_read(pass) ? list() : RecordView{nullptr, 0, sizeof(Drop)};
-  }
   /// Mass units (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
   std::int64_t residual() const;
 
@@ -44,6 +41,9 @@ class WetGlass {
   MassBalance mass_balance;  ///< since the start
 
  private:
+  template <class P>
+  void run(const pass::Moment& now, const typename P::Uniforms& uniforms, pass::HostIo<P> io, const std::function<MassBalance()>& body);
+
   Settings settings_;
   PlaneFrame frame_;
   double area_, steps_per_second_;

@@ -2,10 +2,14 @@
 //
 //   outside every namespace        what the pass is: a struct with `about`, `Uniforms`, uniforms() and Io<B>;
 //                                                                with fault(bound): why a case whose buffers fit does not, or "";
+//                                                                with rounds_inside(uniforms): whether it rounds on its way as it
+//                                                                stores what it gives;
 //                                                                with near(list, corrected, columns, tile): the records of a list
 //                                                                that may count in a tile, where leaving out the others changes no bit
-//   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y);
-//                                                                with views(io), which is asked once a row: run(u, io, views, x, y)
+//   inside the namespace of a number (RAINREF_FN defined)        its arithmetic: a struct with run<N, corrected>(u, io, x, y) of a texel;
+//                                                                with views(io), which is asked once a row: run(u, io, views, x, y);
+//                                                                with State<N>, a record of numbers, run_record<N, corrected>(u, io,
+//                                                                record) of a record, or (u, io) where there is none before
 //
 // Io<B> names each buffer once. The binding B says what a buffer is: its declaration (Declared), the host's images (Host), the
 // arrays of a captured case (model.h), or a cursor over rows of lanes or of another number (cursor-inl.h). Everything here is
@@ -14,6 +18,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -39,6 +44,7 @@ struct About {
   std::string_view name, sentence;
   VariantOf as_published, corrected;
   std::array<std::string_view, 4> order_free_sums{};  ///< sums whose terms a port may add in any order
+  std::string_view independence = "gather";           ///< as capture::PassInfo
 };
 /// Whether a variant has a buffer that is of this one alone, or of both ("").
 constexpr bool is_of(std::string_view variant, bool corrected) { return variant.empty() || (variant == "corrected") == corrected; }
@@ -52,6 +58,7 @@ struct In {
   bool optional = false;          ///< the host may leave it out
   bool same_size = false;         ///< as the pass's outputs, though it is looked up by coordinates
   std::string_view count = "";    ///< of records: the uniform that says how many of them count
+  std::size_t records = 0;        ///< of records: exactly so many; 0: any number
   Filter filter = Filter::none, mip_filter = Filter::none;
 };
 /// A buffer that a pass writes. Without a sentence it is one that another pass declares, and this one writes anew.
@@ -160,6 +167,12 @@ struct Declared {
   struct List : Written {
     using Written::Written;
   };
+  /// A list that the pass takes and gives anew; what stays of a record keeps its id.
+  template <class Record>
+  struct Changed : In, Written {
+    constexpr Changed(In in, Out both) : In(in), Written(both) {}
+    constexpr Changed(In in, Out as_published, Out corrected) : In(in), Written(as_published, corrected) {}
+  };
 };
 
 template <class P>
@@ -257,13 +270,27 @@ struct Host {
     constexpr Result(Out, Out corrected) : is(corrected) {}
     void operator=(Image& i) { image = &i; }
   };
-  /// Of a pass whose records are not computed one by one from a definition. Read when the run is finished.
+  /// Records as they are when it is asked for them, and what lanes take of them.
+  struct Listed {
+    std::function<RecordView()> list{};
+    std::vector<float*> columns{};  ///< of each float of a record, in its order and without padding: where that of record 0 lies
+  };
+  /// Asked for when the run is finished.
   template <class Record>
-  struct List {
+  struct List : Listed {
     Out is;
-    const std::vector<Record>* list = nullptr;
-    constexpr List(Out both) : is(both) {}
-    void operator=(const std::vector<Record>& all) { list = &all; }
+    List(Out both) : is(both) {}
+    void operator=(const std::vector<Record>& all) {
+      list = [&all] { return RecordView{all.data(), all.size(), sizeof(Record)}; };
+    }
+  };
+  /// Asked for before the run and after it, where a recorder reads it.
+  template <class Record>
+  struct Changed : Listed {
+    static constexpr std::size_t record_bytes = sizeof(Record);
+    In is;
+    Changed(In in, Out) : is(in) {}
+    Changed(In in, Out, Out) : is(in) {}
   };
 };
 template <class P>

@@ -10,7 +10,10 @@
 
 namespace rainref::pass {
 
-std::string count_fault(const scene::UniformBlock& block, std::span<const std::byte> uniforms, const In& list, std::size_t records) {
+std::string records_fault(const scene::UniformBlock& block, std::span<const std::byte> uniforms, const In& list, std::size_t records) {
+  if (list.records != 0 && records != list.records)
+    return fmt::format("in.{}: expected {} record{}, found {}", list.name, list.records, list.records == 1 ? "" : "s", records);
+  if (list.count.empty()) return "";
   const auto member =
       std::find_if(block.members.begin(), block.members.end(), [&](const scene::Member& m) { return m.name == list.count; });
   if (member == block.members.end()) throw Error(ExitCode::internal, fmt::format("{} has no uniform {}", block.name, list.count));

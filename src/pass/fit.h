@@ -10,7 +10,7 @@
 
 namespace rainref::pass {
 
-/// Why the uniform that counts the records of a list cannot, or "": "uniform tap_count: expected 0 to 4, the records of in.taps, found 5".
-std::string count_fault(const scene::UniformBlock& block, std::span<const std::byte> uniforms, const In& list, std::size_t records);
+/// Why a list is not as declared, or "": "uniform tap_count: expected 0 to 4, the records of in.taps, found 5".
+std::string records_fault(const scene::UniformBlock& block, std::span<const std::byte> uniforms, const In& list, std::size_t records);
 
 }  // namespace rainref::pass

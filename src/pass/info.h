@@ -13,7 +13,8 @@ namespace rainref::pass {
 
 template <class P>
 capture::PassInfo info_of() {
-  capture::PassInfo all{std::string(P::about.name), std::string(P::about.sentence), {}, {}, {}, {P::uniforms()}, "gather", {}};
+  capture::PassInfo all{
+      std::string(P::about.name), std::string(P::about.sentence), {}, {}, {}, {P::uniforms()}, std::string(P::about.independence), {}};
   const auto add = [&](const char* name, const VariantOf& variant) {
     if (variant.revision != 0) all.variants.push_back({name, variant.revision, variant.judge, all.uniforms.front().name});
   };
@@ -22,11 +23,9 @@ capture::PassInfo info_of() {
   const typename P::template Io<Declared> io;
   each<P>(io, [&](const auto& m) {
     constexpr bool is_per_texel = requires { m.reach; };
-    if constexpr (requires { m.outs; }) {
-      all.writes.emplace_back(m.outs[0].name);
-    } else {
+    if constexpr (requires { m.outs; }) all.writes.emplace_back(m.outs[0].name);
+    if constexpr (requires { m.from; })
       all.reads.push_back({std::string(m.name), std::string(m.from), m.previous, std::string(m.variant), m.same_size || is_per_texel});
-    }
   });
   for (const std::string_view sum : P::about.order_free_sums)
     if (!sum.empty()) all.order_free_sums.emplace_back(sum);
@@ -58,6 +57,22 @@ capture::PassInfo info_of() {
   unite(all.writes, other.writes);
   unite(all.order_free_sums, other.order_free_sums);
   return all;
+}
+
+/// A pass that several effects run, in the one where these passes write what it reads.
+inline void set_source(capture::PassInfo& pass, const std::string& buffer, const std::string& from) {
+  for (capture::ReadInfo& r : pass.reads)
+    if (r.buffer == buffer) r.from = from;
+}
+/// The same where the variants have other ones.
+inline void set_sources(capture::PassInfo& pass, const std::string& buffer, const std::string& as_published, const std::string& corrected) {
+  const auto at = std::find_if(pass.reads.begin(), pass.reads.end(), [&](const capture::ReadInfo& r) { return r.buffer == buffer; });
+  at->variant = "as-published";
+  at->from = as_published;
+  capture::ReadInfo other = *at;
+  other.variant = "corrected";
+  other.from = corrected;
+  pass.reads.insert(at + 1, other);
 }
 
 /// The buffers that a pass writes.

@@ -1,4 +1,4 @@
-// A pass bound to a captured case from its definition: what the judge evaluates.
+// A pass bound to a captured case from its definition: what the judge evaluates. Lists record by record: record_model.h.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "capture/pass_model.h"
 #include "pass/fit.h"
 #include "pass/number_cursors.h"
+#include "pass/stored_record.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
 #include "scene/uniform_block.h"
@@ -96,38 +97,60 @@ struct Captured {
    private:
     static constexpr int block = 8;  // texels a side
   };
+  template <class Record>
+  struct List {
+    Out is;
+    List(Out both) : is(both) {}
+  };
+  template <class Record>
+  struct Changed {
+    In is;
+    Out out;
+    std::vector<Record> records;
+    Changed(In in, Out both) : is(in), out(both) {}
+    Changed(In in, Out as_published, Out) : is(in), out(as_published) {}
+    void read(const capture::CaseInput& input) { records = capture::records_of<Record>(input); }
+  };
   template <Format... f>
   struct Result {
     static constexpr std::array formats{f...};
     Out is;
     int channels = info(formats.front()).channels;
+    Rounding rounding = Rounding::rne;  ///< of the store
     bool is_given = true;
     Result(Out both) : is(both) {}
     Result(Out as_published, Out) : is(as_published) {}
   };
 };
 
+/// The first of its outputs that is an image; null: all are lists.
+const capture::Array* first_image(const capture::PassCase& c);
 /// Throws Error(port_files) unless the image has the channels of one of these formats, codes where it is loaded texel by texel as codes,
 /// and where it must the size of the outputs.
 void require_image(const capture::PassCase& c, const capture::CaseInput& image, std::span<const Format> formats, bool is_loaded,
                    bool has_size);
 
-/// Text: the arithmetic of P in the namespace that holds every number but lanes.
-template <class P, class Text>
-struct Bound {
+/// What a case holds, by the names of the definition. width and height: of the images that the pass gives.
+template <class P>
+struct Inputs {
   int width, height, values = 0;
   typename P::Uniforms uniforms;
   bool corrected;
   typename P::template Io<Captured> captured;
+};
 
+/// Text: the arithmetic of P in the namespace that holds every number but lanes.
+template <class P, class Text>
+struct Bound : Inputs<P> {
   /// f(io) with the cursors of an invocation, which give to out.
   template <class N, class F>
-  void with_cursors(int x, int y, N* out, const F& f) const {
+  auto with_cursors(int x, int y, N* out, const F& f) const {
     typename P::template Io<NumberCursors<N>> io;
-    each<P>(captured, io, [&](const auto& from, auto& to) {
+    each<P>(this->captured, io, [&](const auto& from, auto& to) {
       if constexpr (requires { to.out; }) {
         to.out = out;
         to.channels = from.channels;
+        to.rounding = from.rounding;
         if (from.is_given) out += from.channels;
       } else if constexpr (requires { to.texture; }) {
         to.texture = &from.texture;
@@ -136,42 +159,55 @@ struct Bound {
       } else if constexpr (requires { to.planes; }) {
         to.planes = &from.planes;
         to.y = y;
-      } else {
+      } else if constexpr (requires { to.x; }) {
         to.x = x;
         if (from.width == 0) return;  // not of this variant
         for (int k = 0; k < to.rows; ++k) to.row[k] = from.at(0, y + k - to.reach);
       }
     });
-    f(io);
+    return f(io);
   }
   template <class N>
   void operator()(int x, int y, N* out) const {
     with_cursors(x, y, out, [&](const auto& io) {
       const auto run = [&](auto is_corrected) {
         if constexpr (requires { Text::views(io); })
-          Text::template run<N, is_corrected()>(uniforms, io, Text::views(io), x, y);
+          Text::template run<N, is_corrected()>(this->uniforms, io, Text::views(io), x, y);
         else
-          Text::template run<N, is_corrected()>(uniforms, io, x, y);
+          Text::template run<N, is_corrected()>(this->uniforms, io, x, y);
       };
       if constexpr (P::about.corrected.revision != 0)
-        if (corrected) return run(std::true_type());
+        if (this->corrected) return run(std::true_type());
       if constexpr (P::about.as_published.revision != 0) run(std::false_type());
     });
   }
+  /// What the text gives of a record; of the only one, where it takes none.
+  template <class N, bool is_corrected, class Record>
+  auto record(const Record& from) const {
+    return with_cursors(0, 0, static_cast<N*>(nullptr), [&](const auto& io) {
+      return Text::template run_record<N, is_corrected>(this->uniforms, io, loaded<typename Text::template State<N>>(from));
+    });
+  }
+  template <class N, bool is_corrected>
+  auto record() const {
+    return with_cursors(0, 0, static_cast<N*>(nullptr),
+                        [&](const auto& io) { return Text::template run_record<N, is_corrected>(this->uniforms, io); });
+  }
 };
 /// Throws Error(port_files) where the case lacks an input of its variant, or has one of another shape.
-template <class P, class Text>
-Bound<P, Text> bound(const capture::PassCase& c) {
-  Bound<P, Text> m{
-      c.outputs.front().array.width, c.outputs.front().array.height, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
+template <class P>
+Inputs<P> inputs_of(const capture::PassCase& c) {
+  const capture::Array* given = first_image(c);
+  Inputs<P> m{given ? given->width : 0, given ? given->height : 0, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
   const scene::UniformBlock block = P::uniforms();
   each<P>(m.captured, [&](auto& member) {
     if constexpr (requires { member.is.from; }) {
       if (!is_of(member.is.variant, c.corrected()) || (member.is.optional && !c.input(member.is.name))) return;
       if constexpr (requires { member.records; }) {
         member.read(capture::record_input(c, member.is.name));
-        if (member.is.count.empty()) return;
-        const std::string fault = count_fault(block, c.uniforms, member.is, member.records.size());
+        std::string fault = records_fault(block, c.uniforms, member.is, member.records.size());
+        if constexpr (requires { member.out; })
+          if (fault.empty()) fault = ids_fault(member.is.name, member.records);
         if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
       } else {
         const capture::CaseInput& image = capture::image_input(c, member.is.name);
@@ -182,10 +218,12 @@ Bound<P, Text> bound(const capture::PassCase& c) {
         }
         member.read(image);
       }
-    } else {
+    } else if constexpr (requires { member.formats; }) {
       member.is_given = is_of(member.is.variant, c.corrected());
-      if (const capture::CaseOutput* given = c.output(member.is.name); given && member.formats.size() > 1)
-        member.channels = info(given->array.format).channels;
+      if (const capture::CaseOutput* output = c.output(member.is.name)) {
+        member.rounding = output->store_rounding;
+        if (member.formats.size() > 1) member.channels = info(output->array.format).channels;
+      }
       if (member.is_given) m.values += member.channels;
     }
   });
@@ -200,8 +238,23 @@ Bound<P, Text> bound(const capture::PassCase& c) {
   return m;
 }
 template <class P, class Text>
+Bound<P, Text> bound(const capture::PassCase& c) {
+  return {inputs_of<P>(c)};
+}
+template <class P, class Text>
+class BoundModel : public capture::ModelOf<Bound<P, Text>> {
+ public:
+  using capture::ModelOf<Bound<P, Text>>::ModelOf;
+  bool rounds_inside() const override {
+    if constexpr (requires { P::rounds_inside(this->pass().uniforms); })
+      return P::rounds_inside(this->pass().uniforms);
+    else
+      return false;
+  }
+};
+template <class P, class Text>
 std::unique_ptr<capture::PassModel> bind(const capture::PassCase& c) {
-  return capture::model_of(bound<P, Text>(c));
+  return std::make_unique<BoundModel<P, Text>>(bound<P, Text>(c));
 }
 
 }  // namespace rainref::pass

@@ -33,10 +33,15 @@ struct NumberCursors {
   using Planes = PlanesPointer;
   template <class Record>
   using Records = RecordPointer<Record>;
+  template <class>
+  using List = NoCursor;
+  template <class>
+  using Changed = NoCursor;
   template <Format...>
   struct Result {
     N* out = nullptr;
     int channels = 0;
+    Rounding rounding = Rounding::rne;  ///< of the store that follows
     Result(Out) {}
     Result(Out, Out) {}
     void operator()(N v) const { out[0] = v; }

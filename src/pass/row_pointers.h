@@ -65,6 +65,12 @@ struct RecordPointer {
   const Record* data() const { return records.data(); }
   int size() const { return static_cast<int>(records.size()); }
 };
+/// Of a list whose records the shell loads and stores.
+struct NoCursor {
+  constexpr NoCursor(Out) {}
+  constexpr NoCursor(In, Out) {}
+  constexpr NoCursor(In, Out, Out) {}
+};
 struct OneFormat {};
 struct AnyFormat {
   Format format = Format::r8;  ///< of the row
@@ -93,7 +99,7 @@ RAINREF_FLAT void begin_row(const HostIo<P>& host, Io& io, int y, Rounding round
       to.stored = &from.view;
     } else if constexpr (requires { to.records; }) {
       to.records = from.records;
-    } else {
+    } else if constexpr (requires { from.image; }) {
       if (from.image) to.begin_row(*from.image, y);
     }
   });

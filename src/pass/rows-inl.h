@@ -27,6 +27,10 @@ struct LaneCursors {
   using Stored = pass::StoredPointer<typename pass::StorageOf<f>::type>;
   template <class Record>
   using Records = pass::RecordPointer<Record>;
+  template <class>
+  using List = pass::NoCursor;
+  template <class>
+  using Changed = pass::NoCursor;
   /// Stores when it is called: to hold the lanes instead would need a constructor of this target.
   template <Format f, Format... others>
   struct Result : pass::ResultPointers<f, others...> {

@@ -44,8 +44,9 @@ class Run {
         if (member.image && member.image->format() != member.format) misfit("has another format");
       } else if constexpr (requires { member.records; }) {
         if (is_needed && !member.is_set) misfit("is missing");
-        if (!member.is_set || member.is.count.empty()) return;
-        const std::string fault = count_fault(P::uniforms(), std::as_bytes(std::span(&uniforms, 1)), member.is, member.records.size());
+        if (!member.is_set) return;
+        static const scene::UniformBlock block = P::uniforms();
+        const std::string fault = records_fault(block, std::as_bytes(std::span(&uniforms, 1)), member.is, member.records.size());
         if (!fault.empty()) misfit("does not fit: " + fault);
       } else if constexpr (requires { member.input; }) {
         if (is_needed && !member.input) misfit("is missing");
@@ -92,7 +93,9 @@ class Run {
     if (!m.recorder) return;
     std::vector<PassInput> inputs;
     each<P>(io_, [&](const auto& member) {
-      if constexpr (requires { member.texture; }) {
+      if constexpr (requires { member.record_bytes; }) {
+        if (member.list) inputs.push_back({member.is.name, records_of(m, member)});
+      } else if constexpr (requires { member.texture; }) {
         const Address address = member.texture ? member.texture->address_u : member.address;
         if (member.recorded)
           inputs.push_back({member.is.name, *member.recorded, member.is.filter, member.is.mip_filter, address});
@@ -119,8 +122,10 @@ class Run {
     if (!m.recorder) return;
     std::vector<PassOutput> outputs;
     each<P>(io_, [&](const auto& member) {
-      if constexpr (requires { member.list; }) {
-        outputs.push_back({member.is.name, capture::records(*member.list)});
+      if constexpr (requires { member.record_bytes; }) {
+        if (member.list) outputs.push_back({member.is.name, records_of(m, member)});
+      } else if constexpr (requires { member.list; }) {
+        outputs.push_back({member.is.name, member.list()});
       } else if constexpr (requires { member.is.sentence; }) {
         if (member.planes || member.image) outputs.push_back({member.is.name, member.planes ? *member.planes : BufferView(*member.image)});
       }
@@ -129,6 +134,11 @@ class Run {
   }
 
  private:
+  /// To list them costs more than some passes take.
+  template <class Changed>
+  static RecordView records_of(const Moment& m, const Changed& member) {
+    return m.is_read(P::about.name) ? member.list() : RecordView{nullptr, 0, member.record_bytes};
+  }
   void compute(const parallel::Tile& t) const {
     if constexpr (requires { &P::near; }) {
       HostIo<P> io = io_;

@@ -91,6 +91,7 @@ struct ShadePass {
 }  // namespace rainref::puddle
 #endif
 #else
+#include "puddle/ground_level-inl.h"
 
 constexpr float water_ior = static_cast<float>(water_refractive_index);
 
@@ -213,8 +214,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const auto emerges = hit & (water < one);
 
   const N distance = length(p - Vec3<N>(u.camera.position));
-  // Texels of the ground to a pixel.
-  const N lod = nearest_octave(N(u.ground_footprint) * distance / max(-view.y, N(0.02f)));
+  const N lod = ground_level(N(u.ground_footprint), distance, -view.y);
   Vec3<N> normal = s.normal;
   if (any(emerges)) {
     const auto tilt = sample_mip<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(relief), p.x * N(u.ground_scale),

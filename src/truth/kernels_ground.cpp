@@ -12,6 +12,7 @@ RAINREF_TARGET_BEGIN(truth)
 #define RAINREF_LAMBDA HWY_ATTR
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
+#include "puddle/ground_level-inl.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
@@ -25,8 +26,7 @@ void FinishGround(const GroundLook& look, const Places& places, const VecArrays*
   // Levels first: they end a long chain of dependent operations, and by themselves several chains run at once.
   for (std::size_t i = 0; i < places.size(); i += n) {
     const N down = N::load(places.direction.component[1] + i);
-    hn::StoreU(nearest_octave(N(u.ground_footprint * look.sample_scale) * N::load(places.distance + i) / max(-down, N(0.02))).v, N::D(),
-               finishes.blur + i);
+    hn::StoreU(ground_level(N(u.ground_footprint * look.sample_scale), N::load(places.distance + i), -down).v, N::D(), finishes.blur + i);
   }
   for (std::size_t i = 0; i < places.size(); i += n) {
     const auto of = [i](const VecArrays& values, int k) HWY_ATTR { return N::load(values.component[k] + i); };

@@ -2,11 +2,12 @@
 
 #include "blur_pyramid/blur_pyramid.h"
 #include "drops/info.h"
-#include "drops/splat.h"
 #include "pass/info.h"
 #include "windshield/motion_info.h"
 #include "windshield/picture_info.h"
 #include "windshield/surface.h"
+#include "windshield/windshield_frame.pass.h"
+#include "windshield/wipe_drops.pass.h"
 
 namespace rainref::windshield {
 namespace {
@@ -23,12 +24,12 @@ EffectInfo make() {
   info.name = "windshield";
   info.up_axis = "z";
   info.depth = "along the view axis [m], not reversed";
-  info.passes = {windshield_frame_info(),
+  info.passes = {pass::info_of<WindshieldFramePass>(),
                  drops::spawn_info({"wipe_drops", "merge"}),
-                 drops::integrate_info("spawn", "windshield_frame"),
-                 wipe_drops_info("integrate"),
+                 drops::integrate_info("windshield_frame"),
+                 pass::info_of<WipeDropsPass>(),
                  drops::merge_info("wipe_drops", "wipe_drops"),
-                 drops::splat_info({"wipe_drops", "merge"}, "merge"),
+                 drops::splat_info({"wipe_drops", "merge"}),
                  pass::info_of<WipeTexturePass>(),
                  pass::info_of<NormalsPass>(),
                  blur_pyramid::blur_info("", "")};

@@ -3,63 +3,42 @@
 
 #include <algorithm>
 
+#include "pass/stored_record.h"
+
 #define RAINREF_KERNELS "windshield/kernels_motion.cpp"
 #include "math/foreach_target.h"
 #include "math/lanes-inl.h"
+#include "pass/records-inl.h"
 
 RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
+#include "drops/drop-inl.h"
 #include "windshield/windshield_frame.pass.h"
 #include "windshield/wipe_drops.pass.h"
 #undef RAINREF_FN
 
 constexpr std::size_t lane_room = HWY_MAX_BYTES / sizeof(float);
 
-void WindshieldFrame(const WindshieldFrameUniforms& uniforms, bool corrected, drops::GlassFrame& out) {
-  const GlassForces<Lanes> forces =
-      corrected ? windshield_frame_corrected<Lanes>(uniforms) : windshield_frame_as_published<Lanes>(uniforms);
-  const auto put = [](const Lanes* from, float* to, int count) HWY_ATTR {
-    for (int k = 0; k < count; ++k) store(to + k, from[k], Rounding::rne, 1);
-  };
-  put(forces.gravity, out.gravity, 2);
-  put(forces.wind, out.wind, 2);
-  put(forces.acceleration, out.acceleration, 2);
-  put(forces.spin, out.spin, 4);
-  put(forces.coriolis, out.coriolis, 4);
+void WindshieldFrame(const WindshieldFrameUniforms& uniforms, bool corrected, const std::vector<float*>& columns) {
+  const pass::HostIo<WindshieldFramePass> io;
+  if (corrected)
+    give_record<WindshieldFramePass, WindshieldFramePassText, true>(uniforms, io, columns);
+  else
+    give_record<WindshieldFramePass, WindshieldFramePassText, false>(uniforms, io, columns);
 }
 
-// The first `count` values from p; the rest are 0.
-HWY_INLINE HWY_ATTR Lanes load_some(const float* p, int count) {
-  if (HWY_LIKELY(count == Lanes::size())) return Lanes::load(p);
-  HWY_ALIGN float block[lane_room] = {};
-  std::copy_n(p, count, block);
-  return Lanes::load(block);
-}
-
-void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper,
-                    float* bin, std::int64_t begin, std::int64_t end) {
-  const int n = Lanes::size();
-  for (std::int64_t first = begin; first < end; first += n) {
-    const int count = static_cast<int>(std::min<std::int64_t>(n, end - first));
-    const auto at = [&](std::span<float> values) { return values.data() + first; };
-    WipedDrop<Lanes> drop;
-    drop.u = load_some(at(drops.u), count);
-    drop.v = load_some(at(drops.v), count);
-    drop.velocity_u = load_some(at(drops.velocity_u), count);
-    drop.velocity_v = load_some(at(drops.velocity_v), count);
-    drop.mass = load_some(at(drops.mass), count);
-    drop.life = load_some(at(drops.life), count);
-    drop.wiper = drop.bin = Lanes(0.0f);
-    drop = corrected ? wipe_drop_corrected<Lanes>(uniforms, wipers, drop) : wipe_drop_as_published<Lanes>(uniforms, wipers, drop);
-    store(at(drops.u), drop.u, Rounding::rne, count);
-    store(at(drops.v), drop.v, Rounding::rne, count);
-    store(at(drops.velocity_u), drop.velocity_u, Rounding::rne, count);
-    store(at(drops.velocity_v), drop.velocity_v, Rounding::rne, count);
-    store(at(drops.mass), drop.mass, Rounding::rne, count);
-    store(at(drops.life), drop.life, Rounding::rne, count);
-    if (!corrected) continue;
-    store(wiper + first, drop.wiper, Rounding::rne, count);
-    store(bin + first, drop.bin, Rounding::rne, count);
+void WipeDropsRange(const WipeDropsUniforms& uniforms, bool corrected, const pass::HostIo<WipeDropsPass>& io, float* wiper, float* bin,
+                    std::int64_t begin, std::int64_t end) {
+  const std::vector<float*>& columns = io.drops.columns;
+  if (corrected) {
+    change_records<WipeDropsPass, WipeDropsPassText, true>(
+        uniforms, io, columns, begin, end, [&](std::int64_t first, int count, const DropState<Lanes>&, const WipedDrop<Lanes>& d) HWY_ATTR {
+          store(wiper + first, d.wiper, Rounding::rne, count);
+          store(bin + first, d.bin, Rounding::rne, count);
+        });
+  } else {
+    change_records<WipeDropsPass, WipeDropsPassText, false>(uniforms, io, columns, begin, end,
+                                                            [](std::int64_t, int, const auto&, const auto&) {});
   }
 }
 
@@ -104,12 +83,12 @@ RAINREF_EXPORT(WipeFilmRows);
 
 drops::GlassFrame windshield_frame(const WindshieldFrameUniforms& uniforms, bool corrected) {
   drops::GlassFrame out{};
-  RAINREF_DISPATCH(WindshieldFrame)(uniforms, corrected, out);
+  RAINREF_DISPATCH(WindshieldFrame)(uniforms, corrected, pass::columns_of(out));
   return out;
 }
-void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper,
-                      float* bin, std::int64_t begin, std::int64_t end) {
-  RAINREF_DISPATCH(WipeDropsRange)(uniforms, corrected, wipers, drops, wiper, bin, begin, end);
+void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const pass::HostIo<WipeDropsPass>& io, float* wiper, float* bin,
+                      std::int64_t begin, std::int64_t end) {
+  RAINREF_DISPATCH(WipeDropsRange)(uniforms, corrected, io, wiper, bin, begin, end);
 }
 void wipe_film_rows(const WipeDropsUniforms& uniforms, const Wiper* wipers, const TexelBox* boxes, Image& film, const parallel::Tile& tile,
                     std::uint64_t* mass_units) {

@@ -8,8 +8,8 @@
 #include "drops/records.h"
 #include "rainref/executor.h"
 #include "rainref/image.h"
-#include "windshield/motion.h"
-#include "windshield/uniforms.h"
+#include "windshield/windshield_frame.pass.h"
+#include "windshield/wipe_drops.pass.h"
 
 namespace rainref::windshield {
 
@@ -21,10 +21,10 @@ struct DropSpans {
   std::span<const std::uint32_t> id;
 };
 
-/// wipe_drops for the slots [begin, end). corrected: wiper and bin, as large as the spans, take what WipedDrop says;
-/// else they may be null.
-void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const Wiper* wipers, const DropSpans& drops, float* wiper,
-                      float* bin, std::int64_t begin, std::int64_t end);
+/// wipe_drops for the slots [begin, end). corrected: wiper and bin, of as many slots, take what WipedDrop says of the live ones; else they
+/// may be null.
+void wipe_drops_range(const WipeDropsUniforms& uniforms, bool corrected, const pass::HostIo<WipeDropsPass>& io, float* wiper, float* bin,
+                      std::int64_t begin, std::int64_t end);
 
 /// Texels outside of which a record sweeps none.
 struct TexelBox {

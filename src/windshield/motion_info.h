@@ -1,4 +1,4 @@
-// windshield_frame and wipe_drops described to others: the windshield's effect_info takes these pieces.
+// What the host gives wipe_drops, described to others.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,6 @@
 
 namespace rainref::windshield {
 
-capture::PassInfo windshield_frame_info();
-/// `from`: the pass that writes the drops before this one.
-capture::PassInfo wipe_drops_info(const char* from);
 /// The buffer wipers, from the host. Drops, film and glass_frame belong to the room drops.
 std::vector<capture::BufferInfo> wiper_buffers();
 /// The record Wiper.

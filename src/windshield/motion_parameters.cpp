@@ -10,19 +10,34 @@ namespace {
 
 using namespace rainref::scene;
 
-constexpr int most_wipers = 2;
-// The tandem arrangement, as its keys would say it.
-constexpr double pivot[most_wipers][2] = {{0.12, -0.06}, {0.71, -0.06}}, inner[most_wipers] = {0.18, 0.14},
-                 outer[most_wipers] = {0.8, 0.68};
-constexpr double sweep[most_wipers] = {91, 104};
-
 /// A corner of the glass.
 MemberParameter<MotionSettings> corner(std::size_t i, std::string sentence) {
   return {real3(fmt::format("windshield.corner_{}", i), "m", -100, 100, {}, std::move(sentence)),
           [i](MotionSettings& s, const Value& v) { s.corners[i] = std::get<Real3>(v); },
           [i](const MotionSettings& s) { return Value(s.corners[i]); }};
 }
-std::string numbered(const char* key, int i) { return fmt::format("wipers.{}_{}", key, i); }
+/// Of the custom arrangement.
+std::vector<MemberParameter<MotionSettings>> blade_members(std::size_t i) {
+  const auto member = [i](const char* key, const char* unit, double least, double most, double Blade::*of, const char* sentence,
+                          double in_unit = 1) {
+    return MemberParameter<MotionSettings>(
+        real(fmt::format("wipers.{}_{}", key, i), unit, least, most, 0, fmt::format("Custom arrangement, blade {}: {}", i, sentence)),
+        [=](MotionSettings& s, const Value& v) { s.custom[i].*of = std::get<double>(v) * in_unit; },
+        [=](const MotionSettings& s) { return Value(s.custom[i].*of / in_unit); });
+  };
+  return {
+      {real2(fmt::format("wipers.pivot_{}", i), "m", -100, 100, {},
+             fmt::format("Custom arrangement, blade {}: pivot, in metres in the glass from corner (0, 0), x along the edge to corner (1, "
+                         "0).",
+                         i)),
+       [i](MotionSettings& s, const Value& v) { s.custom[i].pivot = std::get<Real2>(v); },
+       [i](const MotionSettings& s) { return Value(s.custom[i].pivot); }},
+      member("inner_radius", "m", 0, 100, &Blade::inner_radius, "distance of its inner end from the pivot."),
+      member("outer_radius", "m", 0, 100, &Blade::outer_radius, "distance of its outer end from the pivot."),
+      member("start_angle", "deg", -360, 360, &Blade::start_angle, "angle at rest, from x toward y.", degree),
+      member("sweep", "deg", -360, 360, &Blade::sweep, "angle that it turns, positive from x toward y.", degree),
+      member("phase", "1", 0, 1, &Blade::phase, "share of its cycle that is over at time 0.")};
+}
 
 const std::vector<MemberParameter<MotionSettings>>& members() {
   using M = MotionSettings;
@@ -75,23 +90,16 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
 }  // namespace
 
 std::vector<scene::Parameter> motion_parameters() {
-  std::vector<scene::Parameter> table = parameters_of(members());
-  for (int i = 0; i < most_wipers; ++i) {
-    const std::string blade = fmt::format("Custom arrangement, blade {}: ", i);
-    table.push_back(real2(numbered("pivot", i), "m", -100, 100, {pivot[i][0], pivot[i][1]},
-                          blade + "pivot, in metres in the glass from corner (0, 0), x along the edge to corner (1, 0)."));
-    table.push_back(real(numbered("inner_radius", i), "m", 0, 100, inner[i], blade + "distance of its inner end from the pivot."));
-    table.push_back(real(numbered("outer_radius", i), "m", 0, 100, outer[i], blade + "distance of its outer end from the pivot."));
-    table.push_back(real(numbered("start_angle", i), "deg", -360, 360, 4, blade + "angle at rest, from x toward y."));
-    table.push_back(real(numbered("sweep", i), "deg", -360, 360, sweep[i], blade + "angle that it turns, positive from x toward y."));
-    table.push_back(real(numbered("phase", i), "1", 0, 1, 0, blade + "share of its cycle that is over at time 0."));
-  }
-  return table;
+  std::vector<scene::Parameter> all = parameters_of(members());
+  for (std::size_t i = 0; i < most_wipers; ++i)
+    for (const scene::Parameter& p : parameters_of(blade_members(i))) all.push_back(p);
+  return all;
 }
 
 MotionSettings motion_settings_from(const scene::Config& config) {
   MotionSettings s{};
   apply(members(), config, s);
+  for (std::size_t i = 0; i < most_wipers; ++i) apply(blade_members(i), config, s);
   s.glass = make_glass(s.corners);
   const bool has_table = !s.vehicle.key_frames.empty() || !config.text("vehicle.drive_cycle").empty();
   for (const char* key : {"vehicle.speed", "vehicle.yaw_rate"}) {
@@ -106,15 +114,10 @@ MotionSettings motion_settings_from(const scene::Config& config) {
     s.vehicle.drive_cycle = config.directory() / s.vehicle.drive_cycle;
 
   const int count = static_cast<int>(config.integer("wipers.count"));
-  if (config.text("wipers.arrangement") != "custom") {
+  if (config.text("wipers.arrangement") != "custom")
     s.wipers.blades = arranged_blades(config.text("wipers.arrangement"), count, s.glass);
-  } else {
-    for (int i = 0; i < count; ++i) {
-      const auto number = [&](const char* key) { return config.real(numbered(key, i)); };
-      s.wipers.blades.push_back({config.real2(numbered("pivot", i)), number("inner_radius"), number("outer_radius"),
-                                 number("start_angle") * degree, number("sweep") * degree, number("phase")});
-    }
-  }
+  else
+    s.wipers.blades.assign(s.custom.begin(), s.custom.begin() + count);
   check(s.wipers, s.glass);
   return s;
 }

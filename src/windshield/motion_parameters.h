@@ -1,6 +1,7 @@
 // The scene parameters of glass, vehicle and wipers: declared once, for scenes, help, hashing and capture.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "math/constants.h"
@@ -19,9 +20,10 @@ struct MotionSettings {
   Glass glass;  ///< of these corners
   VehicleSettings vehicle;
   WiperSettings wipers;
-  Capture capture;                    ///< as-published
-  Real3 wind{0, 0, 0};                ///< world axes [m/s]
-  double gravity = standard_gravity;  ///< [m/s^2]
+  std::array<Blade, most_wipers> custom = tandem_blades;  ///< what the keys ending in _0 and _1 say
+  Capture capture;                                        ///< as-published
+  Real3 wind{0, 0, 0};                                    ///< world axes [m/s]
+  double gravity = standard_gravity;                      ///< [m/s^2]
 };
 /// Throws Error(usage) as make_glass and check do. The path of a drive cycle that the scene file gives is taken from
 /// the file's folder.

@@ -6,14 +6,15 @@
 #include "math/enclosure.h"
 #include "math/scalar.h"
 #include "math/rearranged.h"
-#include "windshield/motion.h"
-#include "windshield/uniforms.h"
+#include "windshield/windshield_frame.pass.h"
+#include "windshield/wipe_drops.pass.h"
 
 namespace rainref::windshield::motion_scalar {
 using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
+#include "drops/drop-inl.h"
 #include "windshield/windshield_frame.pass.h"
 #include "windshield/wipe_drops.pass.h"
 #undef RAINREF_FN

@@ -20,7 +20,6 @@
 namespace rainref::windshield {
 namespace {
 
-using capture::records;
 using capture::Stopwatch;
 
 constexpr int tile_rows = 8;
@@ -31,11 +30,6 @@ Settings fitting(Settings s, const scene::Config& config, const Surroundings& ar
                              s.scene_size[0], s.scene_size[1], s.drops.capacity),
                  memory(s, static_cast<int>(config.integer("run.frames")), {around.colour.width(), around.colour.height()}).peak());
   return s;
-}
-
-template <class T>
-RecordView record(const T& one) {
-  return {&one, 1, sizeof(T)};
 }
 
 }  // namespace
@@ -114,6 +108,14 @@ struct Windshield::State {
     return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding};
   }
 
+  /// body computes it.
+  template <class P, class Body>
+  void run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const {
+    pass::Run<P> pass(uniforms, corrected, now.rounding, io);
+    pass.start(now);
+    pass.tile(body);
+    pass.finish(now);
+  }
   void step(Recorder* recorder, int substep);
   bool look();
 };
@@ -124,10 +126,10 @@ void Windshield::State::step(Recorder* recorder, int substep) {
 
   const pass::Moment now = moment(recorder, substep, dt);
   const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass, car, settings.wind, settings.gravity, corrected);
-  now.before("windshield_frame", frame_uniforms, {});
-  Stopwatch frame_clock;
-  const drops::GlassFrame moving = windshield_frame(frame_uniforms, corrected);
-  now.after("windshield_frame", {{"glass_frame", record(moving)}}, frame_clock.seconds());
+  drops::GlassFrame moving{};
+  pass::HostIo<WindshieldFramePass> given;
+  given.glass_frame.list = [&] { return RecordView{&moving, 1, sizeof moving}; };
+  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { moving = windshield_frame(frame_uniforms, corrected); });
 
   // The wind of the car's axes along the glass's normal.
   const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
@@ -144,30 +146,23 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const WipeDropsUniforms wipe =
       wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_mass_unit(settings.drops),
                           corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
-  if (recorder) {
-    if (corrected) {
-      now.before("wipe_drops", wipe, {{"drops", water.list_for(now, "wipe_drops")}, {"wipers", records(swept)}, {"film", water.film}});
-    } else {
-      now.before("wipe_drops", wipe, {{"drops", water.list_for(now, "wipe_drops")}, {"wipers", records(swept)}});
-    }
+  pass::HostIo<WipeDropsPass> swept_io;
+  swept_io.drops.list = [&] { return water.list(); };
+  swept_io.wipers = swept;
+  if (corrected) {
+    swept_io.film = water.film;
+    swept_io.new_film = water.film;
   }
-  Stopwatch wipe_clock;
-  drops::DropArrays& drops = water.drops;
-  const std::int64_t drops_before = corrected ? drops.water() : 0;
-  const std::int64_t gone = static_cast<std::int64_t>(wipe_drops(
-      wipe, corrected, swept, {drops.u(), drops.v(), drops.velocity_u(), drops.velocity_v(), drops.mass(), drops.life(), drops.id()},
-      corrected ? &water.film : nullptr, executor));
-  // What the drops gained, or lost less than what is gone, came from the film.
-  water.mass_balance.removed += gone;
-  if (corrected) water.mass_balance.to_film -= drops.water() - drops_before + gone;
-  const double wiped_time = wipe_clock.seconds();
-  if (recorder) {
-    if (corrected) {
-      now.after("wipe_drops", {{"drops", water.list_for(now, "wipe_drops")}, {"film", water.film}}, wiped_time);
-    } else {
-      now.after("wipe_drops", {{"drops", water.list_for(now, "wipe_drops")}}, wiped_time);
-    }
-  }
+  run<WipeDropsPass>(now, wipe, swept_io, [&] {
+    drops::DropArrays& d = water.drops;
+    const std::int64_t drops_before = corrected ? d.water() : 0;
+    const std::int64_t gone = static_cast<std::int64_t>(
+        wipe_drops(wipe, corrected, swept, {d.u(), d.v(), d.velocity_u(), d.velocity_v(), d.mass(), d.life(), d.id()},
+                   corrected ? &water.film : nullptr, executor));
+    // What the drops gained, or lost less than what is gone, came from the film.
+    water.mass_balance.removed += gone;
+    if (corrected) water.mass_balance.to_film -= d.water() - drops_before + gone;
+  });
 
   if (corrected) water.merge(now, steps);
   ++steps;

@@ -1,10 +1,64 @@
 // Pass windshield_frame: what moves drops on the glass, in glass coordinates.
+#ifndef RAINREF_FN
+#ifndef RAINREF_WINDSHIELD_WINDSHIELD_FRAME_PASS_H_
+#define RAINREF_WINDSHIELD_WINDSHIELD_FRAME_PASS_H_
+#include "drops/records.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+#include "windshield/motion.h"
 
-/// As GlassFrame holds them.
+namespace rainref::windshield {
+
+/// One record, from uniforms alone.
+struct WindshieldFramePass {
+  static constexpr pass::About about{"windshield_frame",
+                                     "Gravity, apparent wind and inertia in glass coordinates.",
+                                     {1, capture::Judge::keyed},
+                                     {1, capture::Judge::keyed},
+                                     {"dot"}};
+  using Uniforms = WindshieldFrameUniforms;
+  using Record = drops::GlassFrame;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "WindshieldFrameUniforms",
+        {member<&U::heading>("heading", "1", scene::component, "Cosine and sine of the car's heading, positive to the left."),
+         member<&U::yaw_rate>("yaw_rate", "rad/s", {-1e3, 1e3}, "Turn rate of the car, positive to the left."),
+         member<&U::yaw_acceleration>("yaw_acceleration", "rad/s^2", {-1e6, 1e6}, "Derivative of yaw_rate."),
+         member<&U::world_wind>("world_wind", "m/s", {-100, 100}, "Velocity of the wind, world axes."),
+         member<&U::gravity>("gravity", "m/s^2", {-100, 100}, "Acceleration of gravity."),
+         member<&U::vehicle_velocity>("vehicle_velocity", "m/s", {-1e3, 1e3}, "Velocity of the car, world axes."),
+         member<&U::acceleration>("acceleration", "m/s^2", {-1e6, 1e6}, "Acceleration of the car's origin, car axes."),
+         member<&U::e_u>("e_u", "m", {-1e3, 1e3}, "Edge of the glass along u, car axes."),
+         member<&U::e_v>("e_v", "m", {-1e3, 1e3}, "Edge of the glass along v, car axes."),
+         member<&U::origin>("origin", "m", {-100, 100}, "corrected: corner (0, 0) of the glass, car axes."),
+         member<&U::inverse_metric>("inverse_metric", "1/m^2", {-1e12, 1e12},
+                                    "as-published: 1 / |e_u|^2, 0, 1 / |e_v|^2; corrected: uu, uv and vv of the metric's inverse.")});
+  }
+  template <class B>
+  struct Io {
+    typename B::template List<drops::GlassFrame> glass_frame = pass::Out{.name = "glass_frame"};
+  };
+};
+
+}  // namespace rainref::windshield
+#endif
+#else
+
+/// The floats of the record GlassFrame, in its order.
 template <class N>
 struct GlassForces {
   N gravity[2], wind[2], acceleration[2], spin[4], coriolis[4];
   RAINREF_FN GlassForces() {}  // an implicit one would not be compiled for the SIMD target
+  template <class Forces, class F>
+  static RAINREF_FN void each(Forces& all, const F& f) {
+    for (auto& x : all.gravity) f(x);
+    for (auto& x : all.wind) f(x);
+    for (auto& x : all.acceleration) f(x);
+    for (auto& x : all.spin) f(x);
+    for (auto& x : all.coriolis) f(x);
+  }
 };
 /// The wind as the car meets it, in its axes: world wind - velocity of the car, turned by the heading.
 template <class N>
@@ -71,3 +125,16 @@ RAINREF_FN GlassForces<N> windshield_frame_corrected(const WindshieldFrameUnifor
   project_corrected(u, coriolis_force(u, e_v), out.coriolis[1], out.coriolis[3]);
   return out;
 }
+
+struct WindshieldFramePassText {
+  template <class N>
+  using State = GlassForces<N>;
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN GlassForces<N> run_record(const WindshieldFrameUniforms& u, const Io&) {
+    if constexpr (corrected)
+      return windshield_frame_corrected<N>(u);
+    else
+      return windshield_frame_as_published<N>(u);
+  }
+};
+#endif

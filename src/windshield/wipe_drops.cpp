@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t drops_to_a_chunk = 1024;
 constexpr int rows_to_a_tile = 16;
-constexpr std::uint64_t largest_mass = std::uint64_t{1} << 24;  // whole numbers up to here are floats
+constexpr auto largest_mass = static_cast<std::uint64_t>(drops::most_mass);
 
 // Mass units by record and bin, and out of the film. Integers: their sum does not depend on the tiles' order.
 std::vector<std::uint64_t> sweep_film(const WipeDropsUniforms& u, std::span<const Wiper> wipers, Image& film,
@@ -53,9 +53,13 @@ TexelBox swept_texels(const Wiper& w, const WipeDropsUniforms& u) {
 std::uint64_t wipe_drops(const WipeDropsUniforms& u, bool corrected, std::span<const Wiper> wipers, const DropSpans& drops, Image* film,
                          const parallel::Executor& executor) {
   const std::size_t slots = drops.u.size();
-  std::vector<float> wiper(corrected ? slots : 0), bin(wiper.size());
+  std::vector<float> wiper(corrected ? slots : 0, -1.0f), bin(wiper.size());
+  pass::HostIo<WipeDropsPass> io;
+  io.drops.columns = {drops.u.data(),          drops.v.data(),    drops.velocity_u.data(),
+                      drops.velocity_v.data(), drops.mass.data(), drops.life.data()};
+  io.wipers = wipers;
   executor.for_range(static_cast<std::int64_t>(slots), drops_to_a_chunk, [&](std::int64_t begin, std::int64_t end) {
-    wipe_drops_range(u, corrected, wipers.data(), drops, wiper.data(), bin.data(), begin, end);
+    wipe_drops_range(u, corrected, io, wiper.data(), bin.data(), begin, end);
   });
   if (!corrected) return 0;
 

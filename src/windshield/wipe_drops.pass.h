@@ -1,4 +1,80 @@
-// Pass wipe_drops: what the blades do to drops, and to the film that they sweep. Geometry is in plane coordinates [m].
+// Pass wipe_drops: what the blades do to drops, and to the film that they sweep. Geometry is in plane coordinates [m]. Needs
+// drops/drop-inl.h.
+#ifndef RAINREF_FN
+#ifndef RAINREF_WINDSHIELD_WIPE_DROPS_PASS_H_
+#define RAINREF_WINDSHIELD_WIPE_DROPS_PASS_H_
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "drops/records.h"
+#include "pass/definition.h"
+#include "scene/uniform_block.h"
+#include "windshield/motion.h"
+#include "windshield/uniforms.h"
+
+namespace rainref::windshield {
+
+/// Each drop by itself, and corrected each texel of the film; which drop then gets the water of the texels is told by wipe_drops.h. The
+/// film's lanes are written by hand.
+struct WipeDropsPass {
+  static constexpr pass::About about{"wipe_drops",
+                                     "Drops in the swept area ride on the blade; corrected: with the film that it sweeps.",
+                                     {1, capture::Judge::keyed},
+                                     {1, capture::Judge::keyed},
+                                     {"length"}};
+  using Uniforms = WipeDropsUniforms;
+  using Record = drops::Drop;
+  static scene::UniformBlock uniforms() {
+    using scene::member;
+    using U = Uniforms;
+    return scene::uniform_block<U>(
+        "WipeDropsUniforms",
+        {member<&U::frame>("frame", "m", {-1e4, 1e4}, "x = f0 u + f1 v, y = f2 v: plane coordinates of glass coordinates."),
+         member<&U::follow>("follow", "1", scene::share, "as-published: share of the way to the leading edge that a captured drop makes."),
+         member<&U::inverse_frame>("inverse_frame", "1/m", {-1e9, 1e9}, "u = i0 x + i1 y, v = i2 y."),
+         member<&U::inherit>("inherit", "1", scene::share, "as-published: share of the blade's velocity that a captured drop takes over."),
+         member<&U::gain>("gain", "1", {0, 100}, "as-published: mass that a captured drop gains."),
+         member<&U::radius_scale>("radius_scale", "m", scene::share, "corrected: base radius of a drop of one mass unit."),
+         member<&U::wiper_count>("wiper_count", "1", {0, 65536}, "Records in the list of wipers."),
+         member<&U::bin_count>("bin_count", "1", {0, 4096}, "corrected: radial bins that share out the film."),
+         member<&U::texel>("texel", "1", scene::share, "corrected: 1 over the film's columns and rows."),
+         member<&U::columns>("columns", "texel", {0, 65536}, "corrected: columns of the film."),
+         member<&U::rows>("rows", "texel", {0, 65536}, "corrected: rows of the film.")});
+  }
+  /// The records that count.
+  template <class Inputs>
+  static std::span<const Wiper> wipers(const Inputs& m) {
+    return std::span(m.captured.wipers.records).first(static_cast<std::size_t>(m.uniforms.wiper_count));
+  }
+  template <class Inputs>
+  static std::string fault(const Inputs& m) {
+    const WipeDropsUniforms& u = m.uniforms;
+    for (const Wiper& w : wipers(m)) {
+      float numbers[sizeof(Wiper) / sizeof(float)];
+      std::memcpy(numbers, &w, sizeof numbers);
+      for (const float x : numbers)
+        if (!std::isfinite(x)) return fmt::format("in.wipers: expected finite numbers, found {}", x);
+    }
+    if (!m.corrected || (u.columns == m.width && u.rows == m.height && u.bin_count >= 1 && u.bin_count <= 4096)) return "";
+    return fmt::format("uniforms columns, rows, bin_count: expected {}, {} and 1 to 4096, found {}, {} and {}", m.width, m.height,
+                       u.columns, u.rows, u.bin_count);
+  }
+  template <class B>
+  struct Io {
+    typename B::template Changed<drops::Drop> drops = {pass::In{.name = "drops", .from = "integrate"}, pass::Out{.name = "drops"}};
+    typename B::template Records<Wiper> wipers = pass::In{.name = "wipers", .count = "wiper_count"};
+    typename B::template Texels<Format::r32f> film = pass::In{.name = "film", .from = "merge", .previous = true, .variant = "corrected"};
+    typename B::template Result<Format::r32f> new_film = pass::Out{.name = "film", .variant = "corrected"};
+  };
+};
+
+}  // namespace rainref::windshield
+#endif
+#else
 
 template <class N>
 struct Plane {
@@ -13,13 +89,13 @@ RAINREF_FN Plane<N> to_glass(const float* inverse, N x, N y) {
   return {N(inverse[0]) * x + N(inverse[1]) * y, N(inverse[2]) * y};
 }
 
-/// A drop as the pass takes and gives it.
+/// A drop as the pass gives it.
 template <class N>
-struct WipedDrop {
-  N u, v, velocity_u, velocity_v, mass, life;
-  N wiper;                   ///< corrected: index of the record that captured it last; -1: none, -2: it is thrown off
-  N bin;                     ///< corrected: its radial bin there
-  RAINREF_FN WipedDrop() {}  // an implicit one would not be compiled for the SIMD target
+struct WipedDrop : DropState<N> {
+  N wiper;  ///< index of the record that captured it last; -1: none, -2: it is thrown off
+  N bin;    ///< its radial bin there
+  RAINREF_FN WipedDrop() {}
+  RAINREF_FN explicit WipedDrop(const DropState<N>& d) : DropState<N>(d), wiper(-1.0f), bin(-1.0f) {}
 };
 
 /// Whether p lies within the half width of the blade whose axis this is. (rx, ry) = p - pivot.
@@ -48,8 +124,8 @@ RAINREF_FN typename N::Mask in_quad(const WipeDropsUniforms& uniforms, const Wip
   return inward(w, a, b, x, y) & inward(w, b, c, x, y) & inward(w, c, d, x, y) & inward(w, d, a, x, y);
 }
 template <class N>
-RAINREF_FN WipedDrop<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms, const Wiper* wipers, const WipedDrop<N>& in) {
-  WipedDrop<N> d = in;
+RAINREF_FN DropState<N> wipe_drop_as_published(const WipeDropsUniforms& uniforms, const Wiper* wipers, const DropState<N>& in) {
+  DropState<N> d = in;
   const auto live = in.life > N(0.0f);
   for (int i = 0; i < uniforms.wiper_count; ++i) {
     const Wiper& w = wipers[i];
@@ -102,13 +178,11 @@ RAINREF_FN N radial_bin(const WipeDropsUniforms& uniforms, const Wiper& w, N x, 
 /// Two rounds over the records, because a drop that one blade pushes may land in the sweep of another. One that is
 /// still in a sweep then lies between two blades that meet; it is thrown off: its life ends.
 template <class N>
-RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers, const WipedDrop<N>& in) {
-  WipedDrop<N> d = in;
-  d.wiper = N(-1.0f);
-  d.bin = N(-1.0f);
+RAINREF_FN WipedDrop<N> wipe_drop_corrected(const WipeDropsUniforms& uniforms, const Wiper* wipers, const DropState<N>& in) {
+  WipedDrop<N> d(in);
   const N zero(0.0f), one(1.0f);
   const auto live = in.life > zero;
-  const N base_radius = N(uniforms.radius_scale) * pow(max(in.mass, zero), N(1.0f / 3.0f));
+  const N base_radius = N(uniforms.radius_scale) * cube_root_of_mass(in.mass, 0.0f);
   for (int i = 0; i < 2 * uniforms.wiper_count; ++i) {
     const int index = i % uniforms.wiper_count;
     const Wiper& w = wipers[index];
@@ -165,3 +239,32 @@ RAINREF_FN SweptTexel<N> swept_texel(const WipeDropsUniforms& uniforms, const Wi
   }
   return swept;
 }
+
+struct WipeDropsPassText {
+  template <class N>
+  using State = DropState<N>;
+  template <bool>
+  static constexpr bool gives(int) {
+    return true;
+  }
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN auto run_record(const WipeDropsUniforms& u, const Io& io, const DropState<N>& d) {
+    if constexpr (corrected)
+      return wipe_drop_corrected<N>(u, io.wipers.data(), d);
+    else
+      return wipe_drop_as_published<N>(u, io.wipers.data(), d);
+  }
+  /// The film after the sweep: nothing where a record sweeps, else as it was.
+  template <class N, bool corrected, class Io>
+  static RAINREF_FN void run(const WipeDropsUniforms& u, const Io& io, int x, int y) {
+    if constexpr (corrected) {
+      const N here = io.film();
+      const Plane<N> p = texel_centre<N>(u, x, y);
+      typename N::Mask swept = false;
+      for (const Wiper& w : io.wipers.records.first(static_cast<std::size_t>(u.wiper_count)))
+        if (w.direction != 0) swept = swept | in_sweep(w, p.x, p.y);
+      io.new_film(select(swept, N(0.0f), here));
+    }
+  }
+};
+#endif

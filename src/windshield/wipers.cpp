@@ -52,10 +52,9 @@ Wiper record(const Blade& b, double half_width, const PlaneFrame& plane, double 
 }  // namespace
 
 std::vector<Blade> arranged_blades(std::string_view arrangement, int count, const Glass& glass) {
-  const std::vector<Blade> blades = arrangement == "opposed" ? std::vector<Blade>{{{0.06, -0.05}, 0.15, 0.8, 5 * degree, 88 * degree, 0},
-                                                                                  {{1.34, -0.05}, 0.15, 0.8, 175 * degree, -88 * degree, 0}}
-                                                             : std::vector<Blade>{{{0.12, -0.06}, 0.18, 0.8, 4 * degree, 91 * degree, 0},
-                                                                                  {{0.71, -0.06}, 0.14, 0.68, 4 * degree, 104 * degree, 0}};
+  constexpr std::array<Blade, most_wipers> opposed{
+      {{{0.06, -0.05}, 0.15, 0.8, 5 * degree, 88 * degree, 0}, {{1.34, -0.05}, 0.15, 0.8, 175 * degree, -88 * degree, 0}}};
+  const std::array<Blade, most_wipers>& blades = arrangement == "opposed" ? opposed : tandem_blades;
   const PlaneFrame plane = glass.plane();
   const double across = plane.frame[0] / 1.4, up = plane.frame[2] / 0.8, size = std::min(across, up);
   std::vector<Blade> out(blades.begin(), blades.begin() + count);

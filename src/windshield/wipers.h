@@ -1,9 +1,11 @@
 // Wipers: where the blades are, and what they sweep in a step.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
+#include "math/constants.h"
 #include "windshield/glass.h"
 #include "windshield/uniforms.h"
 
@@ -18,6 +20,11 @@ struct Blade {
   double start_angle, sweep;          ///< [rad]; a negative sweep turns clockwise
   double phase;                       ///< of its cycle, at time 0
 };
+
+constexpr int most_wipers = 2;
+/// Made for a glass of 1.4 m x 0.8 m.
+constexpr std::array<Blade, most_wipers> tandem_blades{
+    {{{0.12, -0.06}, 0.18, 0.8, 4 * degree, 91 * degree, 0}, {{0.71, -0.06}, 0.14, 0.68, 4 * degree, 104 * degree, 0}}};
 
 struct WiperSettings {
   std::vector<Blade> blades;

@@ -1,4 +1,4 @@
-// Triangles, plates and solids: closed forms, and no way between triangles.
+// Plates and solids: closed forms.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -6,7 +6,6 @@
 #include "compositor/packet.h"
 #include "compositor/plates.h"
 #include "compositor/solids.h"
-#include "compositor/triangle_mesh.h"
 #include "compositor/world.h"
 #include "math/every_target.h"
 #include "rainref/error.h"
@@ -18,89 +17,6 @@ Hit first_of(const Surface& surface, const Ray& ray) {
   Hit first;
   for (std::uint32_t i = 0; i < surface.primitives(); ++i) surface.meet(0, i, ray, first);
   return first;
-}
-
-/// A closed star-shaped thing round `centre`: a cube's faces, cut n by n, pushed out to uneven radii.
-MeshData lump(const Vec& centre, int n) {
-  MeshData mesh;
-  std::vector<Vec> lattice;
-  const auto vertex = [&](const Vec& on_cube) {
-    for (std::size_t i = 0; i < lattice.size(); ++i) {
-      if (glm::length(lattice[i] - on_cube) < 1e-9) return static_cast<std::uint32_t>(i);
-    }
-    lattice.push_back(on_cube);
-    const auto k = static_cast<std::uint32_t>(lattice.size());
-    mesh.positions.push_back(centre + (1 + 0.2 * test::random_number(k, 3)) * glm::normalize(on_cube));
-    return k - 1;
-  };
-  for (int face = 0; face < 6; ++face) {
-    const auto at = [&](int i, int j) {
-      Vec p;
-      p[face % 3] = face < 3 ? 1 : -1;
-      p[(face + 1) % 3] = (2.0 * i / n - 1) * (face < 3 ? 1 : -1);
-      p[(face + 2) % 3] = 2.0 * j / n - 1;
-      return vertex(p);
-    };
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-        mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-      }
-    }
-  }
-  return mesh;
-}
-
-TEST(TriangleMesh, NoRayLeavesAClosedMesh) {
-  const Vec centre{3, -2, 5};
-  const auto mesh = std::make_shared<TriangleMesh>(lump(centre, 8));
-  Tracer tracer;
-  tracer.add(mesh);
-  tracer.commit();
-  std::vector<Ray> rays;
-  const MeshData& data = mesh->data();
-  for (std::uint32_t k = 0; k < 60'000; ++k) {
-    const auto& triangle = data.triangles[k % data.triangles.size()];
-    const Vec a = data.positions[triangle[k % 3]], b = data.positions[triangle[(k + 1) % 3]];
-    const double f = k % 2 ? test::random_number(k, 4) : k % 4 ? 0.5 : 0;
-    const Vec from = centre + 0.3 * Vec(test::random_number(k, 5) - 0.5, test::random_number(k, 6) - 0.5, test::random_number(k, 7) - 0.5);
-    rays.push_back({from, a + f * (b - a) - from});  // at a vertex or an edge
-  }
-  const std::vector<Hit> hits = test::first_hits(tracer, rays);
-  int left = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!hits[i].is_surface()) {
-      ++left;
-      continue;
-    }
-    ASSERT_GT(dot(mesh->normal(rays[i], hits[i]), rays[i].direction), 0) << "the outside is outside";
-  }
-  EXPECT_EQ(left, 0);
-}
-
-TEST(TriangleMesh, WeightsAndDistanceAreThoseOfThePlane) {
-  const TriangleMesh mesh({{{0, 0, 0}, {2, 0, 0}, {0, 0, 4}}, {{0, 1, 2}}, {}});
-  for (const double y : {1.0, -3.0}) {
-    const Hit hit = first_of(mesh, {{0.5, y, 1}, {0, -y, 0}});
-    EXPECT_EQ(hit.t, 1);
-    EXPECT_EQ(hit.u, 0.25);
-    EXPECT_EQ(hit.v, 0.25);
-  }
-  EXPECT_FALSE(first_of(mesh, {{1.5, 1, 2}, {0, -1, 0}}).is_surface());
-  EXPECT_FALSE(first_of(mesh, {{-1, 0, 1}, {1, 0, 0}}).is_surface()) << "edge-on";
-}
-
-TEST(TriangleMesh, SmoothNormalsAreInterpolated) {
-  const TriangleMesh mesh({{{0, 0, 0}, {2, 0, 0}, {0, 0, -4}}, {{0, 1, 2}}, {{0, 1, 0}, {1, 0, 0}, {0, 1, 0}}});
-  const Ray ray{{1, 1, 0}, {0, -1, 0}};
-  const Hit hit = first_of(mesh, ray);
-  EXPECT_EQ(mesh.normal(ray, hit), Vec(0, 1, 0));
-  EXPECT_LT(glm::length(mesh.smooth_normal(ray, hit) - glm::normalize(Vec(1, 1, 0))), 1e-15);
-}
-
-TEST(TriangleMesh, SaysWhatItRefuses) {
-  EXPECT_THROW(TriangleMesh({{{0, 0, 0}}, {{0, 0, 1}}, {}}), Error);
-  EXPECT_THROW(TriangleMesh({{{0, 0, 0}, {1, 0, 0}}, {}, {{0, 1, 0}}}), Error);
 }
 
 TEST(Plates, ParallelogramAndEllipse) {

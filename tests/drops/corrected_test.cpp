@@ -28,7 +28,7 @@ TEST(IntegrateCorrected, IsTheExactSolution) {
       const IntegrateUniforms c = plain_drag(1.0 / fps, drag);
       auto d = test::state_of<D>(test::drop(0.25f, 0.75f, 1, 0, 0.5f, -0.25f));
       for (int n = 1; n <= 2 * fps; ++n) {
-        d = scalar::integrate_corrected(c, glass, d).drop;
+        d = scalar::integrate_corrected(c, glass, d);
         const double t = n * static_cast<double>(c.dt), e = std::exp(-drag * t);
         const double u_inf = 0.25 / drag, v_inf = -5.5 / drag;
         ASSERT_NEAR(d.velocity_u.v, u_inf + (0.5 - u_inf) * e, 1e-12);
@@ -59,7 +59,7 @@ TEST(IntegrateCorrected, DoesNotDependOnTheFrameRate) {
     // Rates as powers of two times 1/256 s, so that every rate reaches the same second.
     const IntegrateUniforms c = plain_drag(fps == 60 ? 1.0 / 64 : fps == 120 ? 1.0 / 128 : 1.0 / 256, 40);
     auto d = test::state_of<D>(test::drop(0, 0, 1, 0, 0.5f, 0));
-    for (int n = 0; n < static_cast<int>(1 / c.dt); ++n) d = scalar::integrate_corrected(c, glass, d).drop;
+    for (int n = 0; n < static_cast<int>(1 / c.dt); ++n) d = scalar::integrate_corrected(c, glass, d);
     place[k++] = d.v.v;
   }
   EXPECT_NEAR(place[0], place[1], 1e-12);
@@ -69,7 +69,7 @@ TEST(IntegrateCorrected, DoesNotDependOnTheFrameRate) {
 std::vector<Drop> after(int steps, const GlassFrame& glass, float mass, float velocity_v = 0, const Settings& s = {}, double fps = 60) {
   const parallel::Executor executor(1);
   DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, mass, 0, 0, velocity_v, 1000)});
-  for (int n = 0; n < steps; ++n) integrate_corrected(executor, a, uniforms(1 / fps, s), glass);
+  for (int n = 0; n < steps; ++n) drops::integrate(executor, a, uniforms(1 / fps, s), glass, true);
   std::vector<Drop> out;
   a.gather(out, executor);
   return out;
@@ -175,7 +175,7 @@ TEST(IntegrateCorrected, ADropThatDriesUpIsGoneAndSoIsItsWater) {
   DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 50, 0, 0, 0, 1000)});
   MassBalance sum;
   int steps = 0;
-  for (; a.live() > 0 && steps < 6000; ++steps) sum += integrate_corrected(executor, a, uniforms(1.0 / 60, s), test::parked(0));
+  for (; a.live() > 0 && steps < 6000; ++steps) sum += drops::integrate(executor, a, uniforms(1.0 / 60, s), test::parked(0), true);
   EXPECT_LT(steps, 6000);
   EXPECT_EQ(sum.evaporated, 50);
   EXPECT_EQ(sum.removed, 0);
@@ -190,7 +190,7 @@ TEST(IntegrateCorrected, LifeAndTheEdgeRemove) {
   Settings s;
   s.humidity = 1;
   MassBalance sum;
-  for (int n = 0; n < 3; ++n) sum += integrate_corrected(executor, a, uniforms(1.0 / 60, s), test::parked(27 * degree));
+  for (int n = 0; n < 3; ++n) sum += drops::integrate(executor, a, uniforms(1.0 / 60, s), test::parked(27 * degree), true);
   EXPECT_EQ(a.live(), 1);  // the last one lies within the margin of 0.02
   EXPECT_EQ(sum.evaporated, 0);
   EXPECT_EQ(sum.removed, before - 3000);
@@ -205,7 +205,7 @@ TEST(IntegrateCorrected, TakesTheCarsRotationFromTheFrame) {
   }
   const IntegrateUniforms c = plain_drag(1.0 / 60, 60);
   auto d = test::state_of<D>(test::drop(0.25f, 0.75f, 1, 0, 0.125f, -0.5f));
-  d = scalar::integrate_corrected(c, g, d).drop;
+  d = scalar::integrate_corrected(c, g, d);
   const double dt = c.dt, e = std::exp(-60 * dt), f = (1 - e) / 60;
   const double a_u = 0.5 * 0.25 + 1 * 0.75 + 3 * 0.125 + 1.75 * -0.5, a_v = 1.5 * 0.25 + 2 * 0.75 + 0.5 * 0.125 - 0.75 * -0.5;
   EXPECT_NEAR(d.velocity_u.v, 0.125 * e + a_u * f, 1e-12);

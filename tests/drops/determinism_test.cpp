@@ -43,10 +43,10 @@ std::string run(const std::vector<Drop>& start, bool corrected, int threads, std
     const SpawnPlan& plan = arrivals.plan({0.1, 0.8, -10}, n, 60, a.next_id(), a.free_slots());
     sum += spawn(a, plan.uniforms, plan.thresholds, plan.masses, corrected);
     if (corrected) {
-      sum += integrate_corrected(executor, a, integrate(true), glass());
+      sum += drops::integrate(executor, a, integrate(true), glass(), true);
       sum += merger.run(executor, a, merge, film);
     } else {
-      sum += integrate_as_published(executor, a, integrate(false), glass());
+      sum += drops::integrate(executor, a, integrate(false), glass(), false);
     }
   }
   std::vector<Drop> drops;
@@ -110,14 +110,14 @@ TEST_P(DropsDeterminism, LanesEqualTheScalarEvaluation) {
   for (const std::string& target : simd_targets()) {
     select_simd_target(target);
     DropArrays a = test::arrays_of(start);
-    MassBalance balance = corrected ? integrate_corrected(executor, a, c, glass()) : integrate_as_published(executor, a, c, glass());
+    MassBalance balance = drops::integrate(executor, a, c, glass(), corrected);
     MassBalance expected;
     for (std::size_t i = 0; i < start.size(); ++i) {
       const auto before = test::state_of<F>(start[i]);
       Drop d;
       if (corrected) {
         const auto after = scalar::integrate_corrected(c, glass(), before);
-        d = record_of(after.drop, start[i], true);
+        d = record_of(after, start[i], true);
         expected.evaporated += static_cast<std::int64_t>(after.evaporated.v);
         expected.removed += static_cast<std::int64_t>(after.removed.v);
       } else {

@@ -49,11 +49,11 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
             p.velocity_u,
             p.velocity_v,
             p.life,
-            c.drop.u,
-            c.drop.v,
-            c.drop.velocity_u,
-            c.drop.velocity_v,
-            c.drop.life,
+            c.u,
+            c.v,
+            c.velocity_u,
+            c.velocity_v,
+            c.life,
             both.u,
             both.v,
             both.velocity_u,
@@ -61,7 +61,7 @@ void evaluate(const Drop& drop, const Drop& other, std::vector<N>& motion, std::
             left.u,
             left.v,
             scalar::base_radius<N>(merge, d.mass)};
-  whole = {c.drop.mass, c.evaporated, c.removed, both.mass, left.mass_units, scalar::dried<N>(merge, N(drop.mass))};
+  whole = {c.mass, c.evaporated, c.removed, both.mass, left.mass_units, scalar::dried<N>(merge, N(drop.mass))};
 }
 
 class DropsEvaluations : public testing::Test {

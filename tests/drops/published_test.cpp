@@ -48,7 +48,7 @@ TEST(IntegrateAsPublished, SettlesAtTheBalanceOfForces) {
   const parallel::Executor executor(1);
   DropArrays a = test::arrays_of({test::drop(0, 0, 0.5f, 0, 1, 1, 1000), test::drop(0, 0, 2, 1, -1, 0, 1000)});
   const IntegrateUniforms c = uniforms(1.0 / 60);
-  for (int n = 0; n < 1200; ++n) integrate_as_published(executor, a, c, glass);
+  for (int n = 0; n < 1200; ++n) drops::integrate(executor, a, c, glass, false);
   for (std::size_t i = 0; i < 2; ++i) {
     const double m = i == 0 ? 0.5 : 2;
     // Floats stop where a dt no longer changes the velocity: half a rounding of it, 2^-24, over drag dt = 1/20, and as
@@ -81,7 +81,7 @@ TEST(IntegrateAsPublished, TurnsRoundAtTheThresholdSpeed) {
       DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, static_cast<float>(m), 0)});
       const IntegrateUniforms c = uniforms(1.0 / 60, 12, coupling);
       const GlassFrame moving = test::glass_of(0, -test::standard_gravity * std::sin(beta), 0, share * threshold * std::cos(beta));
-      for (int n = 0; n < 120; ++n) integrate_as_published(executor, a, c, moving);
+      for (int n = 0; n < 120; ++n) drops::integrate(executor, a, c, moving, false);
       EXPECT_EQ(a.velocity_v()[0] > 0, share > 1) << m << " " << share;
     }
   }
@@ -94,8 +94,8 @@ TEST(IntegrateAsPublished, BreaksTheEquivalencePrinciple) {
   const IntegrateUniforms c = uniforms(1.0 / 60, 3, 0, 1);
   for (const float m : {1.0f, 1.5f}) {
     DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, m, 0)}), b = test::arrays_of({test::drop(0.5f, 0.5f, m, 0)});
-    integrate_as_published(executor, a, c, braking);
-    integrate_as_published(executor, b, c, sloped);
+    drops::integrate(executor, a, c, braking, false);
+    drops::integrate(executor, b, c, sloped, false);
     EXPECT_EQ(a.velocity_v()[0] == b.velocity_v()[0], m == 1.0f);
   }
 }
@@ -104,7 +104,7 @@ TEST(IntegrateAsPublished, BreaksTheEquivalencePrinciple) {
 TEST(IntegrateAsPublished, NoDropEverRests) {
   const parallel::Executor executor(1);
   DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 0.01f, 0)});
-  for (int n = 0; n < 600; ++n) integrate_as_published(executor, a, uniforms(1.0 / 60), test::parked(27 * test::degree));
+  for (int n = 0; n < 600; ++n) drops::integrate(executor, a, uniforms(1.0 / 60), test::parked(27 * test::degree), false);
   EXPECT_LT(a.velocity_v()[0], -0.01f);
 }
 
@@ -112,7 +112,7 @@ TEST(IntegrateAsPublished, LivesEndAndDeadDropsStayAsTheyAre) {
   const parallel::Executor executor(1);
   DropArrays a = test::arrays_of({test::drop(0.5f, 0.5f, 1, 0, 0, 0, 0.1f), test::drop(0.5f, 0.5f, 1, 1, 1, 1, -0.25f)});
   std::int64_t ended = 0;
-  for (int n = 0; n < 10; ++n) ended += integrate_as_published(executor, a, uniforms(1.0 / 60), glass).removed;
+  for (int n = 0; n < 10; ++n) ended += drops::integrate(executor, a, uniforms(1.0 / 60), glass, false).removed;
   EXPECT_EQ(ended, 1);
   EXPECT_EQ(a.live(), 0);
   EXPECT_EQ(a.get(1).life, -0.25f);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "blur_pyramid/blur_pyramid.h"
+#include "drops/info.h"
 #include "drops/splat.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
@@ -70,7 +71,7 @@ TEST(SplatDeclared, TheUniformsSayHowDropsJoin) {
 
 TEST(SplatDeclared, PassesAndTheirBuffers) {
   // Making a block validates it: an error would throw.
-  const capture::PassInfo splat = drops::splat_info({"wipe_drops", "merge"}, "merge"), blur = blur_pyramid::blur_info("scene", "scene");
+  const capture::PassInfo splat = drops::splat_info({"wipe_drops", "merge"}), blur = blur_pyramid::blur_info("scene", "scene");
   EXPECT_EQ(splat.block("corrected").size, sizeof(drops::SplatUniforms));
   EXPECT_EQ(blur.block("as-published").size, sizeof(blur_pyramid::BlurUniforms));
   capture::EffectInfo effect;

@@ -1,6 +1,7 @@
 // Lanes that are written by hand, or made, against what a pass's definition gives one number at a time.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -30,14 +31,30 @@ bool is_stored(scalar::Scalar<float> value, Rounding rounding, const std::byte* 
   store(&expected, value, rounding);
   return std::memcmp(&expected, at, sizeof expected) == 0;
 }
-/// Whether every stored value of the outputs is the definition's, to the bit.
+/// The records of a list, in an order that does not depend on how they were found.
+inline std::vector<std::string> sorted_records(const std::vector<std::byte>& bytes, std::size_t size) {
+  std::vector<std::string> all;
+  for (std::size_t at = 0; at < bytes.size(); at += size) all.emplace_back(reinterpret_cast<const char*>(bytes.data()) + at, size);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+/// Whether every stored value of the outputs is the definition's, to the bit; of lists the records, in any order.
 inline testing::AssertionResult is_as_defined(const capture::PassCase& c, const capture::PassModel& model) {
+  for (const capture::CaseOutput& out : c.outputs) {
+    if (!out.array.is_records) continue;
+    const capture::KeyedModel* list = model.keyed(out.name);
+    if (!list) return testing::AssertionFailure() << c.folder() << ": " << out.name << " has no model";
+    const std::size_t size = out.array.record.size;
+    if (sorted_records(*list->reference(), size) != sorted_records(out.array.levels.at(0), size))
+      return testing::AssertionFailure() << c.folder() << ": records of " << out.name;
+  }
   std::vector<scalar::Scalar<float>> values(static_cast<std::size_t>(model.values()));
   for (int y = 0; y < model.height(); ++y) {
     for (int x = 0; x < model.width(); ++x) {
       model.evaluate(x, y, values.data());
       std::size_t k = 0;
       for (const capture::CaseOutput& out : c.outputs) {
+        if (out.array.is_records) continue;
         const FormatInfo& format = info(out.array.format);
         const std::byte* at = out.array.levels.at(0).data() + (static_cast<std::ptrdiff_t>(y) * model.width() + x) * format.texel_bytes();
         for (int channel = 0; channel < format.channels; ++channel, ++k, at += format.channel_bytes) {
@@ -53,7 +70,7 @@ inline testing::AssertionResult is_as_defined(const capture::PassCase& c, const 
   return testing::AssertionSuccess();
 }
 
-/// The same of every case whose pass is judged by envelope; one at least.
+/// The same of every case whose pass has a model; one at least.
 inline testing::AssertionResult are_as_defined(const std::vector<capture::PassCase>& cases,
                                                const std::vector<capture::PassEvaluations>& evaluations) {
   int compared = 0;

@@ -14,8 +14,8 @@ namespace rainref::windshield {
 namespace {
 
 template <class N>
-motion_scalar::WipedDrop<N> drop_of(const DropArrays& d, std::size_t i) {
-  motion_scalar::WipedDrop<N> drop;
+motion_scalar::DropState<N> drop_of(const DropArrays& d, std::size_t i) {
+  motion_scalar::DropState<N> drop;
   drop.u = N(d.u[i]);
   drop.v = N(d.v[i]);
   drop.velocity_u = N(d.velocity_u[i]);
@@ -28,7 +28,7 @@ template <class N>
 motion_scalar::WipedDrop<N> wiped(const WipeDropsUniforms& u, bool corrected, const std::vector<Wiper>& w, const DropArrays& d,
                                   std::size_t i) {
   return corrected ? motion_scalar::wipe_drop_corrected<N>(u, w.data(), drop_of<N>(d, i))
-                   : motion_scalar::wipe_drop_as_published<N>(u, w.data(), drop_of<N>(d, i));
+                   : motion_scalar::WipedDrop<N>(motion_scalar::wipe_drop_as_published<N>(u, w.data(), drop_of<N>(d, i)));
 }
 void same_bits(float a, float b) { ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b + 0.0f)) << a << " " << b; }
 

@@ -1,6 +1,7 @@
 // The scene keys of glass, vehicle and wipers, as a scene file gives them; and the declarations of the two passes.
 #include <gtest/gtest.h>
 
+#include "pass/info.h"
 #include "scene/toml.h"
 #include "windshield/motion_info.h"
 #include "windshield/support.h"
@@ -70,7 +71,7 @@ TEST(MotionParameters, WhatCannotBeIsNamed) {
 
 TEST(MotionParameters, ThePassesAreDeclared) {
   // Blocks and records validate themselves; every output and input has its buffer, drops and film aside.
-  const capture::PassInfo frame = windshield_frame_info(), wipe = wipe_drops_info("integrate");
+  const capture::PassInfo frame = pass::info_of<WindshieldFramePass>(), wipe = pass::info_of<WipeDropsPass>();
   EXPECT_EQ(frame.block("corrected").size, 128u);
   EXPECT_EQ(wipe.block("as-published").size, 64u);
   EXPECT_EQ(wiper_records()[0].size, 80u);

@@ -1,0 +1,44 @@
+#include "drops/records.h"
+
+#include "capture/keyed_model.h"
+#include "scene/uniform_block.h"
+
+namespace rainref::drops {
+
+using scene::member;
+
+scene::UniformBlock Drop::layout() {
+  return scene::record<Drop>(
+      "Drop",
+      {member<&Drop::position>("position", "1", "Glass coordinates u, v."),
+       member<&Drop::velocity>("velocity", "1/s", "Change of the position."),
+       member<&Drop::mass>("mass", "1", "as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24."),
+       member<&Drop::life>("life", "s", "What remains; not above 0: no drop."),
+       member<&Drop::id>("id", "1", "Its own for ever, ascending in the order of birth.")});
+}
+const std::vector<capture::FieldRange>& Drop::ranges(bool corrected) {
+  // The glass; one that is crossed in a second; twice the mass of an ordinary drop; its life.
+  static const std::vector<capture::FieldRange> published{{"position", 0, 1}, {"velocity", -1, 1}, {"mass", 0, 2}, {"life", 0, 6}};
+  // 2^16 mass units are 1.3 mg, a drop of 1.4 mm.
+  static const std::vector<capture::FieldRange> correct{{"position", 0, 1}, {"velocity", -1, 1}, {"mass", 0, 0x1p16}, {"life", 0, 600}};
+  return corrected ? correct : published;
+}
+
+scene::UniformBlock GlassFrame::layout() {
+  return scene::record<GlassFrame>(
+      "GlassFrame", {member<&GlassFrame::gravity>("gravity", "1/s^2",
+                                                  "as-published: gravity; corrected: specific force at (0, 0), the car's motion included."),
+                     member<&GlassFrame::wind>("wind", "1/s", "Apparent wind."),
+                     member<&GlassFrame::acceleration>("acceleration", "1/s^2", "as-published: of the vehicle; corrected: 0."),
+                     member<&GlassFrame::id>("id", "1", "0."),
+                     member<&GlassFrame::spin>("spin", "1/s^2", "corrected: specific force per glass coordinate, rows u and v."),
+                     member<&GlassFrame::coriolis>("coriolis", "1/s", "corrected: specific force per velocity, rows u and v.")});
+}
+const std::vector<capture::FieldRange>& GlassFrame::ranges(bool) {
+  // On a glass of a metre: the acceleration of gravity, the wind of a drive at 72 km/h, a turn of one radian in a second.
+  static const std::vector<capture::FieldRange> all{
+      {"gravity", -10, 10}, {"wind", -20, 20}, {"acceleration", -10, 10}, {"spin", -1, 1}, {"coriolis", -2, 2}};
+  return all;
+}
+
+}  // namespace rainref::drops

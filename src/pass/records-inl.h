@@ -1,0 +1,66 @@
+// The records of a list in lanes: the shell of every pass that treats each record by itself. Re-included for every target, like
+// math/lanes-inl.h; after pass/rows-inl.h.
+#if defined(RAINREF_PASS_RECORDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAINREF_PASS_RECORDS_INL_H_
+#undef RAINREF_PASS_RECORDS_INL_H_
+#else
+#define RAINREF_PASS_RECORDS_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstdint>
+
+#include "pass/rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rainref {
+namespace HWY_NAMESPACE {
+
+/// The first `count` values from p; the rest are 0.
+HWY_INLINE HWY_ATTR Lanes load_some(const float* p, int count) {
+  if (HWY_LIKELY(count == Lanes::size())) return Lanes::load(p);
+  HWY_ALIGN float block[HWY_MAX_BYTES / sizeof(float)] = {};
+  std::copy_n(p, count, block);
+  return Lanes::load(block);
+}
+/// Records [begin, end) of the columns, in place; a vector that holds none is left as it is. then(first, count, before, given) sees what
+/// the text gives of `count` records from `first` on, whatever it is beside the record.
+template <class P, class Text, bool corrected, class Then>
+HWY_INLINE HWY_ATTR void change_records(const typename P::Uniforms& uniforms, const pass::HostIo<P>& host,
+                                        const std::vector<float*>& columns, std::int64_t begin, std::int64_t end, const Then& then) {
+  using State = typename Text::template State<Lanes>;
+  const typename P::Uniforms u = uniforms;  // no store to a column may change it
+  typename P::template Io<LaneCursors> io;
+  pass::begin_row<P>(host, io, 0, Rounding::rne);
+  float* const* const column = columns.data();
+  for (std::int64_t i = begin; i < end; i += Lanes::size()) {
+    const int count = static_cast<int>(std::min<std::int64_t>(Lanes::size(), end - i));
+    State before;
+    int k = 0;
+    State::each(before, [&](Lanes& number) HWY_ATTR { number = load_some(column[k++] + i, count); });
+    if (!any(before.lives())) continue;
+    const auto given = Text::template run_record<Lanes, corrected>(u, io, before);
+    k = 0;
+    State::each(given, [&](const Lanes& number) HWY_ATTR {
+      if (Text::template gives<corrected>(k)) store(column[k] + i, number, Rounding::rne, count);
+      ++k;
+    });
+    then(i, count, before, given);
+  }
+}
+/// The only record of a pass that takes none.
+template <class P, class Text, bool corrected>
+HWY_INLINE HWY_ATTR void give_record(const typename P::Uniforms& u, const pass::HostIo<P>& host, const std::vector<float*>& columns) {
+  typename P::template Io<LaneCursors> io;
+  pass::begin_row<P>(host, io, 0, Rounding::rne);
+  const auto given = Text::template run_record<Lanes, corrected>(u, io);
+  int k = 0;
+  Text::template State<Lanes>::each(
+      given, [&](const Lanes& number) HWY_ATTR { store(columns[static_cast<std::size_t>(k++)], number, Rounding::rne, 1); });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rainref
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAINREF_PASS_RECORDS_INL_H_

@@ -1,0 +1,140 @@
+// The passes that move drops, and splat: lanes that are made of their definitions or written by hand, against what the definitions give
+// one number at a time; and what their definitions refuse.
+#include "math/simd_target.h"
+#include "pass/same_as_definition.h"
+#include "pass/stored_record.h"
+#include "windshield/evaluations.h"
+#include "windshield/golden_scenes.h"
+#include "windshield/info.h"
+
+namespace rainref::windshield {
+namespace {
+
+std::vector<capture::PassCase> cases_of(bool corrected, std::string_view pass, const std::string& more, int frames) {
+  const parallel::Executor executor(2);
+  const std::string toml = wet_drive + more + (corrected ? "[rain]\nrate = 150\nsmallest_drop = 0.8\n" : "spawn_rate = 3000\n");
+  Windshield windshield(config_of(corrected ? "corrected" : "as-published", toml), small_surroundings(), executor);
+  for (int frame = 0; frame < 20; ++frame) windshield.simulate();
+  return rainref::test::captured(effect_info(), corrected, pass, [&](Recorder& recorder) {
+    for (int frame = 0; frame < frames; ++frame) {
+      windshield.simulate(&recorder);
+      windshield.render(&recorder);
+    }
+  });
+}
+
+TEST(MotionDefinition, ListsAreThoseOfTheDefinitionOnEveryTarget) {
+  for (const std::string& target : simd_targets()) {
+    select_simd_target(target);
+    for (const bool corrected : {false, true}) {
+      for (const char* pass : {"windshield_frame", "integrate", "wipe_drops"}) {
+        const std::vector<capture::PassCase> cases = cases_of(corrected, pass, "", 2);
+        ASSERT_EQ(cases.size(), 2u);
+        EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << target;
+        const capture::CaseOutput& list = cases.back().outputs.front();
+        EXPECT_GE(list.array.width, pass == std::string("windshield_frame") ? 1 : 30) << pass;
+        if (const capture::CaseInput* before = cases.back().input("drops"); before)
+          EXPECT_NE(before->array.levels, list.array.levels) << pass << " does something";
+      }
+    }
+  }
+  select_simd_target("");
+}
+
+TEST(MotionDefinition, SplatIsThatOfTheDefinition) {
+  const std::vector<std::string> targets = simd_targets();
+  std::size_t number = 0;
+  for (const bool corrected : {false, true}) {
+    for (const char* kernel : {"paraboloid", "quartic", "smoothstep", "hemisphere", "disc"}) {
+      for (const char* blend : {"add", "max"}) {
+        for (const char* accumulate : {"half", "float"}) {
+          if (corrected && accumulate == std::string("half")) continue;
+          select_simd_target(targets[number++ % targets.size()]);
+          const std::string more =
+              fmt::format("kernel = '{}'\nblend = '{}'\nrounding = '{}'\n", kernel, blend, number % 2 ? "rtz" : "rne") +
+              (corrected ? "" : fmt::format("accumulate = '{}'\n", accumulate));
+          const std::vector<capture::PassCase> cases = cases_of(corrected, "splat", more, 1);
+          ASSERT_EQ(cases.size(), 1u);
+          EXPECT_TRUE(rainref::test::are_as_defined(cases, evaluations())) << more;
+        }
+      }
+    }
+  }
+  select_simd_target("");
+}
+
+std::string refusal(capture::PassCase c) {
+  for (const capture::PassEvaluations& e : evaluations()) {
+    if (e.pass != c.pass) continue;
+    try {
+      if (e.bind)
+        e.bind(c);
+      else
+        e.recompute(c);
+    } catch (const Error& error) {
+      return error.code() == ExitCode::port_files ? error.what() : "another code";
+    }
+  }
+  return "";
+}
+capture::CaseInput& input(capture::PassCase& c, const char* name) {
+  return *std::find_if(c.inputs.begin(), c.inputs.end(), [&](const capture::CaseInput& i) { return i.name == name; });
+}
+/// The first record of an input once more behind the last.
+capture::PassCase with_one_twice(capture::PassCase c, const char* name) {
+  capture::Array& list = input(c, name).array;
+  std::vector<std::byte>& bytes = list.levels.at(0);
+  const std::vector<std::byte> first(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(list.record.size));
+  bytes.insert(bytes.end(), first.begin(), first.end());
+  ++list.width;
+  return c;
+}
+
+TEST(MotionDefinition, WhatIsNotAsDeclaredIsRefused) {
+  for (const bool corrected : {false, true}) {
+    for (const char* pass : {"integrate", "wipe_drops", "spawn", "merge"}) {
+      if (!corrected && pass == std::string("merge")) continue;
+      const capture::PassCase good = cases_of(corrected, pass, "", 1).at(0);
+      EXPECT_EQ(refusal(good), "");
+      EXPECT_NE(refusal(with_one_twice(good, "drops")).find(": in.drops: expected each id once, found "), std::string::npos) << pass;
+      capture::PassCase without = good;
+      std::erase_if(without.inputs, [](const capture::CaseInput& i) { return i.name == "drops"; });
+      EXPECT_NE(refusal(without), "") << pass;
+    }
+    const auto refused = [&](const char* pass, const char* twice) {
+      return refusal(with_one_twice(cases_of(corrected, pass, "", 1).at(0), twice));
+    };
+    EXPECT_NE(refused("integrate", "glass_frame").find("in.glass_frame: expected 1 record, found 2"), std::string::npos);
+    EXPECT_NE(refused("spawn", "spawn_masses").find("in.spawn_masses: expected 1024 records, found 1025"), std::string::npos);
+  }
+  // A film of another size than the one that is given.
+  for (const char* pass : {"wipe_drops", "merge", "splat"}) {
+    capture::PassCase c = cases_of(true, pass, "", 1).at(0);
+    capture::Array& film = input(c, "film").array;
+    film.width -= 1;
+    film.levels[0].resize(static_cast<std::size_t>(film.width) * static_cast<std::size_t>(film.height) * sizeof(float));
+    EXPECT_NE(refusal(c).find("in.film: expected r32f 89x53, found r32f 88x53"), std::string::npos) << refusal(c);
+  }
+  // More drops than there are.
+  capture::PassCase c = cases_of(false, "splat", "", 1).at(0);
+  const int drops = input(c, "drops").array.width;
+  const scene::UniformBlock& block = effect_info().pass("splat").block("as-published");
+  const std::int32_t more = drops + 1;
+  for (const scene::Member& m : block.members)
+    if (m.name == "drop_count") std::memcpy(c.uniforms.data() + m.offset, &more, sizeof more);
+  EXPECT_NE(refusal(c).find(fmt::format("uniform drop_count: expected 0 to {}, the records of in.drops, found {}", drops, more)),
+            std::string::npos);
+}
+
+// The layout of a record and what a text computes with name the same floats.
+TEST(MotionDefinition, ARecordAndItsNumbersAreOne) {
+  drops::Drop d{{1, 2}, {3, 4}, 5, 6, 7, 0};
+  const std::vector<float*> columns = pass::columns_of(d);
+  ASSERT_EQ(columns.size(), 6u);
+  for (std::size_t k = 0; k < columns.size(); ++k) EXPECT_EQ(*columns[k], static_cast<float>(k + 1));
+  drops::GlassFrame frame{};
+  EXPECT_EQ(pass::columns_of(frame).size(), 14u);
+}
+
+}  // namespace
+}  // namespace rainref::windshield
