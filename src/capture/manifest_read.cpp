@@ -122,8 +122,8 @@ PackInput read_input(const JsonField& from, const Records& records) {
 bool is_keyed_record(const Array& shape) {
   const auto& members = shape.record.members;
   return shape.is_records && (record_format(shape.record) || std::any_of(members.begin(), members.end(), [](const scene::Member& m) {
-           return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1;
-         }));
+                                return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1;
+                              }));
 }
 
 PackOutput read_output(const JsonField& from, const Records& records) {

@@ -99,8 +99,8 @@ class ListPass : public PassModel {
 
 /// Another formula of what a pass computes, equal in real arithmetic: engineers write it, and a port of it is told so.
 struct AlternativeFormula {
-  std::string name;      ///< "asin for the height of a direction"
-  std::string sentence;  ///< what stands in the port, and what the pass has
+  std::string name;                                     ///< "asin for the height of a direction"
+  std::string sentence;                                 ///< what stands in the port, and what the pass has
   std::unique_ptr<PassModel> (*bind)(const PassCase&);  ///< as PassEvaluations::bind; null where the case has no use for it
 };
 

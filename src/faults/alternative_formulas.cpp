@@ -46,8 +46,7 @@ std::optional<judge::Cause> alternative_formula(const capture::PassCase& c, cons
       if (!model) continue;
       const std::vector<judge::Slot> slots = judge::slots_of(c, *model);
       const auto held = [&](const std::vector<Texel>& texels) {
-        return std::count_if(texels.begin(), texels.end(),
-                             [&](Texel t) { return holds(*model, slots, c, port, profile, mode, t); });
+        return std::count_if(texels.begin(), texels.end(), [&](Texel t) { return holds(*model, slots, c, port, profile, mode, t); });
       };
       const auto inside = static_cast<std::int64_t>(held(failing));
       if (inside * 10 < static_cast<std::int64_t>(failing.size()) * 9) continue;

@@ -45,8 +45,7 @@ class CaseJudge {
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
     std::vector<CaseJudgement> whole(modes_.size(), empty_part().counts);
     for (CaseJudgement& j : whole)
-      for (OutputJudgement& o : j.outputs)
-        o.map.assign(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
+      for (OutputJudgement& o : j.outputs) o.map.assign(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
       Scratch scratch(SecondTier(slots_, model_, *options_.profile));
       for (int y = tile.y0; y < tile.y1; ++y)

@@ -41,7 +41,8 @@ bool passes(const PassCase& c, const capture::PassModel* model, const std::vecto
     const capture::CaseOutput& out = c.outputs[o];
     if (out.judge == capture::Judge::bits && judge_bits(out, port[o]).failing > 0) return false;
     if (is_placed(out) && port[o].width != out.array.width) return false;
-    if (out.judge == capture::Judge::keyed && !is_placed(out) && judge_keyed(out, port[o], model ? model->keyed(out.name) : nullptr, profile).failing > 0)
+    if (out.judge == capture::Judge::keyed && !is_placed(out) &&
+        judge_keyed(out, port[o], model ? model->keyed(out.name) : nullptr, profile).failing > 0)
       return false;
   }
   if (slots_of(c).empty()) return true;

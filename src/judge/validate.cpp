@@ -47,7 +47,8 @@ std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
   for (const capture::CaseOutput& o : c.outputs) {
     out.push_back(o.judge == capture::Judge::input_only ? o.array : port.read(c.folder(), "out." + o.name, o.array));
     if (is_placed(o) && out.back().width != o.array.width)
-      throw Error(ExitCode::port_files, fmt::format("'{}/out.{}': expected {} records, found {}", c.folder(), o.name, o.array.width, out.back().width));
+      throw Error(ExitCode::port_files,
+                  fmt::format("'{}/out.{}': expected {} records, found {}", c.folder(), o.name, o.array.width, out.back().width));
   }
   return out;
 }

@@ -115,7 +115,8 @@ Enclosure angle_as_named(Enclosure y, Enclosure x) {
   const Accuracy& accuracy = profile().atan2;
   // A box holds its corners, and between corners of one sign nothing that is nearer to zero or larger.
   const auto has_sign = [](Enclosure e) { return e.lo > 0 || e.hi < 0; };
-  if (profile().atan2_domain > 0 && !(has_sign(y) && has_sign(x) && is_promised(profile(), y.lo, x.lo) && is_promised(profile(), y.hi, x.hi)))
+  if (profile().atan2_domain > 0 &&
+      !(has_sign(y) && has_sign(x) && is_promised(profile(), y.lo, x.lo) && is_promised(profile(), y.hi, x.hi)))
     return Enclosure::vacuous();
   double y0 = y.lo, y1 = y.hi;
   if (x.lo <= 0 && y0 <= 0 && 0 <= y1) {

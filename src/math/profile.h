@@ -87,8 +87,8 @@ struct Profile {
   StoreRounding half_store = StoreRounding::rne;
   StoreOverflow half_overflow = StoreOverflow::inf;
   bool half_store_flush = false;  ///< a store may leave 0 of a subnormal half; loads keep it
-  double unorm_store_ulp = 0;  ///< distance from 255 x that a stored code may have [codes]; 0: as the reference stores
-  double srgb_store_ulp = 0;   ///< the same for 255 encode_srgb(x)
+  double unorm_store_ulp = 0;     ///< distance from 255 x that a stored code may have [codes]; 0: as the reference stores
+  double srgb_store_ulp = 0;      ///< the same for 255 encode_srgb(x)
 };
 
 /// Whether a profile promises anything of atan2(y, x).

@@ -34,7 +34,10 @@ const std::vector<capture::PassEvaluations>& evaluations() {
   static const std::vector<capture::PassEvaluations> all{{"raindrops", bind_raindrops, recompute_raindrops},
                                                          {"wave_step", pass::bind<WaveStepPass, scalar::WaveStepPassText>},
                                                          {"surface_hit", bind_surface_hit, nullptr, doubt_bounds},
-                                                         {"shade", pass::bind<ShadePass, scalar::ShadePassText>, nullptr, nullptr,
+                                                         {"shade",
+                                                          pass::bind<ShadePass, scalar::ShadePassText>,
+                                                          nullptr,
+                                                          nullptr,
                                                           {capture::by_other_angles<pass::bind<ShadePass, scalar::ShadePassText>>()}},
                                                          {"display", pass::bind<DisplayPass, scalar::DisplayPassText>}};
   return all;

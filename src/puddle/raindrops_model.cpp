@@ -41,8 +41,8 @@ class Raindrops : public capture::ModelOf<DropByDrop> {
 std::unique_ptr<capture::PassModel> bind_raindrops(const capture::PassCase& c) {
   const auto u = capture::uniforms_of<RaindropsUniforms>(c);
   if (const int found = c.outputs.front().array.width; found != u.drop_count)
-    throw Error(ExitCode::port_files,
-                fmt::format("{}/out.{}: expected {} records, as drop_count says, found {}", c.folder(), c.outputs.front().name, u.drop_count, found));
+    throw Error(ExitCode::port_files, fmt::format("{}/out.{}: expected {} records, as drop_count says, found {}", c.folder(),
+                                                  c.outputs.front().name, u.drop_count, found));
   return std::make_unique<Raindrops>(u);
 }
 

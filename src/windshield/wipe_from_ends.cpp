@@ -21,7 +21,8 @@ N distance_between(const PlanePoint<N>& p, const PlanePoint<N>& a, const PlanePo
 template <class N>
 N sector_distance_from_ends(const WipeTextureUniforms& u, const Wiper& w, const PlanePoint<N>& p, int width, int height) {
   const auto place = [&](const float* at) { return place_in_plane<N>(u, at, width, height); };
-  return scalar::sector_distance(w, p.x - N(w.pivot[0]), p.y - N(w.pivot[1]), distance_between(p, place(w.previous_inner), place(w.previous_outer)),
+  return scalar::sector_distance(w, p.x - N(w.pivot[0]), p.y - N(w.pivot[1]),
+                                 distance_between(p, place(w.previous_inner), place(w.previous_outer)),
                                  distance_between(p, place(w.inner), place(w.outer)));
 }
 template <class N>

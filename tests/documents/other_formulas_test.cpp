@@ -21,7 +21,6 @@ bool is_named(const PortJudgement& j, const std::string& pass, const std::string
   return true;
 }
 
-
 TEST(OtherFormulas, OfTheAngleOfADirection) {
   int failing = 0;
   for (const auto& [folder, pass] : {std::pair{"puddle-as-published", "shade"},

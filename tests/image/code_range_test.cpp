@@ -102,8 +102,8 @@ TEST(CodeRange, SubnormalHalvesMayBeFlushed) {
         ASSERT_TRUE(is(half_range(-x, -x, flushed), -range.hi, range.lo < 0x400 ? 0 : -range.lo)) << -x;
       }
     }
-    EXPECT_TRUE(is(half_range(-0x1p-20f, 0x1p-16f, flushed), half_range(-0x1p-20f, 0x1p-16f, kept).lo,
-                   half_range(-0x1p-20f, 0x1p-16f, kept).hi));
+    EXPECT_TRUE(
+        is(half_range(-0x1p-20f, 0x1p-16f, flushed), half_range(-0x1p-20f, 0x1p-16f, kept).lo, half_range(-0x1p-20f, 0x1p-16f, kept).hi));
   }
 }
 
