@@ -12,7 +12,7 @@ namespace rainref::capture {
 
 /// Images: levels[l] holds the canonical bytes of mip level l (rows from row 0 = v 0, no padding, little endian) of
 /// max(1, width >> l) x max(1, height >> l) texels. Records: levels[0] holds `width` records of `record.size` bytes,
-/// and height is 1; format means nothing then.
+/// and height is 1; format is that of texels like the records (record_format.h), and means nothing where there is none.
 struct Array {
   bool is_records = false;
   Format format = Format::r8;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/record_format.h"
 #include "math/half.h"
 #include "rainref/error.h"
 
@@ -29,6 +30,7 @@ Array record_array(const RecordView& records, const scene::UniformBlock& layout)
   Array array;
   array.is_records = true;
   array.record = layout;
+  array.format = record_format(layout).value_or(array.format);
   array.width = static_cast<int>(records.count);
   array.height = 1;
   const auto bytes = records.bytes();

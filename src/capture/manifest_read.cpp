@@ -10,6 +10,7 @@
 
 #include "capture/difference.h"
 #include "capture/manifest_write.h"
+#include "capture/record_format.h"
 #include "rainref/error.h"
 
 namespace rainref::capture {
@@ -69,6 +70,7 @@ PackArray read_array(const JsonField& from, const Records& records) {
     std::vector<std::string> names;
     for (const scene::UniformBlock& r : records) names.push_back(r.name);
     out.shape.record = records[static_cast<std::size_t>(from["record"].one_of(names))];
+    out.shape.format = record_format(out.shape.record).value_or(out.shape.format);
     out.shape.width = static_cast<int>(from["count"].whole(0, largest_count));
     out.shape.height = 1;
   } else {
@@ -116,11 +118,12 @@ PackInput read_input(const JsonField& from, const Records& records) {
   return input;
 }
 
+/// Whether records have a key: an id, or, of those that are nothing but floats, their place in the list.
 bool is_keyed_record(const Array& shape) {
   const auto& members = shape.record.members;
-  return shape.is_records && std::any_of(members.begin(), members.end(), [](const scene::Member& m) {
-           return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1;
-         });
+  return shape.is_records && (record_format(shape.record) || std::any_of(members.begin(), members.end(), [](const scene::Member& m) {
+                                return m.name == "id" && m.scalar == scene::Scalar::uint32 && m.components == 1;
+                              }));
 }
 
 PackOutput read_output(const JsonField& from, const Records& records) {
@@ -131,7 +134,7 @@ PackOutput read_output(const JsonField& from, const Records& records) {
   output.rules.judge = named<Judge, 4>(from["judge"]);
   if (output.shape.is_records && output.rules.judge == Judge::envelope) from["judge"].fail("bits, keyed or input_only for records");
   if (output.rules.judge == Judge::keyed && !is_keyed_record(output.shape))
-    from["judge"].fail("bits, envelope or input_only for what is no list of records with a uint 'id'");
+    from["judge"].fail("bits, envelope or input_only for what is no list of records with a uint 'id' or of floats alone");
   output.rules.range = output.range;
   output.rules.unit = output.unit;
   output.rules.color_space = from["color_space"].text();

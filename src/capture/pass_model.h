@@ -44,6 +44,9 @@ class PassModel {
   /// to them, no more. Nothing for others.
   virtual std::optional<std::array<double, 2>> free_range(int) const { return std::nullopt; }
   bool is_free(int value) const { return free_range(value).has_value(); }
+  /// Of a value that has another range in each case (a place among so many texels) the extent of that; nothing for others, whose
+  /// output declares it.
+  virtual std::optional<double> extent(int) const { return std::nullopt; }
   /// Of an output of Judge::keyed; null: its records are judged by bits.
   virtual const KeyedModel* keyed(std::string_view) const { return nullptr; }
 
@@ -94,6 +97,13 @@ class ListPass : public PassModel {
   std::unique_ptr<KeyedModel> list_;
 };
 
+/// Another formula of what a pass computes, equal in real arithmetic: engineers write it, and a port of it is told so.
+struct AlternativeFormula {
+  std::string name;                                     ///< "asin for the height of a direction"
+  std::string sentence;                                 ///< what stands in the port, and what the pass has
+  std::unique_ptr<PassModel> (*bind)(const PassCase&);  ///< as PassEvaluations::bind; null where the case has no use for it
+};
+
 /// How an effect offers its passes to be judged.
 struct PassEvaluations {
   std::string pass;
@@ -105,6 +115,7 @@ struct PassEvaluations {
   std::vector<Array> (*recompute)(const PassCase&) = nullptr;
   /// Why what the host derived from the other inputs cannot belong to them, or ""; null where nothing is derived.
   std::string (*doubt)(const PassCase&) = nullptr;
+  std::vector<AlternativeFormula> alternatives = {};
 };
 
 }  // namespace rainref::capture

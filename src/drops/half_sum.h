@@ -29,22 +29,18 @@ inline enclosed::Rearranged half_of(const enclosed::Rearranged& x, Rounding own)
 /// As the variations' profile stores; where it leaves the rounding open, either neighbour at random.
 inline perturbed::Perturbed half_of(perturbed::Perturbed x, Rounding own) {
   perturbed::Behaviour& b = perturbed::behaviour();
-  const auto stored = [&](Rounding r) { return perturbed::Perturbed::of(to_float(to_half(x.v, r))); };
-  if (!b.variations || b.variations->rules.reference) return stored(own);
-  switch (b.variations->rules.half_store) {
-    case enclosed::StoreRounding::rne:
-      return stored(Rounding::rne);
-    case enclosed::StoreRounding::rtz:
-      return stored(Rounding::rtz);
-    default:
-      break;
-  }
-  const perturbed::Perturbed cut = stored(Rounding::rtz);
-  b.random += 0x9e3779b97f4a7c15u;
-  const std::uint64_t drawn = b.random * 0xbf58476d1ce4e5b9u;
-  if (cut.v == x.v || !(drawn >> 63)) return cut;
-  const std::uint16_t bits = to_half(x.v, Rounding::rtz).bits;
-  return perturbed::Perturbed::of(to_float(Half{static_cast<std::uint16_t>(bits + 1)}));
+  const auto coin = [&] {
+    b.random += 0x9e3779b97f4a7c15u;
+    return (b.random * 0xbf58476d1ce4e5b9u) >> 63 != 0;
+  };
+  const auto by = [&](Rounding r) { return to_float(to_half(x.v, r)); };
+  if (!b.variations || b.variations->rules.reference) return perturbed::Perturbed::of(by(own));
+  const enclosed::Profile& rules = b.variations->rules;
+  float stored = by(rules.half_store == enclosed::StoreRounding::rne ? Rounding::rne : Rounding::rtz);
+  if (rules.half_store == enclosed::StoreRounding::either && coin() && stored != x.v)
+    stored = to_float(Half{static_cast<std::uint16_t>(to_half(x.v, Rounding::rtz).bits + 1)});
+  if (rules.half_store_flush && stored < 0x1p-14f && stored > -0x1p-14f && coin()) stored = 0;
+  return perturbed::Perturbed::of(stored);
 }
 
 }  // namespace rainref::drops

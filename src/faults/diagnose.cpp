@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "faults/alternative_formulas.h"
 #include "faults/fault.h"
 #include "faults/failing_texels.h"
 #include "faults/hypotheses.h"
@@ -188,7 +189,16 @@ std::vector<Cause> diagnose_texels(const capture::PackPass& pass, const capture:
       }
     }
   });
-  return best_causes(std::move(causes));
+  std::vector<Cause> best = best_causes(std::move(causes));
+  // What gives the very bits is a better word than a formula that could have given them.
+  const bool is_exact = !best.empty() && best.front().is_likely && best.front().explained * 10 >= best.front().of * 9;
+  if (is_exact) return best;
+  if (std::optional<Cause> other = alternative_formula(c, port, profile, mode, failing, few_passing)) {
+    for (Cause& cause : best) cause.is_likely = false;
+    best.insert(best.begin(), std::move(*other));
+    if (best.size() > 3) best.pop_back();
+  }
+  return best;
 }
 
 judge::Explanation diagnose(const judge::FailedRun& failed) {

@@ -13,7 +13,7 @@
 namespace rainref::enclosed {
 namespace {
 
-constexpr std::int64_t half_infinity = 0x7c00, half_max = 0x7bff;
+constexpr std::int64_t half_infinity = 0x7c00, half_max = 0x7bff, least_normal_half = 0x0400;
 
 std::int64_t signed_magnitude(std::uint32_t bits, std::uint32_t sign) {
   return bits & sign ? -static_cast<std::int64_t>(bits & (sign - 1)) : static_cast<std::int64_t>(bits);
@@ -77,7 +77,7 @@ CodeRange srgb_range(const Enclosure& v, const StoreRules& rules) {
 }  // namespace
 
 StoreRules store_rules(const Profile& p, Rounding unorm) {
-  return {p.half_store, p.half_overflow, unorm, p.unorm_store_ulp, p.srgb_store_ulp};
+  return {p.half_store, p.half_overflow, unorm, p.unorm_store_ulp, p.srgb_store_ulp, p.half_store_flush};
 }
 
 CodeRange code_range(FormatInfo::Kind kind, const Enclosure& v, const StoreRules& rules) {
@@ -87,8 +87,12 @@ CodeRange code_range(FormatInfo::Kind kind, const Enclosure& v, const StoreRules
       const auto code = [](float x) { return signed_magnitude(std::bit_cast<std::uint32_t>(x), 0x80000000u); };
       return {code(v.lo), code(v.hi)};
     }
-    case FormatInfo::float16:
-      return {-highest_half(-v.lo, rules), highest_half(v.hi, rules)};
+    case FormatInfo::float16: {
+      CodeRange out{-highest_half(-v.lo, rules), highest_half(v.hi, rules)};
+      if (rules.half_flush && 0 < out.lo && out.lo < least_normal_half) out.lo = 0;
+      if (rules.half_flush && -least_normal_half < out.hi && out.hi < 0) out.hi = 0;
+      return out;
+    }
     case FormatInfo::unorm8:
       return unorm_range(v, rules);
     case FormatInfo::srgb8:

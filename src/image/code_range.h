@@ -20,6 +20,7 @@ struct StoreRules {
   StoreOverflow half_overflow = StoreOverflow::inf;
   Rounding unorm = Rounding::rne;      ///< what the pass asks of its unorm8 outputs
   double unorm_ulp = 0, srgb_ulp = 0;  ///< as Profile::unorm_store_ulp and srgb_store_ulp
+  bool half_flush = false;             ///< as Profile::half_store_flush
 };
 /// What a profile declares, for an output whose unorm8 codes are rounded like this.
 StoreRules store_rules(const Profile& profile, Rounding unorm = Rounding::rne);
@@ -32,9 +33,9 @@ struct CodeRange {
   bool is_vacuous() const { return lo == INT64_MIN; }
   static CodeRange vacuous() { return {INT64_MIN, INT64_MAX}; }
 };
-/// Vacuous of a vacuous value. Subnormals that may be flushed are flushed in the enclosure, not here.
+/// Vacuous of a vacuous value. Subnormal floats that may be flushed are flushed in the enclosure, not here.
 ///   float16  rne or rtz round each end; either takes the half at or below lo and the one at or above hi. Beyond the
-///            largest half: that, or infinity, as the rules say.
+///            largest half: that, or infinity, as the rules say. Up to 0 where a subnormal one may be flushed.
 ///   unorm8   rne: codes within unorm_ulp of 255 x, x held in [0, 1]; the float nearest to code / 255 gives that code.
 ///   rtz:
 ///            255 x cut toward zero. The reference's own code (math/unorm.h) always counts, and with unorm_ulp 0 alone.

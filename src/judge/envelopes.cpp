@@ -33,7 +33,7 @@ class CaseJudge {
  public:
   CaseJudge(const PassCase& c, const PassModel& model, const std::vector<Array>& port, const JudgeOptions& options,
             std::vector<HalfMode> modes)
-      : case_(c), model_(model), port_(port), options_(options), modes_(std::move(modes)), slots_(slots_of(c)) {
+      : case_(c), model_(model), port_(port), options_(options), modes_(std::move(modes)), slots_(slots_of(c, model)) {
     if (static_cast<int>(slots_.size()) != model.values())
       throw Error(ExitCode::internal,
                   fmt::format("{}: the model has {} values, the outputs {}", c.folder(), model.values(), slots_.size()));
@@ -45,8 +45,7 @@ class CaseJudge {
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(tiles), std::vector<Part>(modes_.size(), empty_part()));
     std::vector<CaseJudgement> whole(modes_.size(), empty_part().counts);
     for (CaseJudgement& j : whole)
-      for (OutputJudgement& o : j.outputs)
-        o.map.assign(o.records ? 0 : static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
+      for (OutputJudgement& o : j.outputs) o.map.assign(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height), 0);
     options_.executor->for_tiles(model_.width(), model_.height(), model_.width(), rows, [&](const parallel::Tile& tile) {
       Scratch scratch(SecondTier(slots_, model_, *options_.profile));
       for (int y = tile.y0; y < tile.y1; ++y)
@@ -86,6 +85,7 @@ class CaseJudge {
       o.name = out.name;
       o.format = out.array.format;
       o.records = out.array.is_records;
+      o.counted = o.records ? Counted::fields : Counted::values;
       o.width = out.array.width;
       o.height = out.array.height;
       p.counts.outputs.push_back(o);
@@ -240,6 +240,10 @@ class CaseJudge {
     else if (!s.alternatives.gave_up)
       accepted = s.nearest[v];
     out.worst.push_back(failure_of(slot, x, y, case_.outputs[o].array, port_[o], options_.profile->reference ? nullptr : &accepted));
+    if (out.records) {
+      out.worst.back().field = quantities_of(case_.outputs[o])[static_cast<std::size_t>(slot.channel)].name;
+      out.worst.back().field_kind = slot.kind;
+    }
     part.widths[o].add_failing(slot.channel, value_distance(slot.kind, out.worst.back()));
     if (out.worst.size() > 4 * OutputJudgement::max_failures) keep_worst(out.worst);
   }

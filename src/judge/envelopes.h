@@ -8,7 +8,7 @@
 
 namespace rainref::judge {
 
-/// What a port stored in the case's outputs of Judge::envelope, one judgement for each rounding of half stores; in its
+/// What a port stored in the case's outputs of is_placed(), one judgement for each rounding of half stores; in its
 /// `outputs` those that are judged otherwise have no counts. `port` as in judge_case. Throws Error(internal) where the model
 /// is not that of the outputs.
 std::vector<CaseJudgement> judge_envelopes(const capture::PassCase& c, const capture::PassModel& model,

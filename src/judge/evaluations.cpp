@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "judge/slots.h"
 #include "registry/registry.h"
 #include "rainref/error.h"
 
@@ -20,7 +21,7 @@ Bind binder(const std::string& effect, const std::string& pass) {
 }
 
 bool is_enveloped(const capture::PassCase& c) {
-  return std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::envelope; });
+  return std::any_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return is_placed(o); });
 }
 
 std::unique_ptr<capture::PassModel> bound(const std::string& pass, Bind bind, const capture::PassCase& c) {

@@ -18,7 +18,7 @@ InvocationJudge::InvocationJudge(const PassCase& c, const PassModel& model, cons
     : case_(c), model_(model), profile_(profile), mode_(mode) {}
 
 Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) const {
-  const std::vector<Slot> slots = slots_of(case_);
+  const std::vector<Slot> slots = slots_of(case_, model_);
   Stored stored;
   stored.read(slots, case_, model_, profile_, port, x, y);
   if (stored.any_impossible) return Accepted::no;
@@ -44,7 +44,7 @@ Accepted InvocationJudge::accepts(int x, int y, const std::vector<Array>& port) 
 }
 
 std::vector<char> InvocationJudge::outside(int x, int y, const std::vector<Array>& port) const {
-  const std::vector<Slot> slots = slots_of(case_);
+  const std::vector<Slot> slots = slots_of(case_, model_);
   Stored stored;
   stored.read(slots, case_, model_, profile_, port, x, y);
   Alternatives alternatives;

@@ -46,7 +46,7 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
   std::vector<OutputJudgement> outputs;  // each judged output once, in the case's order
   std::string events;
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
-    if (c.outputs[o].judge == capture::Judge::envelope && enveloped) {
+    if (is_placed(c.outputs[o]) && enveloped) {
       outputs.push_back(std::move(j.outputs[o]));
       name_quantities(quantities_of(c.outputs[o]), outputs.back());
     }
@@ -55,7 +55,7 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
       j.invocations = std::max(j.invocations, outputs.back().elements);
       j.failing += outputs.back().failing;
     }
-    if (c.outputs[o].judge != capture::Judge::keyed) continue;
+    if (c.outputs[o].judge != capture::Judge::keyed || is_placed(c.outputs[o])) continue;
     KeyedJudgement k = judge_keyed(c.outputs[o], port[o], model ? model->keyed(c.outputs[o].name) : nullptr, *options.profile);
     j.invocations += k.groups;
     j.failing += k.failing;

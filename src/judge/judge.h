@@ -30,7 +30,8 @@ struct ModeJudgements {
   bool rounds_inside = false;             ///< the pass rounds between its operations, too (PassModel::rounds_inside)
 };
 
-/// Judges what a port stored: `port` holds its outputs in the order of c.outputs, of the same format and size. Outputs
+/// Judges what a port stored: `port` holds its outputs in the order of c.outputs, of the same format and size, lists of records whose
+/// key is their place too. Outputs
 /// of Judge::bits must equal the expected bits, those of Judge::input_only are not judged. `model` may be null when no
 /// output is judged by envelope.
 ///

@@ -40,7 +40,9 @@ bool passes(const PassCase& c, const capture::PassModel* model, const std::vecto
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const capture::CaseOutput& out = c.outputs[o];
     if (out.judge == capture::Judge::bits && judge_bits(out, port[o]).failing > 0) return false;
-    if (out.judge == capture::Judge::keyed && judge_keyed(out, port[o], model ? model->keyed(out.name) : nullptr, profile).failing > 0)
+    if (is_placed(out) && port[o].width != out.array.width) return false;
+    if (out.judge == capture::Judge::keyed && !is_placed(out) &&
+        judge_keyed(out, port[o], model ? model->keyed(out.name) : nullptr, profile).failing > 0)
       return false;
   }
   if (slots_of(c).empty()) return true;

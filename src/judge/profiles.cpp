@@ -77,6 +77,8 @@ const std::map<std::string, Set>& values() {
       {"pow_is_inherited", [](Profile& p, const RawEntry& e) { p.pow_is_inherited = boolean(e); }},
       {"sin_cos_domain", [](Profile& p, const RawEntry& e) { p.sin_cos_domain = number(e); }},
       {"sin_cos_beyond", [](Profile& p, const RawEntry& e) { p.sin_cos_beyond = number(e); }},
+      {"atan2_domain", [](Profile& p, const RawEntry& e) { p.atan2_domain = number(e); }},
+      {"half_store_flush", [](Profile& p, const RawEntry& e) { p.half_store_flush = boolean(e); }},
       {"subtexel_bits", [](Profile& p, const RawEntry& e) { p.subtexel_bits = bits(e); }},
       {"coordinate_bits", [](Profile& p, const RawEntry& e) { p.coordinate_bits = bits(e); }},
       {"lod_bits", [](Profile& p, const RawEntry& e) { p.lod_bits = bits(e); }},

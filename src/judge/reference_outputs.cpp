@@ -16,6 +16,10 @@ std::vector<Array> reference_outputs(const PassCase& c, const PassModel& model, 
   std::vector<Array> out;
   for (const capture::CaseOutput& o : c.outputs) {
     Array& array = out.emplace_back(o.array);
+    if (o.array.is_records && is_placed(o)) {
+      array.width = model.width();
+      array.levels.assign(1, std::vector<std::byte>(array.element_bytes() * static_cast<std::size_t>(array.width)));
+    }
     const capture::KeyedModel* keyed = o.judge == capture::Judge::keyed ? model.keyed(o.name) : nullptr;
     const auto records = keyed ? keyed->reference() : std::nullopt;
     if (!records) continue;

@@ -17,6 +17,7 @@
 #include "judge/profiles.h"
 #include "judge/reference_outputs.h"
 #include "judge/shadow_checks.h"
+#include "judge/slots.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"
 
@@ -313,7 +314,7 @@ class Shadow {
     for (std::size_t o = 0; o < run.c.outputs.size(); ++o) {
       capture::CaseOutput& output = run.c.outputs[o];
       const bool is_keyed = output.judge == capture::Judge::keyed;
-      if (output.judge == capture::Judge::envelope || (is_keyed && model && model->keyed(output.name))) {
+      if (is_placed(output) || (is_keyed && model && model->keyed(output.name))) {
         output.array = reference[o];
         continue;
       }

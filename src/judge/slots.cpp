@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "image/colour.h"
+#include "judge/keyed.h"
 #include "math/scalar.h"
 #include "rainref/error.h"
 
@@ -18,11 +19,21 @@ T loaded(const std::byte* at) {
 
 }  // namespace
 
+bool is_placed(const capture::CaseOutput& output) {
+  if (!output.array.is_records) return output.judge == capture::Judge::envelope;
+  return output.judge == capture::Judge::keyed && !has_key(output.array.record);
+}
+
+std::vector<Slot> slots_of(const capture::PassCase& c, const capture::PassModel& model) {
+  std::vector<Slot> slots = slots_of(c);
+  for (std::size_t v = 0; v < slots.size(); ++v) slots[v].range = model.extent(static_cast<int>(v)).value_or(slots[v].range);
+  return slots;
+}
 std::vector<Slot> slots_of(const capture::PassCase& c) {
   std::vector<Slot> slots;
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const capture::CaseOutput& out = c.outputs[o];
-    if (out.judge != capture::Judge::envelope || out.array.is_records) continue;
+    if (!is_placed(out)) continue;
     const FormatInfo& f = info(out.array.format);
     for (int k = 0; k < f.channels; ++k) {
       slots.push_back({static_cast<int>(o), k, f.kind, f.channel_bytes, f.texel_bytes(), out.array.width, out.store_rounding,

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "capture/pass_case.h"
+#include "capture/pass_model.h"
 #include "image/code_range.h"
 #include "judge/verdict.h"
 
 namespace rainref::judge {
 
-/// One value of every invocation: a channel of an output judged by envelope.
+/// One value of every invocation: a channel of an output that is_placed().
 struct Slot {
   int output, channel;
   FormatInfo::Kind kind;
@@ -26,6 +26,12 @@ struct Slot {
   std::int64_t code(const capture::Array& a, int x, int y) const { return enclosed::ordered_code(kind, at(a, x, y)); }
 };
 std::vector<Slot> slots_of(const capture::PassCase& c);
+/// The same with the ranges that the model knows better.
+std::vector<Slot> slots_of(const capture::PassCase& c, const capture::PassModel& model);
+
+/// Whether an output is judged value by value where it stands: an image by envelope, or a keyed list whose records have no id, so that
+/// their place is the key. Such a list is a row of texels.
+bool is_placed(const capture::CaseOutput& output);
 
 /// A stored value as a shader reads it.
 float stored_value(const Slot& slot, const std::byte* at);

@@ -13,6 +13,7 @@
 #include "judge/port_files.h"
 #include "judge/profiles.h"
 #include "judge/reference_outputs.h"
+#include "judge/slots.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"
 
@@ -32,7 +33,7 @@ void require_reference(const Pack& pack, const PassCase& c, const capture::PassM
   for (std::size_t o = 0; o < reference.size(); ++o) {
     const Array& expected = c.outputs[o].array;
     if (reference[o].levels == expected.levels) continue;
-    if (c.outputs[o].judge == capture::Judge::keyed && same_records(reference[o], expected)) continue;
+    if (c.outputs[o].judge == capture::Judge::keyed && !is_placed(c.outputs[o]) && same_records(reference[o], expected)) continue;
     throw Error(
         ExitCode::port_files,
         fmt::format(
@@ -43,8 +44,12 @@ void require_reference(const Pack& pack, const PassCase& c, const capture::PassM
 
 std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
   std::vector<Array> out;
-  for (const capture::CaseOutput& o : c.outputs)
+  for (const capture::CaseOutput& o : c.outputs) {
     out.push_back(o.judge == capture::Judge::input_only ? o.array : port.read(c.folder(), "out." + o.name, o.array));
+    if (is_placed(o) && out.back().width != o.array.width)
+      throw Error(ExitCode::port_files,
+                  fmt::format("'{}/out.{}': expected {} records, found {}", c.folder(), o.name, o.array.width, out.back().width));
+  }
   return out;
 }
 

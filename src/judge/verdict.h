@@ -48,7 +48,7 @@ struct Failure {
 enum class Counted : std::uint8_t {
   values,  ///< channels of texels
   texels,  ///< judged by bits
-  fields,  ///< of records matched by id
+  fields,  ///< of keyed records
   records  ///< judged by bits
 };
 /// "values", "texels", "fields", "records".
@@ -88,7 +88,8 @@ struct OutputJudgement {
   double rearranged_median_width = -1, rearranged_p99_width = -1;
   std::vector<Failure> worst;  ///< in order of distance, then of place; at most max_failures
   static constexpr std::size_t max_failures = 100;
-  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical or rearranged), 3 (outside); row 0 first. Empty for records.
+  /// For each texel 0 (equal), 1 (differs, inside), 2 (atypical or rearranged), 3 (outside); row 0 first; of records that are judged where
+  /// they stand one row. Empty for others.
   std::vector<std::uint8_t> map;
   /// In order of channels, or of fields without the id.
   std::vector<QuantityJudgement> quantities;

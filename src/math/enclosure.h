@@ -161,6 +161,7 @@ Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c);
 Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c, Enclosure d);
 Enclosure sum_any_order_in_pairs(Enclosure a, Enclosure b, Enclosure c, Enclosure d);
 inline Enclosure uniform_quotient(float a, float b, Enclosure) { return Enclosure(a) / Enclosure(b); }
+/// By (t t) (3 - 2 t) or t (t (3 - 2 t)): the specifications name t t (3 - 2 t) and let it be regrouped.
 Enclosure smoothstep(float edge0, float edge1, Enclosure x);
 /// One decision, not one for each octave.
 Enclosure nearest_octave(Enclosure x);

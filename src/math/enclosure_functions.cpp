@@ -5,6 +5,7 @@
 
 #include "math/constants.h"
 #include "math/enclosure.h"
+#include "math/other_angles.h"
 
 namespace rainref::enclosed {
 namespace {
@@ -104,10 +105,19 @@ Enclosure cos(Enclosure a) {
       a, [](double x) { return cos_real(Real64(x)).v; }, pi / 2);
 }
 
-Enclosure atan2(Enclosure y, Enclosure x) {
+namespace {
+
+thread_local bool takes_other_angles = false;
+
+Enclosure angle_as_named(Enclosure y, Enclosure x) {
   if (as_reference(y) && as_reference(x)) return point(atan2(Single(y.lo), Single(x.lo)));
   if (x.is_vacuous() || y.is_vacuous()) return Enclosure::vacuous();
   const Accuracy& accuracy = profile().atan2;
+  // A box holds its corners, and between corners of one sign nothing that is nearer to zero or larger.
+  const auto has_sign = [](Enclosure e) { return e.lo > 0 || e.hi < 0; };
+  if (profile().atan2_domain > 0 &&
+      !(has_sign(y) && has_sign(x) && is_promised(profile(), y.lo, x.lo) && is_promised(profile(), y.hi, x.hi)))
+    return Enclosure::vacuous();
   double y0 = y.lo, y1 = y.hi;
   if (x.lo <= 0 && y0 <= 0 && 0 <= y1) {
     if (x.hi >= 0) return widened(-pi, pi, accuracy, 0);  // around the origin
@@ -121,6 +131,47 @@ Enclosure atan2(Enclosure y, Enclosure x) {
   const auto at = [](double height, double width) { return atan2_real(Real64(height), Real64(width)).v; };
   const auto [low, high] = std::minmax({at(y0, x.lo), at(y0, x.hi), at(y1, x.lo), at(y1, x.hi)});
   return widened(low, high, accuracy, 0);
+}
+
+/// asin and acos of s in [-1, 1]: Vulkan and WGSL derive them from atan2 of s and the root of 1 - s s, WGSL lets them err by 6.81e-5
+/// too, as the polynomials of HLSL's compilers do.
+constexpr float arc_error = 6.81e-5f;
+Enclosure about(double low, double high) { return {float_below(low - arc_error), float_above(high + arc_error)}; }
+Enclosure other_side(Enclosure s) { return sqrt(max(Enclosure(1.0f) - square(s), Enclosure(0.0f))); }
+Enclosure arcsine(Enclosure s) {
+  const Enclosure c = other_side(s);
+  return about(atan2_real(Real64(s.lo), Real64(s.lo < 0 ? c.lo : c.hi)).v, atan2_real(Real64(s.hi), Real64(s.hi < 0 ? c.hi : c.lo)).v);
+}
+Enclosure arccosine(Enclosure s) {
+  const Enclosure c = other_side(s);
+  return about(atan2_real(Real64(s.hi < 0 ? c.hi : c.lo), Real64(s.hi)).v, atan2_real(Real64(s.lo < 0 ? c.lo : c.hi), Real64(s.lo)).v);
+}
+
+/// The hull of `named` and what other formulas give.
+Enclosure with_other_angles(Enclosure named, Enclosure y, Enclosure x) {
+  const auto held = [](Enclosure s) { return min(max(s.unrounded(), Enclosure(-1.0f)), Enclosure(1.0f)); };
+  const Enclosure r = sqrt(square(x) + square(y)), cosine = held(x / r), sine = held(y / r);
+  if (named.is_vacuous() || cosine.is_vacuous() || sine.is_vacuous()) return named;
+  Enclosure out = named;
+  const Enclosure turn = arccosine(cosine);
+  if (y.hi >= 0) out = hull(out, turn);
+  if (y.lo <= 0) out = hull(out, -turn);
+  if (x.lo < 0) return out;
+  out = hull(out, arcsine(sine));
+  constexpr float nearly = 0x1p-16f;
+  if (r.lo > 1 + nearly || r.hi < 1 - nearly) return out;
+  const Enclosure from_pole = arccosine(held(y));
+  return hull(hull(out, arcsine(held(y))), {float_below(pi / 2 - from_pole.hi), float_above(pi / 2 - from_pole.lo)});
+}
+
+}  // namespace
+
+OtherAngles::OtherAngles() : before_(takes_other_angles) { takes_other_angles = true; }
+OtherAngles::~OtherAngles() { takes_other_angles = before_; }
+
+Enclosure atan2(Enclosure y, Enclosure x) {
+  const Enclosure named = angle_as_named(y, x);
+  return takes_other_angles && !profile().reference ? with_other_angles(named, y, x) : named;
 }
 
 Enclosure sum_any_order(Enclosure a, Enclosure b, Enclosure c) {
@@ -156,8 +207,8 @@ Enclosure smoothstep(float edge0, float edge1, Enclosure x) {
   const auto cubic = [](double s) { return s * s * (3 - 2 * s); };
   const double unit = profile().basic == BasicRounding::nearest ? 0x1p-24 : 0x1p-23;
   const Enclosure grown = not_negative(widened(cubic(t.lo), cubic(t.hi), {.relative = 3.001 * unit, .absolute = 0x1p-147}, 0));
-  // As written it is tighter where t is nearly a point and the roundings are few.
-  const Enclosure written = (t * t * (Enclosure(3.0f) - Enclosure(2.0f) * t)).unrounded();
+  // As written, in either grouping, it is tighter where t is nearly a point and the roundings are few.
+  const Enclosure slope = Enclosure(3.0f) - Enclosure(2.0f) * t, written = hull(t * t * slope, t * (t * slope));
   return {std::max(grown.lo, written.lo), std::min(grown.hi, written.hi)};
 }
 

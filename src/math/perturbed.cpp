@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "math/constants.h"
 #include "math/directed.h"
 #include "math/perturbed_draws.h"
 
@@ -296,6 +297,8 @@ Perturbed atan2(Perturbed y, Perturbed x) {
   const auto result = [&] {
     const Unseen parts;
     if (is(Fault::atan2_swapped)) return finish(atan2(reference(x), reference(y)).v, 0);
+    if (current.variations && !enclosed::is_promised(current.variations->rules, y.v, x.v))
+      return Perturbed::of(static_cast<float>(pi * swing()));
     // Not every device keeps the sign of a zero.
     if (current.variations && y.v == 0) y.v = coin() ? 0.0f : -0.0f;
     return erring(atan2(reference(y), reference(x)).v, atan2_real(Real64(exact(y)), Real64(exact(x))).v, &Profile::atan2);
@@ -368,7 +371,8 @@ Perturbed smoothstep(float edge0, float edge1, Perturbed x, const char* file, in
     if (!current.variations) return scalar::smoothstep<Perturbed>(edge0, edge1, x);
     // The edges' difference is the device's own.
     const Perturbed t = scalar::saturate((x - Perturbed(edge0)) / (Perturbed(edge1) - Perturbed(edge0)));
-    return t * t * (Perturbed(3.0f) - Perturbed(2.0f) * t);
+    const Perturbed slope = Perturbed(3.0f) - Perturbed(2.0f) * t;
+    return take(&Variations::reorder) ? t * (t * slope) : t * t * slope;
   };
   if (!current.follows()) return result();
   const Perturbed from(edge0), to(edge1);

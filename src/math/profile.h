@@ -53,7 +53,7 @@ enum class StoreOverflow : std::uint8_t { inf, max, either };
 
 struct Profile {
   std::string name = "ieee";
-  /// Every operation gives the reference's bits: points stay points, and no other member counts but the last four.
+  /// Every operation gives the reference's bits: points stay points, and no other member counts but the last five.
   bool reference = true;
 
   BasicRounding basic = BasicRounding::nearest;
@@ -74,6 +74,8 @@ struct Profile {
   double sin_cos_domain = 0;      ///< 0: every float
   double sin_cos_beyond = 0;      ///< error for each unit of |x| beyond the domain, by convention; 0: nothing is promised
   Accuracy atan2;
+  /// atan2(y, x) is promised for |x| in [1 / this, this] and y finite and normal, and nothing elsewhere; 0: it is everywhere.
+  double atan2_domain = 0;
 
   /// Fractional bits of the coordinate of a filtered lookup; 0: filters are computed like any other arithmetic.
   int subtexel_bits = 0;
@@ -84,9 +86,16 @@ struct Profile {
   Accuracy unorm_load;  ///< of code / 255
   StoreRounding half_store = StoreRounding::rne;
   StoreOverflow half_overflow = StoreOverflow::inf;
-  double unorm_store_ulp = 0;  ///< distance from 255 x that a stored code may have [codes]; 0: as the reference stores
-  double srgb_store_ulp = 0;   ///< the same for 255 encode_srgb(x)
+  bool half_store_flush = false;  ///< a store may leave 0 of a subnormal half; loads keep it
+  double unorm_store_ulp = 0;     ///< distance from 255 x that a stored code may have [codes]; 0: as the reference stores
+  double srgb_store_ulp = 0;      ///< the same for 255 encode_srgb(x)
 };
+
+/// Whether a profile promises anything of atan2(y, x).
+inline bool is_promised(const Profile& p, double y, double x) {
+  const double height = y < 0 ? -y : y, width = x < 0 ? -x : x;
+  return p.atan2_domain == 0 || (height >= 0x1p-126 && height < 0x1p128 && width * p.atan2_domain >= 1 && width <= p.atan2_domain);
+}
 
 /// The profile `ieee`, also the one in force outside every scope.
 inline const Profile reference_profile;

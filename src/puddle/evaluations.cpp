@@ -3,6 +3,7 @@
 #include <span>
 
 #include "capture/bound_texture.h"
+#include "capture/other_angles_model.h"
 #include "pass/model.h"
 #include "puddle/bounds.h"
 #include "puddle/scalar.h"
@@ -30,10 +31,14 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassEvaluations>& evaluations() {
-  static const std::vector<capture::PassEvaluations> all{{"raindrops", nullptr, recompute_raindrops},
+  static const std::vector<capture::PassEvaluations> all{{"raindrops", bind_raindrops, recompute_raindrops},
                                                          {"wave_step", pass::bind<WaveStepPass, scalar::WaveStepPassText>},
                                                          {"surface_hit", bind_surface_hit, nullptr, doubt_bounds},
-                                                         {"shade", pass::bind<ShadePass, scalar::ShadePassText>},
+                                                         {"shade",
+                                                          pass::bind<ShadePass, scalar::ShadePassText>,
+                                                          nullptr,
+                                                          nullptr,
+                                                          {capture::by_other_angles<pass::bind<ShadePass, scalar::ShadePassText>>()}},
                                                          {"display", pass::bind<DisplayPass, scalar::DisplayPassText>}};
   return all;
 }

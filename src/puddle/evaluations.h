@@ -7,9 +7,11 @@
 
 namespace rainref::puddle {
 
-/// wave_step, surface_hit, shade and display, of both variants, and raindrops, corrected, which is compared by bits.
-/// raindrops as published and ground_noise are taken as data.
+/// All of them, of both variants; corrected raindrops is compared by bits. ground_noise is taken as data.
 const std::vector<capture::PassEvaluations>& evaluations();
+
+/// raindrops as published: record i is drop i.
+std::unique_ptr<capture::PassModel> bind_raindrops(const capture::PassCase& c);
 
 /// surface_hit is judged by the gap between its hit and the water: see surface_hit_model.cpp.
 std::unique_ptr<capture::PassModel> bind_surface_hit(const capture::PassCase& c);

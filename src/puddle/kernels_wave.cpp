@@ -168,7 +168,7 @@ void RaindropsAsPublished(const RaindropsUniforms& uniforms, Drop* out) {
     hn::Store(drop.x.v, Lanes::D(), x);
     hn::Store(drop.y.v, Lanes::D(), y);
     hn::Store(drop.z.v, Lanes::D(), strength);
-    for (int k = 0; k < std::min(n, uniforms.drop_count - i); ++k) out[i + k] = {x[k], y[k], strength[k] + 0.0f, 4.0f};
+    for (int k = 0; k < std::min(n, uniforms.drop_count - i); ++k) out[i + k] = {x[k], y[k], strength[k] + 0.0f, raindrop_radius};
   }
 }
 RAINREF_TARGET_END(puddle)

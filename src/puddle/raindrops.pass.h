@@ -9,11 +9,12 @@
 
 namespace rainref::puddle {
 
+inline constexpr float raindrop_radius = 4.0f;  ///< as published [texel]
 inline constexpr std::string_view raindrops_sentence = "The drops that fall in this step.";
 inline constexpr pass::Out raindrops_out{.name = "drops", .sentence = "Drop records of this step.", .record = "Drop"};
 
 struct PublishedRaindropsPass {
-  static constexpr pass::About about{"raindrops", raindrops_sentence, {1, capture::Judge::input_only}, {}};
+  static constexpr pass::About about{"raindrops", raindrops_sentence, {1, capture::Judge::keyed}, {}};
   using Uniforms = RaindropsUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "capture/bound_texture.h"
+#include "capture/other_angles_model.h"
 #include "pass/display.h"
 #include "pass/model.h"
 #include "rainref/error.h"
@@ -48,10 +49,11 @@ std::string doubt_near_depth(const PassCase& c) {
 }  // namespace
 
 const std::vector<capture::PassEvaluations>& evaluations() {
-  static const std::vector<capture::PassEvaluations> all{{"bake_raindrops", pass::bind<BakeRaindropsPass, scalar::BakeRaindropsPassText>},
-                                                         {"bake_rivulets", pass::bind<BakeRivuletsPass, scalar::BakeRivuletsPassText>},
-                                                         {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth},
-                                                         {"display", pass::bind_display}};
+  static const std::vector<capture::PassEvaluations> all{
+      {"bake_raindrops", pass::bind<BakeRaindropsPass, scalar::BakeRaindropsPassText>},
+      {"bake_rivulets", pass::bind<BakeRivuletsPass, scalar::BakeRivuletsPassText>},
+      {"rain_on_glass", bind_rain_on_glass, nullptr, doubt_near_depth, {capture::by_other_angles<bind_rain_on_glass>()}},
+      {"display", pass::bind_display}};
   return all;
 }
 

@@ -6,21 +6,30 @@
 #include "pass/model.h"
 #include "windshield/scalar.h"
 #include "windshield/surface_scalar.h"
+#include "windshield/wipe_from_ends.h"
 
 namespace rainref::windshield {
 
 const std::vector<capture::PassEvaluations>& evaluations() {
-  static const std::vector<capture::PassEvaluations> all{{"windshield_frame", bind_windshield_frame},
-                                                         {"spawn", nullptr, drops::recompute_spawn},
-                                                         {"integrate", drops::bind_integrate},
-                                                         {"wipe_drops", bind_wipe_drops},
-                                                         {"merge", drops::bind_merge},
-                                                         {"splat", drops::bind_splat},
-                                                         {"wipe_texture", pass::bind<WipeTexturePass, scalar::WipeTexturePassText>},
-                                                         {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
-                                                         {"blur_pyramid", blur_pyramid::bind_blur},
-                                                         {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
-                                                         {"display", pass::bind_display}};
+  static const std::vector<capture::PassEvaluations> all{
+      {"windshield_frame", bind_windshield_frame},
+      {"spawn", nullptr, drops::recompute_spawn},
+      {"integrate", drops::bind_integrate},
+      {"wipe_drops", bind_wipe_drops},
+      {"merge", drops::bind_merge},
+      {"splat", drops::bind_splat},
+      {"wipe_texture",
+       pass::bind<WipeTexturePass, scalar::WipeTexturePassText>,
+       nullptr,
+       nullptr,
+       {{"the blades' ends from the other members of their records",
+         "a record has the ends of its blade as places on the glass and as pivot, axis and "
+         "radii, rounded each; the pass takes the others than the port",
+         bind_wipe_from_ends}}},
+      {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
+      {"blur_pyramid", blur_pyramid::bind_blur},
+      {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
+      {"display", pass::bind_display}};
   return all;
 }
 

@@ -126,17 +126,22 @@ RAINREF_FN N wiped_mask_as_published(const WipeTextureUniforms& u, N mask, N cov
 // nearer blade's ray is never further from the sector than |r - radii| + 2 s; one behind the pivot never further than
 // |r - radii| + 2 r, and there s and how far it is behind, along the sum of the axes, are more than r together.
 template <class N>
-RAINREF_FN N sector_distance(const Wiper& w, N x, N y) {
-  const N px = x - N(w.pivot[0]), py = y - N(w.pivot[1]);
+RAINREF_FN N sector_distance(const Wiper& w, N px, N py, N before, N now) {
   const N cx0(w.previous_axis[0]), cy0(w.previous_axis[1]), cx1(w.axis[0]), cy1(w.axis[1]), inner(w.inner_radius), outer(w.outer_radius);
-  const N before = segment_distance(px, py, inner * cx0, inner * cy0, outer * cx0, outer * cy0);
-  const N now = segment_distance(px, py, inner * cx1, inner * cy1, outer * cx1, outer * cy1);
   const float turn = w.direction < 0 ? -1.0f : 1.0f;
   const N beside = max(max(N(turn) * (px * cy0 - py * cx0), N(turn) * (py * cx1 - px * cy1)), N(0.0f));
   const N behind = max(-(px * (cx0 + cx1) + py * (cy0 + cy1)), N(0.0f));
   const N r = length(px, py);
   const N between = max(max(inner - r, r - outer), N(0.0f)) + N(2.0f) * (beside + behind);
   return min(min(before, now), between);
+}
+template <class N>
+RAINREF_FN N sector_distance(const Wiper& w, N x, N y) {
+  const N px = x - N(w.pivot[0]), py = y - N(w.pivot[1]);
+  const N cx0(w.previous_axis[0]), cy0(w.previous_axis[1]), cx1(w.axis[0]), cy1(w.axis[1]), inner(w.inner_radius), outer(w.outer_radius);
+  const N before = segment_distance(px, py, inner * cx0, inner * cy0, outer * cx0, outer * cy0);
+  const N now = segment_distance(px, py, inner * cx1, inner * cy1, outer * cx1, outer * cy1);
+  return sector_distance(w, px, py, before, now);
 }
 template <class N>
 RAINREF_FN N wipe_coverage_corrected(const WipeTextureUniforms& u, const Wiper* wipers, int x, int y) {

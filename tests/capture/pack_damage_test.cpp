@@ -191,9 +191,11 @@ TEST_F(DamagedPack, NoCasesAndCasesWithoutOutputs) {
 TEST_F(DamagedPack, RulesThatDoNotFitTheirOutput) {
   EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "envelope"),
             in_manifest("cases[0].outputs[0].judge: expected bits, keyed or input_only for records, found \"envelope\""));
-  EXPECT_EQ(error_with("/cases/1/outputs/0/judge", "keyed"),
-            in_manifest("cases[1].outputs[0].judge: expected bits, envelope or input_only for what is no list of records with a uint 'id', "
-                        "found \"keyed\""));
+  EXPECT_EQ(
+      error_with("/cases/1/outputs/0/judge", "keyed"),
+      in_manifest(
+          "cases[1].outputs[0].judge: expected bits, envelope or input_only for what is no list of records with a uint 'id' or of floats "
+          "alone, found \"keyed\""));
   EXPECT_EQ(error_with("/cases/0/outputs/0/judge", "keyed"), "none");
 }
 

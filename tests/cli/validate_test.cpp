@@ -136,14 +136,14 @@ TEST_F(Validate, UntestedIsForgivenOnlyBesideAPass) {
   EXPECT_EQ(validate({"--shadow", "port", "--allow-untested", "--only", "display"}).code, 1);
 }
 
-// The article's drops come from a hash that no GPU reproduces. They are no PASS, and alone they are nothing.
+// The article's noise comes from a hash that no GPU reproduces. It is no PASS, and alone it is nothing.
 TEST_F(Validate, WhatIsTakenAsDataIsNotJudged) {
   copy_to("port", published);
   Outcome o = validate({published, "--port", "port", "--allow-untested"});
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, AllOf(HasSubstr("DATA  raindrops     nothing judged"), HasSubstr("(4 PASS, 2 DATA)")));
+  EXPECT_THAT(o.out, AllOf(HasSubstr("DATA  ground_noise  nothing judged"), HasSubstr("(5 PASS, 1 DATA)")));
   for (const bool forgiving : {false, true}) {
-    std::vector<std::string> arguments{published, "--port", "port", "--only", "raindrops"};
+    std::vector<std::string> arguments{published, "--port", "port", "--only", "ground_noise"};
     if (forgiving) arguments.push_back("--allow-untested");
     o = validate(arguments);
     EXPECT_EQ(o.code, 1);

@@ -33,7 +33,8 @@ inline std::vector<capture::Array> given(const Written& w, const Pack& pack, con
 }
 /// A port of the functions, each with a mistake or with "", judged; one pass alone, or all ("").
 template <class MistakeOf>
-PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::string& profile = "vulkan", const std::string& only = "") {
+PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::string& profile = "vulkan", const std::string& only = "",
+                     decltype(ValidateOptions::explain) explain = {}) {
   const TemporaryFolder folder;
   for (const PackCase& entry : pack.cases) {
     const PassCase c = pack.read(entry);
@@ -47,6 +48,7 @@ PortJudgement judged(const Pack& pack, const MistakeOf& mistake_of, const std::s
   options.partial = true;
   if (!only.empty()) options.only = {only};
   options.executor = &test_executor();
+  options.explain = explain;
   return validate(pack, folder.path(), options);
 }
 

@@ -26,9 +26,10 @@ struct Crater {
 };
 
 inline void raindrops_published(const Run& r, Given& out) {
-  const auto hash = [](float x, float y, float a, float b, float c) {
+  const float shift = r.is("33 for 33.33") ? 33.0f : 33.33f;
+  const auto hash = [shift](float x, float y, float a, float b, float c) {
     const Float3 p{fract(x * a), fract(y * b), fract(x * c)};
-    const float d = dot(p, Float3{p.y + 33.33f, p.z + 33.33f, p.x + 33.33f});
+    const float d = dot(p, Float3{p.y + shift, p.z + shift, p.x + shift});
     return Float3{p.x + d, p.y + d, p.z + d};
   };
   const float t = r.u("time") * r.u("rain_speed");
@@ -177,7 +178,7 @@ inline std::vector<Written> puddle_published_passes() {
   return {
       {{"puddle-as-published"},
        "raindrops",
-       "",
+       "33 for 33.33",
        nullptr,
        raindrops_published,
        {{document, R"(t = time · rain_speed    offset = .3711 i    seed = (floor(t) + offset, 17.3 i)

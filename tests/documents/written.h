@@ -118,7 +118,33 @@ inline Float3 refract(Float3 i, Float3 n, float eta) {
 inline Float3 cross(Float3 a, Float3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline float sine(float x) { return static_cast<float>(std::sin(static_cast<double>(x))); }
 inline float cosine(float x) { return static_cast<float>(std::cos(static_cast<double>(x))); }
-inline float arc(float y, float x) { return static_cast<float>(std::atan2(static_cast<double>(y), static_cast<double>(x))); }
+/// Formulas of the angle of a unit vector that engineers write instead; other_formulas_test.cpp asks for them.
+enum class Arc : std::uint8_t { tangent, sine, cosine, polynomial };
+inline thread_local Arc arc_formula = Arc::tangent;
+/// acos as compilers for HLSL and Mesa have it (Abramowitz and Stegun, 4.4.45).
+inline float arc_cosine_by_polynomial(float x) {
+  const float a = std::abs(x), y = std::sqrt(1 - a) * (1.5707288f + a * (-0.2121144f + a * (0.0742610f + a * -0.0187293f)));
+  return x < 0 ? 3.14159265f - y : y;
+}
+inline float arc(float y, float x) {
+  const double r = std::sqrt(static_cast<double>(y) * y + static_cast<double>(x) * x);
+  const bool is_unit = std::abs(r - 1) < 1e-5 && x >= 0;
+  const auto held = [](double s) { return static_cast<float>(std::clamp(s, -1.0, 1.0)); };
+  const float sine = held(is_unit ? y : y / r), cosine = held(x / r), sign = y < 0 ? -1.0f : 1.0f;
+  switch (arc_formula) {
+    case Arc::sine:
+      if (x >= 0) return static_cast<float>(std::asin(static_cast<double>(sine)));
+      break;
+    case Arc::cosine:
+      return is_unit ? 1.57079633f - static_cast<float>(std::acos(static_cast<double>(sine)))
+                     : sign * static_cast<float>(std::acos(static_cast<double>(cosine)));
+    case Arc::polynomial:
+      return is_unit ? 1.57079633f - arc_cosine_by_polynomial(sine) : sign * arc_cosine_by_polynomial(cosine);
+    case Arc::tangent:
+      break;
+  }
+  return static_cast<float>(std::atan2(static_cast<double>(y), static_cast<double>(x)));
+}
 inline float cube_root(float x) { return power(x, 1 / 3.0f); }
 
 struct Float2 {

@@ -88,6 +88,25 @@ TEST(CodeRange, HalvesOverflowAsTheRulesSay) {
   }
 }
 
+// Every subnormal half and each place between two of them: flushed, its range goes on to 0; the least normal one stays.
+TEST(CodeRange, SubnormalHalvesMayBeFlushed) {
+  for (const StoreRounding rounding : {StoreRounding::rne, StoreRounding::rtz, StoreRounding::either}) {
+    StoreRules kept = halves(rounding), flushed = kept;
+    flushed.half_flush = true;
+    for (int code = 1; code <= 0x401; ++code) {
+      const float here = to_float(Half{static_cast<std::uint16_t>(code)}), next = to_float(Half{static_cast<std::uint16_t>(code + 1)});
+      for (const float x : {here, (here + next) / 2}) {
+        const CodeRange range = half_range(x, x, kept);
+        ASSERT_GT(range.lo, 0);
+        ASSERT_TRUE(is(half_range(x, x, flushed), range.lo < 0x400 ? 0 : range.lo, range.hi)) << x;
+        ASSERT_TRUE(is(half_range(-x, -x, flushed), -range.hi, range.lo < 0x400 ? 0 : -range.lo)) << -x;
+      }
+    }
+    EXPECT_TRUE(
+        is(half_range(-0x1p-20f, 0x1p-16f, flushed), half_range(-0x1p-20f, 0x1p-16f, kept).lo, half_range(-0x1p-20f, 0x1p-16f, kept).hi));
+  }
+}
+
 TEST(CodeRange, FloatsAreOrderedAndTheirZerosOne) {
   const auto code = [](float x) {
     std::byte bytes[4];

@@ -66,7 +66,7 @@ struct MiniPort {
     const std::vector<Slot> slots = slots_of(c);
     const perturbed::Scope scope(only.empty() || only == c.pass ? behaviour : perturbed::Behaviour());
     for (std::size_t o = 0; o < out.size(); ++o) {
-      if (c.outputs[o].judge != capture::Judge::keyed) continue;
+      if (c.outputs[o].judge != capture::Judge::keyed || is_placed(c.outputs[o])) continue;
       out[o].levels = {*model->keyed(c.outputs[o].name)->perturbed()};
       out[o].width = static_cast<int>(out[o].levels[0].size() / out[o].element_bytes());
     }

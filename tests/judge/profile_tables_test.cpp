@@ -4,10 +4,14 @@
 
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
+#include "image/code_range.h"
 #include "judge/profiles.h"
+#include "math/half.h"
 #include "math/profiles.h"
+#include "registry/registry.h"
 
 namespace rainref::judge {
 namespace {
@@ -78,8 +82,10 @@ Profile webgpu() {
   p.lod_bits = 4;                            // a choice
   p.coordinate_bits = 20;                    // a choice
   p.unorm_load = ulp(3);                     // unpack4x8unorm; for texture loads a choice
+  p.atan2_domain = 0x1p126;                  // |x| in [2^-126, 2^126], and y finite and normal
   p.half_store = StoreRounding::either;      // "Floating Point Conversion": no rounding mode
   p.half_overflow = StoreOverflow::either;   // the same
+  p.half_store_flush = true;                 // "Channel Formats", 16float: quantizeToF16, which may flush
   p.unorm_store_ulp = p.srgb_store_ulp = 1;  // a choice
   return p;
 }
@@ -97,18 +103,18 @@ Profile d3d() {
   p.sqrt = ulp(1);                               // 3.1.3.1
   p.exp2 = relative(0x1p-21);                    // 22.10.6, exp: 2^x
   p.exp = {0, 2, 0x1p-21, 0};                    // HLSL's exp: 2^(x log2 e), two roundings of the exponent
-  p.log2 = relative(0x1p-21);                    // 22.10.11, log outside [0.5, 2]
+  p.log2 = relative(0x1p-21);                    // 22.10.8, log outside [0.5, 2]
   p.log2_near_one = absolute(0x1p-21);           // inside
   p.log = {2, 0, 0x1p-21, 0};                    // HLSL's log: log2(x) ln 2, two roundings
   p.log_near_one = {2, 0, 0, 0x1p-21 * ln2};     // the same
   p.pow_is_inherited = true;                     // HLSL's pow: exp2(y log2(x))
-  p.sin_cos = absolute(0.0008);                  // 22.10.21, sincos in [-100 pi, 100 pi]; nothing beyond
+  p.sin_cos = absolute(0.0008);                  // 22.10.20, sincos in [-100 pi, 100 pi]; nothing beyond
   p.sin_cos_domain = 100 * pi;
   p.atan2 = ulp(4096);                         // a choice: there is no atan instruction
   p.subtexel_bits = 8;                         // 7.18.16: at least 8 bits of subtexel precision
   p.lod_bits = 8;                              // 7.18.10: at least 8.8
   p.coordinate_bits = 0;                       // 3.2.4.1: conversion to fixed point is within those bits
-  p.unorm_load = ulp(1);                       // a choice
+  p.unorm_load = ulp(0);                       // 3.2.3.2: exact to 0.5 ULP
   p.half_store = StoreRounding::rtz;           // 3.2.2: round to zero to another float format
   p.half_overflow = StoreOverflow::max;        // 3.2.2: the largest representable value, not infinity
   p.unorm_store_ulp = p.srgb_store_ulp = 0.6;  // 3.2.3.6 and 3.2.3.8: 0.6 ULP on the integer side
@@ -167,6 +173,7 @@ Profile metal() {
   p.unorm_load = ulp(1);                       // a choice
   p.half_store = StoreRounding::either;        // the compiler option -ftexture-write-rounding-mode
   p.half_overflow = StoreOverflow::either;     // a choice
+  p.half_store_flush = true;                   // a choice
   p.unorm_store_ulp = p.srgb_store_ulp = 1;    // a choice
   return p;
 }
@@ -207,11 +214,13 @@ std::map<std::string, double> figures(const Profile& p) {
                                     {"pow_is_inherited", p.pow_is_inherited},
                                     {"sin_cos_domain", p.sin_cos_domain},
                                     {"sin_cos_beyond", p.sin_cos_beyond},
+                                    {"atan2_domain", p.atan2_domain},
                                     {"subtexel_bits", p.subtexel_bits},
                                     {"coordinate_bits", p.coordinate_bits},
                                     {"lod_bits", p.lod_bits},
                                     {"half_store", static_cast<double>(p.half_store)},
                                     {"half_overflow", static_cast<double>(p.half_overflow)},
+                                    {"half_store_flush", p.half_store_flush},
                                     {"unorm_store_ulp", p.unorm_store_ulp},
                                     {"srgb_store_ulp", p.srgb_store_ulp}};
   for (const auto& [key, a] : {std::pair{"division", p.division},
@@ -282,6 +291,70 @@ TEST(ProfileTables, EveryKeyIsCompared) {
     }
     EXPECT_GT(keys, 4) << name;
   }
+}
+
+/// The lines of a profile's data file.
+std::vector<std::string> lines_of(const std::string& profile) {
+  std::vector<std::string> out;
+  std::istringstream text{std::string(profile_text(profile))};
+  for (std::string line; std::getline(text, line);) out.push_back(line);
+  return out;
+}
+
+// A source names one of the documents that the file's head declares with their version or date, and a section; or it is a choice.
+TEST(ProfileTables, EachEntryNamesDocumentVersionAndSection) {
+  const std::regex declared("# ([A-Z0-9]+) = .*([0-9]+\\.[0-9]+|version|20[0-9][0-9]|this version).*"),
+      entry("\\w+ = \\{.*, source = \"(.*)\"\\}"), from("([A-Z0-9]+) ([0-9]+(\\.[0-9]+)*|'[^']+'): .{4,}"),
+      choice("choice 20[0-9][0-9]-[01][0-9]-[0-3][0-9]: .{15,}");
+  for (const auto& [name, unused] : specifications()) {
+    std::set<std::string> documents, used;
+    int entries = 0;
+    for (const std::string& line : lines_of(name)) {
+      std::smatch found;
+      if (std::regex_match(line, found, declared)) documents.insert(found[1]);
+      if (line.find("source = ") == std::string::npos) continue;
+      ++entries;
+      ASSERT_TRUE(std::regex_match(line, found, entry)) << name << ": " << line;
+      const std::string source = found[1];
+      if (std::regex_match(source, choice)) continue;
+      ASSERT_TRUE(std::regex_match(source, found, from)) << name << ": " << line;
+      EXPECT_TRUE(documents.contains(found[1])) << name << ": " << line;
+      used.insert(found[1]);
+    }
+    EXPECT_GE(entries, 5) << name;
+    for (const std::string& d : documents) EXPECT_TRUE(d == "CTS" || used.contains(d)) << name << ": nothing comes from " << d;
+  }
+}
+
+// Vulkan, "Floating-Point Format Conversions": one of the representable neighbours. WGSL, "Channel Formats": quantizeToF16, which may
+// flush. Direct3D 11.3, 3.2.2: to the denorm representation. CUDA: IEEE 754. What devices do: none flushes.
+TEST(ProfileTables, AStoreThatFlushesASubnormalHalf) {
+  const std::map<std::string, bool> may{{"ieee", false}, {"vulkan", false}, {"webgpu", true},  {"d3d", false},
+                                        {"cuda", false}, {"metal", true},   {"typical", false}};
+  for (const auto& [name, allowed] : may) {
+    const StoreRules rules = store_rules(profile(name));
+    for (const float x : {0x1p-24f, 0x1.8p-20f, 0x1.ff8p-15f}) {  // the last is the largest subnormal half
+      const Enclosure above(x, x), below(-x, -x);
+      EXPECT_EQ(code_range(FormatInfo::float16, above, rules).contains(0), allowed) << name << ' ' << x;
+      EXPECT_EQ(code_range(FormatInfo::float16, below, rules).contains(0), allowed) << name << ' ' << -x;
+    }
+    for (const float x : {0x1p-14f, 0x1.004p-14f}) EXPECT_FALSE(code_range(FormatInfo::float16, {x, x}, rules).contains(0)) << name;
+    // Loads keep it, under every profile.
+    const ProfileScope scope(profile(name));
+    const Half least{1};
+    EXPECT_TRUE(Enclosure::load(&least).is_point() && Enclosure::load(&least).lo == 0x1p-24f) << name;
+  }
+}
+
+// Direct3D 11.3, 3.2.3.7, lets an sRGB load err by half a code. Nothing loads one: no buffer has such a format.
+TEST(ProfileTables, NoBufferIsSrgb) {
+  int buffers = 0;
+  for (const effect::Effect* effect : registry::effects())
+    for (const capture::BufferInfo& b : effect->info->buffers) {
+      EXPECT_EQ(b.format.find("srgb"), std::string::npos) << effect->info->name << ' ' << b.name;
+      ++buffers;
+    }
+  EXPECT_GT(buffers, 20);
 }
 
 // What no specification says was chosen: each such number says when and why.

@@ -116,6 +116,8 @@ inline HalfMode drawn_mode(const enclosed::Profile& p, Words& words) {
 }
 inline void store_conforming(const Slot& slot, float value, const enclosed::Profile& p, HalfMode mode, Words& words, std::byte* at) {
   if (slot.kind == FormatInfo::float16) {
+    const float rounded = to_float(to_half(value, mode == HalfMode::rne ? Rounding::rne : Rounding::rtz));
+    if (p.half_store_flush && rounded > -0x1p-14f && rounded < 0x1p-14f && words.coin()) return store_value(slot, 0.0f, Rounding::rne, at);
     const float cut = to_float(to_half(value, Rounding::rtz));
     const bool beyond = value >= 65520.0f || value <= -65520.0f;
     if (mode == HalfMode::either && cut != value && !beyond) {

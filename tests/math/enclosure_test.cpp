@@ -246,6 +246,63 @@ TEST(Enclosure, TheArcTangentJumpsAtItsCutOnly) {
   EXPECT_LE(origin[0].lo, -3.14f);
   EXPECT_GE(origin[0].hi, 3.14f);
 }
+// WGSL promises nothing but for |x| in [2^-126, 2^126] and y finite and normal; 0 is not normal.
+TEST(Enclosure, TheArcTangentHasADomain) {
+  const float least = 0x1p-126f, most = 0x1p126f, subnormal = 0x1p-127f;
+  const struct {
+    Enclosure y, x;
+    bool is_promised;
+  } cases[] = {{{1, 1}, {1, 1}, true},
+               {{least, least}, {1, 1}, true},
+               {{-least, -least}, {-1, -1}, true},
+               {{3e38f, 3e38f}, {-most, -most}, true},
+               {{1, 1}, {least, most}, true},
+               {{1, 1}, {-most, -least}, true},
+               {{-2, -1}, {1, 2}, true},
+               {{subnormal, subnormal}, {1, 1}, false},
+               {{-subnormal, -subnormal}, {1, 1}, false},
+               {{0, 0}, {1, 1}, false},
+               {{0, 0}, {-1, -1}, false},
+               {{0, 1}, {1, 1}, false},
+               {{-1, 1}, {1, 1}, false},
+               {{1, 1}, {0, 0}, false},
+               {{1, 1}, {-1, 1}, false},
+               {{1, 1}, {subnormal, 1}, false},
+               {{1, 1}, {1, 1.0001f * most}, false},
+               {{0, 0}, {0, 0}, false}};
+  for (const Profile& p : profiles()) {
+    const ProfileScope scope(p);
+    for (const auto& c : cases) {
+      bool is_bounded = true;
+      PathEnumeration paths;
+      EXPECT_TRUE(paths.for_each_alternative([&] { is_bounded &= !atan2(c.y, c.x).is_vacuous(); }));
+      EXPECT_EQ(is_bounded, c.is_promised || p.name != "webgpu")
+          << p.name << " y [" << c.y.lo << ", " << c.y.hi << "] x [" << c.x.lo << ", " << c.x.hi << "]";
+    }
+  }
+}
+// Each specification names t t (3 - 2 t) and lets it be regrouped: both groupings, rounded as it lies and fused, are within.
+TEST(Enclosure, SmoothstepHoldsBothGroupings) {
+  std::mt19937 words(7);
+  const auto random = [&] { return static_cast<float>(words() >> 8) * 0x1p-24f; };
+  for (const Profile& p : profiles()) {
+    if (p.reference) continue;
+    const ProfileScope scope(p);
+    int apart = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const float edge = random() - 0.5f, x = random(), t = i % 2 == 0 ? x : std::clamp((x - edge) / (1.5f - edge), 0.0f, 1.0f);
+      const Enclosure e = i % 2 == 0 ? smoothstep(0.0f, 1.0f, Enclosure(x)) : smoothstep(edge, 1.5f, Enclosure(x));
+      const float slope = 3.0f - 2.0f * t, fused = std::fma(-2.0f, t, 3.0f);
+      for (const float s : {slope, fused}) {
+        const float left = t * t * s, right = t * (t * s);
+        apart += left != right;
+        ASSERT_TRUE(e.contains(left)) << p.name << ' ' << x << ": " << left << " outside [" << e.lo << ", " << e.hi << "]";
+        ASSERT_TRUE(e.contains(right)) << p.name << ' ' << x << ": " << right << " outside [" << e.lo << ", " << e.hi << "]";
+      }
+    }
+    EXPECT_GT(apart, 5000) << "the groupings give the same numbers";
+  }
+}
 TEST(Enclosure, AnOctaveIsOneDecision) {
   const auto levels = [](Enclosure x) {
     std::vector<float> found;

@@ -243,6 +243,28 @@ TEST(Perturbed, VariationsStayWithinTheProfileAndReachItsEnds) {
   }
 }
 
+// Outside of what a profile promises of atan2 any angle comes.
+TEST(Perturbed, DrawsAnyAngleOutsideTheDomain) {
+  const Variations all = variations_of(test::profile_named("webgpu")), everywhere = variations_of(test::profile_named("vulkan"));
+  const auto far_off = [](const Variations& v, float y, float x) {
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      Behaviour b;
+      b.variations = &v;
+      b.random = seed * 0x9e3779b97f4a7c15u;
+      const Scope scope(b);
+      count += std::abs(atan2(d(y), d(x)).v - std::atan2(y, x)) > 0.1f;
+    }
+    return count;
+  };
+  EXPECT_GT(far_off(all, 0.0f, 1.0f), 80);
+  EXPECT_GT(far_off(all, 0x1p-127f, 1.0f), 80);
+  EXPECT_GT(far_off(all, 1.0f, 0x1p127f), 80);
+  EXPECT_EQ(far_off(all, 0x1p-126f, 1.0f), 0);
+  EXPECT_EQ(far_off(all, 1.0f, -0.5f), 0);
+  EXPECT_EQ(far_off(everywhere, 0.0f, 1.0f), 0);
+}
+
 // Every variation is taken: the results that a machine may choose between all appear, and no others.
 TEST(Perturbed, RoundingsOrdersAndFormulasVary) {
   const auto results = [](const char* profile, const std::function<float()>& compute) {

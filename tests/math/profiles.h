@@ -36,12 +36,15 @@ inline enclosed::Profile read_profile(const std::string& name) {
                                                     {"sin_cos", &p.sin_cos},
                                                     {"atan2", &p.atan2},
                                                     {"unorm_load", &p.unorm_load}};
-  const std::map<std::string, bool*> flags{
-      {"contraction", &p.contraction}, {"sqrt_is_inherited", &p.sqrt_is_inherited}, {"pow_is_inherited", &p.pow_is_inherited}};
+  const std::map<std::string, bool*> flags{{"contraction", &p.contraction},
+                                           {"sqrt_is_inherited", &p.sqrt_is_inherited},
+                                           {"pow_is_inherited", &p.pow_is_inherited},
+                                           {"half_store_flush", &p.half_store_flush}};
   const std::map<std::string, int*> counts{
       {"subtexel_bits", &p.subtexel_bits}, {"coordinate_bits", &p.coordinate_bits}, {"lod_bits", &p.lod_bits}};
   const std::map<std::string, double*> numbers{{"sin_cos_domain", &p.sin_cos_domain},
                                                {"sin_cos_beyond", &p.sin_cos_beyond},
+                                               {"atan2_domain", &p.atan2_domain},
                                                {"unorm_store_ulp", &p.unorm_store_ulp},
                                                {"srgb_store_ulp", &p.srgb_store_ulp}};
   const std::map<std::string, StoreRounding> roundings{
@@ -109,7 +112,8 @@ inline enclosed::Profile read_profile(const std::string& name) {
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds) throw std::runtime_error(path + ": missing or too many: " + what);
   };
-  for (const char* key : {"half_store", "half_overflow", "unorm_store_ulp", "srgb_store_ulp"}) require(seen.count(key), key);
+  for (const char* key : {"half_store", "half_overflow", "half_store_flush", "unorm_store_ulp", "srgb_store_ulp"})
+    require(seen.count(key), key);
   if (p.reference) return p;
   for (const char* key : {"basic", "contraction", "flush", "division", "inverse_sqrt", "exp", "exp2", "log", "log2", "log_near_one",
                           "log2_near_one", "sin_cos", "atan2", "subtexel_bits", "coordinate_bits", "lod_bits", "unorm_load"}) {

@@ -139,6 +139,9 @@ struct RandomGpu {
   friend RandomGpu sin(RandomGpu a) { return wave(std::sin(static_cast<double>(a.v)), a.v); }
   friend RandomGpu cos(RandomGpu a) { return wave(std::cos(static_cast<double>(a.v)), a.v); }
   friend RandomGpu atan2(RandomGpu y, RandomGpu x) {
+    const double least = 0x1p-126, reach = rules().atan2_domain, far = std::abs(static_cast<double>(x.v));
+    if (reach > 0 && (std::abs(static_cast<double>(y.v)) < least || far < 1 / reach || far > reach))
+      return exactly(static_cast<float>(uniform(-4, 4)));
     const double height = y.v == 0 ? (toss() ? 0.0 : -0.0) : y.v;
     return exactly(perturbed(std::atan2(height, static_cast<double>(x.v)), rules().atan2));
   }
@@ -166,6 +169,11 @@ inline RandomGpu sum_any_order(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu 
 }
 inline RandomGpu sum_any_order_in_pairs(RandomGpu a, RandomGpu b, RandomGpu c, RandomGpu d) { return sum_any_order(a, b, c, d); }
 inline RandomGpu uniform_quotient(float a, float b, RandomGpu) { return RandomGpu(a) / RandomGpu(b); }
+inline RandomGpu smoothstep(float edge0, float edge1, RandomGpu x) {
+  const RandomGpu t = scalar::saturate((x - RandomGpu(edge0)) / (RandomGpu(edge1) - RandomGpu(edge0)));
+  const RandomGpu slope = RandomGpu(3.0f) - RandomGpu(2.0f) * t;
+  return toss() ? t * t * slope : t * (t * slope);
+}
 inline scalar::Vec3<RandomGpu> normalize(const scalar::Vec3<RandomGpu>& a) {
   const RandomGpu squared = scalar::dot(a, a);
   switch (words()() % 3) {

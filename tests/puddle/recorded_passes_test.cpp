@@ -231,7 +231,7 @@ TEST(EffectInfo, TheDocumentListsEveryFormula) {
 
 TEST(EffectInfo, JudgesWhatNoGpuReproducesAsInput) {
   const auto judge = [](const char* pass, const char* variant) { return effect_info().pass(pass).variant(variant)->judge; };
-  EXPECT_EQ(judge("raindrops", "as-published"), capture::Judge::input_only);
+  EXPECT_EQ(judge("raindrops", "as-published"), capture::Judge::keyed);
   EXPECT_EQ(judge("raindrops", "corrected"), capture::Judge::bits);
   EXPECT_EQ(judge("ground_noise", "as-published"), capture::Judge::input_only);
   for (const char* pass : {"wave_step", "surface_hit", "shade", "display"}) {
