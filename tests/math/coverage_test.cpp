@@ -23,7 +23,7 @@ std::map<Decision, Coverage::Counts> met(const Text& text) {
   text();  // none of these
   return coverage.decisions();
 }
-Decision here(int line, DecisionKind kind) { return {"coverage_test.cpp", line, kind}; }
+Decision here(int line, DecisionKind kind) { return {"math/coverage_test.cpp", line, kind}; }
 Perturbed n(float x) { return Perturbed::of(x); }
 
 TEST(Coverage, CountsEachSideAtTheLineOfThePassText) {
