@@ -51,6 +51,7 @@ struct Settings {
   std::array<int, 2> grid{768, 512};
   double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, shore_width = 0.004, exposure = 0.7;
   Shape shape = Shape::natural;
+  int bed_columns = 768;  ///< of the image of a natural bed; its rows follow the grid
   bool exact_fresnel = true;
   double rain_rate = 5, smallest_drop = 1.6;
 

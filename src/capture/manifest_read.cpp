@@ -235,6 +235,9 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
   for (const JsonField& pass : manifest["passes"].elements()) {
     pack.passes.push_back({pass["name"].text(), pass["formula"].text(), pass["sentence"].text(), pass["reads"].texts(),
                            pass["writes"].texts(), read_block(pass["uniform_block"])});
+    if (!pass.is_null("coverage") && !pass["coverage"].is_null("reasons"))
+      for (const auto& [alternative, reason] : pass["coverage"]["reasons"].members())
+        pack.passes.back().unexercised[alternative] = reason.text();
     names.push_back(pack.passes.back().name);
   }
   Records records;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -49,6 +50,7 @@ struct PackPass {
   std::string name, formula, sentence;
   std::vector<std::string> reads, writes;
   scene::UniformBlock block;
+  std::map<std::string, std::string> unexercised{};  ///< alternatives that the scene says are never taken, and why
 };
 
 /// Where an input of a pass comes from; `from` is "host" or a pass.

@@ -82,9 +82,11 @@ void PackWriter::add(const PassCase& c) {
   ++s.total.cases;
 }
 
-void PackWriter::add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never) {
+void PackWriter::add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,
+                              const std::map<std::string, std::string>& reasons) {
   for (nlohmann::ordered_json& p : state_->manifest["passes"])
-    if (p["name"] == pass) p["coverage"] = {{"exercised", exercised}, {"alternatives", alternatives}, {"never", never}};
+    if (p["name"] == pass)
+      p["coverage"] = {{"exercised", exercised}, {"alternatives", alternatives}, {"never", never}, {"reasons", reasons}};
 }
 
 PackWriter::Total PackWriter::finish() {

@@ -27,7 +27,8 @@ class PackWriter {
   ~PackWriter();
   void add(const PassCase& c);
   /// What the cases exercise of a pass text: how many of its alternatives, and which they do not. For people; a judge counts again.
-  void add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never);
+  void add_coverage(const std::string& pass, int exercised, int alternatives, const std::vector<std::string>& never,
+                    const std::map<std::string, std::string>& reasons);
 
   struct Total {
     int cases = 0, files = 0;

@@ -49,6 +49,8 @@ class PassModel {
   virtual std::optional<double> extent(int) const { return std::nullopt; }
   /// Of an output of Judge::keyed; null: its records are judged by bits.
   virtual const KeyedModel* keyed(std::string_view) const { return nullptr; }
+  /// The input whose decoded texels these are; "" where the pass does not know.
+  virtual std::string_view input_of(const float*) const { return ""; }
 
  private:
   int width_, height_, values_;
@@ -69,6 +71,10 @@ class ModelOf : public PassModel {
     pass_(x, y, all.data());
     for (const enclosed::Rearranged& r : all) *out++ = r.settled();
     return true;
+  }
+  std::string_view input_of(const float* texel) const override {
+    if constexpr (requires { pass_.input_of(texel); }) return pass_.input_of(texel);
+    return "";
   }
 
  protected:

@@ -24,6 +24,7 @@
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "reports/figures.h"
+#include "scene/unexercised.h"
 #include "simulation/opened.h"
 
 namespace rainref::cli {
@@ -105,7 +106,7 @@ class Frames : public Recorder {
 /// Binds a case, and whether a port that does nothing passes it too.
 void try_null_ports(const std::string& effect, const capture::PassCase& c, judge::NullPorts& ports) {
   const std::unique_ptr<capture::PassModel> model = judge::bound(c.pass, judge::binder(effect, c.pass), c);
-  ports.judge(c, model.get(), judge::profile("vulkan"), judge::HalfMode::either);
+  ports.judge(c, model.get(), judge::profile("vulkan"), &judge::profile("typical"), judge::HalfMode::either);
 }
 /// The passes of a pack that a port passes which does nothing, and which.
 std::map<std::string, judge::NullPorts> idle_passes(const std::filesystem::path& folder) {
@@ -126,7 +127,13 @@ class Packing {
         executor_(executor),
         info_(*registry::find(config.effect())->info),
         passes_(std::move(passes)),
-        frames_(frames) {}
+        frames_(frames),
+        unexercised_(scene::unexercised_in(options.scene.scene)) {
+    for (const auto& [pass, alternatives] : unexercised_)
+      if (const std::vector<std::string> all = info_.pass_names(config.variant()); std::find(all.begin(), all.end(), pass) == all.end())
+        throw Error(ExitCode::usage, fmt::format("{}: unexercised.{}: expected a pass of this variant{}", options.scene.scene.string(),
+                                                 pass, did_you_mean(pass, all)));
+  }
 
   capture::PackWriter::Total write() {
     const auto wanted = [&](int frame, std::string_view pass) {
@@ -148,9 +155,13 @@ class Packing {
     }
     not_exercised_.clear();
     for (const std::string& pass : passes_) {
-      const judge::PassCoverage c = judge::summary(exercised[pass]);
+      const std::map<std::string, std::string>& reasons = unexercised_[pass];
+      const judge::PassCoverage c = judge::summary(exercised[pass], reasons);
+      for (const auto& [alternative, reason] : reasons)
+        if (!c.reasons.contains(alternative))
+          not_exercised_ += fmt::format("warning: unexercised.{}: '{}' is exercised, or there is none\n", pass, alternative);
       if (c.alternatives == 0) continue;
-      writer.add_coverage(pass, c.taken, c.alternatives, c.never);
+      writer.add_coverage(pass, c.taken, c.alternatives, c.never, c.reasons);
       if (!c.never.empty()) not_exercised_ += fmt::format("{} {}\n", pass, reports::coverage_text(c, reports::shown_alternatives));
     }
     return writer.finish();
@@ -186,6 +197,7 @@ class Packing {
   const capture::EffectInfo& info_;
   std::vector<std::string> passes_;
   Frames& frames_;
+  scene::Unexercised unexercised_;
   std::string not_exercised_;
 };
 

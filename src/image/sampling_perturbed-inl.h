@@ -15,13 +15,13 @@ RAINREF_FN Address altered(Address address) {
       return address;
   }
 }
-/// Counts on which side of the texels a lookup's coordinate lies: where the address rule decides.
-RAINREF_FN void address_decided(Address address, float u, float size) {
+/// Counts on which side of the texels a lookup's coordinate or a texel's number lies: where the address rule decides.
+RAINREF_FN void address_decided(Address address, perturbed::DecisionKind kind, int side) {
   static constexpr const char* rules[] = {"clamp", "repeat", "mirror", "border"};
-  perturbed::Perturbed::decided(rules[static_cast<int>(address)], 0, perturbed::DecisionKind::address,
-                                u * size < 0.5f          ? 0
-                                : u * size > size - 0.5f ? 2
-                                                         : 1);
+  if (perturbed::Coverage* coverage = perturbed::behaviour().coverage) coverage->addressed(rules[static_cast<int>(address)], kind, side);
+}
+RAINREF_FN void address_decided(Address address, float u, float size) {
+  address_decided(address, perturbed::DecisionKind::address, u * size < 0.5f ? 0 : u * size > size - 0.5f ? 2 : 1);
 }
 RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
   address_decided(address, u.v, size.v);
@@ -52,6 +52,7 @@ RAINREF_FN perturbed::Perturbed texel_coordinate(Address address, perturbed::Per
 template <class N>
 RAINREF_FN N nearest_coordinate(Address address, N u, N size);
 RAINREF_FN perturbed::Perturbed nearest_coordinate(Address address, perturbed::Perturbed u, perturbed::Perturbed size) {
+  address_decided(address, perturbed::DecisionKind::address, u.v < 0 ? 0 : u.v >= 1 ? 2 : 1);
   const auto result = [&] {
     const perturbed::Unseen parts;
     const perturbed::Sampler sampler;
@@ -83,6 +84,7 @@ RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Pertu
 /// Any integer has a texel, whatever a fault has done to it.
 RAINREF_FN scalar::Index<perturbed::Perturbed> texel_index(Address address, scalar::Index<perturbed::Perturbed> i,
                                                            scalar::Index<perturbed::Perturbed> size) {
+  address_decided(address, perturbed::DecisionKind::load, i.i < 0 ? 0 : i.i < size.i ? 1 : 2);
   if (altered(address) == Address::repeat) return {((i.i % size.i) + size.i) % size.i};
   return clamp_index(i, size);
 }

@@ -90,7 +90,7 @@ std::string null_port_of(const PassTask& task, const PassJudgement& judged, cons
     PortRun run = task.runs.load(k);
     if (!run.untested.empty()) continue;
     const std::unique_ptr<PassModel> model = prepare(*task.pass, task.bind, task.runs, run);
-    ports.judge(run.c, model.get(), *options.profile, judged.half_mode);
+    ports.judge(run.c, model.get(), *options.profile, options.typical, judged.half_mode);
   }
   return ports.passing();
 }
@@ -137,7 +137,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     PassJudgement& judged = all.emplace_back();
     judged.pass = task.pass->name;
     judged.formula = task.pass->formula;
-    judged.coverage = summary(coverage[k]);
+    judged.coverage = summary(coverage[k], task.pass->unexercised);
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged);
     if (task.runs.tries_null_ports && (judged.status == Status::pass || judged.status == Status::warn)) {

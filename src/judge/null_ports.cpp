@@ -35,8 +35,9 @@ Array copied(const Array& in, const Array& out) {
   return copy.levels.size() == out.levels.size() ? copy : zeros(out);
 }
 
+/// What the profile leaves without a useful bound must lie inside what real devices do, as in any judgement.
 bool passes(const PassCase& c, const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
-            HalfMode mode) {
+            const enclosed::Profile* typical, HalfMode mode) {
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const capture::CaseOutput& out = c.outputs[o];
     if (out.judge == capture::Judge::bits && judge_bits(out, port[o]).failing > 0) return false;
@@ -46,10 +47,13 @@ bool passes(const PassCase& c, const capture::PassModel* model, const std::vecto
       return false;
   }
   if (slots_of(c).empty()) return true;
-  const InvocationJudge judge(c, *model, profile, mode);
-  for (int y = 0; y < model->height(); ++y)
-    for (int x = 0; x < model->width(); ++x)
-      if (judge.accepts(x, y, port) != Accepted::as_written) return false;
+  for (const enclosed::Profile* rules : {&profile, typical}) {
+    if (!rules) continue;
+    const InvocationJudge judge(c, *model, *rules, mode);
+    for (int y = 0; y < model->height(); ++y)
+      for (int x = 0; x < model->width(); ++x)
+        if (judge.accepts(x, y, port) != Accepted::as_written) return false;
+  }
   return true;
 }
 
@@ -71,13 +75,14 @@ std::vector<NullPort> null_ports(const PassCase& c) {
   return all;
 }
 
-void NullPorts::judge(const PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile, HalfMode mode) {
+void NullPorts::judge(const PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile,
+                      const enclosed::Profile* typical, HalfMode mode) {
   if (std::all_of(c.outputs.begin(), c.outputs.end(), [](const auto& o) { return o.judge == capture::Judge::input_only; })) return;
   if (judged_ && passing_.empty()) return;
   std::vector<std::string> still;
   for (const NullPort& port : null_ports(c)) {
     if (judged_ && std::find(passing_.begin(), passing_.end(), port.what) == passing_.end()) continue;
-    if (passes(c, model, port.outputs, profile, mode)) still.push_back(port.what);
+    if (passes(c, model, port.outputs, profile, typical, mode)) still.push_back(port.what);
   }
   passing_ = std::move(still);
   judged_ = true;

@@ -21,8 +21,10 @@ std::vector<NullPort> null_ports(const capture::PassCase& c);
 /// Which of them pass all cases of a pass. They are given up at the first invocation that fails.
 class NullPorts {
  public:
-  /// `model` may be null where no output is judged by envelope. Cases that are taken as data say nothing.
-  void judge(const capture::PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile, HalfMode mode);
+  /// `model` may be null where no output is judged by envelope, `typical` as in JudgeOptions: one that a judgement would warn of
+  /// does not pass. Cases that are taken as data say nothing.
+  void judge(const capture::PassCase& c, const capture::PassModel* model, const enclosed::Profile& profile,
+             const enclosed::Profile* typical, HalfMode mode);
   /// One that passes every case; "" where none does, or nothing was judged.
   std::string passing() const { return judged_ && !passing_.empty() ? passing_.front() : ""; }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -130,7 +131,9 @@ struct Explanation {
 /// What the pack's runs exercise of a pass text, whatever the port did.
 struct PassCoverage {
   int taken = 0, alternatives = 0;  ///< sides of its decisions; 0: there are none, or the pass has no model
-  std::vector<std::string> never;   ///< those not taken: "shade.pass.h:71 refract: total reflection"
+  /// Those not taken for which no reason is known: "shade.pass.h, refract total reflection: const Vec3<N> bent = ...".
+  std::vector<std::string> never;
+  std::map<std::string, std::string> reasons{};  ///< of the others not taken
 };
 
 struct PassJudgement {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,19 +13,21 @@ namespace rainref::perturbed {
 
 /// What decides. Its sides, in order: `choice`: the first is taken, the second; `minimum`, `maximum`: the first operand, the
 /// second; `clamp`: below, within, above; `total_reflection`: a refracted ray, none; `address`: a lookup's coordinate below the
-/// first texel's centre, between, beyond the last one's.
-enum class DecisionKind : std::uint8_t { choice, minimum, maximum, clamp, total_reflection, address };
+/// first texel's centre, between, beyond the last one's; `load`: a texel's number below 0, inside, beyond the last one.
+enum class DecisionKind : std::uint8_t { choice, minimum, maximum, clamp, total_reflection, address, load };
 /// "select", "min", ...
 std::string_view name(DecisionKind kind);
 int sides(DecisionKind kind);
 /// "the second" and the like: what a side is called after the kind's name.
 std::string_view side_name(DecisionKind kind, int side);
 
-/// Where it stands in a pass text. Decisions of one kind on one line (the components of a vector) are one.
+/// Where it stands in a pass text. Decisions of one kind on one line (the components of a vector) are one, and so are all lookups of
+/// one input.
 struct Decision {
-  std::string file;  ///< without folders
-  int line = 0;
+  std::string file;  ///< with its last folder: "puddle/shade.pass.h"; of a lookup its address rule: "clamp"
+  int line = 0;      ///< of a lookup 0
   DecisionKind kind = DecisionKind::choice;
+  std::string input;  ///< of a lookup what it reads; "" where the pass does not say
   auto operator<=>(const Decision&) const = default;
 };
 
@@ -33,7 +37,15 @@ class Coverage {
   using Counts = std::array<std::int64_t, 3>;
   /// `file`: as the compiler names it.
   void met(const char* file, int line, DecisionKind kind, int side);
+  /// A coordinate of a lookup or the number of a texel, whose image is that of the next fetch(). The numbers that a lookup makes of
+  /// its coordinates are its own.
+  void addressed(const char* rule, DecisionKind kind, int side);
+  void fetched(const float* texel) {
+    if (open_ > 0) settle(texel);
+  }
   void add(const Coverage& other);
+  /// The images met so far have the names of these inputs from now on.
+  void name_inputs(const std::function<std::string(const float* texel)>& name_of);
   /// Those of pass texts and of the named mathematics that they use. A decision within a function of the vocabulary is one of the
   /// line that calls it.
   std::map<Decision, Counts> decisions() const;
@@ -43,9 +55,20 @@ class Coverage {
     const char* file;
     int line;
     DecisionKind kind;
+    const float* texel = nullptr;  ///< of a lookup: some texel that it read, until the input has a name
+    std::string input = "";
     auto operator<=>(const Key&) const = default;
   };
+  struct Open {
+    const char* rule;
+    DecisionKind kind;
+    int side;
+  };
+  void settle(const float* texel);
+
   std::map<Key, Counts> counts_;
+  std::array<Open, 8> opened_{};  ///< coordinates of the lookup at hand
+  std::size_t open_ = 0;
 };
 
 /// Sides that were taken, and those that there are.

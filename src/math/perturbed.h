@@ -188,7 +188,10 @@ class Perturbed {
   /// A number that a fault has made too large for an integer is cut.
   friend Int to_int(Perturbed a) { return {a.v > -0x1p30f && a.v < 0x1p30f ? static_cast<std::int32_t>(a.v) : 0}; }
   friend Perturbed to_number(Int a) { return of(static_cast<float>(a.i)); }
-  friend Perturbed fetch(const float* texels, Int offset, Perturbed) { return fetched(texels[offset.i]); }
+  friend Perturbed fetch(const float* texels, Int offset, Perturbed) {
+    if (behaviour().coverage) behaviour().coverage->fetched(texels);
+    return fetched(texels[offset.i]);
+  }
 
   friend Perturbed exp(Perturbed a);
   friend Perturbed exp2(Perturbed a);

@@ -66,7 +66,7 @@ TextureData make_bed(const Settings& s) {
     bed.set_border(static_cast<float>(s.puddle_depth), 0, 0, 0);
     return bed;
   }
-  const int width = 768, height = std::max(1, static_cast<int>(width * half_z / half_x));
+  const int width = s.bed_columns, height = std::max(1, static_cast<int>(width * half_z / half_x));
   std::vector<float> depth(static_cast<std::size_t>(width) * height);
   std::array<Noise, 5> octaves{{{s.seed, 0}, {s.seed, 1}, {s.seed, 2}, {s.seed, 3}, {s.seed, 4}}};
   Noise grains(s.seed, 77);

@@ -12,8 +12,7 @@
 namespace rainref::puddle {
 namespace {
 
-constexpr int own_ground = 512;              // make_asphalt
-constexpr std::array<int, 2> bed{768, 768};  // make_bed, at most
+constexpr int own_ground = 512;  // make_asphalt
 
 /// recode and the texture made of it.
 void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool has_mips) {
@@ -48,7 +47,8 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
     m.hold(texel_bytes(ground[0], ground[1], 2));
     hold_mips(m, ground[0], ground[1], 2);
     if (s.shape == Shape::natural) {
-      m.hold(texel_bytes(bed[0], std::clamp(static_cast<int>(bed[0] * static_cast<double>(rows) / columns), 1, bed[1]), 1));
+      m.hold(
+          texel_bytes(s.bed_columns, std::max(1, static_cast<int>(s.bed_columns * static_cast<double>(rows) / columns)), 1));  // make_bed
       m.hold(Image::memory_bytes(Format::r32f, columns, rows));
     }
   }

@@ -57,6 +57,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       choice<&Settings::shape>("puddle.shape", {{"natural", Shape::natural}, {"basin", Shape::basin}},
                                "An irregular shore, or water of constant depth all over.")
           .only(correct),
+      integer<&Settings::bed_columns>("puddle.bed_columns", "texel", 2, 4096,
+                                      "Columns of the image of a natural puddle's bed; its rows follow the grid.")
+          .only(correct),
       real<&Settings::shore_width>("puddle.shore_width", "m", 1e-6, 1, "Depth over which wet ground turns into water.").only(correct),
       choice<&Settings::exact_fresnel>("puddle.fresnel", {{"exact", true}, {"schlick", false}}, "Reflectance of the surface.")
           .only(correct),

@@ -197,7 +197,8 @@ std::vector<QuantitiesOfOutput> quantities_of(const PassJudgement& p) {
 std::string coverage_text(const judge::PassCoverage& c, std::size_t shown) {
   if (c.alternatives == 0) return "";
   std::string out = fmt::format("exercises {} of {} alternatives", c.taken, c.alternatives);
-  for (std::size_t k = 0; k < std::min(shown, c.never.size()); ++k) out += (k == 0 ? "; never: " : ", ") + c.never[k];
+  if (!c.reasons.empty()) out += fmt::format(", {} with a reason not", c.reasons.size());
+  for (std::size_t k = 0; k < std::min(shown, c.never.size()); ++k) out += (k == 0 ? "; never: " : "; ") + c.never[k];
   return out + (c.never.size() > shown ? fmt::format(" and {} more", c.never.size() - shown) : "");
 }
 

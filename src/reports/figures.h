@@ -77,8 +77,8 @@ struct QuantitiesOfOutput {
 };
 std::vector<QuantitiesOfOutput> quantities_of(const judge::PassJudgement& pass);
 
-/// "exercises 41 of 44 alternatives; never: shade.pass.h:71 refract: total reflection", at most `shown` of them; "" where nothing is
-/// counted.
+/// "exercises 41 of 44 alternatives, 2 with a reason not; never: shade.pass.h, refract total reflection: const Vec3<N> bent = ...", at
+/// most `shown` of them; "" where nothing is counted.
 std::string coverage_text(const judge::PassCoverage& coverage, std::size_t shown);
 constexpr std::size_t shown_alternatives = 3;  // the others are in the JSON report and in the pack's manifest
 /// "likely cause", or "may be".

@@ -133,7 +133,11 @@ Json pass_json(const PassJudgement& p) {
            {"half_mode_voted", p.half_mode_voted},
            {"half_votes", {{"rne", p.half_votes[0]}, {"rtz", p.half_votes[1]}, {"either", p.half_votes[2]}}},
            {"where", p.where},
-           {"coverage", {{"exercised", p.coverage.taken}, {"alternatives", p.coverage.alternatives}, {"never", p.coverage.never}}},
+           {"coverage",
+            {{"exercised", p.coverage.taken},
+             {"alternatives", p.coverage.alternatives},
+             {"never", p.coverage.never},
+             {"reasons", p.coverage.reasons}}},
            {"causes", Json::array()},
            {"cases", Json::array()}};
   for (const Cause& c : p.causes)

@@ -13,6 +13,7 @@
 #include "base/floating_point.h"
 #include "scene/check.h"
 #include "scene/toml_reader.h"
+#include "scene/unexercised.h"
 
 namespace rainref::scene {
 namespace {
@@ -21,24 +22,6 @@ namespace {
 constexpr std::size_t read_limit = (std::size_t{1} << 20) + 1;
 // Longer names are not compared with the valid ones: the edit distance takes their length times each valid length.
 constexpr std::size_t longest_guess = 128;
-
-std::string read_file(const std::filesystem::path& file) {
-  const SourceLocation at{file.string()};
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw Error(ExitCode::io, at, "expected a scene file, found a directory");
-  }
-  const auto cannot_read = [&](int why) {
-    return Error(ExitCode::io, at, fmt::format("cannot be read: {}", std::generic_category().message(why)));
-  };
-  const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> stream(std::fopen(file.string().c_str(), "rb"), close);
-  if (!stream) throw cannot_read(errno);
-  std::string text(read_limit, '\0');
-  text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
-  if (std::ferror(stream.get())) throw cannot_read(errno);
-  return text;
-}
 
 std::string shortened(const std::string& key) { return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…"; }
 
@@ -100,6 +83,7 @@ class Assembly {
   }
 
   void take(const RawEntry& raw) {
+    if (is_unexercised(raw.key)) return take_unexercised(raw, unexercised_);
     const Origin origin{Origin::file, raw.at};
     const auto inside = [&](const Config::Entry& e) { return e.parameter.key.starts_with(raw.key + "."); };
     if (std::any_of(entries_.begin(), entries_.end(), inside)) {
@@ -173,6 +157,7 @@ class Assembly {
   std::string variant_;
   std::vector<Config::Entry> entries_;
   std::vector<std::string> valid_;  // the keys that this variant uses
+  Unexercised unexercised_;         // checked, and of no further use to a run
 };
 
 // The text of `effect` or `variant`, which decide what else is valid, so they are read before the rest.
@@ -193,9 +178,27 @@ bool says(const std::vector<RawEntry>& entries, std::string_view key) {
 
 }  // namespace
 
+std::string read_scene(const std::filesystem::path& file) {
+  const SourceLocation at{file.string()};
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw Error(ExitCode::io, at, "expected a scene file, found a directory");
+  }
+  const auto cannot_read = [&](int why) {
+    return Error(ExitCode::io, at, fmt::format("cannot be read: {}", std::generic_category().message(why)));
+  };
+  const auto close = [](std::FILE* f) { std::fclose(f); };
+  const std::unique_ptr<std::FILE, decltype(close)> stream(std::fopen(file.string().c_str(), "rb"), close);
+  if (!stream) throw cannot_read(errno);
+  std::string text(read_limit, '\0');
+  text.resize(std::fread(text.data(), 1, text.size(), stream.get()));
+  if (std::ferror(stream.get())) throw cannot_read(errno);
+  return text;
+}
+
 Config load(const std::filesystem::path& file, const std::vector<std::string>& overrides, const EffectTable& effects) {
   const FloatingPointGuard guard;
-  return parse(read_file(file), file, overrides, effects);
+  return parse(read_scene(file), file, overrides, effects);
 }
 
 Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,

@@ -22,6 +22,9 @@ namespace rainref::scene {
 /// type, out of range or not finite; a required key that is missing. Throws Error(io) when the file cannot be read.
 Config load(const std::filesystem::path& file, const std::vector<std::string>& overrides, const EffectTable& effects);
 
+/// The text of a scene file, cut where it is longer than any scene. Throws Error(io).
+std::string read_scene(const std::filesystem::path& file);
+
 /// The same for a text already in memory; `file` names it in messages and gives the directory.
 Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,
              const EffectTable& effects);

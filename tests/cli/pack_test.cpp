@@ -141,6 +141,26 @@ TEST_F(PackVerb, BadArguments) {
   expect_refusal({"pack", "corrected.toml", "-o", "p", "--set", "environment.image=none.png"}, 4, HasSubstr("none.png"));
 }
 
+TEST_F(PackVerb, ReasonsForWhatIsNotExercised) {
+  put(folder / "reasons.toml",
+      contents(folder / "corrected.toml") +
+          "\n[unexercised]\nshade = [['shade.pass.h, refract total reflection: const Vec3<N> bent = refract(view, normal, 1.0f / "
+          "water_ior);', 'mine'], ['none', 'x']]\n");
+  before = folder.names();
+  const Outcome o = pack({"reasons.toml", "-o", "p", "--at", "0"});
+  EXPECT_THAT(o.out + o.err, HasSubstr("warning: unexercised.shade: 'none' is exercised, or there is none"));
+  const auto manifest = nlohmann::json::parse(contents(folder / "p/manifest.json"));
+  for (const nlohmann::json& pass : manifest["passes"])
+    if (pass["name"] == "shade") {
+      EXPECT_THAT(pass["coverage"]["reasons"].dump(), HasSubstr("\"mine\""));
+      EXPECT_THAT(pass["coverage"]["never"].dump(), testing::Not(HasSubstr("total reflection")));
+    }
+  put(folder / "reasons.toml", contents(folder / "corrected.toml") + "\n[unexercised]\nshad = [['a', 'b']]\n");
+  before = folder.names();
+  expect_refusal({"pack", "reasons.toml", "-o", "q"}, 2,
+                 "reasons.toml: unexercised.shad: expected a pass of this variant; did you mean 'shade'?");
+}
+
 TEST_F(PackVerb, ALossyInputIsRefused) {
   put(folder / "sky.jpg", image_io::jpeg(3));
   before = folder.names();

@@ -1,11 +1,17 @@
 // What the small packs exercise of the pass texts: what their manifests say, for every number of threads.
 #include "judge/coverage.h"
 
+#include <fstream>
+#include <map>
+#include <set>
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "base/temporary_folder.h"
+#include "judge/pass_texts.h"
 #include "judge/support.h"
+#include "scene/unexercised.h"
 
 namespace rainref::judge {
 namespace {
@@ -21,6 +27,18 @@ perturbed::Coverage coverage_of_pass(const capture::Pack& pack, const std::strin
   return all;
 }
 
+/// Alternatives of a pass that its cases take, and those that they do not.
+struct Sides {
+  std::set<std::string> taken, not_taken;
+};
+Sides sides_of(const capture::Pack& pack, const std::string& pass) {
+  Sides out;
+  for (const auto& [decision, counts] : coverage_of_pass(pack, pass, parallel::Executor(2)).decisions())
+    for (int side = 0; side < perturbed::sides(decision.kind); ++side)
+      (counts[static_cast<std::size_t>(side)] > 0 ? out.taken : out.not_taken).insert(alternative(decision, side));
+  return out;
+}
+
 class PackCoverage : public testing::TestWithParam<std::string> {};
 
 TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
@@ -28,7 +46,8 @@ TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
   const auto manifest = nlohmann::json::parse(contents(test::pack_folder(GetParam()) / "manifest.json"));
   for (const nlohmann::json& pass : manifest["passes"]) {
     for (const int threads : {1, 2, 3, 8}) {
-      const PassCoverage c = summary(coverage_of_pass(pack, pass["name"], parallel::Executor(threads)));
+      const std::string name = pass["name"];
+      const PassCoverage c = summary(coverage_of_pass(pack, name, parallel::Executor(threads)), pack.pass(name).unexercised);
       if (c.alternatives == 0) {
         EXPECT_FALSE(pass.contains("coverage")) << pass["name"];
         continue;
@@ -36,8 +55,57 @@ TEST_P(PackCoverage, IsTheManifestsForEveryNumberOfThreads) {
       EXPECT_EQ(pass["coverage"]["exercised"], c.taken) << pass["name"];
       EXPECT_EQ(pass["coverage"]["alternatives"], c.alternatives) << pass["name"];
       EXPECT_EQ(pass["coverage"]["never"].get<std::vector<std::string>>(), c.never) << pass["name"];
+      EXPECT_EQ((pass["coverage"]["reasons"].get<std::map<std::string, std::string>>()), c.reasons) << pass["name"];
     }
   }
+}
+
+// What the shipped packs never do, a mistake in it would not be found: it is a guard, or the scene says why.
+TEST_P(PackCoverage, IsOfEveryAlternativeButThoseWithAReason) {
+  const capture::Pack pack(test::pack_folder(GetParam()));
+  const auto scene = scene::unexercised_in(test::pack_folder(GetParam()).string() + ".toml");
+  for (const capture::PackPass& pass : pack.passes) {
+    const Sides sides = sides_of(pack, pass.name);
+    const auto own = scene.contains(pass.name) ? scene.at(pass.name) : std::map<std::string, std::string>();
+    for (const std::string& a : sides.not_taken) EXPECT_EQ(own.contains(a) + unreached().contains(a), 1) << pass.name << ": " << a;
+    // No reason stands for what is done.
+    for (const auto& [a, reason] : own) EXPECT_TRUE(sides.not_taken.contains(a)) << pass.name << ": " << a;
+    for (const std::string& a : sides.taken) EXPECT_FALSE(unreached().contains(a)) << pass.name << ": " << a;
+  }
+}
+TEST(Unreached, IsOfLinesThatThePassesHave) {
+  std::set<std::string> open;
+  for (const auto& [alternative, reason] : unreached()) open.insert(alternative);
+  for (const std::string& name : test::packs) {
+    const capture::Pack pack(test::pack_folder(name));
+    for (const capture::PackPass& pass : pack.passes)
+      for (const std::string& a : sides_of(pack, pass.name).not_taken) open.erase(a);
+  }
+  EXPECT_THAT(open, testing::IsEmpty());
+}
+TEST(PassLine, IsTheLineWithoutIndentationAndComment) {
+  std::ifstream in(rainref::test::source_folder() + "/src/math/optics-inl.h");
+  int n = 0, found = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++n;
+    if (line == "  const N m = N(1.0f) - cosine, m2 = square(m);") {
+      EXPECT_EQ(pass_line("math/optics-inl.h", n), "const N m = N(1.0f) - cosine, m2 = square(m);");
+      ++found;
+    }
+    if (line.ends_with("// 1 / 2.4")) {
+      EXPECT_TRUE(pass_line("math/optics-inl.h", n).ends_with("N(0x1.aaaaaap-2f));")) << pass_line("math/optics-inl.h", n);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 2);
+  EXPECT_EQ(pass_line("math/optics-inl.h", n + 5), "");
+  EXPECT_EQ(pass_line("math/none.h", 1), "");
+}
+TEST(Alternative, NamesALookupByWhatItReads) {
+  using perturbed::DecisionKind;
+  EXPECT_EQ(alternative({"clamp", 0, DecisionKind::address, "bed"}, 0), "lookup of bed by clamp: before the first texel");
+  EXPECT_EQ(alternative({"border", 0, DecisionKind::load, ""}, 2), "load of an image by border: behind the last texel");
+  EXPECT_EQ(alternative({"puddle/none.pass.h", 7, DecisionKind::choice, ""}, 1), "none.pass.h, select the second: line 7");
 }
 
 INSTANTIATE_TEST_SUITE_P(Packs, PackCoverage, testing::ValuesIn(test::packs), [](const auto& named) {

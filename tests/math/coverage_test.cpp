@@ -23,7 +23,7 @@ std::map<Decision, Coverage::Counts> met(const Text& text) {
   text();  // none of these
   return coverage.decisions();
 }
-Decision here(int line, DecisionKind kind) { return {"coverage_test.cpp", line, kind}; }
+Decision here(int line, DecisionKind kind) { return {"math/coverage_test.cpp", line, kind, ""}; }
 Perturbed n(float x) { return Perturbed::of(x); }
 
 TEST(Coverage, CountsEachSideAtTheLineOfThePassText) {
@@ -63,6 +63,22 @@ TEST(Coverage, NamedFunctionsAreOneDecision) {
                                Pair(here(line + 5, DecisionKind::total_reflection), ElementsAre(1, 0, 0))));
   EXPECT_EQ(exercised(all).taken, 6);
   EXPECT_EQ(exercised(all).of, 15);
+}
+
+// A lookup's coordinates belong to the image that is fetched next; the numbers of the texels that they make are its own.
+TEST(Coverage, LookupsAreOfTheImageThatTheyRead) {
+  Coverage coverage;
+  const float bed[4] = {}, sky[4] = {};
+  coverage.addressed("clamp", DecisionKind::address, 0);
+  coverage.addressed("clamp", DecisionKind::address, 1);
+  coverage.addressed("clamp", DecisionKind::load, 2);
+  for (int k = 0; k < 4; ++k) coverage.fetched(bed);
+  coverage.addressed("repeat", DecisionKind::load, 2);
+  coverage.addressed("repeat", DecisionKind::load, 1);
+  coverage.fetched(sky);
+  coverage.name_inputs([&](const float* texel) { return texel == bed ? "bed" : ""; });
+  EXPECT_THAT(coverage.decisions(), ElementsAre(Pair(Decision{"clamp", 0, DecisionKind::address, "bed"}, ElementsAre(1, 1, 0)),
+                                                Pair(Decision{"repeat", 0, DecisionKind::load, ""}, ElementsAre(0, 1, 1))));
 }
 
 // Counting changes no value.

@@ -227,19 +227,21 @@ TEST(ReportFigures, AWidthIsInCodesWhereTheySayAnything) {
 // Names of what is never taken, some of them; nothing where nothing is counted, or where all is taken.
 TEST(ReportFigures, WhatAPackExercises) {
   PassCoverage c{
-      5, 9, {"a.pass.h:1 min: the second", "a.pass.h:2 clamp: below", "a.pass.h:2 clamp: above", "a.pass.h:7 select: the first"}};
+      5, 9, {"a.pass.h, min the second: x", "a.pass.h, clamp below: y", "a.pass.h, clamp above: y", "a.pass.h, select the first: z"}};
   EXPECT_EQ(
       coverage_text(c, 4),
-      "exercises 5 of 9 alternatives; never: a.pass.h:1 min: the second, a.pass.h:2 clamp: below, a.pass.h:2 clamp: above, a.pass.h:7 "
-      "select: the first");
-  EXPECT_EQ(coverage_text(c, 1), "exercises 5 of 9 alternatives; never: a.pass.h:1 min: the second and 3 more");
+      "exercises 5 of 9 alternatives; never: a.pass.h, min the second: x; a.pass.h, clamp below: y; a.pass.h, clamp above: y; a.pass.h, "
+      "select the first: z");
+  EXPECT_EQ(coverage_text(c, 1), "exercises 5 of 9 alternatives; never: a.pass.h, min the second: x and 3 more");
   EXPECT_EQ(coverage_text({9, 9, {}}, 3), "exercises 9 of 9 alternatives");
+  EXPECT_EQ(coverage_text({6, 9, {"b"}, {{"c", "a guard"}, {"d", "a guard"}}}, 3),
+            "exercises 6 of 9 alternatives, 2 with a reason not; never: b");
   EXPECT_EQ(coverage_text({}, 3), "");
   PortJudgement j = example_judgement();
   j.passes[0].coverage = c;
   j.passes[3].coverage = {9, 9, {}};
   const std::string text = report_text(j);
-  EXPECT_THAT(text, HasSubstr("exercises 5 of 9 alternatives; never: a.pass.h:1 min: the second, a.pass.h:2 clamp: below"));
+  EXPECT_THAT(text, HasSubstr("exercises 5 of 9 alternatives; never: a.pass.h, min the second: x; a.pass.h, clamp below: y"));
   EXPECT_THAT(text, Not(HasSubstr("9 of 9")));
 }
 

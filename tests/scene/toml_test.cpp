@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/example_effect.h"
+#include "scene/unexercised.h"
 
 namespace rainref::scene {
 namespace {
@@ -54,6 +55,21 @@ TEST(Scene, AnUnknownKeyNamesTheNearest) {
   EXPECT_EQ(error_in("[puddle]\n  dampng = 0.99"), "2 x.toml:4:3: puddle.dampng: unknown key; did you mean 'puddle.damping'?");
   EXPECT_EQ(error_in("[puddl]\ndamping = 0.99"), "2 x.toml:4:1: puddl.damping: unknown key; did you mean 'puddle.damping'?");
   EXPECT_EQ(error_in("zebra = 1"), "2 x.toml:3:1: zebra: unknown key");
+}
+
+// It changes nothing of the scene.
+TEST(Scene, SaysWhyAlternativesAreNotExercised) {
+  const std::string table = "[unexercised]\nshade = [['a', 'no shore'], ['b', 'x']]\n";
+  EXPECT_EQ(parse(head + table, "x.toml", {}, example_effects()).canonical_text(),
+            parse(head, "x.toml", {}, example_effects()).canonical_text());
+  EXPECT_EQ(unexercised(head + table, "x.toml"), (Unexercised{{"shade", {{"a", "no shore"}, {"b", "x"}}}}));
+  EXPECT_EQ(unexercised(head, "x.toml"), Unexercised());
+  const std::string expected = "unexercised.shade: expected pairs of an alternative and the reason why no run takes it, found ";
+  EXPECT_EQ(error_in("unexercised.shade = 'a'"), "2 x.toml:3:21: " + expected + "\"a\"");
+  EXPECT_EQ(error_in("unexercised.shade = [['a']]"), "2 x.toml:3:22: " + expected + "[\"a\"]");
+  EXPECT_EQ(error_in("unexercised.shade = [['a', 3]]"), "2 x.toml:3:22: " + expected + "[\"a\", 3]");
+  EXPECT_EQ(error_in("unexercised.shade = [['a', '']]"), "2 x.toml:3:22: " + expected + "[\"a\", \"\"]");
+  EXPECT_EQ(error_in("unexercised.shade = [['a', 'b'], ['a', 'c']]"), "2 x.toml:3:34: unexercised.shade: 'a' is there twice");
 }
 
 TEST(Scene, AKeyInTheWrongTableNamesTheRightOne) {
