@@ -170,7 +170,7 @@ struct Bound : Inputs<P> {
   /// The input that a lookup reads, by a pointer to a channel of its first texel.
   std::string_view input_of(const float* texel) const {
     std::string_view found;
-    each<P>(captured, [&](const auto& m) {
+    each<P>(this->captured, [&](const auto& m) {
       if constexpr (requires { m.texture; })
         if (m.texture.texels && texel >= m.texture.texels && texel < m.texture.texels + m.texture.channels) found = m.is.name;
     });
