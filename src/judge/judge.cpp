@@ -45,10 +45,14 @@ void settle(const PassCase& c, const PassModel* model, const std::vector<Array>&
   j.id = c.folder();
   std::vector<OutputJudgement> outputs;  // each judged output once, in the case's order
   std::string events;
+  const std::vector<Slot> slots = enveloped ? slots_of(c, *model) : std::vector<Slot>();
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     if (is_placed(c.outputs[o]) && enveloped) {
       outputs.push_back(std::move(j.outputs[o]));
       name_quantities(quantities_of(c.outputs[o]), outputs.back());
+      for (std::size_t v = 0; v < slots.size(); ++v)
+        if (slots[v].output == static_cast<int>(o) && model->extent(static_cast<int>(v)))
+          outputs.back().quantities[static_cast<std::size_t>(slots[v].channel)].extent = slots[v].range;
     }
     if (c.outputs[o].judge == capture::Judge::bits) {
       outputs.push_back(judge_bits(c.outputs[o], port[o]));
