@@ -71,9 +71,10 @@ std::string name_of(const testing::TestParamInfo<std::string>& tested) {
   return name;
 }
 INSTANTIATE_TEST_SUITE_P(Packs, SmallPack,
-                         testing::Values("puddle-as-published", "puddle-corrected", "windshield-as-published", "windshield-corrected",
-                                         "edge_splash-as-published", "edge_splash-corrected", "rainy_glass-as-published",
-                                         "rainy_glass-corrected", "screen_drops-as-published", "screen_drops-corrected"),
+                         testing::Values("puddle-as-published", "puddle-corrected", "puddle-shore", "windshield-as-published",
+                                         "windshield-corrected", "edge_splash-as-published", "edge_splash-corrected",
+                                         "rainy_glass-as-published", "rainy_glass-corrected", "screen_drops-as-published",
+                                         "screen_drops-corrected"),
                          name_of);
 
 }  // namespace
