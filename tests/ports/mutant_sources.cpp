@@ -27,7 +27,8 @@ std::vector<Mutant> read_mutants(const fs::path& file) {
   try {
     const std::string effect = all.at("effect");
     for (const nlohmann::json& m : all.at("mutants")) {
-      Mutant mutant{m.at("id"), effect, m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected"), {}};
+      Mutant mutant{m.at("id"), effect, m.at("pass"), m.at("variant"), m.at("wrong"), m.at("expected"), "", {}};
+      mutant.pack = m.value("pack", effect + "-" + mutant.variant);
       for (const nlohmann::json& e : m.at("edits")) mutant.edits.push_back({e.at("file"), e.at("find"), e.at("replace")});
       if (mutant.edits.empty()) throw FileError(file.string() + ": mutant " + std::to_string(mutant.id) + " has no edits");
       mutants.push_back(std::move(mutant));

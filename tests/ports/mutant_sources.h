@@ -16,6 +16,7 @@ struct Edit {
 struct Mutant {
   int id;
   std::string effect, pass, variant, wrong, expected;
+  std::string pack;  ///< that it is judged by: "puddle-corrected", or the one that the file names
   std::vector<Edit> edits;
 };
 /// Throws FileError naming the file, and the mutant.

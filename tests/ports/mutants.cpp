@@ -155,8 +155,8 @@ int run(const std::map<std::string, std::string>& options) {
               "expected");
   for (const Made& made : compile(mutants, compiler, spirv)) {
     const Mutant& m = made.mutant;
-    Port& port = ports.try_emplace(m.variant).first->second;
-    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / (m.effect + "-" + m.variant));
+    Port& port = ports.try_emplace(m.pack).first->second;
+    if (port.pack.cases.empty()) port.pack = read_pack(fs::path(option("--packs")) / m.pack);
     Change change;
     for (const Case& c : port.pack.cases) {
       if (c.pass != m.pass) continue;
