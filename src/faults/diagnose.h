@@ -12,13 +12,7 @@ namespace rainref::faults {
 /// behind what is wrong in an image that goes with it, so lists are asked first. Serves as judge::ValidateOptions::explain.
 judge::Explanation diagnose(const judge::FailedRun& failed);
 
-/// What explains the failing texels of a case, best first; empty when nothing explains any.
-std::vector<judge::Cause> diagnose_texels(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
-                                          judge::Bind bind, const capture::PassModel& model, const std::vector<capture::Array>& port,
-                                          const judge::CaseJudgement& judgement, const enclosed::Profile& profile, judge::HalfMode mode,
-                                          const parallel::Executor& executor);
-
-/// The same for the lists of a case that are matched by id: what explains the failing ids. `model` may be null.
+/// What explains the failing ids of a case's lists that are matched by id. `model` may be null.
 std::vector<judge::Cause> diagnose_lists(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
                                          const capture::PassModel* model, const std::vector<capture::Array>& port,
                                          const enclosed::Profile& profile, const parallel::Executor& executor);

@@ -14,19 +14,10 @@ namespace {
 
 /// A pass with one constant replaced.
 struct Replaced {
-  const capture::PassModel& model;
+  const EvaluateWith& evaluate;
   float constant;
 
-  float value(const Wanted& w, std::size_t slot, float replacement) const {
-    perturbed::Behaviour b;
-    b.fault = perturbed::Fault::constant;
-    b.constant = constant;
-    b.replacement = replacement;
-    const perturbed::Scope scope(b);
-    std::vector<perturbed::Perturbed> values(w.port.size());
-    model.evaluate(w.at.x, w.at.y, values.data());
-    return values[slot].v;
-  }
+  float value(const Wanted& w, std::size_t slot, float replacement) const { return evaluate(w, slot, constant, replacement); }
 };
 
 /// The slot that the port changed most, against what the reference has there.
@@ -110,11 +101,11 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
 
 }  // namespace
 
-void add_fitted_constants(std::vector<Fault>& out, const capture::PassModel& model, const Constants& constants,
+void add_fitted_constants(std::vector<Fault>& out, const EvaluateWith& evaluate, const Constants& constants,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
   for (const auto& [value, name, is_literal] : constants) {
-    const std::optional<float> other = fitted({model, value}, wanted);
+    const std::optional<float> other = fitted({evaluate, value}, wanted);
     if (!other) continue;
     Fault d;
     d.name = fmt::format("another value of {}", name);

@@ -1,8 +1,6 @@
 #include "faults/hypotheses.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "faults/failing_texels.h"
 #include "faults/place_faults.h"
@@ -58,24 +56,18 @@ std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassM
   return failing;
 }
 
-template <class Which>
-void take(std::vector<Fault>& from, std::vector<Fault>& to, Which which) {
-  std::copy_if(from.begin(), from.end(), std::back_inserter(to), which);
-  std::erase_if(from, which);
-}
-
 }  // namespace
 
-std::vector<Fault> hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Array>& port,
-                              const std::vector<Array>& reference, const std::vector<Texel>& failing) {
+bool is_mixed_up_uniform(const Fault& d) {
+  const bool is_plain = d.name.ends_with("is zero") || d.name.ends_with("negated") || d.name.ends_with("stale");
+  return d.name.starts_with("uniform") && !is_plain;
+}
+
+Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing) {
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations;
   // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  // That one is not set, or has another sign, is plain; that two are mistaken for each other is less so.
-  take(all, uniforms, [](const Fault& d) {
-    const bool is_plain = d.name.ends_with("is zero") || d.name.ends_with("negated") || d.name.ends_with("stale");
-    return d.name.starts_with("uniform") && !is_plain;
-  });
+  take(all, uniforms, is_mixed_up_uniform);
   take(all, operations, [](const Fault& d) {
     return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
   });
@@ -95,8 +87,24 @@ std::vector<Fault> hypotheses(const Probed& p, const capture::PassCase* before, 
   add_place_faults(all, probes_again(p.model, probes, {}), {});
   std::move(operations.begin(), operations.end(), std::back_inserter(all));
   add_odd_constants(all, p, constants);
-  add_fitted_constants(all, p.model, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 12));
-  return all;
+  return {std::move(all), constants};
+}
+
+std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<Array>& port, const std::vector<Array>& reference,
+                        const std::vector<Texel>& failing) {
+  const auto evaluate = [&](const Wanted& w, std::size_t slot, float constant, float replacement) {
+    perturbed::Behaviour b;
+    b.fault = perturbed::Fault::constant;
+    b.constant = constant;
+    b.replacement = replacement;
+    const perturbed::Scope scope(b);
+    std::vector<perturbed::Perturbed> values(w.port.size());
+    p.model.evaluate(w.at.x, w.at.y, values.data());
+    return values[slot].v;
+  };
+  std::vector<Fault> out;
+  add_fitted_constants(out, evaluate, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 12));
+  return out;
 }
 
 }  // namespace rainref::faults

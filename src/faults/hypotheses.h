@@ -1,15 +1,34 @@
 // All that the diagnosis of a failing run tries.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include "faults/probe.h"
 
 namespace rainref::faults {
 
-/// In the order in which they are to be believed: what is plain before what is fitted. `port`, `reference`: stored outputs, in
-/// the order of the case's; `failing`: some texels that fail, at least one.
-std::vector<Fault> hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<capture::Array>& port,
-                              const std::vector<capture::Array>& reference, const std::vector<Texel>& failing);
+struct Hypotheses {
+  std::vector<Fault> faults;  ///< in the order in which they are to be believed
+  Constants constants;        ///< that the pass meets
+};
+/// `failing`: some texels that fail, at least one.
+Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing);
+/// Constants fitted to what a port stored there. `port`, `reference`: in the order of the case's outputs.
+std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<capture::Array>& port,
+                        const std::vector<capture::Array>& reference, const std::vector<Texel>& failing);
+/// The same as hypotheses() for a keyed list; p.bind may be null.
+Hypotheses list_hypotheses(const Probed& p, const capture::PassCase* before, const std::string& list);
+
+/// That a uniform is not set, or has another sign, is plain; that two are mistaken for each other is less so.
+bool is_mixed_up_uniform(const Fault& d);
+/// Moves some faults to another list.
+template <class Which>
+void take(std::vector<Fault>& from, std::vector<Fault>& to, Which which) {
+  std::copy_if(from.begin(), from.end(), std::back_inserter(to), which);
+  std::erase_if(from, which);
+}
 
 }  // namespace rainref::faults

@@ -133,17 +133,35 @@ void add_records(CaseAdder& add, const PassCase& c, std::size_t i) {
   struct Field {
     std::string name;
     std::size_t offset;
+    bool is_in_texels;
   };
   std::vector<Field> fields;
   for (const scene::Member& m : record.members)
     for (int k = 0; m.scalar == scene::Scalar::float32 && !m.name.starts_with("padding") && k < m.components; ++k)
-      fields.push_back({m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), m.offset + 4 * static_cast<std::size_t>(k)});
+      fields.push_back({m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), m.offset + 4 * static_cast<std::size_t>(k),
+                        m.unit == "texel"});
   const auto each = [&](std::string what, std::string sentence, std::function<void(std::byte*)> change) {
     add(std::move(what), std::move(sentence), [i, change, size = record.size](PassCase& altered) {
       std::vector<std::byte>& all = altered.inputs[i].array.levels[0];
       for (std::size_t r = 0; r + size <= all.size(); r += size) change(all.data() + r);
     });
   };
+  for (const scene::Member& m : record.members) {
+    if (m.scalar != scene::Scalar::float32 || m.components < 2) continue;
+    each(fmt::format("{} of {} with the other sign", m.name, name), fmt::format("{} of {} points the other way", m.name, name),
+         [m](std::byte* r) {
+           for (int k = 0; k < m.components; ++k) r[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80};
+         });
+  }
+  // What has four components and no name for each is a matrix of 2 x 2.
+  std::vector<std::size_t> matrices;
+  for (const scene::Member& m : record.members)
+    if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m.offset);
+  if (!matrices.empty())
+    each(fmt::format("matrices of {} transposed", name), fmt::format("rows and columns of the matrices of {} are exchanged", name),
+         [matrices](std::byte* r) {
+           for (const std::size_t at : matrices) std::swap_ranges(r + at + 4, r + at + 8, r + at + 8);
+         });
   for (const Field& f : fields) {
     const auto scaled = [&](const char* what, const char* sentence, float (*change)(float)) {
       each(fmt::format("{} of {} {}", f.name, name, what), fmt::format("{} of {} {}", f.name, name, sentence),
@@ -160,8 +178,8 @@ void add_records(CaseAdder& add, const PassCase& c, std::size_t i) {
     scaled("halved", "is taken half as large: a diameter for a radius", [](float v) { return v / 2; });
     scaled("doubled", "is taken twice as large: a radius for a diameter", [](float v) { return v * 2; });
     scaled("squared", "is squared", [](float v) { return v * v; });
-    scaled("half a texel less", "is half a texel less", [](float v) { return v - 0.5f; });
-    scaled("half a texel more", "is half a texel more", [](float v) { return v + 0.5f; });
+    if (f.is_in_texels) scaled("half a texel less", "is half a texel less", [](float v) { return v - 0.5f; });
+    if (f.is_in_texels) scaled("half a texel more", "is half a texel more", [](float v) { return v + 0.5f; });
     for (const Field& other : fields)
       if (&other > &f)
         each(fmt::format("{} and {} of {} exchanged", f.name, other.name, name),
@@ -188,16 +206,15 @@ void add_scaled_inputs(std::vector<Fault>& out, const Probed& p) {
   }
 }
 
-void add_input_mixups(std::vector<Fault>& out, const Probed& p) {
+void add_input_mixups(std::vector<Fault>& out, const Probed& p, bool images) {
   CaseAdder add(out);
   const std::string other = p.c.corrected() ? "as-published" : "corrected";
   add(fmt::format("the {} formula", other), fmt::format("this is the {} formula of the pass, not the {} one", other, p.c.variant),
       [other](PassCase& c) { c.variant = other; });
   for (std::size_t i = 0; i < p.c.inputs.size(); ++i) {
-    if (p.c.inputs[i].array.is_records)
-      add_records(add, p.c, i);
-    else
-      add_image(add, p.c, i);
+    if (p.c.inputs[i].array.is_records) add_records(add, p.c, i);
+    if (p.c.inputs[i].array.is_records || !images) continue;
+    add_image(add, p.c, i);
     for (std::size_t j = i + 1; j < p.c.inputs.size(); ++j) {
       const Array &a = p.c.inputs[i].array, &b = p.c.inputs[j].array;
       if (a.is_records || b.is_records || info(a.format).channels != info(b.format).channels) continue;

@@ -83,7 +83,10 @@ std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t 
   }
   const capture::KeyedModel* keyed = model ? model->keyed(c.outputs[output].name) : nullptr;
   if (!keyed) return std::nullopt;
-  const perturbed::Scope scope(d.behaviour);
+  perturbed::Behaviour behaviour = d.behaviour;
+  std::vector<float> unused;
+  if (d.at_texel) d.at_texel({-1, -1}, behaviour, unused);
+  const perturbed::Scope scope(behaviour);
   const auto bytes = keyed->perturbed();
   if (!bytes) return std::nullopt;
   Array out = finished;

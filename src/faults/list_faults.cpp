@@ -145,7 +145,7 @@ void add_fields(Adder& a, bool has_input) {
             });
     }
     if (m.components > 1) {
-      a.add(fmt::format("with the components of {} exchanged", m.name), fmt::format("x and y of {} are exchanged", m.name),
+      a.add(fmt::format("with {}.x and {}.y exchanged", m.name, m.name), fmt::format("x and y of {} are exchanged", m.name),
             [m](const List&, const PassCase&, ListEdit& e) {
               for (auto& r : e.records) {
                 const std::vector<std::byte> right = r;

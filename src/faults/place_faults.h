@@ -1,6 +1,7 @@
 // One mistake at one place of a pass text: a term left out, a sign, a factor twice, a lookup half a texel off.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "faults/probe.h"
@@ -13,10 +14,12 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
 /// Adds, for each constant, the value that it would need to have for what the port stored at some failing texels, where there
 /// is one. `wanted`: texels and what the port stored there, one number for each slot.
 struct Wanted {
-  Texel at;
+  Texel at;                                  ///< of a list: (id, 0)
   std::vector<float> port, reference, step;  ///< step: to the next number that the slot can hold
 };
-void add_fitted_constants(std::vector<Fault>& out, const capture::PassModel& model, const Constants& constants,
+/// What the pass gives with a constant replaced.
+using EvaluateWith = std::function<float(const Wanted& w, std::size_t slot, float constant, float replacement)>;
+void add_fitted_constants(std::vector<Fault>& out, const EvaluateWith& evaluate, const Constants& constants,
                           const std::vector<Wanted>& wanted);
 
 }  // namespace rainref::faults

@@ -25,14 +25,27 @@ using Node = Trace::Node;
 
 bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
 
-Trace traced(const capture::PassModel& model, Texel at, const std::vector<float>& known) {
+/// What is probed of a model: a texel, or a whole list.
+struct Evaluation {
+  Texel at;
+  std::string list;  ///< "": the texel
+
+  void run(const capture::PassModel& model) const {
+    if (const capture::KeyedModel* keyed = list.empty() ? nullptr : model.keyed(list)) {
+      static_cast<void>(keyed->perturbed());
+      return;
+    }
+    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
+    model.evaluate(at.x, at.y, unused.data());
+  }
+};
+Trace traced(const capture::PassModel& model, const Evaluation& evaluation, const std::vector<float>& known) {
   Trace trace;
   perturbed::Behaviour following;
   following.trace = &trace;
   following.known = &known;
   const perturbed::Scope scope(following);
-  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
-  model.evaluate(at.x, at.y, unused.data());
+  evaluation.run(model);
   return trace;
 }
 
@@ -40,7 +53,7 @@ Trace traced(const capture::PassModel& model, Texel at, const std::vector<float>
 struct Touched {
   std::string name;
   bool is_input;               ///< an image: texels change, constants do not
-  std::optional<float> value;  ///< of a uniform
+  std::optional<float> value;  ///< of a uniform: it is no texel
   std::function<void(PassCase&)> alter;
 };
 
@@ -90,14 +103,16 @@ void add_inputs(std::vector<Touched>& out, const PassCase& c) {
 
 /// Names the leaves that differ under a change. A texel that is another because the place
 /// of a lookup moved has changed by more than its last bit, so the smallest change of all says whose it is.
-void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed, const Touched& touched) {
-  if (probe.trace.nodes.size() != changed.nodes.size()) return;
-  for (std::size_t n = 0; n < changed.nodes.size(); ++n)
-    if (probe.trace.nodes[n].op != changed.nodes[n].op) return;  // another way through the pass: nothing stands beside its like
-  for (std::size_t n = 0; n < changed.nodes.size(); ++n) {
+void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed, const Touched& touched, bool is_list) {
+  // Where it takes another way through the pass nothing stands beside its like; the records of before that do.
+  const std::size_t most = std::min(probe.trace.nodes.size(), changed.nodes.size());
+  std::size_t alike = 0;
+  while (alike < most && probe.trace.nodes[alike].op == changed.nodes[alike].op) ++alike;
+  if (!is_list && (alike < most || probe.trace.nodes.size() != changed.nodes.size())) return;
+  for (std::size_t n = 0; n < alike; ++n) {
     const Node &a = probe.trace.nodes[n], &b = changed.nodes[n];
     const bool is_texel = a.op == Op::load || a.op == Op::fetch;
-    if (!is_leaf(a.op) || is_texel != touched.is_input) continue;
+    if (!is_leaf(a.op) || (is_texel ? touched.value.has_value() : touched.is_input)) continue;
     const double by = std::abs(static_cast<double>(b.value) - a.value);
     if (!(by > 0)) continue;
     std::string& name = probe.names[n];
@@ -209,11 +224,13 @@ std::vector<float> constants_everywhere(const capture::PassModel& model) {
   return out;
 }
 
-std::vector<Probe> probes_of(const Probed& p, const std::vector<Texel>& texels, const std::vector<float>& known) {
+namespace {
+
+std::vector<Probe> probed(const Probed& p, const std::vector<Evaluation>& evaluations, const std::vector<float>& known) {
   std::vector<Probe> probes;
   std::vector<std::vector<double>> least;
-  for (const Texel at : texels) {
-    Probe& probe = probes.emplace_back(Probe{at, traced(p.model, at, known), {}});
+  for (const Evaluation& e : evaluations) {
+    Probe& probe = probes.emplace_back(Probe{e.at, traced(p.model, e, known), {}});
     probe.names.resize(probe.trace.nodes.size());
     least.emplace_back(probe.trace.nodes.size(), HUGE_VAL);
   }
@@ -226,7 +243,8 @@ std::vector<Probe> probes_of(const Probed& p, const std::vector<Texel>& texels, 
     try {
       const std::unique_ptr<capture::PassModel> model = p.bind(c);
       if (model->width() != p.model.width() || model->height() != p.model.height() || model->values() != p.model.values()) continue;
-      for (std::size_t k = 0; k < probes.size(); ++k) name_changed(probes[k], least[k], traced(*model, probes[k].at, known), t);
+      for (std::size_t k = 0; k < probes.size(); ++k)
+        name_changed(probes[k], least[k], traced(*model, evaluations[k], known), t, !evaluations[k].list.empty());
     } catch (const Error&) {
       // out of its range by a bit: it stays without a name
     }
@@ -245,10 +263,22 @@ std::vector<Probe> probes_of(const Probed& p, const std::vector<Texel>& texels, 
   return probes;
 }
 
-std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known) {
+}  // namespace
+
+std::vector<Probe> probes_of(const Probed& p, const std::vector<Texel>& texels, const std::vector<float>& known) {
+  std::vector<Evaluation> evaluations;
+  for (const Texel at : texels) evaluations.push_back({at, ""});
+  return probed(p, evaluations, known);
+}
+std::vector<Probe> probes_of_list(const Probed& p, const std::string& list, const std::vector<float>& known) {
+  return probed(p, {{{-1, -1}, list}}, known);
+}
+
+std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known,
+                                const std::string& list) {
   std::vector<Probe> out;
   for (const Probe& p : probes) {
-    Probe again{p.at, traced(model, p.at, known), p.names};
+    Probe again{p.at, traced(model, {p.at, list}, known), p.names};
     if (again.trace.nodes.size() == p.trace.nodes.size()) out.push_back(std::move(again));
   }
   return out;

@@ -34,8 +34,12 @@ std::vector<float> constants_everywhere(const capture::PassModel& model);
 /// The invocations at some texels. A uniform or an input is found by what changes when its last bit does.
 std::vector<Probe> probes_of(const Probed& probed, const std::vector<Texel>& texels, const std::vector<float>& known);
 
-/// The same invocations, of probes whose leaves have names, with other constants known.
-std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known);
+/// The evaluation of all records of a keyed list.
+std::vector<Probe> probes_of_list(const Probed& probed, const std::string& list, const std::vector<float>& known);
+
+/// The same invocations, of probes whose leaves have names, with other constants known. `list`: of probes_of_list().
+std::vector<Probe> probes_again(const capture::PassModel& model, const std::vector<Probe>& probes, const std::vector<float>& known,
+                                const std::string& list = "");
 
 /// A number that is met everywhere.
 struct Constant {

@@ -12,8 +12,9 @@ namespace rainref::faults {
 
 /// Uniforms exchanged, permuted, transposed, in another encoding; of those that the pass uses.
 void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used);
-/// Inputs exchanged, shifted, by another address mode, level or encoding; the other variant's formula.
-void add_input_mixups(std::vector<Fault>& out, const Probed& p);
+/// Inputs exchanged, shifted, by another address mode, level or encoding; the other variant's formula. Without `images` those of
+/// records alone.
+void add_input_mixups(std::vector<Fault>& out, const Probed& p, bool images = true);
 /// Inputs that count twice or half.
 void add_scaled_inputs(std::vector<Fault>& out, const Probed& p);
 /// Values encoded, clamped or packed on their way to the store; one of several outputs turned or shifted; pixel centres.

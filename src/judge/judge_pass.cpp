@@ -62,25 +62,42 @@ void choose_mode(PassJudgement& pass, std::vector<ModeJudgements>& cases, const 
   for (ModeJudgements& c : cases) pass.cases.push_back(std::move(c.judgements[c.modes.empty() ? 0 : found.mode]));
 }
 
-/// Asks about the run with the most failures, which says most.
-Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
-  const auto worst =
-      std::max_element(judged.cases.begin(), judged.cases.end(), [](const auto& a, const auto& b) { return a.failing < b.failing; });
-  if (worst == judged.cases.end() || worst->failing == 0) return {};
-  const auto k = static_cast<std::size_t>(worst - judged.cases.begin());
-  PortRun run = task.runs.load(k);
-  if (!is_enveloped(run.c) && keyed_outputs(run.c).empty()) return {};
-  const std::unique_ptr<PassModel> model = prepare(*task.pass, task.bind, task.runs, run);
+/// A run and the one before it, as they are asked about.
+struct Asked {
+  PortRun run;
+  std::unique_ptr<PassModel> model;
   std::optional<PortRun> before;
-  if (k > 0) {
-    before = task.runs.load(k - 1);
-    if (before->untested.empty())
-      prepare(*task.pass, task.bind, task.runs, *before);
-    else
-      before.reset();
-  }
-  return task.runs.explain(
-      {*task.pass, run, before ? &before->c : nullptr, task.bind, model.get(), *worst, judged, judged.half_mode, options});
+};
+Asked asked(const PassTask& task, std::size_t k) {
+  Asked a{task.runs.load(k), nullptr, {}};
+  a.model = prepare(*task.pass, task.bind, task.runs, a.run);
+  if (k == 0) return a;
+  a.before = task.runs.load(k - 1);
+  if (a.before->untested.empty())
+    prepare(*task.pass, task.bind, task.runs, *a.before);
+  else
+    a.before.reset();
+  return a;
+}
+
+/// Asks about the run with the most failures, which says most, and the next.
+Explanation explained(const PassTask& task, const PassJudgement& judged, const JudgeOptions& options) {
+  std::vector<std::size_t> failing;
+  for (std::size_t k = 0; k < judged.cases.size(); ++k)
+    if (judged.cases[k].failing > 0) failing.push_back(k);
+  std::stable_sort(failing.begin(), failing.end(),
+                   [&](std::size_t a, std::size_t b) { return judged.cases[a].failing > judged.cases[b].failing; });
+  if (failing.empty()) return {};
+  const Asked worst = asked(task, failing[0]);
+  if (!is_enveloped(worst.run.c) && keyed_outputs(worst.run.c).empty()) return {};
+  const auto failed = [&](const Asked& a, std::size_t k, const FailedRun* other) -> FailedRun {
+    return {*task.pass, a.run, a.before ? &a.before->c : nullptr, task.bind, a.model.get(), judged.cases[k], judged, judged.half_mode,
+            options,    other};
+  };
+  if (failing.size() == 1) return task.runs.explain(failed(worst, failing[0], nullptr));
+  const Asked next = asked(task, failing[1]);
+  const FailedRun other = failed(next, failing[1], nullptr);
+  return task.runs.explain(failed(worst, failing[0], &other));
 }
 
 /// A port that does nothing and passes all of these runs; "": none.

@@ -28,7 +28,7 @@ using LoadRun = std::function<PortRun(std::size_t k)>;
 /// checks c.outputs, or computes them.
 using SettleRun = std::function<void(PortRun&, const capture::PassModel*)>;
 
-/// The run of a failing pass that says most, for those who ask why it fails.
+/// The run of a failing pass that says most, for those who ask why it fails. A mistake shows in the others too.
 struct FailedRun {
   const capture::PackPass& pass;
   const PortRun& run;
@@ -39,6 +39,7 @@ struct FailedRun {
   const PassJudgement& judged;  ///< with all runs of the pass
   HalfMode half_mode;           ///< that the pass was judged by
   const JudgeOptions& options;
+  const FailedRun* other = nullptr;  ///< the failing run that says next most; null: none
 };
 /// What would explain its failures, and what they share. The judge itself knows no mistakes: faults/diagnose.h does.
 using Explain = std::function<Explanation(const FailedRun&)>;

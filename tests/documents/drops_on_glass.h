@@ -49,7 +49,8 @@ inline void spawn(const Run& r, Given& out) {
   for (std::uint32_t i = 0; i < std::min(count, word(r, "room")); ++i) {
     const Words w = block(r, r.is("wrong constant") ? 7 : 6, step, i);
     const auto place = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) / 16777216.0f; };
-    out.append("drops", Drop{{place(w[0]), place(w[1])},
+    const bool is_turned = r.is("place turned");
+    out.append("drops", Drop{{place(w[is_turned ? 1 : 0]), place(w[is_turned ? 0 : 1])},
                              {},
                              r.of("spawn_masses", static_cast<int>(w[2] >> 22), "mass"),
                              r.u("life"),
@@ -60,12 +61,16 @@ inline void spawn(const Run& r, Given& out) {
 inline void integrate_published(const Run& r, Given& out) {
   std::vector<Drop> drops = drops_of(r);
   const auto frame = [&](const char* member) { return Float2{r.of("glass_frame", 0, member, 0), r.of("glass_frame", 0, member, 1)}; };
-  const float dt = r.u("dt"), coupling = constant(r, 1, 1.1f) * r.u("wind_coupling");
+  const float dt = r.unless("a sixtieth of a second", r.u("dt"), 1 / 60.0f), coupling = constant(r, 1, 1.1f) * r.u("wind_coupling");
+  const float drag = r.unless("drag pushes", 1.0f, -1.0f) * r.u("drag");
   for (Drop& d : drops) {
-    const Float2 a = ((d.mass * frame("gravity") - r.u("inertia_coupling") * frame("acceleration")) + coupling * frame("wind")) -
-                     r.u("drag") * d.velocity;
+    const Float2 before = d.velocity;
+    const Float2 a =
+        ((r.unless("gravity without mass", d.mass, 1.0f) * frame("gravity") - r.u("inertia_coupling") * frame("acceleration")) +
+         coupling * frame("wind")) -
+        drag * d.velocity;
     d.velocity = d.velocity + dt * a;
-    d.position = d.position + dt * d.velocity;
+    d.position = d.position + dt * r.unless("moved before it is pushed", d.velocity, before);
     d.life -= dt;
   }
   give_live(drops, out);
@@ -75,17 +80,18 @@ inline void integrate_corrected(const Run& r, Given& out) {
   std::vector<Drop> drops = drops_of(r);
   const auto frame = [&](const char* member, int k = 0) { return r.of("glass_frame", 0, member, k); };
   const auto matrix = [&](const char* member, Float2 v) {
-    return Float2{frame(member, 0) * v.x + frame(member, 1) * v.y, frame(member, 2) * v.x + frame(member, 3) * v.y};
+    const int right = r.unless("columns for rows", 1, 2), below = 3 - right;
+    return Float2{frame(member, 0) * v.x + frame(member, right) * v.y, frame(member, below) * v.x + frame(member, 3) * v.y};
   };
   const Float2 gravity{frame("gravity", 0), frame("gravity", 1)}, wind{frame("wind", 0), frame("wind", 1)};
   const float dt = r.u("dt"), margin = r.u("margin");
   for (Drop& d : drops) {
     const float m = cube_root(std::max(d.mass, 1.0f)), i = 1 / m, j = i * i, phase = fract(fract(d.life / 64) * r.u("phase_rate"));
-    const Float2 a =
-        ((gravity + matrix("spin", d.position)) + matrix("coriolis", d.velocity)) + (r.u("wind_push") * length(plane(r, wind)) * i) * wind;
+    const Float2 a = ((gravity + matrix("spin", d.position)) + matrix("coriolis", d.velocity)) +
+                     (r.u("wind_push") * r.unless("wind not squared", length(plane(r, wind)), 1.0f) * i) * wind;
     const float size = length(plane(r, a)), held = r.u("hold") * j, kept = 1 - held / std::max(size, 1e-6f);
     const Float2 pulled = dt * (std::max(kept, 0.0f) * a);
-    const float x = r.u("drag") * j * dt, e = exponential(-x);
+    const float x = r.u("drag") * r.unless("drag of all sizes alike", j, 1.0f) * dt, e = exponential(-x);
     float g = 0.5f - x * (1 / 6.0f - x * (1 / 24.0f - x * (1 / 120.0f - x * (1 / 720.0f)))), f = 1 - x * g;
     if (x >= 0.125f) {
       f = (1 - e) / x;
@@ -94,7 +100,7 @@ inline void integrate_corrected(const Run& r, Given& out) {
     d.position = d.position + dt * (f * d.velocity + constant(r, 1, 1.1f) * (g * pulled));
     d.velocity = e * d.velocity + f * pulled;
     if (kept <= 0 && length(plane(r, d.velocity)) < r.u("rest_speed")) d.velocity = {};
-    d.mass = std::max(d.mass - std::floor(r.u("evaporation") * m * dt + phase), 0.0f);
+    d.mass = std::max(d.mass - std::floor(r.u("evaporation") * m * dt + r.unless("evaporates in step", phase, 0.0f)), 0.0f);
     d.life -= dt;
     const auto inside = [&](float t) { return t >= -margin && t <= 1 + margin; };
     if (!(d.mass > 0) || !inside(d.position.x) || !inside(d.position.y)) d.life = 0;
@@ -127,7 +133,7 @@ inline void merge(const Run& r, Given& out) {
     if (end == i || other.mass > most_quanta - own.mass) continue;
     own.mass = own.mass + other.mass;
     const float share = other.mass / std::max(own.mass, 1.0f);
-    own.position = mix(own.position, other.position, share);
+    own.position = mix(own.position, other.position, r.unless("stays in its place", share, 0.0f));
     own.velocity = mix(own.velocity, other.velocity, share);
     other.life = 0;
   }
@@ -143,7 +149,8 @@ inline void merge(const Run& r, Given& out) {
     if (!(at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1)) continue;
     float& texel = film[static_cast<std::size_t>(static_cast<int>(at.y * static_cast<float>(rows)) * columns +
                                                  static_cast<int>(at.x * static_cast<float>(columns)))];
-    const float q = std::max(std::min(d.mass - 1, std::floor(r.u("trail") * base * (speed * r.u("dt")))), 0.0f);
+    const float q =
+        std::max(std::min(d.mass - 1, std::floor(r.u("trail") * base * (speed * r.unless("trail of a second", r.u("dt"), 1.0f)))), 0.0f);
     d.mass -= q;
     texel += std::min(q, most_quanta - texel);
   }
@@ -157,10 +164,13 @@ inline bool splat(const Run& r, int x, int y, float* out) {
   const int kernel = r.whole("kernel"), blend = r.whole("blend");
   float sum = 0;
   for (int i = 0; i < r.count("drops"); ++i) {
-    const float root = cube_root(std::max(r.of("drops", i, "mass"), 0.0f)), own = r.u("radius_scale") * root;
+    const float mass = std::max(r.of("drops", i, "mass"), 0.0f), root = r.unless("mass for its root", cube_root(mass), mass);
+    const float own = r.unless("diameter for radius", 1.0f, 0.5f) * (r.u("radius_scale") * root);
     const float radius = std::max(own, r.u("smallest_radius")), shrunk = own / radius;
     const float h = r.of("drops", i, "life") > 0 ? (r.u("height_scale") * root) * (shrunk * shrunk) : 0;
-    const Float2 away = centre - Float2{r.of("drops", i, "position", 0) * r.u("size", 0), r.of("drops", i, "position", 1) * r.u("size", 1)};
+    const int across = r.unless("place turned", 0, 1);
+    const Float2 place{r.of("drops", i, "position", across), r.of("drops", i, "position", 1 - across)};
+    const Float2 away = centre - Float2{place.x * r.u("size", 0), place.y * r.u("size", 1)};
     const Float2 in_plane = plane(r, away);
     const float squared = dot(in_plane, in_plane) * (1 / (radius * radius)), cap = std::max(constant(r, 1, 1.1f) - squared, 0.0f);
     const float shape = kernel == 0   ? cap
@@ -168,6 +178,10 @@ inline bool splat(const Run& r, int x, int y, float* out) {
                         : kernel == 2 ? 1 - smoothstep(0, 1, std::sqrt(squared))
                         : kernel == 3 ? std::sqrt(cap)
                                       : (squared <= 1 ? 1.0f : 0.0f);
+    if (r.is("the largest for the sum")) {
+      sum = std::max(sum, h * shape);
+      continue;
+    }
     const float given = h * (kernel == 0 ? shape : in_branch(r, 1, 0.9f) * shape);
     if (blend == 1)
       sum = std::max(sum, given);
@@ -178,7 +192,7 @@ inline bool splat(const Run& r, int x, int y, float* out) {
   if (r.taken().corrected()) {
     const auto tent = [](float a, float b, float c) { return 0.5f * b + 0.25f * (a + c); };
     const auto row = [&](int dy) { return tent(r.at("film", x - 1, y + dy), r.at("film", x, y + dy), r.at("film", x + 1, y + dy)); };
-    sum = sum + r.u("film_scale") * tent(row(-1), row(0), row(1));
+    sum = sum + r.unless("film forgotten", r.u("film_scale"), 0.0f) * tent(row(-1), row(0), row(1));
   }
   out[0] = sum;
   return true;

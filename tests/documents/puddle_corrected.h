@@ -17,8 +17,8 @@ inline void raindrops_corrected(const Run& r, Given& out) {
     const Words w = block(r, r.is("wrong constant") ? 3 : 2, step, static_cast<std::uint32_t>(i));
     const int size = static_cast<int>(w[2] >> 22);
     const Crater drop{static_cast<float>((w[0] >> 16) * word(r, "columns") >> 8) / 256,
-                      static_cast<float>((w[1] >> 16) * word(r, "rows") >> 8) / 256, r.of("craters", size, "amplitude"),
-                      r.of("craters", size, "radius")};
+                      static_cast<float>((w[1] >> 16) * word(r, r.unless("columns for rows", "rows", "columns")) >> 8) / 256,
+                      r.of("craters", size, "amplitude"), r.of("craters", size, "radius")};
     out.append("drops", drop);
     if (boundary == 2) continue;
     const auto images = [&](float x, float extent) {
@@ -103,7 +103,7 @@ inline bool surface_hit_corrected(const Run& r, int x, int y, float* out) {
 
   const Float2 at = s(t);
   const auto wave = [&](int across, int along) { return r.linear("wave", at.x, at.y, 0, 0, nullptr, across, along); };
-  const float gain = constant(r, 1, 0.8f) * (r.u("normal_gain") * r.u("height_scale"));
+  const float gain = constant(r, 1, 0.8f) * (r.unless("slopes the other way", 1.0f, -1.0f) * r.u("normal_gain") * r.u("height_scale"));
   const Float2 g{gain * (wave(-1, 0) - wave(1, 0)), gain * (wave(0, -1) - wave(0, 1))};
   const float c = f - (g.x * d.x + g.y * d.z);
   if (0 <= e && e < epsilon && c >= f / 2) t = t + e * std::min(1 / c, 2 * (1 / (f + h)));
@@ -123,7 +123,8 @@ inline bool shade_corrected(const Run& r, int x, int y, float* out) {
   const Float3 v = view_ray(r, x, y), stored = r.rgb("normal", x, y), p = r.rgb("hit", x, y), eye = r.u3("camera_position");
   if (!(r.at("normal", x, y, 3) > 0.5f)) return give(environment(r, rotated(r, v), r.u("background_level")));
   const float depth = r.linear("bed", p.x * r.u("inverse_size", 0) + 0.5f, p.z * r.u("inverse_size", 1) + 0.5f);
-  const float w = smoothstep(0, r.u("shore_width"), depth), distance = length(p - eye);
+  const float w = smoothstep(0, r.u("shore_width"), depth);
+  const float distance = length(r.unless("distance from the origin", p - eye, p));
   int lod = 0;
   const float footprint = r.u("ground_footprint") * distance / std::max(-v.y, 0.02f);
   float edge = 1.41421356f;
@@ -136,20 +137,24 @@ inline bool shade_corrected(const Run& r, int x, int y, float* out) {
                         r.linear("relief", p.x * scale, p.z * scale, 1, level("relief"))};
     n = normalize(mix(relief, n, w));
   }
-  const float c = std::min(std::max(-dot(v, n), 0.001f), 1.0f), reflected = r.u("reflectivity") * mix(r.u("wetness"), 1, w);
+  const float c = std::min(std::max(-dot(v, n), 0.001f), 1.0f);
+  const float reflected = r.u("reflectivity") * mix(r.u("wetness"), 1, w);
   const float f =
       (r.whole("exact_fresnel") != 0 ? exact_fresnel(c, constant(r, 1.333f, 1.4f)) : schlick(c, in_branch(r, 1.333f, 1.5f))) * reflected;
   Float3 m = reflect(v, n);
   m.y = std::abs(m.y);
-  const Float3 mirror = environment(r, rotated(r, m), mix(r.u("gloss_level"), r.u("mirror_level"), w));
+  const Float3 mirror = environment(r, rotated(r, m), mix(r.u("gloss_level"), r.u("mirror_level"), r.unless("gloss for mirror", w, 1 - w)));
   const Float3 b = refract(v, n, 1 / 1.333f);
   const float column = std::max(depth, 0.0f), path = column / std::max(-b.y, 0.05f);
   const float gx = p.x + path * b.x, gz = p.z + path * b.z;
   Float3 albedo =
       r.whole("use_checkerboard") != 0 ? checkerboard(gx, gz, scale) : r.linear3("ground", gx * scale, gz * scale, level("ground"));
-  if (column > 0) albedo = mix(r.u3("tint"), albedo, exponential(-(r.u("water_turbidity") * (path + column))));
-  const Float3 light = f * mirror + (1 - f) * (albedo * r.u3("ambient"));
-  const float fog = r.u("fog_depth");
+  if (column > 0)
+    albedo =
+        mix(r.u3("tint"), albedo, exponential(-(r.u("water_turbidity") * (path + r.unless("light's way down forgotten", column, 0.0f)))));
+  const Float3 ambient = r.unless("ambient forgotten", r.u3("ambient"), Float3{1, 1, 1});
+  const Float3 light = f * mirror + (1 - r.unless("all light enters", f, 0.0f)) * (albedo * ambient);
+  const float fog = r.unless("no fog", r.u("fog_depth"), 0.0f);
   return give(fog > 0 ? mix(r.u3("fog_colour"), light, exponential(-(fog * distance))) : light);
 }
 

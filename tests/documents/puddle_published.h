@@ -8,9 +8,11 @@ namespace rainref::documents {
 
 /// puddle.md, "Conventions".
 inline Float3 view_ray(const Run& r, int i, int j) {
-  const float scale = r.u("camera_pixel_scale");
-  const float right = r.u("camera_plane_left") + (static_cast<float>(i) + 0.5f) * scale,
-              up = r.u("camera_plane_bottom") + (static_cast<float>(j) + 0.5f) * scale;
+  const float scale = r.u("camera_pixel_scale"), half = r.unless("rays through corners", 0.5f, 0.0f);
+  const float left = r.u(r.unless("bottom for left", "camera_plane_left", "camera_plane_bottom"));
+  const float right = left + (static_cast<float>(i) + half) * scale,
+              up = r.u("camera_plane_bottom") + (static_cast<float>(j) + half) * scale;
+  if (r.is("ray not normalized")) return (r.u3("camera_forward") + right * r.u3("camera_right")) + up * r.u3("camera_up");
   return normalize((r.u3("camera_forward") + right * r.u3("camera_right")) + up * r.u3("camera_up"));
 }
 inline const From puddle_conventions{
@@ -68,15 +70,16 @@ inline bool surface_hit_published(const Run& r, int x, int y, float* out) {
   const Float3 eye = r.u3("camera_position"), d = view_ray(r, x, y), half = r.u3("half_size");
   const float epsilon = r.u("epsilon");
   const int max_steps = r.whole("max_steps");
-  const auto u = [&](Float3 p) { return 0.5f * (p.x / half.x + 1); };
+  const auto u = [&](Float3 p) { return r.unless("place not halved", 0.5f, 1.0f) * (p.x / half.x + 1); };
   const auto v = [&](Float3 p) { return 0.5f * (p.z / half.z + 1); };
-  const auto s = [&](float at_u, float at_v) { return r.linear("wave", at_u, at_v, 1); };
+  const auto s = [&](float at_u, float at_v) { return r.linear("wave", at_u, at_v, r.unless("newest level", 1, 0)); };
   Float3 p = eye;
   float distance = 0;
   int steps = 0;
   for (int round = 0; round < max_steps; ++round) {
     const auto beyond = [](float a, float h) { return std::max(std::abs(a) - h, 0.0f); };
-    distance = length(Float3{beyond(p.x, half.x), beyond(p.y + s(u(p), v(p)), half.y), beyond(p.z, half.z)});
+    distance = length(
+        Float3{beyond(p.x, half.x), beyond(p.y + r.unless("wave downwards", 1.0f, -1.0f) * s(u(p), v(p)), half.y), beyond(p.z, half.z)});
     steps = round;
     if (distance < epsilon || distance >= 1000) break;
     p = p + distance * d;
@@ -87,7 +90,8 @@ inline bool surface_hit_published(const Run& r, int x, int y, float* out) {
     steps = max_steps - 1;
   }
   const float du = r.u("texel", 0), dv = r.u("texel", 1), gain = r.is("wrong constant") ? 2 : r.u("normal_gain");
-  const Float3 n = normalize({gain * (s(u(p) - du, v(p)) - s(u(p) + du, v(p))), 1, gain * (s(u(p), v(p) - dv) - s(u(p), v(p) + dv))});
+  Float3 n = normalize({gain * (s(u(p) - du, v(p)) - s(u(p) + du, v(p))), 1, gain * (s(u(p), v(p) - dv) - s(u(p), v(p) + dv))});
+  if (r.is("normal's axes exchanged")) std::swap(n.x, n.z);
   const float values[]{p.x, p.y, p.z, static_cast<float>(steps), n.x, n.y, n.z, is_hit ? 1.0f : 0.0f};
   std::copy(std::begin(values), std::end(values), out);
   return true;
@@ -98,7 +102,7 @@ struct PublishedGround {
   float t = -1, x = 0, z = 0;
 };
 inline PublishedGround ground_of(const Run& r, Float3 p, Float3 n, Float3 v) {
-  const Float3 b = refract(v, n, 1 / 1.333f);
+  const Float3 b = refract(v, n, r.unless("into air", 1 / 1.333f, 1.333f));
   PublishedGround g;
   if (std::abs(b.y) >= 0.0001f) g.t = (-r.u("puddle_depth") - p.y) / b.y;
   if (g.t <= 0) return {};
@@ -115,7 +119,7 @@ inline bool ground_noise_published(const Run& r, int x, int y, float* out) {
 }
 
 inline Float3 rotated(const Run& r, Float3 d) {
-  const float c = r.u("rotation", 0), s = r.u("rotation", 1);
+  const float c = r.u("rotation", 0), s = r.unless("turned the other way", 1.0f, -1.0f) * r.u("rotation", 1);
   return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
 }
 /// Face and coordinates on it as OpenGL, Vulkan and Direct3D have them.
@@ -139,6 +143,7 @@ inline Float3 cube(const Run& r, Float3 d, float lod) {
 inline Float3 environment(const Run& r, Float3 d, float lod) {
   if (r.whole("environment_is_cube") != 0) return cube(r, d, lod);
   const float per_turn = 0.159154943f, per_half_turn = 0.318309886f;
+  if (r.is("azimuth from z")) std::swap(d.x, d.z);
   return r.trilinear3("environment", 0.5f + arc(d.z, d.x) * per_turn, 0.5f + arc(d.y, std::sqrt(d.x * d.x + d.z * d.z)) * per_half_turn,
                       lod);
 }
@@ -152,7 +157,8 @@ inline float schlick(float cosine, float n = 1.333f) {
 }
 
 inline bool shade_published(const Run& r, int x, int y, float* out) {
-  const auto decoded = [](Float3 c) { return Float3{power(c.x, 2.2f), power(c.y, 2.2f), power(c.z, 2.2f)}; };
+  const float exponent = r.unless("not decoded", 2.2f, 1.0f);
+  const auto decoded = [&](Float3 c) { return Float3{power(c.x, exponent), power(c.y, exponent), power(c.z, exponent)}; };
   const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
   const Float3 v = view_ray(r, x, y), n = r.rgb("normal", x, y), p = r.rgb("hit", x, y), eye = r.u3("camera_position");
   if (!(r.at("normal", x, y, 3) > 0.5f)) return give(decoded(environment(r, rotated(r, v), 0)));
@@ -162,15 +168,17 @@ inline bool shade_published(const Run& r, int x, int y, float* out) {
   const Float3 tint = r.u3("tint");
   Float3 below = constant(r, 0.3f, 0.4f) * tint;
   if (g.t > 0) {
-    const float scale = r.u("ground_scale"), grain = (r.at("noise", x, y) - 0.5f) * 0.05f;
+    const float scale = r.unless("ground's scale divides", r.u("ground_scale"), 1 / r.u("ground_scale")),
+                grain = (r.at("noise", x, y) - 0.5f) * 0.05f;
     const Float3 ground = r.whole("use_checkerboard") != 0
                               ? checkerboard(g.x, g.z, scale) + Float3{grain, grain, grain}
                               : in_branch(r, 0.6f, 0.5f) * decoded(r.linear3("ground", g.x * scale, g.z * scale));
-    const float share = exponential(-(r.u("water_turbidity") * std::max(g.t, 0.0f)));
+    const float share = exponential(-(r.unless("turbidity forgotten", r.u("water_turbidity"), 1.0f) * std::max(g.t, 0.0f)));
     below = (constant(r, 0.7f, 0.75f) * (Float3{1, 1, 1} - 0.5f * tint)) * mix(tint, ground, share);
   }
   Float3 colour = mix(below, mirror, f * (mix(0.3f, 0.8f, r.u("reflectivity")) - 0.3f) + 0.3f) + (0.15f * (1 - f)) * tint;
-  return give(mix(0.7f * colour, colour, exponential(-(r.u("fog_depth") * length(p - eye)))));
+  const float distance = r.unless("fog of the squared distance", length(p - eye), dot(p - eye, p - eye));
+  return give(mix(0.7f * colour, colour, exponential(-(r.u("fog_depth") * distance))));
 }
 
 inline std::vector<Written> puddle_published_passes() {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "documents/edge_splash.h"
-#include "faults/mistakes_kept_aside.h"
+#include "faults/mistakes_drops_and_maps.h"
 
 namespace rainref::documents {
 
@@ -15,16 +15,18 @@ inline bool bake_rivulets(const Run& r, int i, int j, float* out) {
   Float2 g;
   for (int k = 0; k < r.whole("trail_count"); ++k) {
     const auto of = [&](const char* member) { return r.of("trails", k, member); };
-    const float dy = fract(p.y - of("y") + 0.125f) - 0.125f, a = two_pi * wrap(of("wiggle_rate") * dy + of("wiggle_phase")),
+    const float dy = fract(p.y - of("y") + 0.125f) - 0.125f,
+                a = r.unless("wiggle in turns", two_pi, 1.0f) * wrap(of("wiggle_rate") * dy + of("wiggle_phase")),
                 dx = wrap(p.x - of("x")) - of("wiggle") * sine(a);
     const bool is_tail = dy >= 0;
-    const float height = of("height"), squared = of("half_width") * of("half_width");
-    const float along = is_tail ? dy * of("inverse_length") : dy * dy / squared, h = height * (1 - along - dx * dx / squared);
+    const float height = of("height"), squared = of("half_width") * r.unless("width not squared", of("half_width"), 1.0f);
+    const float along = is_tail || r.is("tails at both ends") ? dy * of("inverse_length") : dy * dy / squared,
+                h = height * (1 - along - dx * dx / squared);
     if (!(h > best)) continue;
     best = h;
     const float c = constant(r, -2, -1) * height * dx / squared;
     g = {c, (is_tail ? -height * of("inverse_length") : -2 * height * dy / squared) -
-                c * (two_pi * of("wiggle") * of("wiggle_rate") * cosine(a))};
+                c * (two_pi * of("wiggle") * of("wiggle_rate") * r.unless("wiggle's cosine forgotten", cosine(a), 1.0f))};
   }
   const Float2 w = r.u("normal_scale") * g;
   const float size = std::sqrt(1 + w.x * w.x + w.y * w.y);
@@ -35,16 +37,16 @@ inline bool bake_rivulets(const Run& r, int i, int j, float* out) {
     const int column = static_cast<int>(std::floor(at.x)), row = static_cast<int>(std::floor(at.y));
     const Float2 t{fract(at.x), fract(at.y)};
     const auto corner = [&](int dx, int dy) {
-      const int x = (column + dx) % cells, y = (row + dy) % cells;
+      const int over = r.unless("lattice not wrapped", cells, 2 * cells), x = (column + dx) % over, y = (row + dy) % over;
       return r.at("lattice", x, y, channel) * (t.x - static_cast<float>(dx)) +
              r.at("lattice", x, y, channel + 1) * (t.y - static_cast<float>(dy));
     };
-    const auto ease = [](float s) { return s * s * s * (s * (6 * s - 15) + 10); };
+    const auto ease = [&](float s) { return r.unless("cubic blending", s * s * s * (s * (6 * s - 15) + 10), s * s * (3 - 2 * s)); };
     return mix(mix(corner(0, 0), corner(1, 0), ease(t.x)), mix(corner(0, 1), corner(1, 1), ease(t.x)), ease(t.y));
   };
   const int cells = r.whole("flow_cells");
   for (int k = 0; k < 2; ++k) {
-    const float flow = r.u("flow_gain") * (noise(cells, 2 * k) + 0.5f * noise(2 * cells, 2 * k));
+    const float flow = r.u("flow_gain") * (noise(cells, 2 * k) + r.unless("one octave", 0.5f, 0.0f) * noise(2 * cells, 2 * k));
     out[2 + k] = r.u("neutral") + r.u("span") * std::min(std::max(flow, -1.0f), 1.0f);
   }
   return true;
@@ -80,8 +82,9 @@ inline bool rain_on_glass_corrected(const Run& r, int i, int j, float* out) {
   const auto give = [&](Float3 c) { return out[0] = c.x, out[1] = c.y, out[2] = c.z, out[3] = 1, true; };
   const Float3 own = r.rgb("scene", i, j), n = r.rgb("orientation", i, j);
   const float u = r.at("surface", i, j, 0), v = r.at("surface", i, j, 1), distance = r.at("surface", i, j, 2);
-  const auto slope = [](Float2 rg, float neutral, float scale) {
+  const auto slope = [&](Float2 rg, float neutral, float scale) {
     const Float2 xy{(rg.x - neutral) * scale, (rg.y - neutral) * scale};
+    if (r.is("normal for slope")) return -1.0f * xy;
     return (-1 / std::sqrt(std::max(1 - xy.x * xy.x - xy.y * xy.y, 0.04f))) * xy;
   };
   const Float2 at_drops = r.u("drop_tiles") * Float2{u, v};
@@ -89,13 +92,16 @@ inline bool rain_on_glass_corrected(const Run& r, int i, int j, float* out) {
   const float impact = r.u("impact"), amount = r.u("rain_amount") * saturate(dot(n, r.u3("rain_to"))),
               timer = fract(r.u("drop_phase") + drop_ba.x);
   const float dried = std::max(1 - timer * (1 / impact), (timer - impact) * (1 / (1 - impact)));
-  const float shown = saturate((drop_ba.y - (1 - amount) - dried) * r.u("sharpness"));
+  const float shown = saturate((drop_ba.y - (1 - amount) - dried) * r.unless("not sharpened", r.u("sharpness"), 1.0f));
 
   const float neutral = r.u("rivulet_neutral"), scale = r.u("rivulet_scale");
   const Float2 at = r.u("rivulet_tiles") * Float2{u, v}, ba = linear2(r, "rivulets", at, 2);
   const Float2 flow{(ba.x - neutral) * scale * r.u("flow_strength"), (ba.y - neutral) * scale * r.u("run_strength")};
   const float p1 = fract(r.u("flow_phase")), p2 = fract(r.u("flow_phase") + 0.5f), w = std::abs(1 - 2 * p1);
-  const auto moved = [&](float p) { return linear2(r, "rivulets", (at + Float2{0, r.u("scroll")}) + (p - 0.5f) * flow); };
+  const auto moved = [&](float p) {
+    return linear2(r, "rivulets",
+                   (at + Float2{0, r.unless("rivulets stand", r.u("scroll"), 0.0f)}) + (p - r.unless("phases from 0", 0.5f, 0.0f)) * flow);
+  };
   const Float2 rivulet_rg = mix(moved(p1), moved(p2), w);
 
   const float steep = std::sqrt(n.x * n.x + n.z * n.z);
@@ -105,16 +111,18 @@ inline bool rain_on_glass_corrected(const Run& r, int i, int j, float* out) {
   const float k = 1 / std::max(steep, 0.05f);
   const Float3 a{n.z * k, 0, -n.x * k}, b{n.y * a.z, n.z * a.x - n.x * a.z, -n.y * a.x};
   const Float3 rise = s.x * a + s.y * b;
-  const float bend = constant(r, 1, 1.2f) * r.u("bend");
+  const float bend = constant(r, 1, 1.2f) * r.unless("bent the other way", 1.0f, -1.0f) * r.u("bend");
   const Float2 bent = bend * Float2{dot(rise, r.u3("right")), dot(rise, r.u3("up"))};
 
   const float depth = r.at("scene_depth", i, j), half_width = r.u("half_width"), half_height = r.u("half_height");
   if (!(r.at("orientation", i, j, 3) > 0.5f && depth > distance && is_wet)) return give(own);
   const Float2 c{(static_cast<float>(i) + 0.5f) * r.u("pixel", 0), (static_cast<float>(j) + 0.5f) * r.u("pixel", 1)};
   if (r.whole("use_probe") != 0) return give(probe(r, Float2{(2 * c.x - 1) * half_width, (2 * c.y - 1) * half_height} + bent));
-  const float share = saturate(1 - distance / std::max(depth, 1e-3f));
-  const Float2 place{c.x + bent.x * share * (0.5f / half_width), c.y + bent.y * share * (0.5f / half_height)};
-  return give(r.linear("near_depth", place.x, place.y) > distance ? r.linear3("scene", place.x, place.y) : own);
+  const float share = r.unless("as if far away", saturate(1 - distance / std::max(depth, 1e-3f)), 1.0f);
+  const Float2 place{c.x + bent.x * share * r.unless("angle for a share of the picture", 0.5f / half_width, 1.0f),
+                     c.y + bent.y * share * r.unless("angle for a share of the picture", 0.5f / half_height, 1.0f)};
+  return give(r.linear("near_depth", place.x, place.y) > distance || r.is("near things not left out") ? r.linear3("scene", place.x, place.y)
+                                                                                                      : own);
 }
 
 inline std::vector<Written> rainy_glass_document_passes() {

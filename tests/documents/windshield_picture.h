@@ -13,8 +13,8 @@ struct GlassFrame {
   std::array<float, 4> spin{}, coriolis{};
 };
 inline Float3 apparent_wind(const Run& r) {
-  const Float3 w = r.u3("world_wind") - r.u3("vehicle_velocity");
-  const float c = r.u("heading", 0), s = r.u("heading", 1);
+  const Float3 w = r.u3("world_wind") - r.unless("wind of the world", r.u3("vehicle_velocity"), Float3{});
+  const float c = r.u("heading", 0), s = r.unless("heading the other way", 1.0f, -1.0f) * r.u("heading", 1);
   return {c * w.x + s * w.y, c * w.y - s * w.x, w.z};
 }
 inline void windshield_frame_published(const Run& r, Given& out) {
@@ -47,13 +47,14 @@ inline bool blur_pyramid(const Run& r, int x, int y, float* out) {
   out[3] = 1;
   if (r.taken().level == 0) return fog_level(r, x, y, out);
   for (int k = 0; k < 3; ++k) {
-    const auto texel = [&](int i, int j) { return r.at("blurred", 2 * x + i, 2 * y + j, k); };
+    const int first = r.unless("from one texel on", 0, 1);
+    const auto texel = [&](int i, int j) { return r.at("blurred", 2 * x + i + first, 2 * y + j, k); };
     if (!r.taken().corrected()) {
-      out[k] = 0.25f * ((texel(0, 0) + texel(1, 0)) + (texel(0, 1) + texel(1, 1)));
+      out[k] = r.unless("sum for mean", 0.25f, 1.0f) * ((texel(0, 0) + texel(1, 0)) + (texel(0, 1) + texel(1, 1)));
       continue;
     }
     const auto weighed = [&](int axis, int at, float t0, float t1, float t2) {
-      const float w1 = r.u("middle", axis), w2 = r.u("last", axis) * static_cast<float>(at + 1);
+      const float w1 = r.u("middle", axis), w2 = r.u("last", axis) * static_cast<float>(at + r.unless("columns from 0", 1, 0));
       return t0 + w1 * (t1 - t0) + w2 * (t2 - t0);
     };
     const auto column = [&](int i) { return weighed(1, y, texel(i, 0), texel(i, 1), texel(i, 2)); };
@@ -66,10 +67,12 @@ inline bool composite_corrected(const Run& r, int x, int y, float* out) {
   const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
   const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f);
   float u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  if (r.is("u and v exchanged")) std::swap(u, v);
   const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
   u = saturate(u);
   v = saturate(v);
-  const Float2 g{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
+  const float from_middle = r.unless("plane from its corner", 1.0f, 0.0f);
+  const Float2 g{q.x * r.u("pixel", 0) - from_middle * r.u("half_size", 0), q.y * r.u("pixel", 1) - from_middle * r.u("half_size", 1)};
   const float distance = r.u("glass_distance") * k;
   Float3 n = r.linear3("normal", u, v);
   n.z = std::max(n.z, 0.05f);
@@ -85,8 +88,9 @@ inline bool composite_corrected(const Run& r, int x, int y, float* out) {
   const float far = std::max(r.linear("scene_depth", straight.x, straight.y) - distance, 0.0f),
               share = distance / std::max(distance + far, 1e-3f), ahead = std::max(b.z, 0.05f);
   const Float2 s = place(mix({b.x / ahead, b.y / ahead}, g, share));
-  const Float3 sharp = r.linear3("blurred", s.x, s.y), blur = r.trilinear3("blurred", s.x, s.y, r.u("blur_lod"));
-  Float3 colour = mix(mix(sharp, blur, r.u("wetness") * wet * (1 - vis)), r.u("inner") * blur, f);
+  const Float3 sharp = r.linear3("blurred", s.x, s.y),
+               blur = r.trilinear3("blurred", s.x, s.y, r.unless("blur of the sharp level", r.u("blur_lod"), 0.0f));
+  Float3 colour = mix(mix(sharp, blur, r.u("wetness") * wet * (1 - vis)), r.u("inner") * blur, r.unless("no inner reflection", f, 0.0f));
   const float film = vis * (1 - mask * mask);
   for (int i = 0; i < r.whole("glint_count") && film > 0; ++i) {
     const auto of = [&](const char* member) {

@@ -35,7 +35,7 @@ inline bool is_under(const Wiper& w, Float2 r, Float2 axis) {
 
 inline void wipe_drops_published(const Run& r, Given& out) {
   std::vector<Drop> drops = drops_of(r);
-  const float follow = constant(r, 1, 0.9f) * r.u("follow");
+  const float follow = constant(r, 1, 0.9f) * r.u(r.unless("inherit for follow", "follow", "inherit"));
   for (Drop& d : drops)
     for (const Wiper& w : wipers_of(r)) {
       if (w.direction == 0) continue;
@@ -44,10 +44,11 @@ inline void wipe_drops_published(const Run& r, Given& out) {
       bool in_quad = true;
       for (std::size_t k = 0; k < 4; ++k) in_quad = in_quad && w.direction * cross(corners[(k + 1) % 4] - corners[k], at - corners[k]) >= 0;
       if (!(d.life > 0) || !(in_quad || is_under(w, from_pivot, w.axis))) continue;
-      const Float2 t = along_blade(w, from_pivot, w.axis) * w.axis + (w.half_width * w.direction) * Float2{-w.axis.y, w.axis.x};
+      const Float2 t = along_blade(w, from_pivot, w.axis) * w.axis +
+                       (r.unless("behind the blade", 1.0f, -1.0f) * w.half_width * w.direction) * Float2{-w.axis.y, w.axis.x};
       d.position = mix(d.position, glass(r, w.pivot + t), follow);
       d.velocity = mix(d.velocity, glass(r, w.rate * Float2{-t.y, t.x}), r.u("inherit"));
-      d.mass += r.u("gain");
+      d.mass += r.unless("no gain", r.u("gain"), 0.0f);
     }
   give_live(drops, out);
 }
@@ -84,7 +85,7 @@ inline void wipe_drops_corrected(const Run& r, Given& out) {
         const float c = std::sqrt(std::max(1 - s * s, 0.0f)), z = constant(r, 1, 1.5f) * (w.direction * s);
         const Float2 moved = distance * Float2{c * w.axis.x - z * w.axis.y, c * w.axis.y + z * w.axis.x};
         d.position = glass(r, w.pivot + moved);
-        d.velocity = glass(r, w.rate * Float2{-moved.y, moved.x});
+        d.velocity = glass(r, r.unless("thrown back", 1.0f, -1.0f) * w.rate * Float2{-moved.y, moved.x});
         captured[i] = bin_of(k, at);
       }
     }
@@ -134,21 +135,24 @@ inline float coverage(const Run& r, int x, int y) {
       const auto blade = [&](Float2 axis) { return segment(away, w.inner_radius * axis, w.outer_radius * axis); };
       const float sector = std::max({w.inner_radius - size, size - w.outer_radius, 0.0f}) + 2 * (beside + behind);
       distance = std::min({blade(w.previous_axis), blade(w.axis), sector});
+      if (r.is("the blade before forgotten")) distance = std::min(blade(w.axis), sector);
     }
-    most = std::max(most, saturate(constant(r, 0.5f, 0.7f) + (w.half_width - distance) / r.u("edge_width")));
+    const float edge = r.unless("edge's width multiplies", r.u("edge_width"), 1 / r.u("edge_width"));
+    most = std::max(most, saturate(constant(r, 0.5f, 0.7f) + (w.half_width - distance) / edge));
   }
   return most;
 }
 inline bool wipe_texture_published(const Run& r, int x, int y, float* out) {
   const float covered = coverage(r, x, y);
-  out[0] = std::max(r.at("height", x, y) - r.u("strength") * covered, 0.0f);
-  out[1] = std::max(r.at("mask", x, y) * r.u("keep"), covered);
+  out[0] = std::max(r.at("height", x, y) - r.u("strength") * r.unless("wipes everywhere", covered, 1.0f), 0.0f);
+  out[1] = std::max(r.at("mask", x, y) * r.unless("mask does not fade", r.u("keep"), 1.0f), covered);
   return true;
 }
 inline bool wipe_texture_corrected(const Run& r, int x, int y, float* out) {
-  const float covered = coverage(r, x, y), wiped = std::min(r.at("wiped", x, y) + r.u("dt"), r.u("wiped_limit")) * (1 - covered);
+  const float covered = coverage(r, x, y), dt = r.unless("time counted twice", 1.0f, 2.0f) * r.u("dt");
+  const float wiped = std::min(r.at("wiped", x, y) + dt, r.u("wiped_limit")) * (1 - r.unless("wiped not set back", covered, 0.0f));
   out[0] = r.at("height", x, y) * (1 - covered);
-  out[1] = exponential(-(wiped * r.u("inverse_tau")));
+  out[1] = exponential(-r.unless("inverse of the time divides", wiped * r.u("inverse_tau"), wiped / r.u("inverse_tau")));
   out[2] = wiped;
   return true;
 }

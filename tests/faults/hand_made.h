@@ -42,6 +42,11 @@ class Run {
   Run(const capture::PassCase& c, const scene::UniformBlock& block, std::string_view mistake) : c_(c), block_(block), mistake_(mistake) {}
   const capture::PassCase& taken() const { return c_; }
   bool is(std::string_view mistake) const { return mistake_ == mistake; }
+  /// What is right, or what the mistake has in its place.
+  template <class T>
+  T unless(std::string_view mistake, T right, T wrong) const {
+    return is(mistake) ? wrong : right;
+  }
 
   /// A component of a uniform.
   float u(std::string_view name, int k = 0) const { return word<float>(name, k); }

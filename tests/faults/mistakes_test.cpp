@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "documents/judged_written.h"
+#include "faults/mistakes_drops_and_maps.h"
 #include "faults/mistakes_kept_aside.h"
 #include "faults/mistakes_pictures.h"
 #include "faults/mistakes_puddle.h"
 #include "faults/mistakes_rainy_glass.h"
 #include "faults/mistakes_windshield.h"
-#include "judge/mini_port.h"
 
 namespace rainref::faults {
 namespace {
@@ -21,30 +22,37 @@ using capture::PassCase;
 /// The passes whose mistakes the diagnosis was improved with, and those that it met when it was finished.
 std::vector<hand::Pass> known_passes() {
   std::vector<hand::Pass> all = hand::puddle_passes();
-  for (const auto& more : {hand::windshield_passes(), hand::picture_passes(), hand::rainy_glass_passes()})
+  for (const auto& more : {hand::windshield_passes(), hand::picture_passes(), hand::rainy_glass_passes(), hand::drops_and_maps_passes()})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
-/// What the hand-made pass stores, judged.
+/// What the hand-made pass stores, or that of tests/documents.
+std::vector<Array> given(const hand::Pass& p, const capture::Pack& pack, const PassCase& c, const std::string& mistake) {
+  if (!p.loop) return documents::given(*documents::written(p.pack, p.pass), pack, c, mistake);
+  std::vector<Array> out;
+  for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
+  const std::vector<Slot> slots = slots_of(c);
+  const hand::Run run(c, pack.pass(p.pass).block, mistake);
+  std::vector<float> values(slots.size());
+  for (int y = 0; y < out[0].height; ++y)
+    for (int x = 0; x < out[0].width; ++x) {
+      if (!p.loop(run, x, y, values.data())) continue;
+      for (std::size_t v = 0; v < slots.size(); ++v)
+        store_value(slots[v], values[v], slots[v].store_rounding,
+                    out[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y));
+    }
+  return out;
+}
+
+/// It, judged.
 PassJudgement judged(const hand::Pass& p, const std::string& mistake) {
   const capture::Pack pack(small_packs / p.pack);
   TemporaryFolder folder;
   for (const capture::PackCase& entry : pack.cases) {
     if (entry.pass != p.pass) continue;
     const PassCase c = pack.read(entry);
-    std::vector<Array> out;
-    for (const capture::CaseOutput& o : c.outputs) out.push_back(o.array);
-    const std::vector<Slot> slots = slots_of(c);
-    const hand::Run run(c, pack.pass(p.pass).block, mistake);
-    std::vector<float> values(slots.size());
-    for (int y = 0; y < out[0].height; ++y)
-      for (int x = 0; x < out[0].width; ++x) {
-        if (!p.loop(run, x, y, values.data())) continue;
-        for (std::size_t v = 0; v < slots.size(); ++v)
-          store_value(slots[v], values[v], slots[v].store_rounding,
-                      out[static_cast<std::size_t>(slots[v].output)].levels[0].data() + slots[v].offset(x, y));
-      }
+    const std::vector<Array> out = given(p, pack, c, mistake);
     for (std::size_t o = 0; o < out.size(); ++o) put_array(folder / c.folder(), "out." + c.outputs[o].name, out[o]);
   }
   ValidateOptions options;
@@ -60,14 +68,14 @@ bool is_right(const hand::Mistake& m, const Cause& c) {
   });
 }
 
-// Without a mistake a hand-made pass is a correct port: what it is wrong in is the mistake alone.
+// Without a mistake a hand-made pass is a correct port: what it is wrong in is the mistake alone. Those of tests/documents are judged
+// there.
 TEST(HandMade, APassWithoutAMistakePasses) {
-  for (const auto& passes : {known_passes(), hand::passes_kept_aside()})
-    for (const hand::Pass& p : passes) {
-      const PassJudgement j = judged(p, "");
-      EXPECT_EQ(j.status, Status::pass) << p.pack << ' ' << p.pass << ' ' << j.reason << ' ' << j.where
-                                        << (j.causes.empty() ? "" : j.causes[0].name);
-    }
+  for (const hand::Pass& p : known_passes()) {
+    const PassJudgement j = judged(p, "");
+    EXPECT_EQ(j.status, Status::pass) << p.pack << ' ' << p.pass << ' ' << j.reason << ' ' << j.where
+                                      << (j.causes.empty() ? "" : j.causes[0].name);
+  }
 }
 
 struct Tally {

@@ -1,0 +1,36 @@
+// All that the diagnosis of a failing list tries.
+#include "faults/hypotheses.h"
+#include "faults/list_faults.h"
+#include "faults/place_faults.h"
+#include "faults/whole_faults.h"
+
+namespace rainref::faults {
+
+Hypotheses list_hypotheses(const Probed& p, const capture::PassCase* before, const std::string& list) {
+  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, arithmetic;
+  // As for texels: constants by their names, plain mistakes before those that are less so.
+  std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
+  take(all, uniforms, is_mixed_up_uniform);
+  take(all, arithmetic, [](const Fault& d) { return d.behaviour.fault != perturbed::Fault::none; });
+  add_input_mixups(all, p, false);
+  std::vector<float> known = constants_of_lists(p.model, p.c);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  const bool is_followed = p.bind && p.model.keyed(list);
+  const std::vector<Probe> probes = is_followed ? probes_of_list(p, list, known) : std::vector<Probe>();
+  const Constants constants = names_of_constants(probes, known);
+  add_named_constants(all, constants, false);
+  add_place_faults(all, probes, known);
+  std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
+  std::set<std::string> used = uniforms_met(probes, p.pass);
+  if (!is_followed)
+    for (const scene::Member& m : p.pass.block.members) used.insert(m.name);
+  add_uniform_mixups(all, p, used);
+  add_named_constants(all, constants, true);
+  if (is_followed) add_place_faults(all, probes_again(p.model, probes, {}, list), {});
+  std::move(arithmetic.begin(), arithmetic.end(), std::back_inserter(all));
+  add_odd_constants(all, p, constants);
+  return {std::move(all), constants};
+}
+
+}  // namespace rainref::faults

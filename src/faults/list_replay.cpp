@@ -1,0 +1,292 @@
+#include "faults/list_replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "faults/hypotheses.h"
+#include "faults/list_faults.h"
+#include "faults/place_faults.h"
+#include "judge/evaluations.h"
+#include "judge/keyed.h"
+#include "math/path_enumeration.h"
+#include "rainref/error.h"
+
+namespace rainref::faults {
+
+using capture::Array;
+using judge::Cause;
+using judge::extents_of;
+using judge::judge_keyed;
+using judge::KeyedJudgement;
+using scene::UniformBlock;
+
+namespace {
+
+using ById = std::map<std::uint32_t, Records>;
+
+ById by_id(const Array& list) {
+  ById out;
+  for (std::vector<std::byte>& r : records_of(list)) out[id_of(r, list.record)].push_back(std::move(r));
+  return out;
+}
+const Records& of(const ById& list, std::uint32_t id) {
+  static const Records none;
+  const auto found = list.find(id);
+  return found == list.end() ? none : found->second;
+}
+
+/// The reference's records in the order in which the port has their ids: a slot's neighbour is the one that the port saw.
+/// Those that it lost follow.
+Array in_order_of(const Array& port, const Array& reference) {
+  Records out;
+  ById left = by_id(reference);
+  for (const auto& r : records_of(port)) {
+    const auto found = left.find(id_of(r, port.record));
+    if (found == left.end()) continue;
+    out.insert(out.end(), found->second.begin(), found->second.end());
+    left.erase(found);
+  }
+  for (const auto& r : records_of(reference))
+    if (left.contains(id_of(r, reference.record))) out.push_back(r);
+  return array_of(out, reference);
+}
+
+/// Those that count: not the id, not padding.
+std::vector<Word> words_of(const UniformBlock& layout) {
+  std::vector<Word> out;
+  for (const bool floats : {true, false})
+    for (const scene::Member& m : layout.members) {
+      if (m.name == "id" || m.name.starts_with("padding") || (m.scalar == scene::Scalar::float32) != floats) continue;
+      for (int k = 0; k < m.components; ++k) out.push_back({m.offset + 4 * static_cast<std::size_t>(k), floats});
+    }
+  return out;
+}
+/// The widest envelope of each float, among those that are a bound.
+void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, const UniformBlock& record, const enclosed::Profile& profile) {
+  if (!model) return;
+  const std::vector<double> extents = extents_of(record, *model);
+  const enclosed::ProfileScope scope(profile);
+  for (int group = 0; group < model->groups(); ++group) {
+    enclosed::PathEnumeration paths;
+    std::vector<capture::KeyedRecord> records;
+    paths.for_each_alternative([&] {
+      records.clear();
+      model->enclose(group, records);
+      for (const capture::KeyedRecord& r : records)
+        for (std::size_t k = 0; k < r.floats.size() && k < words.size(); ++k)
+          if (const double width = static_cast<double>(r.floats[k].hi) - r.floats[k].lo;
+              r.lives && !r.floats[k].is_vacuous() && width < std::max(extents[k], r.floats[k].magnitude()) / 64)
+            words[k].leeway = std::max(words[k].leeway, width);
+    });
+  }
+}
+
+/// How the records of an id under a mistake compare with the port's.
+struct Match {
+  bool exact = true;  ///< the same bits
+  bool near = true;   ///< within the leeway
+};
+Match compare(const Records& guess, const Records& got, const std::vector<Word>& words) {
+  if (guess.size() != got.size()) return {false, false};
+  Match m;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    for (const Word& w : words) {
+      if (std::memcmp(&guess[i][w.offset], &got[i][w.offset], 4) == 0) continue;
+      float a, b;
+      std::memcpy(&a, &guess[i][w.offset], 4);
+      std::memcpy(&b, &got[i][w.offset], 4);
+      if (w.is_float && a == b) continue;  // zeros
+      m.exact = false;
+      m.near &= w.is_float && std::abs(static_cast<double>(a) - b) <= w.leeway;
+    }
+  }
+  return m;
+}
+
+const capture::PassModel& no_model() {
+  static const capture::ListPass none("", nullptr);
+  return none;
+}
+
+}  // namespace
+
+ListReplay::ListReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before,
+                       const capture::PassModel* model, const Array& port, std::size_t output, const enclosed::Profile& profile,
+                       const parallel::Executor& executor)
+    : pass_(pass),
+      c_(c),
+      before_(before),
+      evaluations_(judge::evaluations_of(c.effect, c.pass)),
+      model_(model ? model : &no_model()),
+      output_(output),
+      executor_(executor),
+      reference_(in_order_of(port, c.outputs[output].array)),
+      stored_(records_of(port)),
+      got_(by_id(port)),
+      right_(by_id(reference_)),
+      words_(words_of(reference_.record)) {
+  if (!evaluations_) return;
+  const capture::CaseOutput& expected = c.outputs[output];
+  const capture::KeyedModel* keyed = model_->keyed(expected.name);
+  const KeyedJudgement judged = judge_keyed(expected, port, keyed, profile);
+  std::set<std::uint32_t> failing;
+  for (const auto* ids : {&judged.events.missing, &judged.events.extra, &judged.events.duplicate, &judged.events.outside})
+    failing.insert(ids->begin(), ids->end());
+  failing_.assign(failing.begin(), failing.end());
+  if (fails()) set_leeway(words_, keyed, expected.array.record, profile);
+}
+
+std::vector<Fault> ListReplay::plain() {
+  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, before_, c_.outputs[output_].name);
+  constants_ = std::move(all.constants);
+  return std::move(all.faults);
+}
+
+std::vector<Fault> ListReplay::fitted() {
+  const capture::KeyedModel* keyed = model_->keyed(c_.outputs[output_].name);
+  if (!keyed) return {};
+  std::vector<std::size_t> floats;
+  for (const Word& w : words_)
+    if (w.is_float) floats.push_back(w.offset);
+  std::vector<Wanted> wanted;
+  const auto number = [](const std::vector<std::byte>& record, std::size_t at) {
+    float v;
+    std::memcpy(&v, &record[at], 4);
+    return v;
+  };
+  constexpr std::size_t most = 12;
+  for (std::size_t k = 0; k < failing_.size() && wanted.size() < most; ++k) {
+    const Records &port = of(got_, failing_[k]), &right = of(right_, failing_[k]);
+    if (port.size() != 1 || right.size() != 1) continue;
+    Wanted& w = wanted.emplace_back(Wanted{{static_cast<int>(failing_[k]), 0}, {}, {}, {}});
+    for (const std::size_t at : floats) {
+      w.port.push_back(number(port[0], at));
+      w.reference.push_back(number(right[0], at));
+      w.step.push_back(std::abs(w.port.back()) * 0x1p-22f + 0x1p-30f);
+    }
+  }
+  // All records are evaluated at once: what one number gives is kept until another is asked about.
+  std::map<float, ById> lists;
+  float of_constant = 0;
+  const auto evaluate = [&](const Wanted& w, std::size_t slot, float constant, float replacement) {
+    if (constant != of_constant) lists.clear(), of_constant = constant;
+    const auto [at, is_new] = lists.try_emplace(replacement);
+    if (is_new) {
+      perturbed::Behaviour b;
+      b.fault = perturbed::Fault::constant;
+      b.constant = constant;
+      b.replacement = replacement;
+      const perturbed::Scope scope(b);
+      Array list = reference_;
+      list.levels = {keyed->perturbed().value_or(std::vector<std::byte>())};
+      at->second = by_id(list);
+    }
+    const Records& there = of(at->second, static_cast<std::uint32_t>(w.at.x));
+    return there.size() == 1 ? number(there[0], floats[slot]) : std::nanf("");
+  };
+  std::vector<Fault> out;
+  add_fitted_constants(out, evaluate, constants_, wanted);
+  return out;
+}
+
+Cause ListReplay::cause(const Fault& d) const {
+  Cause cause{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()), 0, true};
+  const std::optional<Array> list = faulty_list(d, c_, output_, *evaluations_, model_, reference_, failing_, &stored_);
+  if (!list) return cause;
+  const ById guess = by_id(*list);
+  for (const std::uint32_t id : failing_) {
+    const Match with = compare(of(guess, id), of(got_, id), words_), without = compare(of(right_, id), of(got_, id), words_);
+    cause.explained += with.exact && !without.exact;
+    cause.inside += with.near && !without.near;
+  }
+  // A cause must not break about as many records as it explains.
+  std::int64_t broken = 0;
+  for (const auto* ids : {&got_, &guess})
+    for (const auto& [id, records] : *ids) {
+      if (std::binary_search(failing_.begin(), failing_.end(), id) || (ids == &guess && got_.contains(id))) continue;
+      broken += !compare(of(guess, id), of(right_, id), words_).near;
+    }
+  if (broken * 4 > cause.of) cause.explained = cause.inside = 0;
+  cause.is_likely = cause.inside * 10 >= cause.of * 9;
+  return cause;
+}
+
+std::vector<Cause> ListReplay::causes(const std::vector<Fault>& all) const {
+  std::vector<Cause> out(all.size());
+  executor_.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const Fault& d = all[static_cast<std::size_t>(k)];
+      try {
+        out[static_cast<std::size_t>(k)] = cause(d);
+      } catch (const Error&) {
+        out[static_cast<std::size_t>(k)] = {d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()),
+                                            0,      true};  // the altered case is none that the pass can run
+      }
+    }
+  });
+  return out;
+}
+
+/// The list of a varied case.
+class ListReplay::Elsewhere : public ListReplay {
+ public:
+  Elsewhere(const ListReplay& of, std::unique_ptr<capture::PassCase> c, std::unique_ptr<capture::PassModel> model)
+      : ListReplay(of, *c, *model), c_(std::move(c)), model_(std::move(model)) {}
+
+ private:
+  std::unique_ptr<capture::PassCase> c_;
+  std::unique_ptr<capture::PassModel> model_;
+};
+
+ListReplay::ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model)
+    : pass_(of.pass_),
+      c_(c),
+      before_(of.before_),
+      evaluations_(of.evaluations_),
+      model_(&model),
+      output_(of.output_),
+      executor_(of.executor_),
+      reference_(of.reference_),
+      stored_(of.stored_),
+      failing_(of.failing_),
+      words_(of.words_) {}
+
+std::unique_ptr<Replay> ListReplay::elsewhere() const {
+  if (!evaluations_->bind) return nullptr;
+  try {
+    auto c = std::make_unique<capture::PassCase>(varied(pass_, c_));
+    std::unique_ptr<capture::PassModel> model = evaluations_->bind(*c);
+    if (!model->keyed(c_.outputs[output_].name)) return nullptr;
+    auto out = std::make_unique<Elsewhere>(*this, std::move(c), std::move(model));
+    // A mistake of the finished list is made in what the pass gives there.
+    if (const std::optional<Array> own =
+            faulty_list(Fault{}, out->ListReplay::c_, output_, *evaluations_, out->ListReplay::model_, reference_))
+      out->reference_ = *own;
+    return out;
+  } catch (const Error&) {
+    return nullptr;  // the pass refuses such numbers
+  }
+}
+
+std::vector<float> ListReplay::given(const Fault& d) const {
+  std::vector<float> out;
+  try {
+    const std::optional<Array> list = faulty_list(d, c_, output_, *evaluations_, model_, reference_);
+    if (!list) return out;
+    for (const auto& [id, records] : by_id(*list))
+      for (const auto& r : records) {
+        out.push_back(static_cast<float>(id));
+        for (const Word& w : words_) {
+          float v;
+          std::memcpy(&v, &r[w.offset], 4);
+          out.push_back(v);
+        }
+      }
+  } catch (const Error&) {
+    out.clear();
+  }
+  return out;
+}
+
+}  // namespace rainref::faults

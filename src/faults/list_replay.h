@@ -1,0 +1,56 @@
+// Mistakes made in a list of records, matched by id.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "faults/probe.h"
+#include "faults/replay.h"
+#include "rainref/executor.h"
+
+namespace rainref::faults {
+
+/// A word of a record.
+struct Word {
+  std::size_t offset;
+  bool is_float;
+  double leeway = 0;  ///< how far a conforming device may be from the reference, roughly
+};
+
+class ListReplay : public Replay {
+ public:
+  /// Of output `output`, where the port stored `port`. `model` may be null. What is given must outlive it.
+  ListReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, const capture::PassModel* model,
+             const capture::Array& port, std::size_t output, const enclosed::Profile& profile, const parallel::Executor& executor);
+  bool fails() const { return !failing_.empty(); }
+  std::vector<Fault> plain() override;
+  std::vector<Fault> fitted() override;
+  std::vector<judge::Cause> causes(const std::vector<Fault>& all) const override;
+  std::unique_ptr<Replay> elsewhere() const override;
+  std::vector<float> given(const Fault& d) const override;
+
+ private:
+  class Elsewhere;
+  using ById = std::map<std::uint32_t, Records>;
+  ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model);
+  judge::Cause cause(const Fault& d) const;
+
+  const capture::PackPass& pass_;
+  const capture::PassCase& c_;
+  const capture::PassCase* before_;
+  const capture::PassEvaluations* evaluations_;
+  const capture::PassModel* model_;
+  std::size_t output_;
+  const parallel::Executor& executor_;
+  capture::Array reference_;  ///< in the order of the port
+  Records stored_;            ///< by the port
+  std::vector<std::uint32_t> failing_;
+  ById got_, right_;
+  std::vector<Word> words_;
+  Constants constants_;
+};
+
+}  // namespace rainref::faults

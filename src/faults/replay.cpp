@@ -1,0 +1,145 @@
+#include "faults/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string>
+
+#include "faults/diagnose.h"
+#include "rainref/error.h"
+
+namespace rainref::faults {
+namespace {
+
+using judge::Cause;
+
+double score(const Cause& c) { return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1)); }
+double best_score(const std::vector<Cause>& causes) {
+  double best = 0;
+  for (const Cause& c : causes) best = std::max(best, score(c));
+  return best;
+}
+bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
+
+using ByName = std::map<std::string, std::vector<const Fault*>>;
+/// Those of these names.
+std::vector<Fault> named(std::vector<Fault> all, const std::set<std::string>& names) {
+  std::erase_if(all, [&](const Fault& d) { return !names.contains(d.name); });
+  return all;
+}
+
+/// Adds how well the causes that explain something explain another run.
+void check_in(Replay& other, std::vector<Cause>& causes) {
+  std::set<std::string> names;
+  bool is_any_fitted = false;
+  for (const Cause& c : causes) {
+    if (c.inside * 2 < c.of && c.explained * 4 < c.of) continue;
+    names.insert(c.name);
+    is_any_fitted |= is_fitted(c.name);
+  }
+  if (names.empty()) return;
+  std::vector<Fault> all = named(other.plain(), names);
+  if (is_any_fitted)
+    for (Fault& d : named(other.fitted(), names)) all.push_back(std::move(d));
+  std::map<std::string, Cause> there;
+  for (Cause& c : other.causes(all)) {
+    const auto [at, is_new] = there.emplace(c.name, c);
+    if (!is_new && score(c) > score(at->second)) at->second = c;
+  }
+  double best = 0;
+  for (const auto& [name, c] : there) best = std::max(best, score(c));
+  if (best < 1) return;  // there the mistake shows in another way
+  for (Cause& c : causes) {
+    const auto found = there.find(c.name);
+    if (found == there.end()) {
+      c.is_likely = false;
+      continue;
+    }
+    c.explained += found->second.explained;
+    c.inside += found->second.inside;
+    c.of += found->second.of;
+    c.is_likely &= found->second.is_likely;
+  }
+}
+
+/// Whether two mistakes give the same numbers, but for rounding.
+bool alike(const std::vector<float>& a, const std::vector<float>& b) {
+  if (a.size() != b.size()) return false;
+  std::size_t same = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double size = std::max(std::abs(static_cast<double>(a[k])), std::abs(static_cast<double>(b[k])));
+    same += a[k] == b[k] || (std::isnan(a[k]) && std::isnan(b[k])) || std::abs(static_cast<double>(a[k]) - b[k]) <= 0x1p-8 * size + 0x1p-20;
+  }
+  return same * 50 >= a.size() * 49;
+}
+
+/// Whether one of these would be another mistake than the first elsewhere.
+bool has_rival(const Replay& run, const std::string& first, const std::set<std::string>& others) {
+  if (others.empty()) return false;
+  const std::unique_ptr<Replay> elsewhere = run.elsewhere();
+  if (!elsewhere) return false;
+  std::set<std::string> names = others;
+  names.insert(first);
+  std::map<std::string, std::vector<std::vector<float>>> given;
+  for (const Fault& d : named(elsewhere->plain(), names))
+    if (std::vector<float> numbers = elsewhere->given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
+  const auto own = given.find(first);
+  if (own == given.end()) return false;
+  return std::any_of(others.begin(), others.end(), [&](const std::string& name) {
+    const auto theirs = given.find(name);
+    return theirs != given.end() && std::none_of(theirs->second.begin(), theirs->second.end(), [&](const std::vector<float>& b) {
+             return std::any_of(own->second.begin(), own->second.end(), [&](const std::vector<float>& a) { return alike(a, b); });
+           });
+  });
+}
+
+}  // namespace
+
+std::vector<Cause> diagnosed(Replay& run, Replay* other) {
+  std::vector<Cause> causes = run.causes(run.plain());
+  // Nearly all of it is explained by one that has no number to fit: what fits a number is not needed.
+  if (best_score(causes) < 1.9)
+    for (Cause& c : run.causes(run.fitted())) causes.push_back(std::move(c));
+  if (other) check_in(*other, causes);
+  std::vector<Cause> best = best_causes(causes);
+  if (best.empty() || !best.front().is_likely) return best;
+  std::set<std::string> others;
+  const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
+  for (const Cause& c : causes)
+    if (c.of > 0 && score(c) >= least && c.name != best.front().name && !is_fitted(c.name)) others.insert(c.name);
+  best.front().is_likely = !has_rival(run, best.front().name, others);
+  return best;
+}
+
+capture::PassCase varied(const capture::PackPass& pass, const capture::PassCase& c) {
+  capture::PassCase out = c;
+  const auto vary = [](std::byte* at, std::size_t k) {
+    float v;
+    std::memcpy(&v, at, 4);
+    v = v == 0 ? 0.37f : v * (1 + 0.04f * static_cast<float>(1 + k * 7 % 6));
+    std::memcpy(at, &v, 4);
+  };
+  std::size_t number = 0;
+  for (const scene::Member& m : pass.block.members)
+    for (int k = 0; m.scalar == scene::Scalar::float32 && k < m.components; ++k)
+      vary(out.uniforms.data() + m.offset + 4 * static_cast<std::size_t>(k), number++);
+  for (capture::CaseInput& in : out.inputs) {
+    if (in.array.is_records) {
+      std::vector<std::byte>& all = in.array.levels[0];
+      for (std::size_t r = 0; r + in.array.record.size <= all.size(); r += in.array.record.size)
+        for (const scene::Member& m : in.array.record.members)
+          for (int k = 0; m.scalar == scene::Scalar::float32 && !m.name.starts_with("padding") && k < m.components; ++k)
+            vary(all.data() + r + m.offset + 4 * static_cast<std::size_t>(k), number++);
+      continue;
+    }
+    for (std::vector<std::byte>& level : in.array.levels) {
+      const std::size_t texels = level.size() / in.array.element_bytes(), by = texels / 3 + texels / 7;
+      std::rotate(level.begin(), level.begin() + static_cast<std::ptrdiff_t>(by * in.array.element_bytes()), level.end());
+    }
+  }
+  return out;
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,252 @@
+#include "faults/texel_replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "faults/alternative_formulas.h"
+#include "faults/failing_texels.h"
+#include "faults/hypotheses.h"
+#include "image/code_range.h"
+#include "judge/reference_outputs.h"
+#include "math/path_enumeration.h"
+#include "rainref/error.h"
+
+namespace rainref::faults {
+
+using capture::Array;
+using judge::CaseJudgement;
+using judge::Cause;
+using judge::OutputJudgement;
+using judge::reference_outputs;
+using judge::Slot;
+using judge::slots_of;
+using judge::stored_value;
+
+namespace {
+
+/// Texels that passed.
+std::vector<Texel> passing_texels(const capture::PassModel& model, const std::vector<Texel>& failing) {
+  std::vector<Texel> out;
+  auto next = failing.begin();
+  for (int y = 0; y < model.height(); ++y)
+    for (int x = 0; x < model.width(); ++x) {
+      if (next != failing.end() && next->x == x && next->y == y)
+        ++next;
+      else
+        out.push_back({x, y});
+    }
+  return out;
+}
+
+/// How a fault's texel compares with the port's.
+struct Match {
+  bool exact = false;  ///< the same bits
+  bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
+  bool tells = false;  ///< so near, or so much nearer than the reference, that it is no chance
+};
+
+std::int64_t gap(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
+
+/// Of these texels.
+Leeway leeway_of(const std::vector<Slot>& slots, const capture::PassCase& c, const capture::PassModel& model,
+                 const std::vector<Array>& reference, const CaseJudgement& j, const enclosed::Profile& profile,
+                 const std::vector<Texel>& texels) {
+  Leeway out;
+  for (const Slot& s : slots) {
+    const std::string& name = c.outputs[static_cast<std::size_t>(s.output)].name;
+    const auto found = std::find_if(j.outputs.begin(), j.outputs.end(), [&](const OutputJudgement& o) { return o.name == name; });
+    // What 99 % of the envelopes stay below, unless these few are far wider than most.
+    const double width = found == j.outputs.end() ? 0 : std::min(found->p99_width, 4 * found->median_width + 4);
+    out.codes.push_back(1 + static_cast<std::int64_t>(width));
+  }
+  const enclosed::ProfileScope scope(profile);
+  std::vector<enclosed::Enclosure> values(slots.size());
+  std::vector<float> stored(slots.size());
+  for (const Texel t : texels) {
+    for (std::size_t v = 0; v < slots.size(); ++v)
+      stored[v] = stored_value(slots[v], slots[v].at(reference[static_cast<std::size_t>(slots[v].output)], t.x, t.y));
+    std::vector<double>& widths = out.values.emplace_back(slots.size(), 0.0);
+    enclosed::PathEnumeration paths;
+    paths.for_each_alternative([&] {
+      model.enclose(t.x, t.y, stored.data(), values.data());
+      // A bound that is hardly one would let everything count as near.
+      for (std::size_t v = 0; v < slots.size(); ++v)
+        if (!values[v].is_vacuous())
+          widths[v] = std::max(widths[v], std::min(static_cast<double>(values[v].hi) - values[v].lo, slots[v].range / 64));
+    });
+  }
+  return out;
+}
+
+/// Of texel number k.
+Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, const std::vector<Array>& faulty,
+              const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway, const std::vector<Texel>& texels,
+              std::size_t k) {
+  Match m{true, true, true};
+  bool nearer = false;
+  for (std::size_t v = 0; v < slots.size(); ++v) {
+    if (model.is_free(static_cast<int>(v))) continue;
+    const Slot& s = slots[v];
+    const std::size_t o = static_cast<std::size_t>(s.output);
+    const std::byte *got = s.at(port[o], texels[k].x, texels[k].y), *guess = s.at(faulty[o], texels[k].x, texels[k].y),
+                    *base = s.at(reference[o], texels[k].x, texels[k].y);
+    const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
+    const std::int64_t far = gap(code(got), code(guess)), before = gap(code(got), code(base));
+    const double off = std::abs(static_cast<double>(stored_value(s, got)) - stored_value(s, guess));
+    m.exact &= far == 0;
+    m.near &= far <= leeway.codes[v] || off <= leeway.values[k][v];
+    nearer |= far < before && 4 * far <= before;
+    m.tells &= far == 0 || 16 * far <= before;
+  }
+  m.exact &= nearer;  // else the reference gives the same bits, and the fault explains nothing
+  m.near &= nearer;
+  m.tells &= m.near;
+  return m;
+}
+
+/// Share of the texels that passed and where the fault would store clearly other codes than the port did.
+double contradicted(const std::vector<Slot>& slots, const capture::PassModel& model, const FaultyPass& faulty,
+                    const std::vector<Array>& port, const std::vector<Array>& reference, const Leeway& leeway,
+                    const std::vector<Texel>& passing) {
+  std::vector<Array> stored = reference;
+  std::int64_t against = 0;
+  for (const Texel t : passing) {
+    faulty.store(t, stored);
+    against += std::any_of(slots.begin(), slots.end(), [&](const Slot& s) {
+      const std::size_t o = static_cast<std::size_t>(s.output), v = static_cast<std::size_t>(&s - slots.data());
+      if (model.is_free(static_cast<int>(v))) return false;
+      const auto code = [&](const std::vector<Array>& a) { return enclosed::ordered_code(s.kind, s.at(a[o], t.x, t.y)); };
+      return gap(code(stored), code(port)) > 2 * leeway.codes[v] + gap(code(reference), code(port));
+    });
+  }
+  return passing.empty() ? 0 : static_cast<double>(against) / static_cast<double>(passing.size());
+}
+
+}  // namespace
+
+TexelReplay::TexelReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, judge::Bind bind,
+                         const capture::PassModel& model, const std::vector<Array>& port, const CaseJudgement& judgement,
+                         const enclosed::Profile& profile, judge::HalfMode mode, const parallel::Executor& executor)
+    : probed_{pass, c, bind, model},
+      before_(before),
+      mode_(mode),
+      executor_(executor),
+      slots_(slots_of(c)),
+      port_(port),
+      reference_(reference_outputs(c, model, executor, mode)) {
+  const std::vector<Texel> failing = failing_texels(judgement), passing = passing_texels(model, failing);
+  failing_ = spread(failing, 400);
+  few_passing_ = spread(passing, 400);
+  many_passing_ = spread(passing, 20000);
+  leeway_ = leeway_of(slots_, c, model, reference_, judgement, profile, failing_);
+  passing_per_failing_ = static_cast<double>(passing.size()) / static_cast<double>(std::max<std::size_t>(failing.size(), 1));
+}
+
+std::vector<Fault> TexelReplay::plain() {
+  if (failing_.empty()) return {};
+  Hypotheses all = hypotheses(probed_, before_, failing_);
+  constants_ = std::move(all.constants);
+  return std::move(all.faults);
+}
+std::vector<Fault> TexelReplay::fitted() { return fits(probed_, constants_, port_, reference_, failing_); }
+
+std::optional<Cause> TexelReplay::alternative_formula(const enclosed::Profile& profile) const {
+  if (failing_.empty()) return {};
+  return faults::alternative_formula(probed_.c, port_, profile, mode_, failing_, few_passing_);
+}
+
+Cause TexelReplay::cause(const Fault& d) const {
+  Cause cause{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size())};
+  const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
+  if (!faulty.applies()) return cause;
+  std::vector<Array> stored = reference_;
+  const auto match_at = [&](std::size_t t) {
+    faulty.store(failing_[t], stored);
+    return compare(slots_, probed_.model, stored, port_, reference_, leeway_, failing_, t);
+  };
+  // Most hypotheses are none after a few texels; what explains too few of these is not tried on all.
+  const std::size_t few = std::min<std::size_t>(failing_.size(), 24);
+  std::size_t matching = 0;
+  for (std::size_t k = 0; k < few && matching * 6 < few; ++k) matching += match_at(k * failing_.size() / few).near;
+  if (matching * 6 < few) return cause;
+  std::int64_t telling = 0;
+  for (std::size_t t = 0; t < failing_.size(); ++t) {
+    const Match m = match_at(t);
+    cause.explained += m.exact;
+    cause.inside += m.near;
+    telling += m.tells;
+  }
+  // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
+  // break about as many texels as it explains.
+  const std::vector<Texel>& passing = d.is_evaluated() ? few_passing_ : many_passing_;
+  if (contradicted(slots_, probed_.model, faulty, port_, reference_, leeway_, passing) * passing_per_failing_ * 4 > 1)
+    cause.explained = cause.inside = 0;
+  cause.is_likely = telling * 10 >= cause.of * 9;
+  return cause;
+}
+
+std::vector<Cause> TexelReplay::causes(const std::vector<Fault>& all) const {
+  std::vector<Cause> out(all.size());
+  executor_.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const Fault& d = all[static_cast<std::size_t>(k)];
+      try {
+        out[static_cast<std::size_t>(k)] = cause(d);
+      } catch (const Error&) {
+        out[static_cast<std::size_t>(k)] = {d.name, d.sentence, 0,
+                                            static_cast<std::int64_t>(failing_.size())};  // the altered case is none that the pass can run
+      }
+    }
+  });
+  return out;
+}
+
+/// The run of a varied case, whose port is the reference.
+class TexelReplay::Elsewhere : public TexelReplay {
+ public:
+  Elsewhere(const TexelReplay& of, std::unique_ptr<capture::PassCase> c, std::unique_ptr<capture::PassModel> model)
+      : TexelReplay(of, *c, *model), c_(std::move(c)), model_(std::move(model)) {}
+
+ private:
+  std::unique_ptr<capture::PassCase> c_;
+  std::unique_ptr<capture::PassModel> model_;
+};
+
+TexelReplay::TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model)
+    : probed_{of.probed_.pass, c, of.probed_.bind, model},
+      before_(of.before_),
+      mode_(of.mode_),
+      executor_(of.executor_),
+      slots_(of.slots_),
+      port_(of.port_),
+      reference_(of.reference_),
+      failing_(spread(of.failing_, 24)) {}
+
+std::unique_ptr<Replay> TexelReplay::elsewhere() const {
+  try {
+    auto c = std::make_unique<capture::PassCase>(varied(probed_.pass, probed_.c));
+    std::unique_ptr<capture::PassModel> model = probed_.bind(*c);
+    return std::make_unique<Elsewhere>(*this, std::move(c), std::move(model));
+  } catch (const Error&) {
+    return nullptr;  // the pass refuses such numbers
+  }
+}
+
+std::vector<float> TexelReplay::given(const Fault& d) const {
+  std::vector<float> out;
+  try {
+    const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
+    if (!faulty.applies()) return out;
+    std::vector<Array> stored = reference_;
+    for (const Texel t : failing_) {
+      faulty.store(t, stored);
+      for (const Slot& s : slots_) out.push_back(stored_value(s, s.at(stored[static_cast<std::size_t>(s.output)], t.x, t.y)));
+    }
+  } catch (const Error&) {
+    out.clear();
+  }
+  return out;
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,53 @@
+// Mistakes made at the failing texels of a run.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "faults/probe.h"
+#include "faults/replay.h"
+#include "rainref/executor.h"
+
+namespace rainref::faults {
+
+/// How far a conforming device may be from the reference, roughly: in codes as the case's envelopes are, in values as the
+/// texel's own is.
+struct Leeway {
+  std::vector<std::int64_t> codes;          // of each slot
+  std::vector<std::vector<double>> values;  // of each texel and slot
+};
+
+class TexelReplay : public Replay {
+ public:
+  /// What is given must outlive it.
+  TexelReplay(const capture::PackPass& pass, const capture::PassCase& c, const capture::PassCase* before, judge::Bind bind,
+              const capture::PassModel& model, const std::vector<capture::Array>& port, const judge::CaseJudgement& judgement,
+              const enclosed::Profile& profile, judge::HalfMode mode, const parallel::Executor& executor);
+  std::vector<Fault> plain() override;
+  std::vector<Fault> fitted() override;
+  std::vector<judge::Cause> causes(const std::vector<Fault>& all) const override;
+  std::unique_ptr<Replay> elsewhere() const override;
+  std::vector<float> given(const Fault& d) const override;
+  /// What faults::alternative_formula says of the failing texels and some that passed.
+  std::optional<judge::Cause> alternative_formula(const enclosed::Profile& profile) const;
+
+ private:
+  class Elsewhere;
+  TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model);
+  judge::Cause cause(const Fault& d) const;
+
+  Probed probed_;
+  const capture::PassCase* before_;
+  judge::HalfMode mode_;
+  const parallel::Executor& executor_;
+  std::vector<judge::Slot> slots_;
+  const std::vector<capture::Array>& port_;
+  std::vector<capture::Array> reference_;
+  std::vector<Texel> failing_, few_passing_, many_passing_;  ///< some of them
+  Leeway leeway_;
+  double passing_per_failing_ = 0;
+  Constants constants_;
+};
+
+}  // namespace rainref::faults
