@@ -12,6 +12,7 @@
 
 #include "capture/bound_texture.h"
 #include "drops/evaluations.h"
+#include "drops/records.h"
 #include "judge/judge.h"
 #include "judge/judge_pass.h"
 #include "judge/keyed.h"
