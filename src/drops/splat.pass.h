@@ -7,6 +7,7 @@
 #ifndef RAINREF_FN
 #ifndef RAINREF_DROPS_SPLAT_PASS_H_
 #define RAINREF_DROPS_SPLAT_PASS_H_
+#include <span>
 #include <vector>
 
 #include "drops/drops.h"
@@ -50,10 +51,15 @@ struct SplatPass {
     const double scale = u.radius_scale;
     return needed < u.smallest_radius || needed * needed * needed < scale * scale * scale * d.mass;
   }
+  /// As many as the uniform says, or all: of a port that lost some there may be fewer.
+  static std::span<const Drop> counted(const SplatUniforms& u, std::span<const Drop> all) {
+    const auto said = static_cast<std::size_t>(u.drop_count);
+    return u.drop_count < 0 || said > all.size() ? all : all.first(said);
+  }
   static bool rounds_inside(const SplatUniforms& u) { return static_cast<SplatBlend>(u.blend) == SplatBlend::add_in_half; }
   template <class B>
   struct Io {
-    typename B::template Records<Drop> drops = pass::In{.name = "drops", .count = "drop_count"};
+    typename B::template Records<Drop> drops = pass::In{.name = "drops"};
     typename B::template Texels<Format::r32f, 1> film = pass::In{.name = "film", .from = "merge", .variant = "corrected"};
     typename B::template Result<Format::r16f> height =
         pass::Out{.name = "height", .sentence = "Height of the water over the glass.", .unit = "mm", .range = {0, 8}};
@@ -151,7 +157,7 @@ struct SplatPassText {
   static RAINREF_FN void run(const SplatUniforms& uniforms, const Io& io, int x, int y) {
     std::vector<Stamp<N> > near;
     SplatUniforms u = uniforms;
-    for (const Drop& d : io.drops.records.first(static_cast<std::size_t>(uniforms.drop_count)))
+    for (const Drop& d : SplatPass::counted(uniforms, io.drops.records))
       if (SplatPass::reaches(uniforms, d, x, y))
         near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life)));
     u.drop_count = static_cast<std::int32_t>(near.size());

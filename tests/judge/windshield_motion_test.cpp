@@ -40,6 +40,7 @@ Array with_records(Array like, const std::vector<std::byte>& bytes) {
   like.levels = {bytes};
   return like;
 }
+std::vector<std::byte> bytes_of(const std::vector<Drop>& drops) { return pass::bytes_of(drops); }
 std::vector<Drop> drops_in(const Array& list) {
   std::vector<Drop> out(static_cast<std::size_t>(list.width));
   if (!out.empty()) std::memcpy(out.data(), list.levels[0].data(), list.levels[0].size());
@@ -98,7 +99,7 @@ PassCase busy(PassCase c, int count, std::uint64_t seed) {
                        static_cast<std::uint32_t>(k * 3 + 1),
                        0});
       }
-      input.array = with_records(input.array, pass::bytes_of(all));
+      input.array = with_records(input.array, bytes_of(all));
     }
     if (input.name == "film") {
       auto* texels = reinterpret_cast<float*>(input.array.levels[0].data());
@@ -354,7 +355,7 @@ class SharedFilm : public testing::Test {
   static ListCase with(const std::vector<Drop>& all, float water = 1000) {
     PassCase c = cases_of("corrected", "wipe_drops").front();
     for (capture::CaseInput& input : c.inputs) {
-      if (input.name == "drops") input.array = with_records(input.array, pass::bytes_of(all));
+      if (input.name == "drops") input.array = with_records(input.array, bytes_of(all));
       if (input.name == "film") {
         auto* texels = reinterpret_cast<float*>(input.array.levels[0].data());
         std::fill(texels, texels + input.array.width * input.array.height, water);
@@ -411,13 +412,13 @@ TEST_F(SharedFilm, TheWaterOfABinGoesToOneDropWhicheverItIs) {
   ASSERT_GT(second[1].mass, 500);
   for (const ListCase* l : {&captured, &free}) {
     const Drop stays = l == &captured ? b.last : b.first_free;
-    const KeyedJudgement one = l->judged(pass::bytes_of(first), "vulkan"), other = l->judged(pass::bytes_of({stays, second[1]}), "vulkan");
+    const KeyedJudgement one = l->judged(bytes_of(first), "vulkan"), other = l->judged(bytes_of({stays, second[1]}), "vulkan");
     EXPECT_EQ(one.failing, 0) << one.events.text();
     EXPECT_EQ(other.failing, 0) << other.events.text();
     EXPECT_EQ(one.ambiguous, 1);
-    EXPECT_GT(l->judged(pass::bytes_of({first[0], second[1]}), "vulkan").failing, 0) << "both have it";
-    EXPECT_GT(l->judged(pass::bytes_of({stays, first[1]}), "vulkan").failing, 0) << "nobody has it";
-    EXPECT_GT(l->judged(pass::bytes_of({first[0]}), "vulkan").failing, 0) << "one is lost";
+    EXPECT_GT(l->judged(bytes_of({first[0], second[1]}), "vulkan").failing, 0) << "both have it";
+    EXPECT_GT(l->judged(bytes_of({stays, first[1]}), "vulkan").failing, 0) << "nobody has it";
+    EXPECT_GT(l->judged(bytes_of({first[0]}), "vulkan").failing, 0) << "one is lost";
   }
 }
 
@@ -433,10 +434,10 @@ TEST_F(SharedFilm, AQuantumTooManyIsFound) {
   std::vector<Drop> list = reference(l);
   for (const float off : {1.0f, -1.0f}) {
     list[0].mass += off;
-    EXPECT_EQ(l.judged(pass::bytes_of(list), "vulkan").failing, 1);
+    EXPECT_EQ(l.judged(bytes_of(list), "vulkan").failing, 1);
     list[0].mass -= off;
   }
-  EXPECT_EQ(l.judged(pass::bytes_of(list), "vulkan").failing, 0);
+  EXPECT_EQ(l.judged(bytes_of(list), "vulkan").failing, 0);
 }
 
 // Two circles that touch or not, by the last bit: one drop with the water of both, or two; not one alone, nor all three.
@@ -444,7 +445,7 @@ TEST(WindshieldMotion, AMergeIsJudgedWhole) {
   PassCase c = cases_of("corrected", "merge").front();
   const auto with = [&](const std::vector<Drop>& all) {
     for (capture::CaseInput& input : c.inputs)
-      if (input.name == "drops") input.array = with_records(input.array, pass::bytes_of(all));
+      if (input.name == "drops") input.array = with_records(input.array, bytes_of(all));
     return ListCase(c);
   };
   const auto drop = [](float u, float mass, std::uint32_t id) { return Drop{{u, 0.5f}, {0, 0}, mass, 9, id, 0}; };
@@ -461,7 +462,7 @@ TEST(WindshieldMotion, AMergeIsJudgedWhole) {
   ASSERT_EQ(together.size(), 1u);
   EXPECT_EQ(together[0].id, 4u);
   EXPECT_EQ(together[0].mass, 4e6f);
-  const auto failing = [&](const std::vector<Drop>& list, const char* under) { return l.judged(pass::bytes_of(list), under).failing; };
+  const auto failing = [&](const std::vector<Drop>& list, const char* under) { return l.judged(bytes_of(list), under).failing; };
   EXPECT_EQ(failing(together, "ieee"), 0);
   EXPECT_GT(failing(apart, "ieee"), 0);
   EXPECT_EQ(failing(together, "vulkan"), 0);
@@ -471,7 +472,7 @@ TEST(WindshieldMotion, AMergeIsJudgedWhole) {
   EXPECT_GT(other_branches(l), 10);
   // Farther apart it is settled.
   const ListCase settled = with({large, drop(near + 1e-3f, 1e6f, 3)});
-  EXPECT_GT(settled.judged(pass::bytes_of(together), "vulkan").failing, 0);
+  EXPECT_GT(settled.judged(bytes_of(together), "vulkan").failing, 0);
 }
 
 // What is settled beforehand under the loosest profile is settled under each.
