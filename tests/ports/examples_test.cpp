@@ -43,7 +43,7 @@ TEST(Examples, EachEditOfEachMutantAppliesOnceAndChangesTheFile) {
 }
 TEST(Examples, AnEditThatDoesNotApplyNamesFileIdAndText) {
   const auto message = [](const std::string& find) -> std::string {
-    const port_runner::Mutant m{7, "puddle", "display", "corrected", "", "FAIL", {{"puddle/display.glsl", find, "x"}}};
+    const port_runner::Mutant m{7, "puddle", "display", "corrected", "", "FAIL", "", {{"puddle/display.glsl", find, "x"}}};
     try {
       port_runner::edited_files(m, examples);
     } catch (const port_runner::FileError& e) {
