@@ -125,11 +125,11 @@ std::string outliers_html(const OutputJudgement& o) {
   return out;
 }
 
-/// Where a record lies, or null. A keyed list is in any order: its records are found by their id.
+/// Where a record lies, or null. A keyed list is in any order: its records are found by their id, if they have one.
 const std::byte* record_at(const capture::Array& a, bool keyed, std::uint32_t index) {
   const std::size_t size = a.element_bytes(), count = a.levels[0].size() / size;
-  if (!keyed) return index < count ? a.levels[0].data() + index * size : nullptr;
   const auto id = std::find_if(a.record.members.begin(), a.record.members.end(), [](const scene::Member& m) { return m.name == "id"; });
+  if (!keyed || id == a.record.members.end()) return index < count ? a.levels[0].data() + index * size : nullptr;
   for (std::size_t i = 0; i < count; ++i) {
     std::uint32_t found;
     std::memcpy(&found, a.levels[0].data() + i * size + id->offset, sizeof found);

@@ -6,6 +6,8 @@
 
 #include "judge/mini_port.h"
 #include "judge/profiles.h"
+#include "reports/html.h"
+#include "reports/source.h"
 
 namespace rainref::judge {
 namespace {
@@ -124,6 +126,21 @@ TEST_F(PlacedList, AMistakeIsNamed) {
     ASSERT_FALSE(p.causes.empty()) << name;
     EXPECT_THAT(p.causes[0].name, HasSubstr(name));
   }
+}
+
+// Fields by their names, records by their place.
+TEST_F(PlacedList, ThePageShowsItsFields) {
+  change([](Array& a) { set_field(a, 7, 1, field(a, 7, 1) + 9); });
+  const TemporaryFolder folder;
+  port.run(folder.path());
+  ValidateOptions options;
+  options.only = {"raindrops"};
+  options.executor = &test_executor();
+  const PortJudgement j = validate(port.pack, folder.path(), options);
+  const std::string page =
+      reports::report_html(j, reports::page_source(std::make_shared<const capture::Pack>(port.pack.folder()), folder.path()));
+  EXPECT_THAT(page, HasSubstr("1 of 40 fields outside"));
+  EXPECT_THAT(page, testing::ContainsRegex("<tr><td>7</td><td>y</td>"));
 }
 
 }  // namespace

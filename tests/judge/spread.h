@@ -118,8 +118,9 @@ inline void expect_tight(const std::vector<BoundPass>& passes) {
       // Most of its elements have no bound there: sines of hundreds.
       if (pass.name() == "screen_drops-as-published drops" && (name == "webgpu" || name == "metal")) continue;
       // What a sum of many taps spreads by grows as a root of their number, its envelope as the number. So do the six roundings of
-      // the weights of a lookup between two levels.
-      EXPECT_LE(at(m.ratios, 0.5), pass.name() == "screen_drops-corrected background" ? 7 : 4) << pass.name() << ' ' << name;
+      // the weights of a lookup between two levels. A hash has few roundings, magnified alike: to nearest, devices give few numbers.
+      const double most = pass.name() == "screen_drops-corrected background" ? 7 : pass.name() == "puddle-as-published raindrops" ? 8 : 4;
+      EXPECT_LE(at(m.ratios, 0.5), most) << pass.name() << ' ' << name;
     }
   }
 }
