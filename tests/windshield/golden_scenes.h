@@ -72,7 +72,9 @@ inline std::vector<GoldenScene> golden_scenes() {
 inline std::vector<std::string> golden_lines(const GoldenScene& scene, const parallel::Executor& executor, int frames = 60,
                                              const golden::Caller& caller = golden::call_plainly) {
   std::optional<Windshield> windshield;
-  caller([&] { windshield.emplace(config_of(scene.variant, scene.toml), small_surroundings(), executor); });
+  // Not in the caller's state: a program cannot call this, but through Simulation, which pins the state.
+  const scene::Config config = config_of(scene.variant, scene.toml);
+  caller([&] { windshield.emplace(config, small_surroundings(), executor); });
   std::vector<std::string> lines;
   for (int frame = 0; frame < frames; ++frame) {
     capture::HashRecorder recorder;

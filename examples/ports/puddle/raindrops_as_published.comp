@@ -7,11 +7,11 @@ layout(std140, binding = 0) uniform RaindropsUniforms {
   float time;            //   0  [s] Frame number over frame rate, rounded once.
   float rain_speed;      //   4  [1/s] Pulses of each drop a second.
   float drop_intensity;  //   8  [1] Strength of an impact.
-  float padding0;        //  12
+  float padding_0;       //  12  padding
   float width;           //  16  [texel] Columns of the wave.
   float height;          //  20  [texel] Rows of the wave.
   int drop_count;        //  24  [1] Drops in the list.
-  int padding1;          //  28
+  float padding_1;       //  28  padding
 } u;
 struct Drop {
   float x;          //   0  [texel] Centre; texel centres lie at k + 1/2.
