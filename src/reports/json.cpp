@@ -15,6 +15,7 @@ using judge::CaseJudgement;
 using judge::Cause;
 using judge::Failure;
 using judge::OutputJudgement;
+using judge::PassCoverage;
 using judge::PassJudgement;
 using judge::PortJudgement;
 using judge::QuantityJudgement;
@@ -123,6 +124,13 @@ Json case_json(const CaseJudgement& c) {
   return out;
 }
 
+/// As texts: alternatives are no keys.
+Json reasons_of(const PassCoverage& coverage) {
+  Json out = Json::array();
+  for (const auto& [alternative, reason] : coverage.reasons) out.push_back(fmt::format("{} ({})", alternative, reason));
+  return out;
+}
+
 Json pass_json(const PassJudgement& p) {
   Json out{{"pass", p.pass},
            {"formula", p.formula},
@@ -137,7 +145,7 @@ Json pass_json(const PassJudgement& p) {
             {{"exercised", p.coverage.taken},
              {"alternatives", p.coverage.alternatives},
              {"never", p.coverage.never},
-             {"reasons", p.coverage.reasons}}},
+             {"reasons", reasons_of(p.coverage)}}},
            {"causes", Json::array()},
            {"cases", Json::array()}};
   for (const Cause& c : p.causes)
