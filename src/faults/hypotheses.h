@@ -19,8 +19,10 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
 /// Constants fitted to what a port stored there. `port`, `reference`: in the order of the case's outputs.
 std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<capture::Array>& port,
                         const std::vector<capture::Array>& reference, const std::vector<Texel>& failing);
-/// The same as hypotheses() for a keyed list; p.bind may be null.
-Hypotheses list_hypotheses(const Probed& p, const capture::PassCase* before, const std::string& list);
+/// The same for keyed lists, whose evaluation takes longer: what is asked first, and what only where that explains little. p.bind may
+/// be null.
+std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before);
+Hypotheses list_hypotheses(const Probed& p, const std::string& list);
 
 /// That a uniform is not set, or has another sign, is plain; that two are mistaken for each other is less so.
 bool is_mixed_up_uniform(const Fault& d);

@@ -6,12 +6,15 @@
 
 namespace rainref::faults {
 
-Hypotheses list_hypotheses(const Probed& p, const capture::PassCase* before, const std::string& list) {
-  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, arithmetic;
-  // As for texels: constants by their names, plain mistakes before those that are less so.
+std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before) {
+  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before);
+  // As for texels, constants are tried by their names.
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  take(all, uniforms, is_mixed_up_uniform);
-  take(all, arithmetic, [](const Fault& d) { return d.behaviour.fault != perturbed::Fault::none; });
+  return all;
+}
+
+Hypotheses list_hypotheses(const Probed& p, const std::string& list) {
+  std::vector<Fault> all;
   add_input_mixups(all, p, false);
   std::vector<float> known = constants_of_lists(p.model, p.c);
   std::sort(known.begin(), known.end());
@@ -21,14 +24,12 @@ Hypotheses list_hypotheses(const Probed& p, const capture::PassCase* before, con
   const Constants constants = names_of_constants(probes, known);
   add_named_constants(all, constants, false);
   add_place_faults(all, probes, known);
-  std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
   std::set<std::string> used = uniforms_met(probes, p.pass);
   if (!is_followed)
     for (const scene::Member& m : p.pass.block.members) used.insert(m.name);
   add_uniform_mixups(all, p, used);
   add_named_constants(all, constants, true);
   if (is_followed) add_place_faults(all, probes_again(p.model, probes, {}, list), {});
-  std::move(arithmetic.begin(), arithmetic.end(), std::back_inserter(all));
   add_odd_constants(all, p, constants);
   return {std::move(all), constants};
 }

@@ -137,8 +137,10 @@ ListReplay::ListReplay(const capture::PackPass& pass, const capture::PassCase& c
   if (fails()) set_leeway(words_, keyed, expected.array.record, profile);
 }
 
-std::vector<Fault> ListReplay::plain() {
-  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, before_, c_.outputs[output_].name);
+std::vector<Fault> ListReplay::plain() { return plain_list_hypotheses({pass_, c_, evaluations_->bind, *model_}, before_); }
+
+std::vector<Fault> ListReplay::deeper() {
+  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, c_.outputs[output_].name);
   constants_ = std::move(all.constants);
   return std::move(all.faults);
 }

@@ -27,6 +27,7 @@ class ListReplay : public Replay {
              const capture::Array& port, std::size_t output, const enclosed::Profile& profile, const parallel::Executor& executor);
   bool fails() const { return !failing_.empty(); }
   std::vector<Fault> plain() override;
+  std::vector<Fault> deeper() override;
   std::vector<Fault> fitted() override;
   std::vector<judge::Cause> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;

@@ -23,10 +23,17 @@ double best_score(const std::vector<Cause>& causes) {
 }
 bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
 
-using ByName = std::map<std::string, std::vector<const Fault*>>;
-/// Those of these names.
-std::vector<Fault> named(std::vector<Fault> all, const std::set<std::string>& names) {
-  std::erase_if(all, [&](const Fault& d) { return !names.contains(d.name); });
+/// Those of these names that a run may have.
+std::vector<Fault> named(Replay& run, const std::set<std::string>& names) {
+  std::vector<Fault> all = run.plain();
+  const auto take_named = [&] { std::erase_if(all, [&](const Fault& d) { return !names.contains(d.name); }); };
+  take_named();
+  const auto has = [&](const std::string& name) {
+    return std::any_of(all.begin(), all.end(), [&](const Fault& d) { return d.name == name; });
+  };
+  if (std::all_of(names.begin(), names.end(), has)) return all;
+  for (Fault& d : run.deeper()) all.push_back(std::move(d));
+  take_named();
   return all;
 }
 
@@ -40,9 +47,10 @@ void check_in(Replay& other, std::vector<Cause>& causes) {
     is_any_fitted |= is_fitted(c.name);
   }
   if (names.empty()) return;
-  std::vector<Fault> all = named(other.plain(), names);
+  std::vector<Fault> all = named(other, names);
   if (is_any_fitted)
-    for (Fault& d : named(other.fitted(), names)) all.push_back(std::move(d));
+    for (Fault& d : other.fitted())
+      if (names.contains(d.name)) all.push_back(std::move(d));
   std::map<std::string, Cause> there;
   for (Cause& c : other.causes(all)) {
     const auto [at, is_new] = there.emplace(c.name, c);
@@ -83,7 +91,7 @@ bool has_rival(const Replay& run, const std::string& first, const std::set<std::
   std::set<std::string> names = others;
   names.insert(first);
   std::map<std::string, std::vector<std::vector<float>>> given;
-  for (const Fault& d : named(elsewhere->plain(), names))
+  for (const Fault& d : named(*elsewhere, names))
     if (std::vector<float> numbers = elsewhere->given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
   const auto own = given.find(first);
   if (own == given.end()) return false;
@@ -99,9 +107,10 @@ bool has_rival(const Replay& run, const std::string& first, const std::set<std::
 
 std::vector<Cause> diagnosed(Replay& run, Replay* other) {
   std::vector<Cause> causes = run.causes(run.plain());
-  // Nearly all of it is explained by one that has no number to fit: what fits a number is not needed.
-  if (best_score(causes) < 1.9)
-    for (Cause& c : run.causes(run.fitted())) causes.push_back(std::move(c));
+  // Where nearly all of it is explained by what is plain, what is less so is not needed.
+  for (const auto more : {&Replay::deeper, &Replay::fitted})
+    if (best_score(causes) < 1.9)
+      for (Cause& c : run.causes((run.*more)())) causes.push_back(std::move(c));
   if (other) check_in(*other, causes);
   std::vector<Cause> best = best_causes(causes);
   if (best.empty() || !best.front().is_likely) return best;

@@ -13,7 +13,9 @@ class Replay {
   virtual ~Replay() = default;
   /// What is tried, in the order in which it is to be believed; at most once each.
   virtual std::vector<Fault> plain() = 0;
-  /// What is fitted to the port, asked where nothing plain explains it. After plain().
+  /// More of it, asked where nothing plain explains the run.
+  virtual std::vector<Fault> deeper() { return {}; }
+  /// What is fitted to the port, asked where all that explains too little. After these.
   virtual std::vector<Fault> fitted() = 0;
   /// How well each explains what fails.
   virtual std::vector<judge::Cause> causes(const std::vector<Fault>& all) const = 0;
