@@ -161,7 +161,7 @@ class Packing {
         if (!c.reasons.contains(alternative))
           not_exercised_ += fmt::format("warning: unexercised.{}: '{}' is exercised, or there is none\n", pass, alternative);
       if (c.alternatives == 0) continue;
-      writer.add_coverage(pass, c.taken, c.alternatives, c.never, c.reasons);
+      writer.add_coverage(pass, c.taken, c.alternatives, c.never, reasons);
       if (!c.never.empty()) not_exercised_ += fmt::format("{} {}\n", pass, reports::coverage_text(c, reports::shown_alternatives));
     }
     return writer.finish();

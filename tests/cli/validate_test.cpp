@@ -378,7 +378,8 @@ TEST_F(Validate, ALostDropIsNamed) {
   put(folder / "port" / list, bytes.substr(0, bytes.size() - 32));
   const Outcome o = validate({windshield, "--port", "port", "--only", "merge"});
   EXPECT_EQ(o.code, 1) << o.out;
-  EXPECT_THAT(o.out, AllOf(HasSubstr("drops, missing: "), HasSubstr("likely cause: drops without"),
+  // A short dispatch, a lost append and a short input give the same list here, so none is called likely.
+  EXPECT_THAT(o.out, AllOf(HasSubstr("drops, missing: "), HasSubstr("may be: drops without its last record"),
                            HasSubstr("(gives 1 of 1 failing records bit for bit")));
 }
 
