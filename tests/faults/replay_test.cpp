@@ -1,0 +1,113 @@
+// Which of several causes is believed, and when the first is called likely.
+#include "faults/replay.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace rainref::faults {
+namespace {
+
+using judge::Cause;
+
+Fault of_name(const std::string& name) {
+  Fault d;
+  d.name = name;
+  return d;
+}
+
+/// A run of 100 failing texels of which each mistake explains so many, and what each gives elsewhere.
+class Told : public Replay {
+ public:
+  std::map<std::string, int> first, second, third;
+  std::map<std::string, std::vector<float>> numbers;
+  int asked_for_more = 0;
+
+  std::vector<Fault> plain() override { return of(first); }
+  std::vector<Fault> deeper() override { return ++asked_for_more, of(second); }
+  std::vector<Fault> fitted() override { return ++asked_for_more, of(third); }
+  std::vector<Cause> causes(const std::vector<Fault>& all) const override {
+    std::vector<Cause> out;
+    for (const Fault& d : all)
+      for (const auto* stage : {&first, &second, &third})
+        if (const auto at = stage->find(d.name); at != stage->end()) out.push_back({d.name, "", at->second, 100, at->second, false, true});
+    return out;
+  }
+  std::unique_ptr<Replay> elsewhere() const override { return std::make_unique<Told>(*this); }
+  std::vector<float> given(const Fault& d) const override { return numbers.at(d.name); }
+
+ private:
+  static std::vector<Fault> of(const std::map<std::string, int>& stage) {
+    std::vector<Fault> out;
+    for (const auto& [name, explained] : stage) out.push_back(of_name(name));
+    return out;
+  }
+};
+
+TEST(Replay, OneCauseThatExplainsAllIsLikelyAndNothingElseIsAsked) {
+  Told run;
+  run.first = {{"a", 100}, {"b", 60}};
+  run.second = {{"c", 100}};
+  const std::vector<Cause> causes = diagnosed(run, nullptr);
+  ASSERT_FALSE(causes.empty());
+  EXPECT_EQ(causes[0].name, "a");
+  EXPECT_TRUE(causes[0].is_likely);
+  EXPECT_EQ(run.asked_for_more, 0);
+}
+TEST(Replay, MoreIsAskedWherePlainCausesExplainLittle) {
+  Told run;
+  run.first = {{"a", 60}};
+  run.second = {{"b", 70}};
+  run.third = {{"another value of c", 100}};
+  EXPECT_EQ(diagnosed(run, nullptr)[0].name, "another value of c");
+  EXPECT_EQ(run.asked_for_more, 2);
+}
+// The same mistake by another name is no rival.
+TEST(Replay, ARivalIsAnotherMistakeElsewhere) {
+  Told run;
+  run.first = {{"a", 100}, {"b", 100}};
+  run.numbers = {{"a", {1, 2}}, {"b", {1, 2}}};
+  EXPECT_TRUE(diagnosed(run, nullptr)[0].is_likely);
+  run.numbers["b"] = {1, 3};
+  EXPECT_EQ(diagnosed(run, nullptr)[0].name, "a");
+  EXPECT_FALSE(diagnosed(run, nullptr)[0].is_likely);
+}
+TEST(Replay, WhatExplainsBothRunsIsBelieved) {
+  Told run, other;
+  run.first = {{"a", 100}, {"b", 100}};
+  run.numbers = {{"a", {1}}, {"b", {2}}};
+  other.first = {{"a", 10}, {"b", 100}};
+  const std::vector<Cause> causes = diagnosed(run, &other);
+  EXPECT_EQ(causes[0].name, "b");
+  EXPECT_TRUE(causes[0].is_likely);
+  EXPECT_EQ(causes[0].of, 200);
+  EXPECT_EQ(causes[0].explained, 200);
+}
+// Where nothing explains the other run, it shows something else.
+TEST(Replay, AnotherRunThatNothingExplainsDecidesNothing) {
+  Told run, other;
+  run.first = {{"a", 100}};
+  other.first = {{"a", 0}};
+  EXPECT_EQ(diagnosed(run, &other)[0].of, 100);
+  EXPECT_TRUE(diagnosed(run, &other)[0].is_likely);
+}
+
+TEST(Replay, AVariedCaseHasOtherNumbers) {
+  capture::PackPass pass;
+  scene::Member m;
+  m.name = "gain";
+  m.scalar = scene::Scalar::float32;
+  m.components = 1;
+  pass.block.members = {m};
+  capture::PassCase c;
+  c.uniforms.resize(4);
+  const float gain = 2;
+  std::memcpy(c.uniforms.data(), &gain, 4);
+  float other;
+  std::memcpy(&other, varied(pass, c).uniforms.data(), 4);
+  EXPECT_GT(other, 2);
+  EXPECT_LT(other, 2.5f);
+}
+
+}  // namespace
+}  // namespace rainref::faults
