@@ -1,7 +1,9 @@
 // Which of several causes is believed, and when the first is called likely.
 #include "faults/replay.h"
 
+#include <cstring>
 #include <map>
+#include <memory>
 
 #include <gtest/gtest.h>
 
