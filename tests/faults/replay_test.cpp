@@ -100,6 +100,7 @@ TEST(Replay, AVariedCaseHasOtherNumbers) {
   m.name = "gain";
   m.scalar = scene::Scalar::float32;
   m.components = 1;
+  m.offset = 0;
   pass.block.members = {m};
   capture::PassCase c;
   c.uniforms.resize(4);
