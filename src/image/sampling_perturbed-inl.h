@@ -77,7 +77,10 @@ RAINREF_FN perturbed::Perturbed blend(TexelPrecision precision, perturbed::Pertu
     if (const perturbed::Share& s = perturbed::share(); s.of_level > 0)
       return perturbed::Perturbed::of(sampler.weighted(a.v, b.v, c.v, d.v, fx.v, fy.v, s.of_level, s.x_first));
     const perturbed::Perturbed in_float = blend<perturbed::Perturbed>(precision, a, b, c, d, fx, fy);
-    return perturbed::Perturbed::of(sampler.blend(in_float.v, a.v, b.v, c.v, d.v, fx.v != 0 && fy.v != 0, filtered_bits(precision)));
+    // A texel of weight 0 adds nothing, so that the result does not lie between it and the others.
+    const bool right = fx.v != 0, above = fy.v != 0;
+    const float beside = right ? b.v : a.v, over = above ? c.v : a.v, across = right && above ? d.v : right ? beside : over;
+    return perturbed::Perturbed::of(sampler.blend(in_float.v, a.v, beside, over, across, right && above, filtered_bits(precision)));
   };
   return perturbed::Perturbed::met(perturbed::Op::lookup, result(), fx, fy, a);
 }
