@@ -43,9 +43,17 @@ void drops_in_row(std::span<const Drop> drops, int y, std::vector<int>& out) {
   }
 }
 
+// A row, by `step` (column, columns) in whole vectors and one of the rest: the compiler knows the length of all but the last.
+template <class Storage, class Step>
+HWY_INLINE HWY_ATTR void step_row(int width, Storage* out, Rounding rounding, const Step& step) {
+  const int n = Lanes::size();
+  int x = 0;
+  for (; x + n <= width; x += n) store(out + x, step(x, n), rounding, n);
+  if (x < width) store(out + x, step(x, width - x), rounding, width - x);
+}
 template <class Storage>
 void step_rows(const WaveJob& job, const parallel::Tile& tile) {
-  const int n = Lanes::size(), width = job.newest->width();
+  const int width = job.newest->width();
   const Address edge = address_of(job.boundary);
   std::vector<int> in_row;
   std::vector<Drop> near;
@@ -55,12 +63,20 @@ void step_rows(const WaveJob& job, const parallel::Tile& tile) {
     const WaveRows<Storage> rows =
         rows_around<Storage>(job.uniforms, job.corrected, newest, out, job.shore ? job.shore->row<float>(y) : nullptr);
     drops_in_row(job.drops, y, in_row);
-    for (int x = 0; x < width; x += n) {
-      const int count = std::min(n, width - x);
-      const std::span<const Drop> drops = in_row.empty() ? std::span<const Drop>() : near_drops(job.drops, in_row, x, x + count, near);
-      const Lanes next = job.corrected ? wave_step_corrected<Lanes>(job.uniforms, rows, drops, x, y)
-                                       : wave_step_as_published<Lanes>(job.uniforms, rows, drops, x, y);
-      store(out + x, next, job.rounding, count);
+    // What does not change along a row is asked once: the variant, and whether any drop reaches the row.
+    if (!in_row.empty()) {
+      step_row<Storage>(width, out, job.rounding, [&](int x, int count) HWY_ATTR {
+        const std::span<const Drop> drops = near_drops(job.drops, in_row, x, x + count, near);
+        return job.corrected ? wave_step_corrected<Lanes>(job.uniforms, rows, drops, x, y)
+                             : wave_step_as_published<Lanes>(job.uniforms, rows, drops, x, y);
+      });
+    } else if (job.corrected) {
+      step_row<Storage>(width, out, job.rounding,
+                        [&](int x, int) HWY_ATTR { return wave_step_corrected<Lanes>(job.uniforms, rows, std::span<const Drop>(), x, y); });
+    } else {
+      step_row<Storage>(width, out, job.rounding, [&](int x, int) HWY_ATTR {
+        return wave_step_as_published<Lanes>(job.uniforms, rows, std::span<const Drop>(), x, y);
+      });
     }
     pass::fill_margins(out, width, edge, encode_one<Storage>(job.uniforms.rest, job.rounding));
   }
