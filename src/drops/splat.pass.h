@@ -14,6 +14,7 @@
 #include "drops/records.h"
 #include "drops/splat_uniforms.h"
 #include "pass/definition.h"
+#include "rainref/executor.h"
 #include "scene/uniform_block.h"
 
 namespace rainref::drops {
@@ -38,16 +39,18 @@ struct SplatPass {
          member<&U::drop_count>("drop_count", "1", {0, DropArrays::most_slots}, "Drops in the list."),
          member<&U::film_scale>("film_scale", "mm", {0, 1e9}, "corrected: height of a mass unit in a texel.")});
   }
-  /// Whether a drop may add something to a texel. Others surely add nothing: this one ends a texel and a fiftieth of its radius further out
-  /// than the text says.
-  static bool reaches(const SplatUniforms& u, const Drop& d, int x, int y) {
+  /// Whether a drop may add something to a tile of texels. Others surely add nothing: this one ends a texel and a fiftieth of its radius
+  /// further out than the text says.
+  static bool reaches(const SplatUniforms& u, const Drop& d, const parallel::Tile& t) {
     if (!(d.life > 0 && d.mass > 0)) return false;
-    const double column = x + 0.5 - static_cast<double>(d.position[0]) * u.size[0],
-                 row = y + 0.5 - static_cast<double>(d.position[1]) * u.size[1];
+    const double column = 0.5 * (t.x0 + t.x1) - static_cast<double>(d.position[0]) * u.size[0],
+                 row = 0.5 * (t.y0 + t.y1) - static_cast<double>(d.position[1]) * u.size[1];
     const double plane_x = u.frame[0] * column + u.frame[1] * row, plane_y = u.frame[2] * row;
     const auto magnitude = [](double z) { return z < 0 ? -z : z; };
-    const double texel = magnitude(u.frame[0]) + magnitude(u.frame[1]) + magnitude(u.frame[2]);
-    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - texel) / 1.02;  // of the radius
+    // From the middle of the tile to the farthest centre in it, and a texel more.
+    const double columns = 0.5 * (t.x1 - t.x0) + 0.5, rows = 0.5 * (t.y1 - t.y0) + 0.5;
+    const double around = magnitude(u.frame[0]) * columns + (magnitude(u.frame[1]) + magnitude(u.frame[2])) * rows;
+    const double needed = (__builtin_sqrt(plane_x * plane_x + plane_y * plane_y) - around) / 1.02;  // of the radius
     const double scale = u.radius_scale;
     return needed < u.smallest_radius || needed * needed * needed < scale * scale * scale * d.mass;
   }
@@ -55,6 +58,12 @@ struct SplatPass {
   static std::span<const Drop> counted(const SplatUniforms& u, std::span<const Drop> all) {
     const auto said = static_cast<std::size_t>(u.drop_count);
     return u.drop_count < 0 || said > all.size() ? all : all.first(said);
+  }
+  static std::vector<Drop> near(const Uniforms& u, std::span<const Drop> all, bool, int, const parallel::Tile& t) {
+    std::vector<Drop> near;
+    for (const Drop& d : counted(u, all))
+      if (reaches(u, d, t)) near.push_back(d);
+    return near;
   }
   static bool rounds_inside(const SplatUniforms& u) { return static_cast<SplatBlend>(u.blend) == SplatBlend::add_in_half; }
   template <class B>
@@ -158,7 +167,7 @@ struct SplatPassText {
     std::vector<Stamp<N> > near;
     SplatUniforms u = uniforms;
     for (const Drop& d : SplatPass::counted(uniforms, io.drops.records))
-      if (SplatPass::reaches(uniforms, d, x, y))
+      if (SplatPass::reaches(uniforms, d, {x, y, x + 1, y + 1}))
         near.push_back(splat_stamp<N>(uniforms, N::load(&d.position[0]), N::load(&d.position[1]), N::load(&d.mass), N::load(&d.life)));
     u.drop_count = static_cast<std::int32_t>(near.size());
     const bool rounds_each = SplatPass::rounds_inside(u);

@@ -143,7 +143,8 @@ class Run {
     if constexpr (requires { &P::near; }) {
       HostIo<P> io = io_;
       each<P>(io, [&](auto& member) {
-        if constexpr (requires { P::near(member.records, true, 0, t); }) member.choose(P::near(member.records, corrected_, width_, t));
+        if constexpr (requires { P::near(uniforms_, member.records, true, 0, t); })
+          member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
       });
       rows<P>(uniforms_, corrected_, rounding_, io, t);
     } else {

@@ -39,7 +39,7 @@ struct BakeRaindropsPass {
          member<&U::neutral>("neutral", "1", scene::share, "Stored value of a flat surface's normal."),
          member<&U::span>("span", "1", scene::share, "Stored value of a unit less neutral.")});
   }
-  static std::vector<Droplet> near(std::span<const Droplet> all, bool corrected, int columns, const parallel::Tile& t) {
+  static std::vector<Droplet> near(const Uniforms&, std::span<const Droplet> all, bool corrected, int columns, const parallel::Tile& t) {
     return droplets_near(all, corrected, columns, t.x0, t.y0, t.x1, t.y1);
   }
   template <class Bound>
@@ -72,7 +72,7 @@ struct BakeRivuletsPass {
          member<&U::flow_cells>("flow_cells", "1", {1, 256}, "Cells of the flow's coarser octave along a side."),
          member<&U::flow_gain>("flow_gain", "1", {0, 10}, "Factor of the noise before it is held in [-1, 1].")});
   }
-  static std::vector<Trail> near(std::span<const Trail> all, bool, int columns, const parallel::Tile& t) {
+  static std::vector<Trail> near(const Uniforms&, std::span<const Trail> all, bool, int columns, const parallel::Tile& t) {
     return trails_near(all, columns, t.x0, t.y0, t.x1, t.y1);
   }
   template <class Bound>
