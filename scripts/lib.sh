@@ -51,5 +51,13 @@ build() {
   say "Building $folder"
   NINJA_STATUS="[%f/%t] " cmake --build "$folder" ${1:+--target "$@"} >&2 || die "Build of $folder failed"
 }
+# port_device DEVICE: sets `at`, the options that give a runner of ports its device: cpu (the software device), gpu (the first GPU), or
+# a number of port_runner --list; and `blend`, port_runner's own beside them.
+port_device() {
+  at=() blend=()
+  [ "$1" = gpu ] || at=(--device "$1")
+  # The software device filters 8-bit storage in 8 bits, so there the shader blends texels itself.
+  [ "$1" != cpu ] || blend=(--spec 3=1)
+}
 configure_options=()
 mkdir -p build

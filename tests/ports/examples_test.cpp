@@ -1,5 +1,8 @@
 // The examples are ports as they are meant: no seeded bug, and no trace of one. Bugs are edits of them, kept with the tests.
+#include <set>
+
 #include "ports/mutant_sources.h"
+#include "ports/runner/json_file.h"
 #include "ports/support.h"
 
 namespace rainref::ports {
@@ -40,6 +43,36 @@ TEST(Examples, EachEditOfEachMutantAppliesOnceAndChangesTheFile) {
     edits += m.edits.size();
   }
   EXPECT_GE(edits, 480u);
+}
+// scripts/full/port_mistakes judges them. Two sets, so that what is improved with one can be measured with the other.
+TEST(Examples, EachSetOfMistakesIsOfEveryPassAndItsEditsApply) {
+  using Pass = std::string;  // "puddle.display.corrected"
+  std::set<Pass> passes;
+  for (const char* effect : {"puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"}) {
+    const nlohmann::json programs = port_runner::parse_json(examples + "/" + effect + "/bindings.json").at("programs");
+    for (const auto& [formula, program] : programs.items()) passes.insert(formula.substr(0, formula.find('/')));
+  }
+  std::set<std::pair<Pass, std::string>> kinds[2];
+  std::set<std::string> ids;
+  for (const int set : {0, 1}) {
+    std::set<Pass> covered;
+    const nlohmann::json all = port_runner::parse_json(source + "/tests/ports/mistakes/set_" + "ab"[set] + ".json");
+    for (const nlohmann::json& m : all.at("mistakes")) {
+      const std::string id = m.at("id"), effect = m.at("effect"), pass = effect + "." + std::string(m.at("pass"));
+      EXPECT_TRUE(ids.insert(id).second) << id;
+      EXPECT_FALSE(std::string(m.at("truth")).empty()) << id;
+      covered.insert(pass + "." + std::string(m.at("variant")));
+      kinds[set].emplace(pass, m.at("kind"));
+      port_runner::Mutant edits{0, effect, m.at("pass"), m.at("variant"), "", "FAIL", "", {}};
+      for (const nlohmann::json& e : m.at("edits")) edits.edits.push_back({e.at("file"), e.at("find"), e.at("replace")});
+      std::map<std::string, std::string> edited;
+      EXPECT_NO_THROW(edited = port_runner::edited_files(edits, examples)) << id;
+      EXPECT_FALSE(edited.empty()) << id;
+      for (const auto& [file, text] : edited) EXPECT_NE(text, contents(examples + "/" + file)) << id;
+    }
+    EXPECT_EQ(covered, passes);
+  }
+  for (const auto& kind : kinds[1]) EXPECT_FALSE(kinds[0].contains(kind)) << kind.first << ": " << kind.second << " is in both sets";
 }
 TEST(Examples, AnEditThatDoesNotApplyNamesFileIdAndText) {
   const auto message = [](const std::string& find) -> std::string {
