@@ -22,7 +22,7 @@ using judge::QuantityJudgement;
 using judge::Status;
 
 constexpr std::size_t shown_outputs = 4;   // of a pass that fails
-constexpr std::size_t shown_failures = 3;  // of an output
+constexpr std::size_t worst_shown = 3;  // of an output
 constexpr std::size_t columns = 120;
 
 /// The text in lines of at most `columns`, broken at blanks, all but the first with this indent; a longer word stays whole.
@@ -130,7 +130,7 @@ std::string table_text(const PortJudgement& j) {
 std::string output_text(const CaseJudgement& c, const OutputJudgement& o) {
   std::string out = fmt::format("  {}/out.{} ({}): {} of {} {} outside ({})\n", c.id, o.name, shape_text(o), o.failing, o.elements,
                                 element_word(o), share_text(o.failing, o.elements));
-  const std::size_t shown = std::min(shown_failures, o.worst.size());
+  const std::size_t shown = std::min(worst_shown, o.worst.size());
   for (std::size_t k = 0; k < shown; ++k) {
     const FailureText t = failure_text(o, o.worst[k]);
     out += t.got.empty() ? fmt::format("    {}  {}\n", t.place, t.distance)
