@@ -175,11 +175,14 @@ class Packing {
   /// Looks on for frames in which these passes do more than nothing; takes those out that have one. False where there is none.
   bool add_frames(std::map<std::string, judge::NullPorts>& idle) const {
     const int end = static_cast<int>(config_.integer("run.frames")) + frames_beyond;
-    std::map<std::string, int> found;
+    std::map<std::string, int> found, tried;
+    // A pass that runs many times a frame is tried as often as one that runs once.
     const auto wanted = [&](int frame, std::string_view pass) {
-      return !frames_.are_wanted(frame, pass) && idle.contains(std::string(pass)) && !found.contains(std::string(pass));
+      const std::string name(pass);
+      return !frames_.are_wanted(frame, pass) && idle.contains(name) && !found.contains(name) && tried[name] < end;
     };
     capture::CaptureRecorder recorder(info_, config_.variant(), true, wanted, [&](const capture::PassCase& c) {
+      ++tried[c.pass];
       judge::NullPorts with_this_frame = idle.at(c.pass);
       try_null_ports(config_.effect(), c, with_this_frame);
       if (with_this_frame.passing().empty()) found.emplace(c.pass, c.frame);

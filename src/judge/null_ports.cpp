@@ -35,9 +35,18 @@ Array copied(const Array& in, const Array& out) {
   return copy.levels.size() == out.levels.size() ? copy : zeros(out);
 }
 
+/// What the reference itself stores passes, without a look at any envelope: a pass without wipers gives back what it took, texel by texel.
+bool is_expected(const PassCase& c, const std::vector<Array>& port) {
+  for (std::size_t o = 0; o < c.outputs.size(); ++o) {
+    const Array& expected = c.outputs[o].array;
+    if (port[o].width != expected.width || port[o].levels != expected.levels) return false;
+  }
+  return true;
+}
 /// What the profile leaves without a useful bound must lie inside what real devices do, as in any judgement.
 bool passes(const PassCase& c, const capture::PassModel* model, const std::vector<Array>& port, const enclosed::Profile& profile,
             const enclosed::Profile* typical, HalfMode mode) {
+  if (is_expected(c, port)) return true;
   for (std::size_t o = 0; o < c.outputs.size(); ++o) {
     const capture::CaseOutput& out = c.outputs[o];
     if (out.judge == capture::Judge::bits && judge_bits(out, port[o]).failing > 0) return false;
