@@ -17,7 +17,7 @@ const std::vector<MemberParameter<Settings>>& members() {
       integer<&Settings::thickness>("edge_splash.thickness", "texel", 0, 20,
                                     "Distance of the Sobel taps where the device depth is 1; it shrinks with the square of the depth.")
           .only(published),
-      real<&Settings::edge_threshold>("edge_splash.edge_threshold", "1", 0, 16, "Sobel sum of device depths that counts as an edge.")
+      real<&Settings::edge_threshold>("edge_splash.edge_threshold", "1", 0, 1, "Sobel sum of device depths that counts as an edge.")
           .only(published),
       real<&Settings::rain_drop_scale>("edge_splash.rain_drop_scale", "1", 0, 1, "Threshold of the noise: drops are where it lies above.")
           .published(0.5),
