@@ -80,13 +80,17 @@ class ScreenDrops {
 
   /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps. Flowing water, if there is any: spawn to merge.
   void simulate(Recorder* recorder = nullptr);
-  /// cells, drops and display of the frame that was simulated last. The background, which is still, is made the first time.
+  /// cells, drops and display of the frame that was simulated last. The background is made the first
+  /// time, and again when another scene is shown.
   void render(Recorder* recorder = nullptr);
   /// Both: one call for each frame of a film.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
   }
+
+  /// From the next render on, another scene behind the glass: width x height, four channels. Throws Error(usage) for another shape.
+  void show(const Image& colour);
 
   /// Frames simulated so far.
   int frame() const;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
 
 namespace rainref::rainy_glass {
@@ -9,8 +10,8 @@ namespace {
 
 using namespace rainref::scene;
 
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table{
+std::vector<MemberParameter<Settings>> made() {
+  std::vector<MemberParameter<Settings>> table{
       choice<&Settings::shape>("glass.shape", {{"pane", Shape::pane}, {"sphere", Shape::sphere}, {"image", Shape::image}},
                                "An upright pane across the view, a ball, or the normals of glass.normal_image."),
       real<&Settings::distance>("glass.distance", "m", 0.01, 1000,
@@ -77,6 +78,11 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::camera_up>("camera.up", "1", -1, 1, "Direction that is up in the picture."),
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 170, "Vertical field of view."),
   };
+  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
+  return table;
+}
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 

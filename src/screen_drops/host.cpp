@@ -89,12 +89,15 @@ void check(const Settings& s) {
   scene_camera(s).half_height();
 }
 
-void check(const Settings& s, const Inputs& in) {
-  if (in.colour.empty() || in.colour.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
-  if (in.colour.width() != s.width || in.colour.height() != s.height) {
-    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} like the picture, found {}x{}", s.width, s.height,
-                                             in.colour.width(), in.colour.height()));
+void check_scene(const Settings& s, const Image& colour) {
+  if (colour.empty() || colour.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
+  if (colour.width() != s.width || colour.height() != s.height) {
+    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} like the picture, found {}x{}", s.width, s.height, colour.width(),
+                                             colour.height()));
   }
+}
+void check(const Settings& s, const Inputs& in) {
+  check_scene(s, in.colour);
   if (!in.noise.empty() && in.noise.channels() != 4)
     throw Error(ExitCode::usage, fmt::format("noise.image: expected four channels, found {}", in.noise.channels()));
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "screen_drops/flow_info.h"
+#include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
 #include "screen_drops/uniforms.h"
 
@@ -11,8 +12,8 @@ namespace {
 
 using namespace rainref::scene;
 
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table{
+std::vector<MemberParameter<Settings>> made() {
+  std::vector<MemberParameter<Settings>> table{
       // The origin's constants.
       real<&Settings::grid>("drops.grid", "cell/pixel", 1e-4, 1, "Cells of the coarsest layer in a pixel; layer r has r times as many.")
           .only(published),
@@ -77,6 +78,11 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 150, "Vertical field of view; of a picture from a file, too."),
       boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
   };
+  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
+  return table;
+}
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 
