@@ -92,6 +92,10 @@ class EdgeSplash {
     render(recorder);
   }
 
+  /// From the next render on, other pictures: colour, depth and layer, of the sizes and kinds that the constructor takes; the noise
+  /// stays. Throws as the constructor, and for another size than the first colour's; the old pictures then stay.
+  void show(const Inputs& inputs);
+
   /// Frames simulated so far.
   int frame() const;
 

@@ -97,6 +97,9 @@ class RainyGlass {
     render(recorder);
   }
 
+  /// From the next render on, another scene behind the glass: Surroundings::colour and, corrected, depth. Throws as the constructor.
+  void show(const Image& colour, const Image& depth);
+
   /// Frames simulated so far.
   int frame() const;
 

@@ -27,12 +27,20 @@ struct Settings {
   double vertical_fov_deg = 30;
 
   // as-published
-  double grid = 0.015;            ///< cells of the coarsest layer in a pixel
-  double keep = 0.08;             ///< share of the finest layer's cells that hold a drop, for noise that is uniform
-  double refraction = 0.3;        ///< pictures that a unit normal across the view moves the lookup
-  double blur_level = 2.5;        ///< mip level behind the drops
-  bool printed_misprint = false;  ///< the displacement as the report prints it
-  int noise_size = 256;           ///< texels a side of the noise made here
+  double grid = 0.015;                   ///< cells of the coarsest layer in a pixel
+  int layers = 4;                        ///< grids of cells; layer r has r times the cells of layer 1
+  double cell_angle = 6.28;              ///< of the sine over a cell [rad]
+  double noise_middle = 0.5;             ///< noise that displaces nothing
+  double displacement = 2;               ///< of the grid per unit of noise [rad]
+  double keep = 0.08;                    ///< share of the cells of layer keep_from - 1 that hold a drop, for noise that is uniform
+  double keep_from = 5;                  ///< a cell of layer r holds a drop where its noise is below (keep_from - r) keep
+  double threshold = 0.5;                ///< a drop is where the sum of the sines, faded, is above this
+  double refraction = 0.3;               ///< pictures that a unit normal across the view moves the lookup
+  double blur_level = 2.5;               ///< mip level behind the drops
+  bool printed_misprint = false;         ///< the displacement as the report prints it
+  bool printed_normal = false;           ///< the normal as the report prints it, of the cosine of a sine
+  int noise_size = 256;                  ///< texels a side of the noise made here
+  Filter noise_filter = Filter::linear;  ///< of every lookup of the noise: linear or nearest
 
   // corrected
   double pane_height = 0.12;                      ///< of glass in the picture's height [m]
@@ -72,13 +80,17 @@ class ScreenDrops {
 
   /// To the next frame: 0, 1, 2 ... Frame n shows time n / fps. Flowing water, if there is any: spawn to merge.
   void simulate(Recorder* recorder = nullptr);
-  /// cells, drops and display of the frame that was simulated last. The background, which is still, is made the first time.
+  /// cells, drops and display of the frame that was simulated last. The background is made the first
+  /// time, and again when another scene is shown.
   void render(Recorder* recorder = nullptr);
   /// Both: one call for each frame of a film.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
     render(recorder);
   }
+
+  /// From the next render on, another scene behind the glass: width x height, four channels. Throws Error(usage) for another shape.
+  void show(const Image& colour);
 
   /// Frames simulated so far.
   int frame() const;

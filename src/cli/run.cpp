@@ -107,8 +107,12 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<ef
                              {"config", scene::config_json(config)},
                              {"origins", scene::origins_json(config)}};
   out["inputs"] = nlohmann::ordered_json::array();
-  for (const effect::InputFile& f : inputs)
-    out["inputs"].push_back({{"key", f.key}, {"file", f.path}, {"decoded_hash", f.decoded_hash}, {"lossy", f.lossy}});
+  for (const effect::InputFile& f : inputs) {
+    nlohmann::ordered_json input{{"key", f.key}, {"file", f.path}};
+    if (f.count > 0) input.update({{"first", f.first}, {"count", f.count}});
+    input.update({{f.count > 0 ? "files_hash" : "decoded_hash", f.hash}, {"lossy", f.lossy}});
+    out["inputs"].push_back(input);
+  }
   out["simd"] = selected_simd_target();
   out["threads"] = executor.threads();
   out["frames"] = frames;

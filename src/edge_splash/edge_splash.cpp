@@ -2,6 +2,9 @@
 #include "rainref/edge_splash.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
@@ -43,8 +46,8 @@ struct EdgeSplash::State {
         depth_image(prepare_depth(in, s.depth)),
         layer(prepare_layer(in)),
         noise_image(prepare_noise(in, s)) {
-    const Address edges = corrected ? Address::clamp : Address::border, tile = corrected ? Address::repeat : Address::border;
-    depth = TextureData(depth_image, edges, edges);
+    decode_depth();
+    const Address tile = corrected ? Address::repeat : Address::border;
     noise_map = TextureData(noise_image, tile, tile);
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
@@ -52,6 +55,10 @@ struct EdgeSplash::State {
     display = pass::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
+  }
+  void decode_depth() {
+    const Address edges = corrected ? Address::clamp : Address::border;
+    depth = TextureData(depth_image, edges, edges);
   }
 };
 
@@ -96,6 +103,20 @@ void EdgeSplash::render(Recorder* recorder) {
     run(pass::Run<PublishedSplashPass>(published_splash_uniforms(s.settings, frame, noise_columns, noise_rows), false, rounding,
                                        bound(pass::HostIo<PublishedSplashPass>())));
   }
+}
+
+void EdgeSplash::show(const Inputs& inputs) {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  if (inputs.colour.width() != s.settings.width || inputs.colour.height() != s.settings.height) {
+    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} as before, found {}x{}", s.settings.width, s.settings.height,
+                                             inputs.colour.width(), inputs.colour.height()));
+  }
+  Image scene = prepare_scene(inputs), depth = prepare_depth(inputs, s.settings.depth), layer = prepare_layer(inputs);
+  s.scene = std::move(scene);
+  s.depth_image = std::move(depth);
+  s.layer = std::move(layer);
+  s.decode_depth();
 }
 
 int EdgeSplash::frame() const { return state_->frame; }

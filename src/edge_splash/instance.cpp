@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "edge_splash/evaluations.h"
+#include "edge_splash/film.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
 #include "edge_splash/memory.h"
 #include "edge_splash/parameters.h"
 #include "edge_splash/shapes.h"
-#include "effect/scene_pictures.h"
 #include "image/flipped.h"
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
@@ -17,30 +17,12 @@
 namespace rainref::edge_splash {
 namespace {
 
-Image stored(const scene::Config& config, const std::string& key, effect::Inputs& files) {
-  return flipped(effect::read_input(config, key, files).image);
-}
-
-Inputs pictures(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& files) {
+Inputs pictures(const scene::Config& config, const Settings& s, const Film& film, const parallel::Executor& executor,
+                effect::Inputs& files) {
   Inputs in;
-  const Settings s = settings_from(config);
   const std::string source = config.text("scene.source");
-  check(s);
-  if (source == "files") {
-    for (const char* key : {"scene.image", "scene.depth_image"}) {
-      if (config.text(key).empty())
-        throw Error(ExitCode::usage, fmt::format("{}: expected a file, because scene.source is \"files\"", key));
-    }
-    image_io::Picture picture = effect::read_input(config, "scene.image", files);
-    in.colour = flipped(picture.image);
-    in.colour_is_encoded = picture.srgb_encoded;
-    in.depth_is_distance = config.text("scene.depth_encoding") == "metres";
-    in.depth = in.depth_is_distance ? effect::read_depth(config, in.colour, files) : stored(config, "scene.depth_image", files);
-  } else {
-    for (const char* key : {"scene.image", "scene.depth_image"}) {
-      if (!config.text(key).empty())
-        throw Error(ExitCode::usage, fmt::format("{}: needs scene.source = \"files\", found \"{}\"", key, source));
-    }
+  film.fill(0, in, files);
+  if (source != "files") {
     in.depth_is_distance = true;
     const scene::Camera eye = camera(s);
     if (source == "street") {
@@ -60,8 +42,7 @@ Inputs pictures(const scene::Config& config, const parallel::Executor& executor,
       }
     }
   }
-  if (!config.text("scene.noise_image").empty()) in.noise = stored(config, "scene.noise_image", files);
-  if (s.variant == Variant::corrected && !config.text("scene.layer_image").empty()) in.layer = stored(config, "scene.layer_image", files);
+  if (!config.text("scene.noise_image").empty()) in.noise = flipped(effect::read_input(config, "scene.noise_image", files).image);
   return in;
 }
 
@@ -77,13 +58,29 @@ effect::RunMemory memory_of(const scene::Config& config) {
   }
   m.peak.then(memory(s));
   m.peak.release(inputs);
+  if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
+    m.peak.pass(2 * inputs + image_bytes(m, Format::rgba32f));  // a picture as it is decoded, turned over, and as the pass takes it
   return m;
 }
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, const Inputs& pictures, const parallel::Executor& executor)
-    : InstanceOf(settings, pictures, executor) {}
+Instance::Instance(const Settings& settings, const Inputs& pictures, Film film, const parallel::Executor& executor)
+    : InstanceOf(settings, pictures, executor), film_(std::move(film)), shown_(film_.shown_in(0)) {}
+
+void Instance::show_pictures_of(int frame) {
+  const Film::Shown wanted = film_.shown_in(frame);
+  if (wanted == shown_) return;
+  Inputs in;
+  effect::Inputs none;
+  film_.fill(frame, in, none);
+  try {
+    changed().show(in);
+  } catch (const Error& e) {
+    throw film_.about_depth(e, frame);
+  }
+  shown_ = wanted;
+}
 
 std::vector<PassOutput> Instance::buffers() {
   const EdgeSplash& e = running();
@@ -101,7 +98,11 @@ effect::Effect entry() {
           &evaluations(),
           memory_of,
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            auto instance = std::make_unique<Instance>(settings_from(config), pictures(config, executor, inputs), executor);
+            const Settings settings = settings_from(config);
+            check(settings);
+            Film film(config, inputs);
+            const Inputs first = pictures(config, settings, film, executor, inputs);
+            auto instance = std::make_unique<Instance>(settings, first, std::move(film), executor);
             for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
             return instance;
           }};

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
 
 namespace rainref::edge_splash {
@@ -9,15 +10,15 @@ namespace {
 
 using namespace rainref::scene;
 
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table{
+std::vector<MemberParameter<Settings>> made() {
+  std::vector<MemberParameter<Settings>> table{
       // The published settings, in the article's order.
       real<&Settings::drop_color>("edge_splash.drop_color", "1", 0, 1000, "Colour of the drops, linear RGB.").published(Real3{1, 1, 1}),
       real<&Settings::drop_alpha>("edge_splash.drop_alpha", "1", 0, 1, "Opacity of the drops.").published(1.0),
       integer<&Settings::thickness>("edge_splash.thickness", "texel", 0, 20,
                                     "Distance of the Sobel taps where the device depth is 1; it shrinks with the square of the depth.")
           .only(published),
-      real<&Settings::edge_threshold>("edge_splash.edge_threshold", "1", 0, 16, "Sobel sum of device depths that counts as an edge.")
+      real<&Settings::edge_threshold>("edge_splash.edge_threshold", "1", 0, 1, "Sobel sum of device depths that counts as an edge.")
           .only(published),
       real<&Settings::rain_drop_scale>("edge_splash.rain_drop_scale", "1", 0, 1, "Threshold of the noise: drops are where it lies above.")
           .published(0.5),
@@ -63,6 +64,11 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 170, "Vertical field of view; of a picture from a file, too."),
       real<&Settings::exposure>("display.exposure", "EV", -20, 20, "Exposure of the picture."),
   };
+  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
+  return table;
+}
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 

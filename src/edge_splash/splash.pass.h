@@ -35,7 +35,7 @@ struct PublishedSplashPass {
          member<&U::height>("height", "texel", {1, 65536}, "Rows of the picture."),
          member<&U::noise_width>("noise_width", "texel", {2, 65536}, "Columns of the noise map."),
          member<&U::noise_height>("noise_height", "texel", {2, 65536}, "Rows of the noise map."),
-         member<&U::edge_threshold>("edge_threshold", "1", {0, 16}, "Sobel sum of device depths that counts as an edge."),
+         member<&U::edge_threshold>("edge_threshold", "1", scene::share, "Sobel sum of device depths that counts as an edge."),
          member<&U::rain_drop_scale>("rain_drop_scale", "1", scene::share, "Threshold of the noise."),
          member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
          member<&U::drop_speed>("drop_speed", "texel/s", {-1e6, 1e6}, "Speed of the noise in x and in y."),

@@ -8,18 +8,30 @@
 
 namespace rainref::effect {
 
-image_io::Picture read_input(const scene::Config& config, const std::string& key, Inputs& inputs) {
-  std::filesystem::path path = config.text(key);
-  const auto& origin = config.entry(key).origin;
-  if (path.is_relative() && origin.kind == scene::Origin::file) path = config.directory() / path;
-  image_io::Picture picture;
+NamedFile::NamedFile(const scene::Config& config, const std::string& of)
+    : key(of), name(config.text(of)), origin(config.entry(of).origin), directory(config.directory()) {}
+
+std::filesystem::path NamedFile::path_of(const std::string& file) const {
+  const std::filesystem::path path = file;
+  return path.is_relative() && origin.kind == scene::Origin::file ? directory / path : path;
+}
+Error NamedFile::placed(ExitCode code, const std::string& message) const {
+  if (origin.kind == scene::Origin::file) return Error(code, origin.at, fmt::format("{}: {}", key, message));
+  return Error(code, fmt::format("--set {}: {}", key, message));
+}
+
+image_io::Picture read_picture(const NamedFile& named, const std::string& file) {
+  const std::filesystem::path path = named.path_of(file);
   try {
-    picture = is_npy(path) ? read_npy(path) : image_io::read(path);
+    return is_npy(path) ? read_npy(path) : image_io::read(path);
   } catch (const Error& e) {
-    if (origin.kind == scene::Origin::file) throw Error(e.code(), origin.at, fmt::format("{}: {}", key, e.what()));
-    throw Error(e.code(), fmt::format("--set {}: {}", key, e.what()));
+    throw named.placed(e.code(), e.what());
   }
-  inputs.files.push_back({key, config.text(key), picture.decoded_hash.text(), picture.lossy});
+}
+image_io::Picture read_input(const scene::Config& config, const std::string& key, Inputs& inputs) {
+  const NamedFile named(config, key);
+  image_io::Picture picture = read_picture(named, named.name);
+  inputs.files.push_back({key, named.name, picture.decoded_hash.text(), picture.lossy});
   return picture;
 }
 

@@ -1,18 +1,22 @@
 // The files that a scene names.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "image_io/read.h"
+#include "rainref/error.h"
 #include "scene/config.h"
 
 namespace rainref::effect {
 
-/// A file that a scene named, as it was decoded.
+/// A file that a scene named, as it was decoded; or a sequence of them, of whose bytes the hash is.
 struct InputFile {
-  std::string key, path, decoded_hash;
+  std::string key, path, hash;
   bool lossy;
+  std::int64_t first = 0, count = 0;  ///< of a sequence: the number of the first file, and how many there are; 0: a single file
 };
 /// All of them, and what is doubtful about them, a sentence each.
 struct Inputs {
@@ -20,9 +24,25 @@ struct Inputs {
   std::vector<std::string> warnings;
 };
 
-/// Reads the picture that `key` names, NPY or what image_io::read takes, and adds it to `inputs`. A file that the scene names lies beside
-/// the scene; one from the command line where the user stands. Throws Error naming the key where it cannot be read.
+/// A key whose value names files: what reading one of them takes of the scene.
+struct NamedFile {
+  std::string key, name;
+  scene::Origin origin;
+  std::filesystem::path directory;
+
+  NamedFile(const scene::Config& config, const std::string& key);
+  /// Where a file lies that the scene calls so: one that the scene names lies beside the scene, one from the command line where the user
+  /// stands.
+  std::filesystem::path path_of(const std::string& file) const;
+  /// The error with place and key before its message.
+  Error placed(ExitCode code, const std::string& message) const;
+};
+
+/// Reads the picture that `key` names, NPY or what image_io::read takes, and adds it to `inputs`. Throws Error
+/// naming the key where it cannot be read.
 image_io::Picture read_input(const scene::Config& config, const std::string& key, Inputs& inputs);
+/// A picture file of that key, decoded.
+image_io::Picture read_picture(const NamedFile& named, const std::string& file);
 
 /// Throws Error(usage) where `key` names a file although the value of the key `why` leaves no use for it.
 void refuse_unused(const scene::Config& config, const std::string& key, const std::string& why);

@@ -1,6 +1,7 @@
 // A running effect, whichever it is.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -32,6 +33,8 @@ class Instance {
   virtual std::vector<PassOutput> buffers() = 0;
   /// What an EXR file of the frame holds, row 0 = bottom.
   virtual std::vector<image_io::Layer> layers() const = 0;
+  /// Whether the pictures that it takes change from frame to frame.
+  virtual bool has_film() const { return false; }
   /// What goes into files of its own beside the first EXR.
   virtual std::vector<Map> maps() const { return {}; }
 };
@@ -41,7 +44,10 @@ template <class T>
 class InstanceOf : public Instance {
  public:
   void simulate(Recorder* recorder) final { effect_.simulate(recorder); }
-  void render(Recorder* recorder) final { effect_.render(recorder); }
+  void render(Recorder* recorder) final {
+    show_pictures_of(std::max(0, effect_.frame() - 1));
+    effect_.render(recorder);
+  }
   int frame() const final { return effect_.frame(); }
   const Image& picture() const final { return effect_.picture(); }
   const T& running() const { return effect_; }
@@ -49,6 +55,9 @@ class InstanceOf : public Instance {
  protected:
   template <class... Arguments>
   explicit InstanceOf(Arguments&&... arguments) : effect_(std::forward<Arguments>(arguments)...) {}
+  /// Hands the effect the pictures of the frame that is rendered next, where they are not those that it has.
+  virtual void show_pictures_of(int /*frame*/) {}
+  T& changed() { return effect_; }
 
  private:
   T effect_;

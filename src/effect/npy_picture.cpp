@@ -3,6 +3,9 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -46,19 +49,12 @@ Image four_channels(const std::byte* from, int width, int height, std::size_t ch
   return image;
 }
 
-}  // namespace
-
-bool is_npy(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe would wait
-  std::array<char, 6> start{};
-  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
-  return std::memcmp(start.data(), "\x93NUMPY", start.size()) == 0;
-}
-
-image_io::Picture read_npy(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const std::vector<std::byte> bytes = read_file(path);
+struct Array {
+  capture::NpyHeader header;
+  std::size_t channels;
+  int width, height;
+};
+Array array_of(const std::string& file, std::span<const std::byte> bytes) {
   capture::NpyHeader header;
   try {
     header = capture::parse_npy_header(bytes, fmt::format("'{}'", file));
@@ -77,21 +73,46 @@ image_io::Picture read_npy(const std::filesystem::path& path) {
     throw Error(ExitCode::usage, fmt::format("'{}': expected sides from 1 to {}, found {}x{}", file, longest_side, shape[1], shape[0]));
   }
   const int width = static_cast<int>(shape[1]), height = static_cast<int>(shape[0]);
-  const std::byte* from = bytes.data() + header.data_offset;
+  return {std::move(header), channels, width, height};
+}
+image_io::Picture described(const Array& a) {
   image_io::Picture out;
-  if (header.type == "<f4")
-    out.image = four_channels(from, width, height, channels, Format::rgba32f, 1.0f, file);
-  else if (header.type == "<f2")
-    out.image = four_channels(from, width, height, channels, Format::rgba16f, to_half(1.0f), file);
-  else
-    out.image = four_channels(from, width, height, channels, Format::rgba8, Unorm8{255}, file);
-  out.channel_names = channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
-  if (channels == 4) out.channel_names.push_back("A");
-  out.srgb_encoded = header.type == "|u1";
+  out.channel_names = a.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  if (a.channels == 4) out.channel_names.push_back("A");
+  out.srgb_encoded = a.header.type == "|u1";
   out.compression = "none";
+  out.file_width = a.width;
+  out.file_height = a.height;
+  return out;
+}
+
+}  // namespace
+
+bool is_npy(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;  // a pipe would wait
+  std::array<char, 6> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return std::memcmp(start.data(), "\x93NUMPY", start.size()) == 0;
+}
+
+image_io::Picture inspect_npy(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  return described(array_of(path.string(), bytes));
+}
+
+image_io::Picture read_npy(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::vector<std::byte> bytes = read_file(path);
+  const Array array = array_of(file, bytes);
+  const std::byte* from = bytes.data() + array.header.data_offset;
+  image_io::Picture out = described(array);
+  if (array.header.type == "<f4")
+    out.image = four_channels(from, array.width, array.height, array.channels, Format::rgba32f, 1.0f, file);
+  else if (array.header.type == "<f2")
+    out.image = four_channels(from, array.width, array.height, array.channels, Format::rgba16f, to_half(1.0f), file);
+  else
+    out.image = four_channels(from, array.width, array.height, array.channels, Format::rgba8, Unorm8{255}, file);
   out.decoded_hash = capture::hash_of(BufferView(out.image));
-  out.file_width = width;
-  out.file_height = height;
   return out;
 }
 

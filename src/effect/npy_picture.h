@@ -1,7 +1,9 @@
 // Pictures as NumPy arrays.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <span>
 
 #include "image_io/read.h"
 
@@ -16,5 +18,7 @@ bool is_npy(const std::filesystem::path& path);
 /// Throws Error(io) when the file cannot be read, Error(usage) when it is another array, damaged, or has a NaN or an
 /// infinity; the message names the file.
 image_io::Picture read_npy(const std::filesystem::path& path);
+/// What read_npy says of a file with these bytes but for its image and hash; no number is looked at.
+image_io::Picture inspect_npy(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace rainref::effect

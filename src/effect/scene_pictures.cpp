@@ -24,17 +24,22 @@ Image floats_of(const image_io::Picture& picture, const std::function<float(floa
   return out;
 }
 Image read_linear(const scene::Config& config, const std::string& key, Inputs& inputs) {
-  const image_io::Picture p = read_input(config, key, inputs);
+  return linear_of(read_input(config, key, inputs));
+}
+Image linear_of(const image_io::Picture& p) {
   return floats_of(p, [&](float x, int c) { return c < 3 && p.srgb_encoded ? static_cast<float>(decode_srgb(x)) : x; });
 }
 
 Image read_depth(const scene::Config& config, const Image& colour, Inputs& inputs) {
-  const Image four = floats_of(read_input(config, "scene.depth_image", inputs), [](float x, int) { return x; });
+  return depth_of(read_input(config, "scene.depth_image", inputs), config.real("scene.depth_scale"), colour);
+}
+Image depth_of(const image_io::Picture& picture, double in_metres, const Image& colour) {
+  const Image four = floats_of(picture, [](float x, int) { return x; });
   if (four.width() != colour.width() || four.height() != colour.height()) {
     throw Error(ExitCode::usage, fmt::format("scene.depth_image: expected {}x{} texels as scene.image has, found {}x{}", colour.width(),
                                              colour.height(), four.width(), four.height()));
   }
-  const auto scale = static_cast<float>(config.real("scene.depth_scale"));
+  const auto scale = static_cast<float>(in_metres);
   Image depth(Format::r32f, four.width(), four.height());
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {

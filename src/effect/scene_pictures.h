@@ -11,11 +11,14 @@ namespace rainref::effect {
 
 /// Row 0 = bottom, four float channels, each value(channel value, channel).
 Image floats_of(const image_io::Picture& picture, const std::function<float(float, int)>& value);
-/// The picture that `key` names as linear radiance: rgba32f, row 0 = bottom, alpha as stored.
+/// As linear radiance: rgba32f, row 0 = bottom, alpha as stored.
+Image linear_of(const image_io::Picture& picture);
+/// The picture that `key` names, likewise.
 Image read_linear(const scene::Config& config, const std::string& key, Inputs& inputs);
 
 /// The first channel of the picture that scene.depth_image names, times scene.depth_scale: metres along the view axis, r32f,
-/// row 0 = bottom. Throws Error(usage) where it has not the size of scene.image, or is below 0.
+/// row 0 = bottom. Throws Error(usage) where it has not the size of scene.image, or is below 0. depth_of: of a picture, times `scale`.
+Image depth_of(const image_io::Picture& picture, double scale, const Image& colour);
 Image read_depth(const scene::Config& config, const Image& colour, Inputs& inputs);
 
 /// The tile that `key` names, row 0 = bottom, as stored; a warning where its edges do not fit. With `needs_alpha` throws

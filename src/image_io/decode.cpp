@@ -98,7 +98,7 @@ bool is_linear(std::string_view colour_space) {
 
 }  // namespace
 
-Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer) try {
+Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Texels texels) try {
   if (kind == FileKind::png && !png_is_whole(bytes)) refuse(file, "truncated: the end mark of the PNG is missing");
   const auto reader = codec().open(format_name(kind), bytes);
   if (!reader) refuse(file, fmt::format("this OpenImageIO cannot read {} from memory", format_name(kind)));
@@ -130,6 +130,7 @@ Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> 
     out.channels[i].offset = static_cast<int>(spec.texel_bytes(first, index));
   }
   out.texel_bytes = spec.texel_bytes(first, end);
+  if (texels == Texels::left) return out;
   check_memory(file, spec, out.texel_bytes);
   // Not zeroed: a file that promises more than it holds is found out before the memory is touched.
   out.texels = std::make_unique_for_overwrite<std::byte[]>(out.texel_bytes * static_cast<std::size_t>(out.width) *

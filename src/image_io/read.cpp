@@ -131,27 +131,43 @@ Hash128 canonical_hash(const Image& image) {
   return hasher.finish();
 }
 
-}  // namespace
-
-Picture read(const std::filesystem::path& path, std::string_view layer) {
-  const std::vector<std::byte> bytes = read_file(path);
-  const std::string file = fmt::format("'{}'", path.string());
+std::string quoted(const std::filesystem::path& path) { return fmt::format("'{}'", path.string()); }
+FileKind known_kind(const std::string& file, std::span<const std::byte> bytes) {
   if (bytes.empty()) throw Error(ExitCode::usage, file + ": empty file");
   const std::optional<FileKind> kind = kind_of(bytes);
   if (!kind) throw Error(ExitCode::usage, file + ": not an EXR, PNG, Radiance HDR or JPEG file");
-  const Decoded decoded = decode(file, *kind, bytes, layer);
-
+  return *kind;
+}
+Picture described(FileKind kind, const Decoded& decoded) {
   Picture picture;
+  picture.channel_names = decoded.channel_names;
+  picture.srgb_encoded = (kind == FileKind::png || kind == FileKind::jpeg) && !decoded.declared_linear;
+  picture.lossy = is_lossy(kind, decoded.compression);
+  picture.compression = decoded.compression;
+  picture.file_width = decoded.width;
+  picture.file_height = decoded.height;
+  return picture;
+}
+
+}  // namespace
+
+Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, std::string_view layer) {
+  const std::string file = quoted(path);
+  const FileKind kind = known_kind(file, bytes);
+  return described(kind, decode(file, kind, bytes, layer, Texels::left));
+}
+
+Picture read(const std::filesystem::path& path, std::string_view layer) {
+  const std::vector<std::byte> bytes = read_file(path);
+  const std::string file = quoted(path);
+  const FileKind kind = known_kind(file, bytes);
+  const Decoded decoded = decode(file, kind, bytes, layer);
+
+  Picture picture = described(kind, decoded);
   picture.image = to_image(decoded);
   if (picture.image.format() == Format::rgba16f) require_finite<Half>(file, decoded, picture.image);
   if (picture.image.format() == Format::rgba32f) require_finite<float>(file, decoded, picture.image);
-  picture.channel_names = decoded.channel_names;
-  picture.srgb_encoded = (*kind == FileKind::png || *kind == FileKind::jpeg) && !decoded.declared_linear;
-  picture.lossy = is_lossy(*kind, decoded.compression);
-  picture.compression = decoded.compression;
   picture.decoded_hash = canonical_hash(picture.image);
-  picture.file_width = decoded.width;
-  picture.file_height = decoded.height;
   return picture;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,5 +34,8 @@ struct Picture {
 /// Throws Error(io) when the file cannot be read, Error(usage) when it cannot be decoded whole, holds something
 /// unsupported, or has a NaN or an infinity; the message names the file, and the first bad pixel and channel.
 Picture read(const std::filesystem::path& path, std::string_view layer = {});
+/// What read says of a file with these bytes, as far as its header says it: image and decoded_hash are empty, and no texel is decoded
+/// or checked. Throws as read.
+Picture inspect(const std::filesystem::path& path, std::span<const std::byte> bytes, std::string_view layer = {});
 
 }  // namespace rainref::image_io

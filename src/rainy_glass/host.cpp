@@ -54,18 +54,23 @@ void check(const Settings& s) {
   camera(s).basis();  // throws for a camera that looks nowhere
 }
 
-void check(const Settings& s, const Surroundings& around) {
-  const auto expect_size = [&](const Image& image, const char* key) {
-    if (image.width() == s.width && image.height() == s.height) return;
-    throw Error(ExitCode::usage, fmt::format("{}: expected {}x{} like the picture and scene.image, found {}x{}", key, s.width, s.height,
-                                             image.width(), image.height()));
-  };
-  expect_size(around.colour, "scene.image");
+namespace {
+
+void expect_size(const Settings& s, const Image& image, const char* key) {
+  if (image.width() == s.width && image.height() == s.height) return;
+  throw Error(ExitCode::usage, fmt::format("{}: expected {}x{} like the picture and scene.image, found {}x{}", key, s.width, s.height,
+                                           image.width(), image.height()));
+}
+
+}  // namespace
+
+void check_scene(const Settings& s, const Image& colour, const Image& depth) {
+  expect_size(s, colour, "scene.image");
   if (corrected(s)) {
-    expect_size(around.depth, "scene.depth_image");
+    expect_size(s, depth, "scene.depth_image");
     for (int y = 0; y < s.height; ++y) {
       for (int x = 0; x < s.width; ++x) {
-        const float d = around.depth.row<float>(y)[x];
+        const float d = depth.row<float>(y)[x];
         if (!(d >= 0))
           throw Error(
               ExitCode::usage,
@@ -73,7 +78,10 @@ void check(const Settings& s, const Surroundings& around) {
       }
     }
   }
-  if (s.shape == Shape::image) expect_size(around.normals, "glass.normal_image");
+}
+void check(const Settings& s, const Surroundings& around) {
+  check_scene(s, around.colour, around.depth);
+  if (s.shape == Shape::image) expect_size(s, around.normals, "glass.normal_image");
   if (s.use_probe && around.probe.empty()) throw Error(ExitCode::usage, "glass.background: 'probe' needs a panorama, found none");
   for (const auto& [map, key] :
        {std::pair{&around.raindrops, "maps.raindrops_image"}, std::pair{&around.rivulets, "maps.rivulets_image"}}) {

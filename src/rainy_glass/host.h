@@ -21,6 +21,7 @@ Code code_of(const Settings& settings, Format stored);
 void check(const Settings& settings);
 /// The same for images.
 void check(const Settings& settings, const Surroundings& surroundings);
+void check_scene(const Settings& settings, const Image& colour, const Image& depth);
 
 scene::Camera camera(const Settings& settings);
 /// The view's direction, held level; -z where it is vertical.

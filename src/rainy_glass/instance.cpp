@@ -14,8 +14,21 @@
 namespace rainref::rainy_glass {
 namespace {
 
-Surroundings surroundings_of(const scene::Config& config, const Settings& settings, const parallel::Executor& executor,
-                             effect::Inputs& inputs) {
+Image depth_of(const Instance::Film& film, const Image& colour, int frame, effect::Inputs& inputs) {
+  const std::int64_t picture = film.depth->shown_in(frame);
+  const image_io::Picture read = film.depth->read(picture, inputs);
+  try {
+    return effect::depth_of(read, film.depth_scale, colour);
+  } catch (const Error& e) {
+    throw film.depth->about(e, picture);
+  }
+}
+Image colour_of(const Instance::Film& film, int frame, effect::Inputs& inputs) {
+  return effect::linear_of(film.colour.read(film.colour.shown_in(frame), inputs));
+}
+
+Surroundings surroundings_of(const scene::Config& config, const Settings& settings, std::optional<Instance::Film>& film,
+                             const parallel::Executor& executor, effect::Inputs& inputs) {
   const bool corrected = settings.variant == Variant::corrected;
   const bool own_scene = !config.text("scene.image").empty();
   if (!own_scene && corrected && !config.text("scene.depth_image").empty())
@@ -24,11 +37,21 @@ Surroundings surroundings_of(const scene::Config& config, const Settings& settin
     throw Error(ExitCode::usage, "scene.depth_image: expected a depth beside scene.image, found none");
   if (settings.shape != Shape::image) effect::refuse_unused(config, "glass.normal_image", "glass.shape");
   if (!settings.use_probe) effect::refuse_unused(config, "glass.probe_image", "glass.background");
+  if (corrected)
+    effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
+  else
+    effect::refuse_unused_sequence(config, {"scene.image"});
   const Image panorama = effect::read_panorama(config, inputs);
   Surroundings s;
   if (own_scene) {
-    s.colour = effect::read_linear(config, "scene.image", inputs);
-    if (corrected) s.depth = effect::read_depth(config, s.colour, inputs);
+    Instance::Film seen{effect::PictureSource(config, "scene.image", inputs), {}};
+    if (corrected) {
+      seen.depth.emplace(config, "scene.depth_image", inputs, &seen.colour);
+      seen.depth_scale = config.real("scene.depth_scale");
+    }
+    s.colour = colour_of(seen, 0, inputs);
+    if (corrected) s.depth = depth_of(seen, s.colour, 0, inputs);
+    if (seen.colour.is_sequence() || (seen.depth && seen.depth->is_sequence())) film = std::move(seen);
   } else {
     Settings street = settings;
     street.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
@@ -66,13 +89,22 @@ effect::RunMemory memory_of(const scene::Config& config) {
   m.peak.pass(colour);                                    // out of focus
   m.peak.pass(colour + image_bytes(m, Format::rgba16f));  // the glass, for its bars
   m.peak.then(memory(s));
+  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(3 * colour + 3 * depth);  // decoded, turned over, as it is taken
   return m;
 }
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, Surroundings surroundings, const parallel::Executor& executor)
-    : InstanceOf(settings, surroundings, executor), settings_(settings), surroundings_(std::move(surroundings)) {}
+Instance::Instance(const Settings& settings, Surroundings surroundings, std::optional<Film> film, const parallel::Executor& executor)
+    : InstanceOf(settings, surroundings, executor), film_(std::move(film)), settings_(settings), surroundings_(std::move(surroundings)) {}
+
+void Instance::show_pictures_of(int frame) {
+  if (!film_ || frame == shown_) return;
+  effect::Inputs none;
+  const Image colour = colour_of(*film_, frame, none);
+  changed().show(colour, film_->depth ? depth_of(*film_, colour, frame, none) : Image());
+  shown_ = frame;
+}
 
 std::vector<PassOutput> Instance::buffers() {
   const RainyGlass& g = running();
@@ -93,7 +125,9 @@ effect::Effect entry() {
           memory_of,
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
             const Settings settings = settings_from(config);
-            return std::make_unique<Instance>(settings, surroundings_of(config, settings, executor, inputs), executor);
+            std::optional<Instance::Film> film;
+            Surroundings around = surroundings_of(config, settings, film, executor, inputs);
+            return std::make_unique<Instance>(settings, std::move(around), std::move(film), executor);
           }};
 }
 

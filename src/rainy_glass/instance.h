@@ -1,7 +1,10 @@
 // Rainy glass as a scene says it: opened, run and written like every effect.
 #pragma once
 
+#include <optional>
+
 #include "effect/effect.h"
+#include "effect/picture_sequence.h"
 #include "rainref/rainy_glass.h"
 
 namespace rainref::rainy_glass {
@@ -11,15 +14,28 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<RainyGlass> {
  public:
-  Instance(const Settings& settings, Surroundings surroundings, const parallel::Executor& executor);
+  /// The pictures behind the glass, where one of them is a sequence.
+  struct Film {
+    effect::PictureSource colour;
+    std::optional<effect::PictureSource> depth;
+    double depth_scale = 1;
+  };
+  /// `film`: its pictures of frame 0 are in `surroundings`; or nothing.
+  Instance(const Settings& settings, Surroundings surroundings, std::optional<Film> film, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
+  /// Of a film those of frame 0.
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
   /// The maps have a size of their own.
   std::vector<effect::Map> maps() const override { return {{"raindrops", &running().raindrops()}, {"rivulets", &running().rivulets()}}; }
+  bool has_film() const override { return film_.has_value(); }
 
  private:
+  void show_pictures_of(int frame) override;
+
+  std::optional<Film> film_;
+  int shown_ = 0;  ///< frame
   Settings settings_;
   Surroundings surroundings_;
 };

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
 
 namespace rainref::rainy_glass {
@@ -9,8 +10,8 @@ namespace {
 
 using namespace rainref::scene;
 
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table{
+std::vector<MemberParameter<Settings>> made() {
+  std::vector<MemberParameter<Settings>> table{
       choice<&Settings::shape>("glass.shape", {{"pane", Shape::pane}, {"sphere", Shape::sphere}, {"image", Shape::image}},
                                "An upright pane across the view, a ball, or the normals of glass.normal_image."),
       real<&Settings::distance>("glass.distance", "m", 0.01, 1000,
@@ -54,8 +55,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::contact_angle_deg>("maps.contact_angle", "deg", 1, 80, "Steepest angle of the water at a droplet's rim."),
       integer<&Settings::trail_count>("maps.trails", "1", 0, 1000, "Rivulets in a tile."),
       real<&Settings::trail_half_width>("maps.trail_half_width", "1", 1e-4, 0.1, "Half width of the widest rivulet's head, in tiles."),
-      integer<&Settings::flow_cells>("maps.flow_cells", "1", 1, 256, "Cells of the flow's coarser octave along a tile."),
-      real<&Settings::flow_gain>("maps.flow_gain", "1", 0, 10, "Factor of the flow's noise before it is held in [-1, 1]."),
+      integer<&Settings::flow_cells>("maps.flow_cells", "1", 1, 256, "Cells of the flow's coarser octave along a tile.")
+          .published(std::int64_t{1}),
+      real<&Settings::flow_gain>("maps.flow_gain", "1", 0, 10, "Factor of the flow's noise before it is held in [-1, 1].").published(0.6),
       text("maps.raindrops_image", "", "Raindrop map of your own: normal in R and G, time offset in B, height in A; empty: baked."),
       text("maps.rivulets_image", "", "Rivulet map of your own: normal in R and G, flow in B (across) and A (along); empty: baked."),
       text("scene.image", "",
@@ -76,6 +78,11 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::camera_up>("camera.up", "1", -1, 1, "Direction that is up in the picture."),
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 170, "Vertical field of view."),
   };
+  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
+  return table;
+}
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 

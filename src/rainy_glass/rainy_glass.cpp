@@ -58,14 +58,7 @@ struct RainyGlass::State {
     } else {
       rivulets = stored_map(around.rivulets, s.map_storage);
     }
-    scene = as_half(around.colour);
-    if (corrected) {
-      depth = copy(around.depth);
-      least_depth = Image(Format::r32f, s.width, s.height);
-      const std::vector<float> least = near_depth(depth);
-      for (int y = 0; y < s.height; ++y)
-        std::copy_n(least.begin() + static_cast<std::ptrdiff_t>(y) * s.width, s.width, least_depth.row<float>(y));
-    }
+    take(around.colour, around.depth);
     if (s.use_probe) {
       probe = TextureData(around.probe, Address::repeat, Address::clamp);
       probe.build_mips();
@@ -74,6 +67,16 @@ struct RainyGlass::State {
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
     display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
+  }
+
+  void take(const Image& seen, const Image& seen_depth) {
+    scene = as_half(seen);
+    if (!corrected) return;
+    depth = copy(seen_depth);
+    least_depth = Image(Format::r32f, settings.width, settings.height);
+    const std::vector<float> least = near_depth(depth);
+    for (int y = 0; y < settings.height; ++y)
+      std::copy_n(least.begin() + static_cast<std::ptrdiff_t>(y) * settings.width, settings.width, least_depth.row<float>(y));
   }
 
   int shown() const { return std::max(0, frame - 1); }
@@ -121,6 +124,13 @@ RainyGlass::RainyGlass(RainyGlass&&) noexcept = default;
 void RainyGlass::simulate(Recorder*) {
   const FloatingPointGuard guard;
   ++state_->frame;
+}
+
+void RainyGlass::show(const Image& colour, const Image& depth) {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  check_scene(s.settings, colour, depth);
+  s.take(colour, depth);
 }
 
 void RainyGlass::render(Recorder* recorder) {

@@ -13,7 +13,7 @@ inline constexpr pass::Out drops_colour{
     .name = "colour", .sentence = "Linear radiance, alpha 1.", .colour_space = "linear Rec. 709", .alpha = "1"};
 
 struct PublishedDropsPass {
-  static constexpr pass::About about{"drops", drops_sentence, {1}, {}, {"dot", "length", "normalize"}};
+  static constexpr pass::About about{"drops", drops_sentence, {2}, {}, {"dot", "length", "normalize"}};
   using Uniforms = PublishedDropsUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -23,9 +23,19 @@ struct PublishedDropsPass {
         {member<&U::resolution>("resolution", "pixel", scene::whole(1, 65536), "Columns and rows of the picture."),
          member<&U::time>("time", "s", scene::frame_time, "Frame number over frame rate, rounded once."),
          member<&U::grid>("grid", "cell/pixel", scene::share, "Cells of layer 1 in a pixel."),
-         member<&U::keep>("keep", "1", scene::share, "Times 5 - layer: the noise below which a cell holds a drop."),
+         member<&U::keep>("keep", "1", scene::share, "Times keep_from - layer: the noise below which a cell holds a drop."),
          member<&U::refraction>("refraction", "1", scene::component, "Pictures per unit of the normal."),
-         member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it.")});
+         member<&U::printed_misprint>("printed_misprint", "1", scene::flag, "1: the displacement as the report prints it."),
+         member<&U::noise_nearest>("noise_nearest", "1", scene::flag, "1: noise is looked up unfiltered, texel floor(fract(u) size)."),
+         member<&U::layers>("layers", "1", scene::whole(1, most_published_layers), "Grids of cells."),
+         member<&U::water_step>("water_step", "1", scene::share, "1 over layers."),
+         member<&U::cell_angle>("cell_angle", "rad", {0, 100}, "Of the sine over a cell."),
+         member<&U::noise_middle>("noise_middle", "1", scene::share, "Noise that displaces nothing."),
+         member<&U::displacement>("displacement", "rad", {-100, 100}, "Of the grid per unit of noise."),
+         member<&U::keep_from>("keep_from", "1", {0, 100}, "Layer from which on no cell holds a drop."),
+         member<&U::threshold>("threshold", "1", {least_threshold, 2}, "Sum of the sines above which a drop is."),
+         member<&U::printed_normal>("printed_normal", "1", scene::flag,
+                                    "1: the normal as the report prints it, of the cosine of a sine.")});
   }
   template <class B>
   struct Io {
@@ -33,7 +43,7 @@ struct PublishedDropsPass {
     typename B::template Stored<Format::rgba16f> scene = pass::In{.name = "scene", .filter = Filter::linear};
     typename B::Sampled noise = pass::In{.name = "noise", .filter = Filter::linear};
     typename B::template Result<Format::r8> water =
-        pass::Out{.name = "water", .sentence = "A quarter of the layer whose drop shows; 0: none."};
+        pass::Out{.name = "water", .sentence = "Layer whose drop shows, over the number of layers; 0: none."};
     typename B::template Result<Format::rgba16f> colour = drops_colour;
   };
 };
@@ -89,11 +99,18 @@ struct Window {
 };
 
 // ---- as published --------------------------------------------------------------------------------------------------
-// For layers r = 4, 3, 2, 1, a later one over an earlier, with u = pixel / resolution:
-//   x = resolution r grid,  p = 6.28 u x + (n - .5) 2,  n = noise(u / 10).rg
+// For layers r = layers, ..., 2, 1, a later one over an earlier, with u = pixel / resolution:
+//   x = resolution r grid,  p = cell_angle u x + (n - noise_middle) displacement,  n = noise(u / 10).rg
 //   d = noise(round(u x - .25) / x),  t = (sin p.x + sin p.y) max(0, 1 - 2 fract(time (d.b + .1) + d.g))
-//   a drop where d.r < (5 - r) keep and t > .5:  scene(u - refraction v.xy),  v = normalize(-(cos p, mix(.2, 2, t - .5)))
-// round(a) is floor(a + 1/2). The report prints (1 - c2) c3 where (n - .5) 2 stands; with its own names c2 = .5, c3 = 2.
+//   a drop where d.r < (keep_from - r) keep and t > threshold:
+//     scene(u - refraction v.xy),  v = normalize(-(cos p, mix(.2, 2, t - .5)))
+// round(a) is floor(a + 1/2). The report prints (1 - c2) c3 where (n - c2) c3 stands, and leaves open c1 = cell_angle, c2 =
+// noise_middle, c3 = displacement; in its rule of what is kept, c1 = keep_from, c2 = keep; and the threshold. Its .2, 2 and .5 of the
+// normal are printed. It calls p the sine, of which its normal takes the cosine: cos(sin p).
+template <int Count, class N, class T>
+RAINREF_FN auto published_noise(const PublishedDropsUniforms& d, const T& noise, N u, N v) {
+  return d.noise_nearest != 0 ? sample_nearest<0, Count, N>(noise, u, v) : sample_bilinear<0, Count, N>(noise, u, v);
+}
 template <class N>
 struct PublishedDrop {
   N layer;  ///< 0: none
@@ -105,21 +122,23 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
   const N width(d.resolution[0]), height(d.resolution[1]);
   const N u = (N::index(column) + half) / width, v = N(static_cast<float>(row) + 0.5f) / height;
   PublishedDrop<N> out{zero, u, v};
-  const auto n = sample_bilinear<0, 2, N>(noise, u * N(0.1f), v * N(0.1f));
+  const auto n = published_noise<2, N>(d, noise, u * N(0.1f), v * N(0.1f));
   const bool misprint = d.printed_misprint != 0;
-  const N shift_x = misprint ? (one - half) * two : (n[0] - half) * two, shift_y = misprint ? (one - half) * two : (n[1] - half) * two;
-  for (int r = layers; r > 0; --r) {
+  const N middle(d.noise_middle), per_unit(d.displacement);
+  const N shift_x = (misprint ? one - middle : n[0] - middle) * per_unit, shift_y = (misprint ? one - middle : n[1] - middle) * per_unit;
+  for (int r = d.layers; r > 0; --r) {
     const N layer(static_cast<float>(r)), columns = width * layer * N(d.grid), rows = height * layer * N(d.grid);
-    const N px = N(6.28f) * u * columns + shift_x, py = N(6.28f) * v * rows + shift_y;
+    const N px = N(d.cell_angle) * u * columns + shift_x, py = N(d.cell_angle) * v * rows + shift_y;
     const N cell_x = floor((u * columns - quarter) + half), cell_y = floor((v * rows - quarter) + half);
-    const auto s = sample_bilinear<0, 3, N>(noise, cell_x / columns, cell_y / rows);
-    const auto is_kept = s[0] < N(static_cast<float>(5 - r)) * N(d.keep);
+    const auto s = published_noise<3, N>(d, noise, cell_x / columns, cell_y / rows);
+    const auto is_kept = s[0] < (N(d.keep_from) - layer) * N(d.keep);
     if (!any(is_kept)) continue;
     const N fade = max(zero, one - fract(N(d.time) * (s[2] + N(0.1f)) + s[1]) * two);
-    const N t = (sin(px) + sin(py)) * fade;
-    const auto is_drop = is_kept & (t > half);
+    const N sine_x = sin(px), sine_y = sin(py), t = (sine_x + sine_y) * fade;
+    const auto is_drop = is_kept & (t > N(d.threshold));
     if (!any(is_drop)) continue;
-    const N x = cos(px), y = cos(py), z = mix(N(0.2f), two, t - half);
+    const bool printed = d.printed_normal != 0;
+    const N x = cos(printed ? sine_x : px), y = cos(printed ? sine_y : py), z = mix(N(0.2f), two, t - half);
     const N inverse = one / sqrt(sum_any_order(square(x), square(y), square(z)));
     out.layer = select(is_drop, layer, out.layer);
     out.u = select(is_drop, u + x * inverse * N(d.refraction), out.u);
@@ -134,7 +153,7 @@ RAINREF_FN Window<N> drops_as_published(const PublishedDropsUniforms& d, const S
   const auto is_drop = drop.layer > N(0.0f);
   if (!any(is_drop)) return {background, drop.layer};
   const auto s = sample_bilinear<0, 3, N>(scene, drop.u, drop.v);
-  return {select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), drop.layer * N(0.25f)};
+  return {select(is_drop, Vec3<N>(s[0], s[1], s[2]), background), drop.layer * N(d.water_step)};
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------

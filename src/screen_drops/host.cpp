@@ -79,17 +79,25 @@ void check(const Settings& s) {
   } else {
     positive(s.grid, "drops.grid");
     positive(s.noise_size, "noise.size");
+    positive(s.layers, "drops.layers");
+    if (!(s.layers <= most_published_layers))
+      throw Error(ExitCode::usage, fmt::format("drops.layers: expected at most {}, found {}", most_published_layers, s.layers));
+    if (!(s.threshold >= least_threshold))
+      throw Error(ExitCode::usage, fmt::format("drops.threshold: expected {} or more, found {}", least_threshold, s.threshold));
   }
   camera(s).basis();  // throws for a camera that looks nowhere
   scene_camera(s).half_height();
 }
 
-void check(const Settings& s, const Inputs& in) {
-  if (in.colour.empty() || in.colour.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
-  if (in.colour.width() != s.width || in.colour.height() != s.height) {
-    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} like the picture, found {}x{}", s.width, s.height,
-                                             in.colour.width(), in.colour.height()));
+void check_scene(const Settings& s, const Image& colour) {
+  if (colour.empty() || colour.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
+  if (colour.width() != s.width || colour.height() != s.height) {
+    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} like the picture, found {}x{}", s.width, s.height, colour.width(),
+                                             colour.height()));
   }
+}
+void check(const Settings& s, const Inputs& in) {
+  check_scene(s, in.colour);
   if (!in.noise.empty() && in.noise.channels() != 4)
     throw Error(ExitCode::usage, fmt::format("noise.image: expected four channels, found {}", in.noise.channels()));
 }
@@ -156,6 +164,15 @@ PublishedDropsUniforms published_drops_uniforms(const Settings& s, int frame) {
   u.keep = static_cast<float>(s.keep);
   u.refraction = static_cast<float>(s.refraction);
   u.printed_misprint = s.printed_misprint;
+  u.noise_nearest = s.noise_filter == Filter::nearest;
+  u.layers = s.layers;
+  u.water_step = static_cast<float>(1.0 / s.layers);
+  u.cell_angle = static_cast<float>(s.cell_angle);
+  u.noise_middle = static_cast<float>(s.noise_middle);
+  u.displacement = static_cast<float>(s.displacement);
+  u.keep_from = static_cast<float>(s.keep_from);
+  u.threshold = static_cast<float>(s.threshold);
+  u.printed_normal = s.printed_normal;
   return u;
 }
 

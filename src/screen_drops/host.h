@@ -14,6 +14,7 @@ namespace rainref::screen_drops {
 void check(const Settings& settings);
 /// The same for images.
 void check(const Settings& settings, const Inputs& inputs);
+void check_scene(const Settings& settings, const Image& colour);
 
 scene::Camera camera(const Settings& settings);
 /// The camera of the scene's picture: corrected, wider than the picture's by scene_margin.

@@ -18,8 +18,10 @@ namespace {
 
 constexpr double street_far = 1000;  // depth of its sky [m]; nobody looks at it
 
-Inputs pictures(const scene::Config& config, const Settings& settings, const parallel::Executor& executor, effect::Inputs& files) {
+Inputs pictures(const scene::Config& config, const Settings& settings, std::optional<effect::PictureSource>& film,
+                const parallel::Executor& executor, effect::Inputs& files) {
   check(settings);
+  effect::refuse_unused_sequence(config, {"scene.image"});
   Inputs in;
   const Image panorama = effect::read_panorama(config, files);
   if (!panorama.empty()) {
@@ -28,7 +30,9 @@ Inputs pictures(const scene::Config& config, const Settings& settings, const par
     in.colour =
         night_street::Street({settings.seed}).view(scene_camera(settings), settings.width, settings.height, street_far, executor).colour;
   } else {
-    in.colour = effect::read_linear(config, "scene.image", files);
+    const effect::PictureSource source(config, "scene.image", files);
+    in.colour = effect::linear_of(source.read(source.shown_in(0), files));
+    if (source.is_sequence()) film = source;
   }
   if (settings.variant == Variant::as_published && !config.text("noise.image").empty())
     in.noise = effect::read_tile(config, "noise.image", false, files);
@@ -46,13 +50,23 @@ effect::RunMemory memory_of(const scene::Config& config) {
   }
   const std::optional<FlowSettings> flow = flow_from(config, s);
   m.peak.then(memory(s, flow ? &*flow : nullptr, flow ? flow->warm_up + static_cast<double>(config.integer("run.frames")) / s.fps : 0));
+  if (effect::is_sequence(config.text("scene.image"))) m.peak.pass(4 * image_bytes(m, Format::rgba32f));  // decoded, turned over, its mips
   return m;
 }
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, Inputs pictures, const FlowSettings* flow, const parallel::Executor& executor)
-    : InstanceOf(settings, pictures, executor, flow), settings_(settings), pictures_(std::move(pictures)) {}
+Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> film, const FlowSettings* flow,
+                   const parallel::Executor& executor)
+    : InstanceOf(settings, pictures, executor, flow), film_(std::move(film)), settings_(settings), pictures_(std::move(pictures)) {}
+
+// Each frame's background is a run of its own, so that what a frame records does not depend on the frames before it.
+void Instance::show_pictures_of(int frame) {
+  if (!film_ || frame == shown_) return;
+  effect::Inputs none;
+  changed().show(effect::linear_of(film_->read(film_->shown_in(frame), none)));
+  shown_ = frame;
+}
 
 std::vector<PassOutput> Instance::buffers() {
   const ScreenDrops& s = running();
@@ -78,9 +92,10 @@ effect::Effect entry() {
           memory_of,
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
             const Settings settings = settings_from(config);
-            Inputs seen = pictures(config, settings, executor, inputs);
+            std::optional<effect::PictureSource> film;
+            Inputs seen = pictures(config, settings, film, executor, inputs);
             const std::optional<FlowSettings> flow = flow_from(config, settings);
-            return std::make_unique<Instance>(settings, std::move(seen), flow ? &*flow : nullptr, executor);
+            return std::make_unique<Instance>(settings, std::move(seen), std::move(film), flow ? &*flow : nullptr, executor);
           }};
 }
 

@@ -1,7 +1,10 @@
 // Drops on a window as a scene says it: opened, run and written like every effect.
 #pragma once
 
+#include <optional>
+
 #include "effect/effect.h"
+#include "effect/picture_sequence.h"
 #include "rainref/screen_drops.h"
 
 namespace rainref::screen_drops {
@@ -11,14 +14,21 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<ScreenDrops> {
  public:
-  Instance(const Settings& settings, Inputs pictures, const FlowSettings* flow, const parallel::Executor& executor);
+  /// `film`: a sequence, whose picture of frame 0 is in `pictures`, or nothing.
+  Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> film, const FlowSettings* flow,
+           const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// The scene's picture.
+  /// The scene's picture; of a film that of frame 0.
   const Image& scene_colour() const { return pictures_.colour; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  bool has_film() const override { return film_.has_value(); }
 
  private:
+  void show_pictures_of(int frame) override;
+
+  std::optional<effect::PictureSource> film_;
+  int shown_ = 0;  ///< frame
   Settings settings_;
   Inputs pictures_;
 };

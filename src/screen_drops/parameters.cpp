@@ -3,27 +3,48 @@
 #include <vector>
 
 #include "screen_drops/flow_info.h"
+#include "effect/picture_sequence.h"
 #include "scene/member_parameter.h"
+#include "screen_drops/uniforms.h"
 
 namespace rainref::screen_drops {
 namespace {
 
 using namespace rainref::scene;
 
-const std::vector<MemberParameter<Settings>>& members() {
-  static const std::vector<MemberParameter<Settings>> table{
+std::vector<MemberParameter<Settings>> made() {
+  std::vector<MemberParameter<Settings>> table{
       // The origin's constants.
       real<&Settings::grid>("drops.grid", "cell/pixel", 1e-4, 1, "Cells of the coarsest layer in a pixel; layer r has r times as many.")
           .only(published),
-      real<&Settings::keep>("drops.keep", "1", 0, 1, "A cell of layer r holds a drop where its noise is below 5 - r times this.")
+      integer<&Settings::layers>("drops.layers", "1", 1, most_published_layers, "Grids of cells; those of layer 1 lie on top.")
+          .only(published),
+      real<&Settings::cell_angle>("drops.cell_angle", "rad", 0.01, 100,
+                                  "Angle of the sine over a cell: the source's c1, which stands for 2 pi.")
+          .only(published),
+      real<&Settings::noise_middle>("drops.noise_middle", "1", 0, 1, "Noise that displaces nothing: the source's c2.").only(published),
+      real<&Settings::displacement>("drops.displacement", "rad", -100, 100, "Displacement of the grid per unit of noise: the source's c3.")
+          .only(published),
+      real<&Settings::keep_from>("drops.keep_from", "1", 0, 100,
+                                 "A cell of layer r holds a drop where its noise is below keep_from - r times drops.keep.")
+          .only(published),
+      real<&Settings::keep>("drops.keep", "1", 0, 1, "See drops.keep_from: what each layer keeps more than the next finer one.")
+          .only(published),
+      real<&Settings::threshold>("drops.threshold", "1", least_threshold, 2, "Least sum of the two sines, faded, that is a drop.")
           .only(published),
       real<&Settings::refraction>("drops.refraction", "1", -1, 1, "Pictures by which a unit normal across the view moves the lookup.")
           .only(published),
       boolean<&Settings::printed_misprint>("drops.printed_misprint",
                                            "Displaces the grid by (1 - c2) c3, as the report prints, instead of by the noise.")
           .only(published),
+      boolean<&Settings::printed_normal>("drops.printed_normal",
+                                         "Takes the normal from cos(sin p), as the report prints, instead of from cos p.")
+          .only(published),
       real<&Settings::blur_level>("background.level", "1", 0, 16, "Mip level of the scene behind the drops.").only(published),
       integer<&Settings::noise_size>("noise.size", "texel", 1, 4096, "Side of the noise made here.").only(published),
+      choice<&Settings::noise_filter>("noise.filter", {{"bilinear", Filter::linear}, {"nearest", Filter::nearest}},
+                                      "Of the noise's lookups. Filtered, white noise is seldom low, so that few cells hold a drop.")
+          .only(published),
       text("noise.image", "", "Noise of your own, four channels, a tile; empty: made here.").only(published),
       // Glass in metres.
       real<&Settings::pane_height>("glass.height", "m", 1e-3, 100, "Glass in the height of the picture.").only(correct),
@@ -57,6 +78,11 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::vertical_fov_deg>("camera.vertical_fov_deg", "deg", 1, 150, "Vertical field of view; of a picture from a file, too."),
       boolean("flow.on", true, "Whether rain also brings drops that slide and merge.").only(correct),
   };
+  for (const Parameter& p : effect::sequence_parameters()) table.emplace_back(p);
+  return table;
+}
+const std::vector<MemberParameter<Settings>>& members() {
+  static const std::vector<MemberParameter<Settings>> table = made();
   return table;
 }
 

@@ -132,6 +132,15 @@ void ScreenDrops::simulate(Recorder* recorder) {
   ++state_->frame;
 }
 
+void ScreenDrops::show(const Image& colour) {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  check_scene(s.settings, colour);
+  s.levels = scene_levels(colour);
+  s.scene.refresh(s.executor, s.levels);
+  s.has_background = false;
+}
+
 void ScreenDrops::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;

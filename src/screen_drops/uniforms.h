@@ -6,7 +6,10 @@
 
 namespace rainref::screen_drops {
 
-constexpr int layers = 4;  ///< grids of cells; as published 1 is the coarsest, corrected 0 is
+constexpr int layers = 4;  ///< corrected: grids of cells, 0 is the coarsest
+constexpr int most_published_layers = 16;
+/// As published: with less, mix(.2, 2, t - .5) reaches 0 at t = .389, and the normal of a drop may have no length.
+constexpr double least_threshold = 0.4;
 
 /// A place where the background looks at the scene, from the pixel's own, in texture coordinates.
 struct Tap {
@@ -29,10 +32,18 @@ struct PublishedDropsUniforms {
   float resolution[2];            ///< columns and rows of the picture
   float time;                     ///< n / fps, rounded once [s]
   float grid;                     ///< cells of layer 1 in a pixel
-  float keep;                     ///< times 5 - layer: the noise below which a cell holds a drop
+  float keep;                     ///< times keep_from - layer: the noise below which a cell holds a drop
   float refraction;               ///< pictures per unit of the normal
   std::int32_t printed_misprint;  ///< 1: the displacement as the report prints it
-  float padding0;
+  std::int32_t noise_nearest;     ///< 1: noise is looked up unfiltered
+  std::int32_t layers;            ///< grids of cells
+  float water_step;               ///< 1 / layers
+  float cell_angle;               ///< of the sine over a cell [rad]
+  float noise_middle;             ///< noise that displaces nothing
+  float displacement;             ///< of the grid per unit of noise [rad]
+  float keep_from;                ///< layer from which on no cell holds a drop
+  float threshold;                ///< sum of the sines above which a drop is
+  std::int32_t printed_normal;    ///< 1: the normal as the report prints it, of the cosine of a sine
 };
 
 /// cells: whole numbers decide, floats follow.
@@ -76,7 +87,7 @@ struct DropsUniforms {
 using Wanted = std::uint32_t;
 constexpr Wanted wanted_flow = 1u << layers, wanted_all = 2 * wanted_flow - 1;
 
-static_assert(sizeof(Tap) == 16 && sizeof(BackgroundUniforms) == 48 && sizeof(PublishedDropsUniforms) == 32 && sizeof(CellsUniforms) == 80);
+static_assert(sizeof(Tap) == 16 && sizeof(BackgroundUniforms) == 48 && sizeof(PublishedDropsUniforms) == 64 && sizeof(CellsUniforms) == 80);
 static_assert(sizeof(DropsUniforms) == 176);
 
 }  // namespace rainref::screen_drops

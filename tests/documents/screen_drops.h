@@ -107,13 +107,14 @@ inline std::vector<Written> screen_drops_passes() {
        screen_drops_published,
        nullptr,
        {{document,
-         R"(drops       n = noise(u · .1).rg, bilinear, repeat;   shift = (n − ½) · 2,  with printed_misprint (1 − ½) · 2
-            colour = background, water = 0;   for r = 4, 3, 2, 1, a later one over an earlier:
-              x = resolution · r · grid,   p = 6.28 u x + shift,   d = noise(floor((u x − ¼) + ½) / x)
+         R"(drops       n = noise(u · .1).rg;   shift = (n − noise_middle) · displacement,  with printed_misprint (1 − noise_middle) · displacement
+            colour = background, water = 0;   for r = layers, …, 2, 1, a later one over an earlier:
+              x = resolution · r · grid,   p = cell_angle u x + shift,   d = noise(floor((u x − ¼) + ½) / x)
               t = (sin p.x + sin p.y) · max(0, 1 − fract(time · (d.b + .1) + d.g) · 2)
-              where d.r < (5 − r) keep and t > ½:
-                v = (cos p.x, cos p.y, mix(.2, 2, t − ½)) / its length
-                colour = scene(u + refraction · v.xy), finest level, bilinear, clamped;   water = r · ¼)"}}},
+              where d.r < (keep_from − r) keep and t > threshold:
+                v = (cos p.x, cos p.y, mix(.2, 2, t − ½)) / its length,   with printed_normal cos(sin p)
+                colour = scene(u + refraction · v.xy), finest level, bilinear, clamped;   water = r · water_step
+noise       repeats; bilinear, with noise_nearest texel floor(fract(u) · size))"}}},
       {{"screen_drops-corrected"},
        "background",
        "wrong constant",

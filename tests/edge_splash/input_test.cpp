@@ -85,6 +85,8 @@ TEST(EdgeSplashInput, ScalesOfZero) {
       << "a key of the other variant";
   // A thickness or threshold of zero is the article's own range, and runs.
   EXPECT_EQ(message_of_scene("as-published", {"edge_splash.thickness=0", "edge_splash.edge_threshold=0"}), "none");
+  EXPECT_EQ(message_of_scene("as-published", {"edge_splash.edge_threshold=1"}), "none");
+  EXPECT_NE(message_of_scene("as-published", {"edge_splash.edge_threshold=1.01"}).find("edge_splash.edge_threshold"), std::string::npos);
 }
 
 TEST(EdgeSplashInput, ANoiseMapThatDoesNotTile) {

@@ -12,19 +12,27 @@ inline bool screen_drops_published(const Run& r, int x, int y, float* out) {
   const float half = r.is("pixel corner") ? 0 : 0.5f;
   const float u = (static_cast<float>(x) + half) / width, v = (static_cast<float>(y) + half) / height;
   const float scale = r.is("noise ten times finer") ? 1 : 0.1f;
-  float nx = r.linear("noise", u * scale, v * scale, 0), ny = r.linear("noise", u * scale, v * scale, 1);
+  const auto noise = [&](float a, float b, int k) {
+    if (r.whole("noise_nearest") == 0) return r.linear("noise", a, b, k);
+    return r.at("noise", static_cast<int>(fract(a) * static_cast<float>(r.width("noise"))),
+                static_cast<int>(fract(b) * static_cast<float>(r.height("noise"))), k);
+  };
+  const float middle = r.u("noise_middle"), per_unit = r.u("displacement");
+  float nx = noise(u * scale, v * scale, 0), ny = noise(u * scale, v * scale, 1);
   if (r.is("noise's channels swapped")) std::swap(nx, ny);
-  float shift_x = (nx - 0.5f) * 2, shift_y = (ny - 0.5f) * 2;
-  if (r.is("shift not doubled")) shift_x = nx - 0.5f, shift_y = ny - 0.5f;
-  if (r.is("shift not centred")) shift_x = nx * 2, shift_y = ny * 2;
-  if (r.u("printed_misprint") != 0) shift_x = shift_y = (1 - 0.5f) * 2;
+  float shift_x = (nx - middle) * per_unit, shift_y = (ny - middle) * per_unit;
+  if (r.is("shift not doubled")) shift_x = nx - middle, shift_y = ny - middle;
+  if (r.is("shift not centred")) shift_x = nx * per_unit, shift_y = ny * per_unit;
+  if (r.u("printed_misprint") != 0) shift_x = shift_y = (1 - middle) * per_unit;
   Float3 colour = r.rgb("background", x, y);
   float water = 0;
-  for (int layer = r.is("layers the other way") ? 1 : 4; layer >= 1 && layer <= 4; layer += r.is("layers the other way") ? 1 : -1) {
+  const int layers = r.whole("layers");
+  for (int layer = r.is("layers the other way") ? 1 : layers; layer >= 1 && layer <= layers;
+       layer += r.is("layers the other way") ? 1 : -1) {
     const float l = static_cast<float>(layer), gx = width * l * r.u("grid"), gy = height * l * r.u("grid");
-    const float px = 6.28f * u * gx + shift_x, py = 6.28f * v * gy + shift_y;
+    const float px = r.u("cell_angle") * u * gx + shift_x, py = r.u("cell_angle") * v * gy + shift_y;
     const float cell_x = std::floor((u * gx - 0.25f) + 0.5f) / gx, cell_y = std::floor((v * gy - 0.25f) + 0.5f) / gy;
-    const auto d = [&](int k) { return r.linear("noise", cell_x, cell_y, k); };
+    const auto d = [&](int k) { return noise(cell_x, cell_y, k); };
     float age = fract(r.u("time") * (d(2) + 0.1f) + d(1));
     if (r.is("age without its start")) age = fract(r.u("time") * (d(2) + 0.1f));
     float fade = std::max(0.0f, 1 - age * 2);
@@ -32,10 +40,13 @@ inline bool screen_drops_published(const Run& r, int x, int y, float* out) {
     float t = (static_cast<float>(std::sin(static_cast<double>(px))) + static_cast<float>(std::sin(static_cast<double>(py)))) * fade;
     if (r.is("cosine for sine"))
       t = (static_cast<float>(std::cos(static_cast<double>(px))) + static_cast<float>(std::sin(static_cast<double>(py)))) * fade;
-    const float keep = r.is("as many in each layer") ? r.u("keep") : (5 - l) * r.u("keep");
-    if (!(d(0) < keep && t > (r.is("threshold 0.3") ? 0.3f : 0.5f))) continue;
-    Float3 n{static_cast<float>(std::cos(static_cast<double>(px))), static_cast<float>(std::cos(static_cast<double>(py))),
-             mix(0.2f, 2, t - 0.5f)};
+    const float keep = r.is("as many in each layer") ? r.u("keep") : (r.u("keep_from") - l) * r.u("keep");
+    if (!(d(0) < keep && t > (r.is("threshold 0.3") ? 0.3f : r.u("threshold")))) continue;
+    const auto sideways = [&](float p) {
+      const double angle = r.whole("printed_normal") != 0 ? static_cast<float>(std::sin(static_cast<double>(p))) : p;
+      return static_cast<float>(std::cos(angle));
+    };
+    Float3 n{sideways(px), sideways(py), mix(0.2f, 2, t - 0.5f)};
     if (r.is("normal not normalized"))
       n = 1.0f * n;
     else
@@ -44,7 +55,7 @@ inline bool screen_drops_published(const Run& r, int x, int y, float* out) {
     if (r.is("refraction's sign")) refraction = -refraction;
     if (r.is("refraction halved")) refraction = refraction / 2;
     colour = r.linear3("scene", u + refraction * n.x, v + refraction * n.y);
-    water = r.is("layer not scaled") ? l : l * 0.25f;
+    water = r.is("layer not scaled") ? l : l * r.u("water_step");
   }
   out[0] = water;
   out[1] = colour.x;

@@ -48,6 +48,8 @@ inline std::vector<GoldenScene> golden_scenes() {
         s.rain_amount = 1;
         s.drop_period = s.flow_period = 1;
         s.flow_strength = 1;
+        s.flow_cells = 1;
+        s.flow_gain = 0.6;
       }
       scenes.push_back({fmt::format("rainy_glass/{}/{}", variant == Variant::as_published ? "as-published" : "corrected", what), s});
     };

@@ -32,6 +32,9 @@ TEST_P(ScreenDropsDeterminism, EveryTargetThreadCountOrderAndWidth) {
   for (int width = 1; width <= 33; ++width) {
     Settings s = test::settings(GetParam(), width, 19);
     s.printed_misprint = width % 7 == 0;
+    s.printed_normal = width % 5 == 0;
+    s.noise_filter = width % 3 == 0 ? Filter::nearest : Filter::linear;
+    s.layers = 1 + width % 6;
     select_simd_target(simd_targets().back());
     const std::string expected = hash_of_run(s, 1, 0);
     for (const std::string& target : simd_targets()) {

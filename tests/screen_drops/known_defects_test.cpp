@@ -4,6 +4,7 @@
 namespace rainref::screen_drops {
 namespace {
 
+using test::Double;
 using test::pi;
 using test::Pixel;
 using test::Published;
@@ -119,6 +120,83 @@ TEST(ScreenDropsKnownDefects, Defect07_DropsComeBackToTheSamePlace) {
     EXPECT_NEAR(left_edge(p), before, 1) << periods;
   }
   // Corrected: corrected_test.cpp, NoPlaceComesBackIn10000Cycles.
+}
+
+// The report calls p = sin(phase) and takes cos(p) for the normal. A cosine of a sine is at least cos 1: every drop moves the lookup to
+// the right and up, however the ray meets it. The origin's cosine of the phase changes its sign at the drop's middle.
+TEST(ScreenDropsKnownDefects, Defect08_TheReportTakesTheCosineOfASine) {
+  Published p(400, 400, 1.0 / 400, {0.5f, 0.5f, 0});
+  p.u.time = 5;  // phase 0
+  const auto moved = [&](int x) { return p.at(x, 100).u.v - (x + 0.5) / 400; };
+  const int left = 60, right = 139;  // the middle lies at 100 texels, of 400 to a turn
+  EXPECT_GT(moved(left), 0.05);
+  EXPECT_LT(moved(right), -0.05);
+  p.u.printed_normal = 1;
+  for (int x = left; x <= right; ++x) {
+    const double phase = 6.28 * (x + 0.5) / 400, up = 6.28 * 100.5 / 400, z = 0.2 + 1.8 * (std::sin(phase) + std::sin(up) - 0.5);
+    const double a = std::cos(std::sin(phase)), b = std::cos(std::sin(up));
+    EXPECT_NEAR(moved(x), 0.3 * a / std::hypot(a, b, z), 1e-6) << x;
+    EXPECT_GT(a, std::cos(1.0) - 1e-9);
+  }
+  // Corrected: as much to one side as to the other.
+  Pixel at_left, at_right;
+  at_left.put_drop(100, 40, 0);
+  at_right.put_drop(100, -40, 0);
+  EXPECT_NEAR(at_left.bent(), -at_right.bent(), 1e-6);
+}
+
+// White noise that is filtered between texels is seldom low: what a cell reads is a mean of four, wherever its place falls between them.
+// P(w1 X1 + ... + w4 X4 < t) of uniform X is an alternating sum over the corners of the cube, sum (-1)^|S| (t - w(S))+^4 / (4! w1 w2 w3
+// w4).
+double share_below(const std::array<double, 4>& all, double t) {
+  std::vector<double> w;
+  for (const double x : all)
+    if (x > 1e-9) w.push_back(x);
+  double sum = 0, factor = 1;
+  for (std::size_t k = 0; k < w.size(); ++k) factor *= static_cast<double>(k + 1) * w[k];
+  for (unsigned corner = 0; corner < 1u << w.size(); ++corner) {
+    double rest = t;
+    int sign = 1;
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      if ((corner >> k & 1) == 0) continue;
+      rest -= w[k];
+      sign = -sign;
+    }
+    if (rest > 0) sum += sign * std::pow(rest, static_cast<double>(w.size()));
+  }
+  return sum / factor;
+}
+TEST(ScreenDropsKnownDefects, Defect09_FilteredNoiseKeepsFewerDrops) {
+  Settings s = test::settings(Variant::as_published, 1280, 720);
+  s.grid = 0.015, s.keep = 0.08;
+  constexpr int side = 256, seeds = 40;
+  const double documented[] = {0.191, 0.095, 0.034, 0.004};
+  for (int r = 1; r <= 4; ++r) {
+    const double columns = 1280 * r * 0.015, rows = 720 * r * 0.015, threshold = 0.08 * (5 - r);
+    double expected = 0;
+    int cells = 0, kept_filtered = 0, kept = 0;
+    for (int seed = 0; seed < seeds; ++seed) {
+      const TextureData noise(make_noise(static_cast<std::uint64_t>(seed), side), Address::repeat, Address::repeat);
+      for (int j = 0; j < static_cast<int>(rows); ++j) {
+        for (int i = 0; i < static_cast<int>(columns); ++i) {
+          const double u = i / columns, v = j / rows, x = u * side + 0.5, y = v * side + 0.5, a = x - std::floor(x), b = y - std::floor(y);
+          const auto red = [&](Filter filter) {
+            s.noise_filter = filter;
+            return scalar::published_noise<1>(published_drops_uniforms(s, 0), noise.view(), Double(u), Double(v))[0].v;
+          };
+          ++cells;
+          kept_filtered += red(Filter::linear) < threshold;
+          kept += red(Filter::nearest) < threshold;
+          expected += share_below({(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b}, threshold);
+        }
+      }
+    }
+    // Bytes below a threshold: ceil(255 t) of 256; a filtered one is off by as much. Cells share few texels: 4 deviations, and half again.
+    const double nearest = std::ceil(255 * threshold) / 256, filtered = expected / cells;
+    EXPECT_NEAR(static_cast<double>(kept) / cells, nearest, 6 * std::sqrt(nearest / cells)) << r;
+    EXPECT_NEAR(static_cast<double>(kept_filtered) / cells, filtered, 6 * std::sqrt(filtered / cells) + filtered / 128) << r;
+    EXPECT_NEAR(filtered, documented[r - 1], 6e-4) << r;
+  }
 }
 
 }  // namespace

@@ -7,10 +7,18 @@ layout(std140, binding = 0) uniform PublishedDropsUniforms {
   vec2 resolution;       //   0  [pixel] Columns and rows of the picture.
   float time;            //   8  [s] Frame number over frame rate, rounded once.
   float grid;            //  12  [cell/pixel] Cells of layer 1 in a pixel.
-  float keep;            //  16  [1] Times 5 - layer: the noise below which a cell holds a drop.
+  float keep;            //  16  [1] Times keep_from - layer: the noise below which a cell holds a drop.
   float refraction;      //  20  [1] Pictures per unit of the normal.
   int printed_misprint;  //  24  [1] 1: the displacement as the report prints it.
-  float padding_0;       //  28  padding
+  int noise_nearest;     //  28  [1] 1: noise is looked up unfiltered, texel floor(fract(u) size).
+  int layers;            //  32  [1] Grids of cells.
+  float water_step;      //  36  [1] 1 over layers.
+  float cell_angle;      //  40  [rad] Of the sine over a cell.
+  float noise_middle;    //  44  [1] Noise that displaces nothing.
+  float displacement;    //  48  [rad] Of the grid per unit of noise.
+  float keep_from;       //  52  [1] Layer from which on no cell holds a drop.
+  float threshold;       //  56  [1] Sum of the sines above which a drop is.
+  int printed_normal;    //  60  [1] 1: the normal as the report prints it, of the cosine of a sine.
 } u;
 layout(binding = 1) uniform sampler2D background;
 layout(binding = 2) uniform sampler2D scene;
@@ -18,25 +26,31 @@ layout(binding = 3) uniform sampler2D noise;
 layout(binding = 4) uniform writeonly image2D water;
 layout(binding = 5) uniform writeonly image2D colour;
 
+vec4 noise_at(vec2 at) {
+  if (u.noise_nearest == 0) return textureLod(noise, at, 0.0);
+  ivec2 size = textureSize(noise, 0);
+  return texelFetch(noise, ivec2(floor(fract(at) * vec2(size))) % size, 0);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (outside(pixel, imageSize(colour))) return;
   vec2 at = (vec2(pixel) + 0.5) / u.resolution;
-  vec2 n = textureLod(noise, at * 0.1, 0.0).rg;
-  vec2 shift = u.printed_misprint != 0 ? vec2((1.0 - 0.5) * 2.0) : (n - 0.5) * 2.0;
+  vec2 n = noise_at(at * 0.1).rg;
+  vec2 shift = u.printed_misprint != 0 ? vec2((1.0 - u.noise_middle) * u.displacement) : (n - u.noise_middle) * u.displacement;
   float layer = 0.0;
   vec3 light = texelFetch(background, pixel, 0).rgb;
-  for (int k = 4; k > 0; --k) {
+  for (int k = u.layers; k > 0; --k) {
     float r = float(k);
-    vec2 x = u.resolution * r * u.grid, p = 6.28 * at * x + shift, s = sin(p);
-    vec3 d = textureLod(noise, floor(at * x - 0.25 + 0.5) / x, 0.0).rgb;
+    vec2 x = u.resolution * r * u.grid, p = u.cell_angle * at * x + shift, s = sin(p);
+    vec3 d = noise_at(floor(at * x - 0.25 + 0.5) / x).rgb;
     float t = (s.x + s.y) * max(0.0, 1.0 - fract(u.time * (d.b + 0.1) + d.g) * 2.0);
-    if (!(d.r < (5.0 - r) * u.keep && t > 0.5)) continue;
+    if (!(d.r < (u.keep_from - r) * u.keep && t > u.threshold)) continue;
     float z = mix(0.2, 2.0, t - 0.5);
-    vec3 v = -normalize(vec3(cos(p), z));
+    vec3 v = -normalize(vec3(cos(u.printed_normal != 0 ? s : p), z));
     layer = r;
     light = textureLod(scene, at - v.xy * u.refraction, 0.0).rgb;
   }
-  imageStore(water, pixel, vec4(layer * 0.25));
+  imageStore(water, pixel, vec4(layer * u.water_step));
   imageStore(colour, pixel, vec4(light, 1.0));
 }

@@ -1,0 +1,187 @@
+#include "effect/picture_sequence.h"
+
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/hash.h"
+#include "base/read_file.h"
+#include "effect/npy_picture.h"
+#include "scene/check.h"
+
+namespace rainref::effect {
+namespace {
+
+constexpr std::int64_t most_pictures = 1'000'000;
+constexpr const char* keys_of_sequences[] = {"sequence.first", "sequence.count", "sequence.rate", "sequence.end"};
+
+/// A name in parts: what stands before the number, its width, whether zeros fill it, and what stands behind.
+struct Pattern {
+  std::string before, after;
+  int width = 0;
+  bool has_zeros = false;
+};
+struct Parsed {
+  std::optional<Pattern> pattern;
+  int numbers = 0;
+  bool has_others = false;  ///< a percent sign that is neither a number's nor doubled
+};
+Parsed parsed(const std::string& name) {
+  Parsed out;
+  Pattern p;
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (name[i] != '%') {
+      text += name[i];
+      continue;
+    }
+    if (i + 1 < name.size() && name[i + 1] == '%') {
+      text += '%';
+      ++i;
+      continue;
+    }
+    std::size_t end = i + 1;
+    while (end < name.size() && name[end] >= '0' && name[end] <= '9') ++end;
+    if (end >= name.size() || name[end] != 'd' || end - i > 3) {
+      out.has_others = true;
+      text += '%';
+      continue;
+    }
+    const std::string digits = name.substr(i + 1, end - i - 1);
+    p = {text, "", digits.empty() ? 0 : std::stoi(digits), digits.starts_with('0')};
+    text.clear();
+    ++out.numbers;
+    i = end;
+  }
+  p.after = text;
+  if (out.numbers > 0) out.pattern = p;
+  return out;
+}
+
+}  // namespace
+
+std::vector<scene::Parameter> sequence_parameters() {
+  return {
+      scene::integer("sequence.first", "1", 0, 1e9, 0, "Number in the first file's name, where a picture's name holds one (\"%04d.png\")."),
+      scene::integer("sequence.count", "1", 0, most_pictures, 0, "Pictures of a sequence; 0: as many as there are without a gap."),
+      scene::real("sequence.rate", "1/s", 0, 10000, 0, "Pictures a second; 0: one for each frame of the run."),
+      scene::choice("sequence.end", {"error", "hold", "loop"}, "error",
+                    "What comes after the last picture: nothing may, it stays, or the first one again."),
+  };
+}
+
+bool is_sequence(const std::string& name) { return parsed(name).numbers > 0; }
+
+std::string numbered(const std::string& name, std::int64_t number) {
+  const Parsed p = parsed(name);
+  if (p.numbers != 1 || p.has_others)
+    throw Error(ExitCode::usage, fmt::format("'{}': expected one number, as %04d, and every other percent sign doubled", name));
+  const Pattern& at = *p.pattern;
+  return at.before + (at.has_zeros ? fmt::format("{:0{}}", number, at.width) : fmt::format("{:{}}", number, at.width)) + at.after;
+}
+
+void refuse_unused_sequence(const scene::Config& config, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (is_sequence(config.text(key))) return;
+  for (const char* key : keys_of_sequences) {
+    if (config.given(key))
+      scene::refuse(config.entry(key).origin, key,
+                    fmt::format("expected none where no picture's name holds a number, as \"%04d.png\" in {}", fmt::join(keys, " or ")));
+  }
+}
+
+PictureSource::PictureSource(const scene::Config& config, const std::string& key, Inputs& inputs, const PictureSource* beside)
+    : named_(config, key), fps_(config.real("run.fps")) {
+  if (!effect::is_sequence(named_.name)) return;
+  first_ = config.integer("sequence.first");
+  rate_ = config.real("sequence.rate");
+  const std::string& end = config.text("sequence.end");
+  end_ = end == "hold" ? End::hold : end == "loop" ? End::loop : End::error;
+  try {
+    numbered(named_.name, first_);
+  } catch (const Error& e) {
+    throw named_.placed(e.code(), e.what());
+  }
+  count_ = config.integer("sequence.count");
+  if (count_ == 0) {
+    std::error_code ignored;
+    while (count_ < most_pictures && std::filesystem::exists(named_.path_of(file_of(count_)), ignored)) ++count_;
+    count_ = std::max<std::int64_t>(count_, 1);  // whose absence look_at_files tells
+  }
+  if (beside != nullptr && beside->is_sequence() && beside->count_ != count_)
+    throw named_.placed(ExitCode::usage,
+                        fmt::format("expected {} pictures as {} has, found {}", beside->count_, beside->named_.key, count_));
+  look_at_files(inputs);
+  require_frames(static_cast<int>(config.integer("run.frames")));
+}
+
+std::string PictureSource::file_of(std::int64_t picture) const { return numbered(named_.name, first_ + picture); }
+
+void PictureSource::look_at_files(Inputs& inputs) const {
+  Hasher hasher(0);
+  image_io::Picture first;
+  bool is_lossy = false;
+  for (std::int64_t k = 0; k < count_; ++k) {
+    const std::string file = file_of(k);
+    const std::filesystem::path path = named_.path_of(file);
+    image_io::Picture picture;
+    try {
+      const std::vector<std::byte> bytes = read_file(path);
+      hasher.add(file_hash(bytes).text());
+      picture = is_npy(path) ? inspect_npy(path, bytes) : image_io::inspect(path, bytes);
+    } catch (const Error& e) {
+      throw named_.placed(e.code(), e.what());
+    }
+    is_lossy = is_lossy || picture.lossy;
+    if (k == 0) {
+      first = std::move(picture);
+      continue;
+    }
+    if (picture.file_width != first.file_width || picture.file_height != first.file_height) {
+      throw named_.placed(ExitCode::usage, fmt::format("'{}': expected {}x{} texels as '{}' has, found {}x{}", file, first.file_width,
+                                                       first.file_height, file_of(0), picture.file_width, picture.file_height));
+    }
+    if (picture.channel_names != first.channel_names) {
+      throw named_.placed(ExitCode::usage,
+                          fmt::format("'{}': expected the channels {} as '{}' has, found {}", file, fmt::join(first.channel_names, " "),
+                                      file_of(0), fmt::join(picture.channel_names, " ")));
+    }
+  }
+  inputs.files.push_back({named_.key, named_.name, hasher.finish().text(), is_lossy, first_, count_});
+}
+
+void PictureSource::require_frames(int frames) const {
+  try {
+    shown_in(frames - 1);
+  } catch (const Error& e) {
+    throw named_.placed(e.code(), fmt::format("run.frames {}: {}", frames, e.what()));
+  }
+}
+
+// A quotient of whole numbers that is whole is exact, so that pictures change where they should at rates like 24 and 60.
+std::int64_t PictureSource::shown_in(int frame) const {
+  if (!is_sequence()) return 0;
+  const std::int64_t picture = rate_ > 0 ? static_cast<std::int64_t>(std::floor(frame * rate_ / fps_)) : frame;
+  if (picture < count_) return picture;
+  if (end_ == End::hold) return count_ - 1;
+  if (end_ == End::loop) return picture % count_;
+  throw Error(ExitCode::usage, fmt::format("frame {} needs '{}', found {} pictures, the last of them '{}' (sequence.end \"hold\" or "
+                                           "\"loop\" says what comes after it)",
+                                           frame, file_of(picture), count_, file_of(count_ - 1)));
+}
+
+image_io::Picture PictureSource::read(std::int64_t picture, Inputs& inputs) const {
+  image_io::Picture read = read_picture(named_, is_sequence() ? file_of(picture) : named_.name);
+  if (!is_sequence()) inputs.files.push_back({named_.key, named_.name, read.decoded_hash.text(), read.lossy});
+  return read;
+}
+
+Error PictureSource::about(const Error& error, std::int64_t picture) const {
+  return is_sequence() ? Error(error.code(), fmt::format("{} (in '{}')", error.what(), file_of(picture))) : error;
+}
+
+}  // namespace rainref::effect
