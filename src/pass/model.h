@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "capture/bound_texture.h"
 #include "capture/pass_model.h"
 #include "pass/fit.h"
@@ -203,9 +205,12 @@ struct Bound : Inputs<P> {
                         [&](const auto& io) { return Text::template run_record<N, is_corrected>(this->uniforms, io); });
   }
 };
-/// Throws Error(port_files) where the case lacks an input of its variant, or has one of another shape.
+/// Throws Error(port_files) where the pass does not run in the case's variant, the case lacks an input of its variant, or has one of
+/// another shape.
 template <class P>
 Inputs<P> inputs_of(const capture::PassCase& c) {
+  if ((c.corrected() ? P::about.corrected : P::about.as_published).revision == 0)
+    throw Error(ExitCode::port_files, fmt::format("{}: {} does not run {}", c.folder(), P::about.name, c.variant));
   const capture::Array* given = first_image(c);
   Inputs<P> m{given ? given->width : 0, given ? given->height : 0, 0, capture::uniforms_of<typename P::Uniforms>(c), c.corrected(), {}};
   const scene::UniformBlock block = P::uniforms();

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -244,6 +245,29 @@ TEST(HostilePack, WhatThePassDoesNotHaveIsRefused) {
               HasSubstr("out.picture: expected one output of this name, found two"));
   EXPECT_THAT(refusal([](fuzz::Json& c) { c["inputs"].push_back(c["inputs"][0]); }),
               HasSubstr("in.colour: expected one input of this name, found two"));
+}
+
+// The diagnosis asks what the other variant's formula gives, also where there is none; merge then wrote where its film has no texel.
+TEST(HostilePack, APassIsBoundInVariantsThatItHasAlone) {
+  std::set<std::string> refused;
+  for (const Base& base : fuzz::bases())
+    for (PassCase c : base.cases) {
+      const capture::PassEvaluations* evaluations = evaluations_of(c.effect, c.pass);
+      // Another effect may run these as published.
+      if (!evaluations || !evaluations->bind || c.pass == "integrate" || c.pass == "splat") continue;
+      c.variant = c.corrected() ? "as-published" : "corrected";
+      if (registry::effect_of_pack(base.effect).info->pass(c.pass).variant(c.variant)) continue;
+      try {
+        evaluations->bind(c);
+        ADD_FAILURE() << c.folder() << " is bound " << c.variant;
+      } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ExitCode::port_files) << e.what();
+        EXPECT_THAT(e.what(), HasSubstr(c.folder()));
+        refused.insert(c.pass);
+      }
+    }
+  EXPECT_TRUE(refused.contains("merge"));
+  EXPECT_GT(refused.size(), 1u);
 }
 
 TEST(HostilePack, ADeepManifestIsRefused) {
