@@ -13,9 +13,13 @@
 
 namespace rainref::cli {
 
-void print_text(std::string_view text) {
+void print_text(std::string_view text) { print_report(printable(text)); }
+void print_aside(std::string_view text) {
   const std::string shown = printable(text);
-  if (std::fwrite(shown.data(), 1, shown.size(), stdout) < shown.size()) throw std::system_error(errno, std::generic_category());
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
+}
+void print_report(std::string_view report) {
+  if (std::fwrite(report.data(), 1, report.size(), stdout) < report.size()) throw std::system_error(errno, std::generic_category());
 }
 
 void complain(std::string_view message) {

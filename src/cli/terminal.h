@@ -10,6 +10,10 @@ namespace rainref::cli {
 
 /// To standard output, through printable(). Throws std::system_error where it takes no more.
 void print_text(std::string_view text);
+/// To standard error, through printable(): what else goes to standard output, which has a report. Failures are not reported.
+void print_aside(std::string_view text);
+/// To standard output, byte by byte: a report that a program reads. Throws as print_text.
+void print_report(std::string_view report);
 template <typename... T>
 void say(fmt::format_string<T...> format, T&&... arguments) {
   print_text(fmt::format(format, std::forward<T>(arguments)...));

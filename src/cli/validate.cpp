@@ -225,7 +225,8 @@ judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) 
   Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
   judged.judgement.command = request.command;
   reports.apply_baseline(judged.judgement);
-  print_text(reports::report_text(judged.judgement));
+  const std::string text = reports::report_text(judged.judgement);
+  reports.has_standard_output() ? print_aside(text) : print_text(text);
   reports.write(judged.judgement, judged.source);
   return std::move(judged.judgement);
 }

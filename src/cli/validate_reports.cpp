@@ -12,6 +12,7 @@
 #include "base/folders.h"
 #include "base/hidden.h"
 #include "cli/commands.h"
+#include "cli/terminal.h"
 #include "rainref/error.h"
 #include "reports/figures.h"
 #include "reports/html.h"
@@ -20,20 +21,6 @@
 
 namespace rainref::cli {
 namespace {
-
-/// Opens a report's file now; nothing when it is not asked for.
-std::unique_ptr<AtomicFile> opened(const char* option, const std::optional<std::string>& path) {
-  if (!path) return nullptr;
-  if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
-  return std::make_unique<AtomicFile>(*path);
-}
-
-void finish(std::unique_ptr<AtomicFile>& file, std::string_view text) {
-  if (!file) return;
-  file->write(text);
-  file->commit();
-  file = nullptr;
-}
 
 std::string shell_word(std::string_view word) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%";
@@ -46,9 +33,9 @@ std::string shell_word(std::string_view word) {
 }  // namespace
 
 void add_report_options(CLI::App& verb, ReportOptions& options) {
-  verb.add_option("--json", options.json, "Write the whole judgement as JSON");
-  verb.add_option("--junit", options.junit, "Write it as JUnit XML, for continuous integration");
-  verb.add_option("--html", options.html, "Write it as one page with pictures of what fails");
+  verb.add_option("--json", options.json, "Write the whole judgement as JSON; - is standard output");
+  verb.add_option("--junit", options.junit, "Write it as JUnit XML, for continuous integration; or -");
+  verb.add_option("--html", options.html, "Write it as one page with pictures of what fails; or -");
   verb.add_option("--baseline", options.baseline, "Known failures (TOML): they pass, and what no longer fails is an error");
 }
 
@@ -56,6 +43,23 @@ std::string command_text(int argc, const char* const* argv) {
   std::string out = "rainref";
   for (int i = 1; i < argc; ++i) out += " " + shell_word(argv[i]);
   return out;
+}
+
+/// Opens a report's file now; nothing when it is not asked for.
+Reports::File Reports::opened(const char* option, const std::optional<std::string>& path) {
+  if (!path) return {};
+  if (path->empty()) throw Error(ExitCode::usage, fmt::format("{}: expected a file, found ''", option));
+  if (*path == "-") return {nullptr, true};
+  return {std::make_unique<AtomicFile>(*path), false};
+}
+void Reports::finish(File& f, std::string_view text) {
+  if (f.is_standard_output) {
+    print_report(text);
+  } else {
+    f.file->write(text);
+    f.file->commit();
+  }
+  f = {};
 }
 
 Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(allow_untested) {
@@ -79,11 +83,13 @@ Reports::Reports(const ReportOptions& o, bool allow_untested) : allow_untested_(
                                                        : fmt::format("two reports cannot be one file: '{}' and '{}'", other->second, name));
   };
   if (o.baseline) claim(*o.baseline, followed(*o.baseline));
-  if (json_) claim(*o.json, json_->target());
-  if (junit_) claim(*o.junit, junit_->target());
-  if (html_) claim(*o.html, html_->target());
+  if (json_.file) claim(*o.json, json_.file->target());
+  if (junit_.file) claim(*o.junit, junit_.file->target());
+  if (html_.file) claim(*o.html, html_.file->target());
+  if (json_.is_standard_output + junit_.is_standard_output + html_.is_standard_output > 1)
+    throw Error(ExitCode::usage, "two reports cannot have one name: '-', standard output");
   for (const File* file : {&json_, &junit_, &html_}) {
-    if (*file) remove_leftovers((*file)->target().parent_path());
+    if (file->file) remove_leftovers(file->file->target().parent_path());
   }
 }
 
@@ -95,9 +101,9 @@ void Reports::apply_baseline(judge::PortJudgement& judgement) const {
 }
 
 void Reports::write(const judge::PortJudgement& j, const reports::PageSource& source) {
-  if (html_) finish(html_, reports::report_html(j, source));
-  if (junit_) finish(junit_, reports::report_junit(j, allow_untested_));
-  if (json_) finish(json_, reports::report_json(j, reports::exit_code(j, allow_untested_)));
+  if (is_asked(html_)) finish(html_, reports::report_html(j, source));
+  if (is_asked(junit_)) finish(junit_, reports::report_junit(j, allow_untested_));
+  if (is_asked(json_)) finish(json_, reports::report_json(j, reports::exit_code(j, allow_untested_)));
 }
 
 void Reports::write_error(const Error& error, const ValidateRequest& request) {
@@ -107,9 +113,9 @@ void Reports::write_error(const Error& error, const ValidateRequest& request) {
   j.profile = request.profile;
   j.command = request.command;
   j.reason = error.what();
-  if (html_) finish(html_, reports::report_html(j, {}));
-  if (junit_) finish(junit_, reports::report_junit(j, false));
-  if (json_) finish(json_, reports::report_json(j, static_cast<int>(error.code())));
+  if (is_asked(html_)) finish(html_, reports::report_html(j, {}));
+  if (is_asked(junit_)) finish(junit_, reports::report_junit(j, false));
+  if (is_asked(json_)) finish(json_, reports::report_json(j, static_cast<int>(error.code())));
 }
 
 }  // namespace rainref::cli

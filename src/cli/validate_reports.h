@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -43,13 +44,22 @@ class Reports {
   void check(const std::vector<capture::PackPass>& passes, const std::vector<std::string>& ids) const;
   /// Lets the listed failures pass. Before write, and before the exit code is taken.
   void apply_baseline(judge::PortJudgement& judgement) const;
+  /// Whether one of them goes to standard output, so that nothing else may.
+  bool has_standard_output() const { return json_.is_standard_output || junit_.is_standard_output || html_.is_standard_output; }
   /// Writes the files, each under its name only when whole.
   void write(const judge::PortJudgement& judgement, const reports::PageSource& source);
   /// When nothing could be judged: the reports say why, so that none of an earlier run stays behind.
   void write_error(const Error& error, const ValidateRequest& request);
 
  private:
-  using File = std::unique_ptr<AtomicFile>;
+  /// Neither: not asked for.
+  struct File {
+    std::unique_ptr<AtomicFile> file;
+    bool is_standard_output = false;
+  };
+  static File opened(const char* option, const std::optional<std::string>& path);
+  static void finish(File& file, std::string_view text);
+  static bool is_asked(const File& file) { return file.file || file.is_standard_output; }
   File json_, junit_, html_;
   std::optional<reports::Baseline> baseline_;
   bool allow_untested_;

@@ -62,6 +62,9 @@ TEST_F(PerfectPort, OfScreenDropsAsPublishedIsGreen) {
 TEST_F(PerfectPort, OfEdgeSplashIsGreen) {
   expect_green("edge_splash/default.toml", {{"vulkan", {0, 0}}, {"webgpu", {0.19, 0}}, {"d3d", {0, 0}}, {"cuda", {0, 0}}});
 }
+TEST_F(PerfectPort, OfThePuddleIsGreen) {
+  expect_green("puddle/default.toml", {{"vulkan", {0, 0}}, {"webgpu", {0, 0}}, {"d3d", {0, 0}}, {"cuda", {0, 0}}});
+}
 
 }  // namespace
 }  // namespace rainref::cli

@@ -49,6 +49,16 @@ TEST_F(ValidateReports, AllReportsOfAFailingPort) {
   EXPECT_EQ(folder.names().size(), before.size() + 3);  // no temporary stays
 }
 
+// As users of such tools expect: a program reads the report from a pipe, and people see the text beside it.
+TEST_F(ValidateReports, AHyphenIsStandardOutput) {
+  const Outcome o = validate("bad", {"--json", "-", "--junit", "r.xml"});
+  EXPECT_EQ(o.code, 1);
+  EXPECT_EQ(nlohmann::json::parse(o.out)["first_bad_pass"], "shade");
+  EXPECT_THAT(o.err, HasSubstr("FAIL: bad against pack, profile vulkan"));
+  EXPECT_THAT(contents(folder / "r.xml"), HasSubstr("<failure type=\"outside\""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "-"));
+}
+
 TEST_F(ValidateReports, AllReportsOfAGoodPort) {
   const Outcome o = validate("good", {"--json", "r.json", "--junit", "r.xml", "--html", "r.html"});
   EXPECT_EQ(o.code, 0) << o.err;
@@ -106,6 +116,7 @@ TEST_F(ValidateReports, BadArgumentsBeforeAnyWork) {
   refused({"--baseline", ""}, 2, HasSubstr("--baseline: expected a file, found ''"));
   refused({"--html", ""}, 2, HasSubstr("--html: expected a file, found ''"));
   refused({"--html", "r", "--json", "r"}, 2, HasSubstr("two reports cannot have one name: 'r'"));
+  refused({"--html", "-", "--json", "-"}, 2, "two reports cannot have one name: '-', standard output");
   refused({"--html", "./r", "--json", "r"}, 2, "two reports cannot be one file: 'r' and './r'");
   refused({"--html", "pack/../r", "--junit", "r"}, 2, HasSubstr("cannot be one file"));
   refused({"--html", "link", "--junit", "r"}, 2, HasSubstr("cannot be one file"));

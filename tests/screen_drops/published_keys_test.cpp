@@ -90,6 +90,21 @@ TEST(ScreenDropsPublishedKeys, KeepFromAndLayersChooseTheLayers) {
 }
 
 // A fresh drop covers the share of its cell where sin a + sin b > threshold: (1 / 2 pi^2) Int acos(clamp(threshold - sin b, -1, 1)) db.
+// A pack, or a mistake that is tried on its uniforms, may say 2^30: to count that far took minutes for a few texels.
+TEST(ScreenDropsPublishedKeys, MoreLayersThanThereMayBeAreNotCounted) {
+  const auto picture = [](int layers) {
+    Published p(40, 40, 1.0 / 7, {0.5f, 0.25f, 0});
+    p.u.layers = layers;
+    p.u.keep_from = 1e9f;
+    std::vector<bool> wet;
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) wet.push_back(p.wet(x, y));
+    return wet;
+  };
+  EXPECT_EQ(picture(1 << 30), picture(most_published_layers));
+  EXPECT_NE(picture(most_published_layers), picture(1));
+}
+
 TEST(ScreenDropsPublishedKeys, ThresholdIsTheLeastSum) {
   for (const double threshold : {0.4, 0.5, 1.0, 1.5}) {
     Published p(320, 320, 1.0 / 160, {0.5f, 0, 0});
