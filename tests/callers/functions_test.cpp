@@ -8,7 +8,9 @@
 #include "puddle/parameters.h"
 #include "rainref/error.h"
 #include "rainref/puddle.h"
+#include "rainref/edge_splash.h"
 #include "rainref/rainy_glass.h"
+#include "rainref/screen_drops.h"
 #include "scene/toml.h"
 #include "settings.h"
 
@@ -70,6 +72,57 @@ TEST(AnyCaller, PuddlesOfOnesOwnWater) {
     }
     return seen;
   });
+}
+
+/// An effect that shows another picture than it was made with.
+template <class T, class Show>
+void expect_the_same_picture(T& effect, const Show& show) {
+  expect_the_same([&] {
+    show(effect);
+    effect.next_frame();
+    std::vector<int> codes;
+    for (int y = 0; y < effect.picture().height(); ++y) {
+      for (int i = 0; i < 4 * effect.picture().width(); ++i) codes.push_back(effect.picture().template row<Unorm8>(y)[i].code);
+    }
+    return codes;
+  });
+}
+TEST(AnyCaller, OtherPictures) {
+  constexpr int width = 12, height = 9;
+  const parallel::Executor executor(1);
+  const auto image = [&](Format format, float factor) {
+    Image made(format, width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int i = 0; i < made.channels() * width; ++i) made.row<float>(y)[i] = 1 + factor * static_cast<float>((7 * i + 13 * y) % 23) / 23;
+    }
+    return made;
+  };
+  const auto first = [&] { return image(Format::rgba32f, 0); };
+  const auto metres = [&] { return image(Format::r32f, 5); };
+  const Image colour = image(Format::rgba32f, 3e-3f), depth = metres();
+  // Frames of one time: what differs is the picture alone.
+  edge_splash::Settings splash;
+  splash.fps = 1e12;
+  edge_splash::Inputs in;
+  in.colour = first();
+  in.depth = metres();
+  in.depth_is_distance = true;
+  edge_splash::EdgeSplash splashes(splash, in, executor);
+  in.colour = image(Format::rgba32f, 3e-3f);
+  expect_the_same_picture(splashes, [&](edge_splash::EdgeSplash& e) { e.show(in); });
+
+  screen_drops::Settings drops = rainref::test::screen_drops_settings();
+  drops.width = width, drops.height = height, drops.fps = 1e12;
+  screen_drops::ScreenDrops window(drops, {first(), {}}, executor);
+  expect_the_same_picture(window, [&](screen_drops::ScreenDrops& e) { e.show(colour); });
+
+  rainy_glass::Settings glass = rainref::test::rainy_glass_settings();
+  glass.width = width, glass.height = height, glass.fps = 1e12, glass.map_size = 16;
+  rainy_glass::Surroundings around;
+  around.colour = first();
+  around.depth = metres();
+  rainy_glass::RainyGlass pane(glass, around, executor);
+  expect_the_same_picture(pane, [&](rainy_glass::RainyGlass& e) { e.show(colour, depth); });
 }
 
 TEST(AnyCaller, AnExceptionPutsTheStateBack) {
