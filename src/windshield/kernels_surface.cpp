@@ -1,9 +1,10 @@
-// wipe_texture and normals in lanes; compiled once for each SIMD target.
+// persist, wipe_texture and normals in lanes; compiled once for each SIMD target.
 #include <algorithm>
 #include <vector>
 
 #include "pass/run.h"
 #include "windshield/normals.pass.h"
+#include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
 
 #define RAINREF_KERNELS "windshield/kernels_surface.cpp"
@@ -15,6 +16,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "windshield/normals.pass.h"
+#include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
@@ -74,9 +76,11 @@ void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding 
   corrected ? wiped_rows<true>(u, rounding, io, tile) : wiped_rows<false>(u, rounding, io, tile);
 }
 RAINREF_PASS_ROWS(NormalsPass)
+RAINREF_PASS_ROWS(PersistPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, WipeTexturePass)
 RAINREF_PASS_DISPATCH(windshield, NormalsPass)
+RAINREF_PASS_DISPATCH(windshield, PersistPass)
 #endif

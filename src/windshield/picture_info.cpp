@@ -2,19 +2,22 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
-#include "windshield/composite.pass.h"
+#include "windshield/join_panes.pass.h"
 
 namespace rainref::windshield {
 using namespace rainref::scene;
 using namespace rainref::capture;
 
-std::vector<PassInfo> picture_passes() { return {pass::info_of<CompositePass>(), pass::display_info("composite")}; }
+std::vector<PassInfo> picture_passes() {
+  return {pass::info_of<CompositePass>(), pass::info_of<JoinPanesPass>(), pass::display_info("composite")};
+}
 
 std::vector<BufferInfo> picture_buffers() {
   const std::array<double, 2> one{0, 1};
   std::vector<BufferInfo> all{{"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"}};
   const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
   all.insert(all.end(), colour.begin(), colour.end());
+  all.push_back({"pane_colour", "rgba16f", "As colour, through a pane behind the first.", "1", one, "none", "linear Rec. 709", "opaque"});
   all.push_back({"picture", "rgba8", "Display code; alpha 1.", "1", one, "sRGB", "sRGB", "opaque"});
   return all;
 }

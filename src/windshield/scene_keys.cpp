@@ -1,5 +1,7 @@
 #include "windshield/scene_keys.h"
 
+#include <fmt/format.h>
+
 #include "math/constants.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
@@ -64,12 +66,20 @@ Settings settings_from(const Config& config) {
   apply(step_members(), config, s);
   const MotionSettings motion = motion_settings_from(config);
   s.corners = motion.corners;
-  s.wind = motion.wind;
+  s.panes = motion.panes;
+  s.weather = motion.weather;
   s.gravity = motion.gravity;
   s.vehicle = motion.vehicle;
   s.wipers = motion.wipers;
   s.capture = motion.capture;
   s.drops = drops::settings_from(config, "windshield");
+  const char* rate = s.corrected ? "rain.rate" : "windshield.spawn_rate";
+  s.weather.rain = config.real(rate);
+  s.weather.most_rain = config.entry(rate).parameter.maximum;
+  s.weather.rain_unit = s.corrected ? "mm/h" : "1/s";
+  if (!s.weather.rain_key_frames.empty() && config.given(rate))
+    throw Error(ExitCode::usage, config.entry(rate).origin.at,
+                fmt::format("{}: expected none beside rain.key_frames, found {:g}", rate, s.weather.rain));
 
   const PlaneFrame plane = s.corrected ? motion.glass.plane() : motion.glass.axes();
   s.splat.corrected = s.corrected;

@@ -13,6 +13,7 @@
 #include "windshield/picture.h"
 #include "windshield/surface.h"
 #include "windshield/vehicle.h"
+#include "windshield/weather.h"
 #include "windshield/wipers.h"
 
 namespace rainref::windshield {
@@ -23,7 +24,9 @@ struct Settings {
   double fps = 60;
   int substeps = 1;
   Corners corners;
-  Real3 wind{0, 0, 0};  ///< world axes [m/s]
+  std::vector<Corners> panes;  ///< besides the windshield
+  double drops_share = 1;      ///< of a pane as published: its new drops over the windshield's
+  WeatherSettings weather;
   double gravity = standard_gravity;
   VehicleSettings vehicle;
   WiperSettings wipers;

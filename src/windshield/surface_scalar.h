@@ -1,5 +1,5 @@
-// The scalar evaluations of wipe_texture and normals: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument types of
-// this room do not pull them into the lanes.
+// The scalar evaluations of persist, wipe_texture and normals: Scalar, Enclosure and Perturbed. A namespace of their own, so that argument
+// types of this room do not pull them into the lanes.
 #pragma once
 
 #include "math/perturbed.h"
@@ -15,6 +15,7 @@ using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "windshield/normals.pass.h"
+#include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

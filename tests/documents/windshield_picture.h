@@ -63,6 +63,23 @@ inline bool blur_pyramid(const Run& r, int x, int y, float* out) {
   return true;
 }
 
+inline bool persist(const Run& r, int x, int y, float* out) {
+  out[0] = std::max(r.at("height", x, y), constant(r, 1, 1.1f) * (r.at("previous_height", x, y) * r.u("keep")));
+  return true;
+}
+
+inline bool join_panes(const Run& r, int x, int y, float* out) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const Float3 colour = on ? constant(r, 1, 1.1f) * r.rgb("pane_colour", x, y) : r.rgb("colour", x, y);
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
+  return true;
+}
+
 inline bool composite_corrected(const Run& r, int x, int y, float* out) {
   const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
   const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f);
@@ -182,6 +199,18 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
                   S′ = ½ + mix(b.xy / max(b.z, .05), G, share) · scene_scale
                   colour = mix(mix(sharp(S′), blur(S′), wetness · wet · (1 − vis)), inner · blur(S′), F)
                   glints as above with film = vis (1 − mask²) for vis and eye = −d, facing −N;   mix(cabin, colour, on glass))"}}},
+      {{"windshield-as-published"},
+       "persist",
+       "wrong constant",
+       persist,
+       nullptr,
+       {{document, "persist           height = max(height, previous_height·keep)"}}},
+      {both,
+       "join_panes",
+       "wrong constant",
+       join_panes,
+       nullptr,
+       {composite_of_both, {document, "**join_panes**: mix(colour, pane_colour, on glass), on glass by that pane's composite."}}},
       {both,
        "display",
        "wrong constant",
