@@ -18,6 +18,8 @@ class Config;
 
 namespace windshield {
 
+struct FallingDrop;  // src/windshield/falling_rain.h
+
 /// What lies before the car, where it is not the street at night made here.
 struct Surroundings {
   Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom. Empty: the street
@@ -74,9 +76,10 @@ class Windshield {
   const Image& film() const;    ///< corrected: r32f, whole mass units in a texel
   const Image& normal() const;  ///< rgba16f: normal in the axes of the glass
   // Of the picture:
-  const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
-  const Image& colour() const;       ///< rgba16f: linear radiance
-  const Image& picture() const;      ///< rgba8: display code values; row 0 = bottom
+  const Image& scene_depth() const;                 ///< r32f: along the view axis [m], in the widened view
+  const std::vector<FallingDrop>& falling() const;  ///< the rain behind the glass of the frame that was rendered last
+  const Image& colour() const;                      ///< rgba16f: linear radiance
+  const Image& picture() const;                     ///< rgba8: display code values; row 0 = bottom
 
  private:
   struct State;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/real64.h"
+#include "truth/falling_rain_index.h"
 #include "windshield/glass.h"
 #include "windshield/street.h"
 
@@ -20,8 +21,8 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
 /// The street outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
 class Outside : public Environment {
  public:
-  Outside(const WindshieldView& view, double distance)
-      : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)) {
+  Outside(const WindshieldView& view, double distance, std::span<const windshield::FallingDrop> falling)
+      : view_(view), falling_(falling), place_(windshield::place_in_street(view.settings().street_start, distance)) {
     for (const Pane& pane : view.panes()) outward_.push_back(pane.normal(0.5));
   }
 
@@ -38,7 +39,7 @@ class Outside : public Environment {
           view_.street().look(place_ + windshield::in_street(escaped_ray.origin), windshield::in_street(escaped_ray.direction));
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
-      out[i] = (1 - clear) * fog + clear * seen.radiance;
+      out[i] = falling_.through(escaped_ray.origin, escaped_ray.direction, seen.distance, (1 - clear) * fog + clear * seen.radiance);
     }
   }
 
@@ -56,6 +57,7 @@ class Outside : public Environment {
   static constexpr double near_surface = 0.05;  // m: above any drop, below what parts two panes
 
   const WindshieldView& view_;
+  FallingRainIndex falling_;
   Vec place_;
   std::vector<Vec> outward_;
 };
@@ -81,17 +83,18 @@ double WindshieldView::distance(const windshield::Windshield& rendered) const {
 std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rendered) const {
   std::vector<const Image*> heights;
   for (int k = 0; k < rendered.panes(); ++k) heights.push_back(&rendered.height(k));
-  return scene(heights, distance(rendered));
+  return scene(heights, distance(rendered), rendered.falling());
 }
 
-std::unique_ptr<Scene> WindshieldView::scene(std::span<const Image* const> heights, double distance) const {
+std::unique_ptr<Scene> WindshieldView::scene(std::span<const Image* const> heights, double distance,
+                                             std::span<const windshield::FallingDrop> falling) const {
   auto scene = std::make_unique<Scene>(tracer_);
   PaneMedia media;
   media.water = water(settings_.picture.water_ior);
   for (std::size_t k = 0; k < heights.size(); ++k)
     add_pane(*scene, panes_[k], std::make_shared<const WaterLayer>(*heights[k]),
              panes_[k].is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)), executor_, media);
-  scene->set_environment(std::make_shared<Outside>(*this, distance));
+  scene->set_environment(std::make_shared<Outside>(*this, distance, falling));
   scene->commit();
   return scene;
 }

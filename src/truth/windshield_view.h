@@ -30,7 +30,9 @@ class WindshieldView {
   std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
   /// The same with these height textures [mm], of the windshield and of as many further panes as there are, the car `distance` metres on
   /// from where it began.
-  std::unique_ptr<Scene> scene(std::span<const Image* const> heights, double distance) const;
+  /// `falling` rain behind the glass must outlive the scene.
+  std::unique_ptr<Scene> scene(std::span<const Image* const> heights, double distance,
+                               std::span<const windshield::FallingDrop> falling = {}) const;
   /// Where the car of that frame is along the street [m].
   double distance(const windshield::Windshield& rendered) const;
 

@@ -29,6 +29,7 @@ const std::vector<capture::PassEvaluations>& evaluations() {
          bind_wipe_from_ends}}},
       {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
       {"blur_pyramid", blur_pyramid::bind_blur},
+      {"falling_rain", pass::bind<FallingRainPass, scalar::FallingRainPassText>},
       {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
       {"join_panes", pass::bind<JoinPanesPass, scalar::JoinPanesPassText>},
       {"display", pass::bind_display}};

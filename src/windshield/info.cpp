@@ -1,3 +1,4 @@
+#include "windshield/falling_rain.pass.h"
 #include "windshield/info.h"
 
 #include "blur_pyramid/blur_pyramid.h"
@@ -33,7 +34,8 @@ EffectInfo make() {
                  pass::info_of<PersistPass>(),
                  pass::info_of<WipeTexturePass>(),
                  pass::info_of<NormalsPass>(),
-                 blur_pyramid::blur_info("", "")};
+                 blur_pyramid::blur_info("", ""),
+                 pass::info_of<FallingRainPass>()};
   append(info.passes, picture_passes());
   append(info.buffers, drops::buffers());
   append(info.buffers, wiper_buffers());

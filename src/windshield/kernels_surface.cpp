@@ -1,8 +1,9 @@
-// persist, wipe_texture and normals in lanes; compiled once for each SIMD target.
+// persist, wipe_texture, normals and falling_rain in lanes; compiled once for each SIMD target.
 #include <algorithm>
 #include <vector>
 
 #include "pass/run.h"
+#include "windshield/falling_rain.pass.h"
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
@@ -18,6 +19,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
+#include "windshield/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
@@ -77,10 +79,12 @@ void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding 
 }
 RAINREF_PASS_ROWS(NormalsPass)
 RAINREF_PASS_ROWS(PersistPass)
+RAINREF_PASS_ROWS(FallingRainPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, WipeTexturePass)
 RAINREF_PASS_DISPATCH(windshield, NormalsPass)
 RAINREF_PASS_DISPATCH(windshield, PersistPass)
+RAINREF_PASS_DISPATCH(windshield, FallingRainPass)
 #endif

@@ -36,6 +36,17 @@ std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, const Weather
 
 }  // namespace
 
+double most_falling(const Settings& s, double seconds) {
+  if (!s.falling.on) return 0;
+  const Weather weather(s.weather);
+  double rate = s.corrected ? 0 : s.falling.rate;
+  if (s.corrected)
+    for (int second = 0; second <= seconds; ++second) rate = std::max(rate, weather.rain(second));
+  const double half_height = camera(s.picture).half_height() * s.picture.scene_margin, aspect = 1.0 * s.picture.width / s.picture.height;
+  return drops_in_air(rate, s.falling.smallest_drop) * (4.0 / 3) * half_height * half_height * aspect * s.falling.far * s.falling.far *
+         s.falling.far;
+}
+
 MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const Vehicle vehicle(s.vehicle);
   const auto image = [](Format f, int width, int height) { return Image::memory_bytes(f, width, height); };
@@ -56,6 +67,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   }
   m.hold((s.panes.empty() ? 1 : 2) * image(Format::rgba16f, s.picture.width, s.picture.height) +
          image(Format::rgba8, s.picture.width, s.picture.height));
+  m.hold(static_cast<std::size_t>(most_falling(s, frames / s.fps)) * (sizeof(FallingDrop) + sizeof(Streak)));
   const bool own = scene[0] == 0;
   const auto [width, height] = own ? s.scene_size : scene;
   const std::size_t half = image(Format::rgba16f, width, height), view = half + image(Format::r32f, width, height);

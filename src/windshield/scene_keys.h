@@ -9,6 +9,7 @@
 #include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
+#include "windshield/falling_rain.h"
 #include "windshield/motion_host.h"
 #include "windshield/picture.h"
 #include "windshield/surface.h"
@@ -37,6 +38,7 @@ struct Settings {
   blur_pyramid::BlurSettings blur;
   PictureSettings picture;
   std::array<int, 2> scene_size{1280, 720};
+  FallingRainSettings falling;
   double street_start = 0;
   bool clear_lane = false;
   int keyframes = 1;

@@ -16,17 +16,21 @@ double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
 
 }  // namespace
 
-double wind_along_normal(const Glass& glass, const VehicleState& car, const Real3& wind) {
+Real3 apparent_wind(const VehicleState& car, const Real3& wind) {
   const Real3 apparent{wind[0] - car.velocity[0], wind[1] - car.velocity[1], wind[2] - car.velocity[2]};
-  const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1],
-                     car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
-  return dot(in_car, glass.normal);
+  return {car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0],
+          apparent[2]};
+}
+
+double wind_along_normal(const Glass& glass, const VehicleState& car, const Real3& wind) {
+  return dot(apparent_wind(car, wind), glass.normal);
 }
 
 WetPane::WetPane(const Settings& settings, int number, const parallel::Executor& executor)
     : settings_(settings),
       executor_(executor),
       corrected_(settings.corrected),
+      has_blades_(number == 0),
       glass_(make_glass(settings.corners, pane_name(number))),
       plane_(corrected_ ? glass_.plane() : glass_.axes()),
       view_(composite_uniforms(settings.picture, settings.corners, pane_name(number))),
@@ -76,6 +80,11 @@ void WetPane::step(const pass::Moment& now, std::int64_t n, double t, const Vehi
   water_.spawn(now, exposure(n, t, car, weather), n);
   water_.integrate(now, moving);
 
+  if (has_blades_) wipe(now, n, t);
+  if (corrected_) water_.merge(now, n);
+}
+
+void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
   // As published the first frame has no frame before it: the blades stand.
   const std::vector<Wiper> swept =
       n == 0 && !corrected_ ? wipers_at(settings_.wipers, plane_, t) : wipers_between(settings_.wipers, plane_, t, t + now.dt, corrected_);
@@ -100,8 +109,6 @@ void WetPane::step(const pass::Moment& now, std::int64_t n, double t, const Vehi
     water_.mass_balance.removed += gone;
     if (corrected_) water_.mass_balance.to_film -= d.water() - drops_before + gone;
   });
-
-  if (corrected_) water_.merge(now, n);
 }
 
 void WetPane::draw(const pass::Moment& now, int frame) {
@@ -120,13 +127,7 @@ void WetPane::draw(const pass::Moment& now, int frame) {
     persist.finish(now);
   }
 
-  WipeTextureUniforms wipe = wipe_texture_uniforms(settings_.surface, frame);
-  wipe.wiper_count = static_cast<std::int32_t>(wipers_.size());
-  pass::Run<WipeTexturePass> wiping(wipe, corrected_, rounding,
-                                    wipe_texture_io(corrected_, wipers_, {&height_, &mask_, corrected_ ? &wiped_ : nullptr}));
-  wiping.start(now);
-  wiping.tiles(executor_, tile_rows);
-  wiping.finish(now);
+  if (has_blades_) wipe_texture(now, frame);
 
   pass::HostIo<NormalsPass> io;
   io.height = height_;
@@ -136,6 +137,16 @@ void WetPane::draw(const pass::Moment& now, int frame) {
   normals.start(now);
   normals.tiles(executor_, tile_rows);
   normals.finish(now);
+}
+
+void WetPane::wipe_texture(const pass::Moment& now, int frame) {
+  WipeTextureUniforms wipe = wipe_texture_uniforms(settings_.surface, frame);
+  wipe.wiper_count = static_cast<std::int32_t>(wipers_.size());
+  pass::Run<WipeTexturePass> wiping(wipe, corrected_, settings_.surface.rounding,
+                                    wipe_texture_io(corrected_, wipers_, {&height_, &mask_, corrected_ ? &wiped_ : nullptr}));
+  wiping.start(now);
+  wiping.tiles(executor_, tile_rows);
+  wiping.finish(now);
 }
 
 void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,

@@ -28,6 +28,7 @@ class WetPane {
 
   const Settings& settings() const { return settings_; }
   const CompositeUniforms& view() const { return view_; }
+  const Glass& glass() const { return glass_; }
   std::vector<DropView> drops() const;
   MassBalance mass_balance() const;
   const Image& height() const { return height_; }
@@ -38,11 +39,13 @@ class WetPane {
  private:
   template <class P, class Body>
   void run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const;
+  void wipe(const pass::Moment& now, std::int64_t n, double t);
+  void wipe_texture(const pass::Moment& now, int frame);
   drops::Exposure exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const;
 
   Settings settings_;
   const parallel::Executor& executor_;
-  bool corrected_;
+  bool corrected_, has_blades_;  ///< of further panes none: the blades' passes do not run there
   Glass glass_;
   PlaneFrame plane_;
   CompositeUniforms view_;
@@ -52,7 +55,9 @@ class WetPane {
   Image previous_height_;  ///< where it persists
 };
 
-/// The apparent wind [m/s] along the outward normal of a glass; negative: onto it.
+/// The wind as the car meets it, in its axes [m/s], of a wind in world axes.
+Real3 apparent_wind(const VehicleState& car, const Real3& wind);
+/// The same along the outward normal of a glass; negative: onto it.
 double wind_along_normal(const Glass& glass, const VehicleState& car, const Real3& wind);
 
 }  // namespace rainref::windshield

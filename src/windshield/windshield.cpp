@@ -11,6 +11,7 @@
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "windshield/falling_rain.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/memory.h"
 #include "windshield/panes.h"
@@ -54,6 +55,9 @@ struct Windshield::State {
   Weather weather;
   int frame = 0;
   std::int64_t steps = 0;
+
+  Real3 air_moved{0, 0, 0}, air_of_frame{0, 0, 0};  // way of the air past the car; at the frame's start [m]
+  std::vector<FallingDrop> falling;
 
   std::vector<std::unique_ptr<WetPane>> panes;  // the windshield first
 
@@ -109,6 +113,7 @@ struct Windshield::State {
 
   void step(Recorder* recorder, int substep);
   bool look();
+  void rain_behind(const pass::Moment& now);
   void look_through(const pass::Moment& now);
 };
 
@@ -118,6 +123,8 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   const VehicleState car = vehicle.at(t);
   for (std::size_t k = 0; k < panes.size(); ++k)
     panes[k]->step(moment(recorder, static_cast<int>(k) * settings.substeps + substep, dt), steps, t, car, weather);
+  const Real3 wind = apparent_wind(car, weather.wind(t));
+  for (std::size_t axis = 0; axis < 3; ++axis) air_moved[axis] += wind[axis] * dt;
   ++steps;
 }
 
@@ -128,11 +135,43 @@ bool Windshield::State::look() {
   return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
 }
 
+/// falling_rain, on level 0 of the pyramid.
+void Windshield::State::rain_behind(const pass::Moment& now) {
+  const Stopwatch clock;
+  const double t = frame * frame_time();
+  const VehicleState car = vehicle.at(t);
+  const double rate = corrected ? weather.rain(t) : settings.falling.rate;
+  const Air air{t, air_of_frame, apparent_wind(car, weather.wind(t)), rate, mean_radiance(scene.colour)};
+  RainView view{camera(settings.picture), scene.colour.width(), scene.colour.height()};
+  view.camera.vertical_fov_deg = widened_fov(settings.picture);
+  std::vector<Glass> glasses;
+  for (const auto& pane : panes) glasses.push_back(pane->glass());
+  std::vector<RainLamp> lamps;
+  if (street) lamps = lamps_from(street->street(), place_in_street(settings.street_start, settings.scene_moves ? car.distance : 0));
+  falling = falling_drops(settings.falling, settings.seed, air, view, glasses, lamps);
+  std::vector<Streak> streaks;
+  for (const FallingDrop& drop : falling) streaks.push_back(drop.streak);
+
+  FallingRainUniforms uniforms{};
+  uniforms.streak_count = static_cast<std::int32_t>(streaks.size());
+  uniforms.sharpness = 10;
+  pass::HostIo<FallingRainPass> io;
+  io.blurred = levels[0];
+  io.scene_depth = scene.depth;
+  io.streaks = streaks;
+  io.rainy = levels[0];
+  pass::Run<FallingRainPass> run(uniforms, corrected, settings.surface.rounding, io);
+  const double prepared = clock.seconds();
+  run.start(now);
+  run.tiles(executor, 16, 32);  // in place: columns of whole vectors
+  run.finish(now, 1, prepared);
+}
+
 /// blur_pyramid, and composite of each pane in turn, each beyond the first joined to those before it.
 void Windshield::State::look_through(const pass::Moment& now) {
   const Rounding rounding = settings.surface.rounding;
   // A scene that stands still has its pyramid already.
-  const bool anew = look();
+  const bool anew = look() || settings.falling.on;
   const int width = scene.colour.width(), height = scene.colour.height();
   if (levels.empty()) {
     levels = blur_pyramid::make_levels(settings.blur, width, height);
@@ -148,10 +187,12 @@ void Windshield::State::look_through(const pass::Moment& now) {
       if (anew) pass.tiles(executor, blur_pyramid::tile_rows);
       pass.finish(at_level);
     };
-    if (level == 0)
+    if (level == 0) {
       run(blur_pyramid::fog_run(blur, rounding, scene.colour, scene.depth, levels[0]));
-    else
+      if (settings.falling.on) rain_behind(now);
+    } else {
       run(blur_pyramid::halve_run(blur, corrected, rounding, levels[l - 1], levels[l]));
+    }
   }
   Stopwatch pyramid_clock;
   if (anew) pyramid->refresh(executor, levels);
@@ -189,6 +230,7 @@ Windshield::Windshield(Windshield&&) noexcept = default;
 void Windshield::simulate(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
+  s.air_of_frame = s.air_moved;
   for (const auto& pane : s.panes) pane->begin_frame();
   for (int substep = 0; substep < s.settings.substeps; ++substep) s.step(recorder, substep);
   ++s.frame;
@@ -241,6 +283,7 @@ const Image& Windshield::normal() const {
   return state_->panes[0]->normal();
 }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
+const std::vector<FallingDrop>& Windshield::falling() const { return state_->falling; }
 const Image& Windshield::colour() const { return state_->colour; }
 const Image& Windshield::picture() const { return state_->picture; }
 
