@@ -18,6 +18,8 @@ class Config;
 
 namespace windshield {
 
+struct FallingDrop;  // src/windshield/falling_rain.h
+
 /// What lies before the car, where it is not the street at night made here.
 struct Surroundings {
   Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom. Empty: the street
@@ -37,8 +39,8 @@ struct MassBalance {
   std::int64_t residual() const { return spawned - evaporated - removed - film - drops; }
 };
 
-/// A windshield, its wipers, its drops, its car. Advance it frame by frame; every buffer has the same bits whatever the
-/// executor's threads and the SIMD target.
+/// A windshield and further panes of a car, the wipers, the drops, the car. Advance it frame by frame; every buffer has the same bits
+/// whatever the executor's threads and the SIMD target.
 class Windshield {
  public:
   /// A scene of this effect, `Windshield({}, {}, executor)` the default one. Throws Error(usage), naming place and key, for what no scene
@@ -62,17 +64,22 @@ class Windshield {
 
   /// Frames simulated so far.
   int frame() const;
-  /// The live drops, in slot order.
-  std::vector<DropView> drops() const;
-  MassBalance mass_balance() const;
+  /// Panes of the car: the windshield, number 0, and those of windshield.panes. The members below throw Error(usage) for another number.
+  int panes() const;
+  /// The live drops of a pane, in slot order.
+  std::vector<DropView> drops(int pane = 0) const;
+  MassBalance mass_balance(int pane = 0) const;
+  const Image& height(int pane = 0) const;  ///< r16f [mm]
 
-  const Image& height() const;       ///< r16f [mm]
-  const Image& mask() const;         ///< r16f: 1 just wiped
-  const Image& film() const;         ///< corrected: r32f, whole mass units in a texel
-  const Image& normal() const;       ///< rgba16f: normal in the axes of the glass
-  const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
-  const Image& colour() const;       ///< rgba16f: linear radiance
-  const Image& picture() const;      ///< rgba8: display code values; row 0 = bottom
+  // Of the windshield:
+  const Image& mask() const;    ///< r16f: 1 just wiped
+  const Image& film() const;    ///< corrected: r32f, whole mass units in a texel
+  const Image& normal() const;  ///< rgba16f: normal in the axes of the glass
+  // Of the picture:
+  const Image& scene_depth() const;                 ///< r32f: along the view axis [m], in the widened view
+  const std::vector<FallingDrop>& falling() const;  ///< the rain behind the glass of the frame that was rendered last
+  const Image& colour() const;                      ///< rgba16f: linear radiance
+  const Image& picture() const;                     ///< rgba8: display code values; row 0 = bottom
 
  private:
   struct State;

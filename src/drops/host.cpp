@@ -21,10 +21,10 @@ double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 double volume_of_mass_unit() { return mass_unit / water_density; }
 Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.receding_deg * pi / 180}; }
 
-std::vector<SizeCell> sizes_in_air(const Settings& s) {
+std::vector<SizeCell> sizes_in_air(const Settings& s, double rate) {
   std::vector<SizeCell> out;
-  if (!s.corrected || s.rain_rate == 0) return out;
-  const double lambda = rain::DropSizes(s.rain_rate, s.smallest_drop).lambda();
+  if (!s.corrected || rate == 0) return out;
+  const double lambda = rain::DropSizes(rate, s.smallest_drop).lambda();
   const double h = (rain::DropSizes::largest_mm - s.smallest_drop) / cells;
   for (int i = 0; i < cells; ++i) {
     const double d = s.smallest_drop + (i + 0.5) * h;
@@ -97,7 +97,7 @@ std::int64_t film_loss(const Settings& s, double texel_area, std::int64_t n, dou
 
 Flux flux(const Settings& s, double normal_z, double normal_wind) {
   Flux sum{0, 0};
-  for (const SizeCell& c : sizes_in_air(s)) {
+  for (const SizeCell& c : sizes_in_air(s, s.rain_rate)) {
     const double arrivals = arrivals_of(c, normal_z, normal_wind);
     sum.drops += arrivals;
     sum.water += arrivals * water_mass(c.diameter);
@@ -105,11 +105,15 @@ Flux flux(const Settings& s, double normal_z, double normal_wind) {
   return sum;
 }
 
-Arrivals::Arrivals(const Settings& settings) : settings_(settings), sizes_(sizes_in_air(settings)) {}
+Arrivals::Arrivals(const Settings& settings)
+    : settings_(settings), sizes_(sizes_in_air(settings, settings.rain_rate)), rate_(settings.rain_rate) {}
 
 void Arrivals::make_tables(const Exposure& e, double steps_per_second) {
   if (e == made_for_ && steps_per_second == made_rate_) return;
   plan_ = {};
+  const double rate = e.rain_rate < 0 ? settings_.rain_rate : e.rain_rate;
+  if (rate != rate_) sizes_ = sizes_in_air(settings_, rate);
+  rate_ = rate;
   if (!settings_.corrected) {
     plan_.uniforms.parts = 1;
     for (int k = 0; k < classes; ++k) {
@@ -151,7 +155,7 @@ const SpawnPlan& Arrivals::plan(const Exposure& exposure, std::int64_t n, double
   plan_.uniforms.first_id = first_id;
   plan_.uniforms.room = static_cast<std::uint32_t>(room);
   if (!settings_.corrected) {
-    const std::int64_t count = events_in(settings_.spawn_rate, n, steps_per_second);
+    const std::int64_t count = exposure.arrivals < 0 ? events_in(settings_.spawn_rate, n, steps_per_second) : exposure.arrivals;
     plan_.uniforms.first_count = static_cast<std::int32_t>(count);
     plan_.mean = static_cast<double>(count);
   }

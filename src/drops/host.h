@@ -29,6 +29,9 @@ struct Exposure {
   double area;         ///< of the glass [m^2]
   double normal_z;     ///< upward component of its outward normal
   double normal_wind;  ///< apparent wind along that normal [m/s]; negative: onto the glass
+  // Where the rain changes:
+  double rain_rate = -1;       ///< corrected: that of the step [mm/h]; negative: rain.rate
+  std::int64_t arrivals = -1;  ///< as-published: drops of the step; negative: by spawn_rate
   bool operator==(const Exposure&) const = default;
 };
 
@@ -60,7 +63,8 @@ class Arrivals {
  private:
   void make_tables(const Exposure& exposure, double steps_per_second);
   Settings settings_;
-  std::vector<SizeCell> sizes_;  // smallest first
+  std::vector<SizeCell> sizes_;  // smallest first, of rate_
+  double rate_;                  // [mm/h]
   Exposure made_for_{-1, 0, 0};
   double made_rate_ = 0;
   SpawnPlan plan_;

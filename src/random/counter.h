@@ -32,6 +32,7 @@ enum class Purpose : std::uint32_t {
   puddle_ground = 4,
   drop_count = 5,
   drop_arrival = 6,
+  falling_drop = 7,
   glass_drop = 50,
   glass_trail = 51,
   glass_flow = 52,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/real64.h"
+#include "truth/falling_rain_index.h"
 #include "windshield/glass.h"
 #include "windshield/street.h"
 
@@ -20,17 +21,17 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
 /// The street outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
 class Outside : public Environment {
  public:
-  Outside(const WindshieldView& view, double distance)
-      : view_(view), place_(windshield::place_in_street(view.settings().street_start, distance)), outward_(view.pane().normal(0.5)) {}
+  Outside(const WindshieldView& view, double distance, std::span<const windshield::FallingDrop> falling)
+      : view_(view), falling_(falling), place_(windshield::place_in_street(view.settings().street_start, distance)) {
+    for (const Pane& pane : view.panes()) outward_.push_back(pane.normal(0.5));
+  }
 
   void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
     const windshield::Settings& s = view_.settings();
     const Vec cabin = vec(s.picture.cabin), fog = vec(s.blur.fog_colour);
     for (std::size_t i = 0; i < escaped_rays.size(); ++i) {
       const EscapedRay escaped_ray = escaped_rays[i];
-      // A ray that was cut off at the inner face looks out as if nothing followed.
-      const bool is_inside = view_.pane().coordinates(escaped_ray.origin).lift < -1.001 * view_.pane().shape().thickness;
-      if (is_inside || dot(escaped_ray.direction, outward_) <= 0) {
+      if (!is_outside(escaped_ray)) {
         out[i] = cabin;
         continue;
       }
@@ -38,13 +39,27 @@ class Outside : public Environment {
           view_.street().look(place_ + windshield::in_street(escaped_ray.origin), windshield::in_street(escaped_ray.direction));
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
-      out[i] = (1 - clear) * fog + clear * seen.radiance;
+      out[i] = falling_.through(escaped_ray.origin, escaped_ray.direction, seen.distance, (1 - clear) * fog + clear * seen.radiance);
     }
   }
 
  private:
+  /// A ray that was cut off at the inner face looks out as if nothing followed. One that left through a pane begins at its surface.
+  bool is_outside(const EscapedRay& ray) const {
+    const std::vector<Pane>& panes = view_.panes();
+    for (std::size_t k = 0; k < panes.size(); ++k) {
+      const double lift = panes[k].coordinates(ray.origin).lift;
+      const bool is_here = panes.size() == 1 || lift < near_surface;
+      if (is_here && !(lift < -1.001 * panes[k].shape().thickness) && dot(ray.direction, outward_[k]) > 0) return true;
+    }
+    return false;
+  }
+  static constexpr double near_surface = 0.05;  // m: above any drop, below what parts two panes
+
   const WindshieldView& view_;
-  Vec place_, outward_;
+  FallingRainIndex falling_;
+  Vec place_;
+  std::vector<Vec> outward_;
 };
 
 }  // namespace
@@ -54,9 +69,11 @@ WindshieldView::WindshieldView(const windshield::Settings& settings, const Winds
     : settings_(settings),
       tracer_(tracer),
       executor_(executor),
-      pane_(shape_of(settings.corners, glass)),
+      panes_{Pane(shape_of(settings.corners, glass))},
       vehicle_(settings.vehicle),
-      street_({settings.seed, settings.clear_lane}) {}
+      street_({settings.seed, settings.clear_lane}) {
+  for (const windshield::Corners& corners : settings.panes) panes_.emplace_back(shape_of(corners, {glass.thickness, 0}));
+}
 
 double WindshieldView::distance(const windshield::Windshield& rendered) const {
   const double time = std::max(0, rendered.frame() - 1) / settings_.fps;
@@ -64,16 +81,20 @@ double WindshieldView::distance(const windshield::Windshield& rendered) const {
 }
 
 std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rendered) const {
-  return scene(rendered.height(), distance(rendered));
+  std::vector<const Image*> heights;
+  for (int k = 0; k < rendered.panes(); ++k) heights.push_back(&rendered.height(k));
+  return scene(heights, distance(rendered), rendered.falling());
 }
 
-std::unique_ptr<Scene> WindshieldView::scene(const Image& height, double distance) const {
+std::unique_ptr<Scene> WindshieldView::scene(std::span<const Image* const> heights, double distance,
+                                             std::span<const windshield::FallingDrop> falling) const {
   auto scene = std::make_unique<Scene>(tracer_);
   PaneMedia media;
   media.water = water(settings_.picture.water_ior);
-  add_pane(*scene, pane_, std::make_shared<const WaterLayer>(height), pane_.is_flat() ? WaterShape::displaced : WaterShape::sloped,
-           emitter(vec(settings_.picture.cabin)), executor_, media);
-  scene->set_environment(std::make_shared<Outside>(*this, distance));
+  for (std::size_t k = 0; k < heights.size(); ++k)
+    add_pane(*scene, panes_[k], std::make_shared<const WaterLayer>(*heights[k]),
+             panes_[k].is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)), executor_, media);
+  scene->set_environment(std::make_shared<Outside>(*this, distance, falling));
   scene->commit();
   return scene;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "compositor/pane_scene.h"
 #include "compositor/picture.h"
@@ -26,12 +28,16 @@ class WindshieldView {
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
   /// and the executor the view.
   std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
-  /// The same with this height texture [mm], the car `distance` metres on from where it began.
-  std::unique_ptr<Scene> scene(const Image& height, double distance) const;
+  /// The same with these height textures [mm], of the windshield and of as many further panes as there are, the car `distance` metres on
+  /// from where it began.
+  /// `falling` rain behind the glass must outlive the scene.
+  std::unique_ptr<Scene> scene(std::span<const Image* const> heights, double distance,
+                               std::span<const windshield::FallingDrop> falling = {}) const;
   /// Where the car of that frame is along the street [m].
   double distance(const windshield::Windshield& rendered) const;
 
-  const Pane& pane() const { return pane_; }
+  /// The windshield, and the car's further panes.
+  const std::vector<Pane>& panes() const { return panes_; }
   const night_street::Street& street() const { return street_; }
   scene::Camera camera() const { return windshield::camera(settings_.picture); }
   const windshield::Settings& settings() const { return settings_; }
@@ -40,7 +46,7 @@ class WindshieldView {
   windshield::Settings settings_;
   TracerOptions tracer_;
   const parallel::Executor& executor_;
-  Pane pane_;
+  std::vector<Pane> panes_;
   windshield::Vehicle vehicle_;
   night_street::Street street_;
 };

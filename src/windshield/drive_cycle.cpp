@@ -1,9 +1,9 @@
 #include "windshield/drive_cycle.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,28 +11,13 @@
 
 #include "base/read_file.h"
 #include "rainref/error.h"
+#include "windshield/rows_of_text.h"
 
 namespace rainref::windshield {
 namespace {
 
 const std::vector<std::string> column_names{"time_s", "speed_mps", "yaw_rad_s"};
 using Fail = std::function<void(const std::string&)>;
-
-std::string_view trimmed(std::string_view s) {
-  const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!s.empty() && space(s.front())) s.remove_prefix(1);
-  while (!s.empty() && space(s.back())) s.remove_suffix(1);
-  return s;
-}
-std::vector<std::string_view> split(std::string_view s, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = s.find(separator);
-    parts.push_back(trimmed(s.substr(0, end)));
-    if (end == std::string_view::npos) return parts;
-    s.remove_prefix(end + 1);
-  }
-}
 
 // The rows of a table, checked one by one; `fail` throws with the place of the present row.
 class Rows {
@@ -59,12 +44,9 @@ class Rows {
 
  private:
   static double number(std::string_view field, std::size_t column, const Fail& fail) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      fail(fmt::format("{}: expected a number, found '{}'", column_names[column], field));
-    }
-    return value;
+    const std::optional<double> value = number_of(field);
+    if (!value) fail(fmt::format("{}: expected a number, found '{}'", column_names[column], field));
+    return *value;
   }
   bool has_yaw_;
   std::vector<double> time_, speed_, yaw_;
@@ -132,10 +114,7 @@ DriveCycle parse_key_frames(std::string_view text, const std::string& key) {
   for (const std::string_view frame : split(text, ';')) {
     if (frame.empty()) continue;  // a semicolon at the end
     ++count;
-    std::vector<std::string_view> fields;
-    for (const std::string_view field : split(frame, ' ')) {
-      if (!field.empty()) fields.push_back(field);
-    }
+    const std::vector<std::string_view> fields = words_of(frame);
     if (width == 0) {
       width = fields.size();
       rows = Rows(width == 3);

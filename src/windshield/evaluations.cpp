@@ -18,6 +18,7 @@ const std::vector<capture::PassEvaluations>& evaluations() {
       {"wipe_drops", bind_wipe_drops},
       {"merge", drops::bind_merge},
       {"splat", drops::bind_splat},
+      {"persist", pass::bind<PersistPass, scalar::PersistPassText>},
       {"wipe_texture",
        pass::bind<WipeTexturePass, scalar::WipeTexturePassText>,
        nullptr,
@@ -28,7 +29,9 @@ const std::vector<capture::PassEvaluations>& evaluations() {
          bind_wipe_from_ends}}},
       {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
       {"blur_pyramid", blur_pyramid::bind_blur},
+      {"falling_rain", pass::bind<FallingRainPass, scalar::FallingRainPassText>},
       {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
+      {"join_panes", pass::bind<JoinPanesPass, scalar::JoinPanesPassText>},
       {"display", pass::bind_display}};
   return all;
 }

@@ -16,7 +16,7 @@ std::string text(const Real3& a) { return fmt::format("[{:g}, {:g}, {:g}]", a[0]
 double dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Real3 cross(const Real3& a, const Real3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
-Glass make_glass(const std::array<Real3, 3>& corners) {
+Glass make_glass(const Corners& corners, std::string_view keys) {
   Glass g{};
   g.origin = corners[0];
   g.e_u = minus(corners[1], corners[0]);
@@ -25,14 +25,11 @@ Glass make_glass(const std::array<Real3, 3>& corners) {
   const double determinant = dot(across, across);  // of the metric, without its cancellation
   g.area = __builtin_sqrt(determinant);
   if (!(g.area > 1e-6 * length(g.e_u) * length(g.e_v))) {
-    throw Error(ExitCode::usage, fmt::format("windshield.corner_0, windshield.corner_1, windshield.corner_2: expected three corners of "
-                                             "a plane, found {}, {}, {}, which lie on one line",
+    throw Error(ExitCode::usage, fmt::format("{}: expected three corners of a plane, found {}, {}, {}, which lie on one line", keys,
                                              text(corners[0]), text(corners[1]), text(corners[2])));
   }
-  const auto is_zero = [](double x) { return -1e-9 < x && x < 1e-9; };
-  Real3 n{across[0] / g.area, across[1] / g.area, across[2] / g.area};
-  if (is_zero(n[0]) ? n[2] < 0 : n[0] < 0) n = {0 - n[0], 0 - n[1], 0 - n[2]};
-  g.normal = n;
+  // Seen from inside u runs to the right and v up: their product looks into the car.
+  g.normal = {0 - across[0] / g.area, 0 - across[1] / g.area, 0 - across[2] / g.area};
   g.metric = {dot(g.e_u, g.e_u), dot(g.e_u, g.e_v), dot(g.e_v, g.e_v)};
   g.inverse_metric = {g.metric[2] / determinant, (0 - g.metric[1]) / determinant, g.metric[0] / determinant};
   return g;

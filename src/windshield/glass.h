@@ -1,7 +1,8 @@
-// The windshield's plane: three corners in the axes of the car, and what its passes need of them.
+// The plane of a pane: three corners in the axes of the car, and what its passes need of them.
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "scene/parameter.h"
 
@@ -27,7 +28,7 @@ using Corners = std::array<std::array<double, 3>, 3>;
 /// The point at (u, v) is origin + u e_u + v e_v. Car axes: x forward, y left, z up [m].
 struct Glass {
   Real3 origin, e_u, e_v;
-  Real3 normal;                          ///< unit, out of the car: its x component is positive (z where x is 0)
+  Real3 normal;                          ///< unit, out of the car: e_v x e_u over its length
   std::array<double, 3> metric;          ///< e_u.e_u, e_u.e_v, e_v.e_v [m^2]
   std::array<double, 3> inverse_metric;  ///< of the symmetric matrix, in the same order [1/m^2]
   double area;                           ///< [m^2]
@@ -38,8 +39,9 @@ struct Glass {
   PlaneFrame axes() const;
 };
 
-/// The glass with corners at (0, 0), (1, 0) and (0, 1). Throws Error(usage) when they span no plane: two of them
-/// coincide or all three lie on a line, to 1e-6 of their distances.
-Glass make_glass(const std::array<Real3, 3>& corners);
+/// The glass with corners at (0, 0), (1, 0) and (0, 1), which whoever sits in the car sees at the lower left, the lower right and the
+/// upper left, or turned: so their order says which side is outside, of a rear or a side window too. Throws Error(usage) naming `keys` when
+/// they span no plane: two of them coincide or all three lie on a line, to 1e-6 of their distances.
+Glass make_glass(const Corners& corners, std::string_view keys = "windshield.corner_0, windshield.corner_1, windshield.corner_2");
 
 }  // namespace rainref::windshield

@@ -1,3 +1,4 @@
+#include "windshield/falling_rain.pass.h"
 #include "windshield/info.h"
 
 #include "blur_pyramid/blur_pyramid.h"
@@ -30,13 +31,17 @@ EffectInfo make() {
                  pass::info_of<WipeDropsPass>(),
                  drops::merge_info("wipe_drops", "wipe_drops"),
                  drops::splat_info({"wipe_drops", "merge"}),
+                 pass::info_of<PersistPass>(),
                  pass::info_of<WipeTexturePass>(),
                  pass::info_of<NormalsPass>(),
-                 blur_pyramid::blur_info("", "")};
+                 blur_pyramid::blur_info("", ""),
+                 pass::info_of<FallingRainPass>()};
   append(info.passes, picture_passes());
   append(info.buffers, drops::buffers());
   append(info.buffers, wiper_buffers());
   append(info.buffers, drops::splat_buffers());
+  info.buffers.push_back(
+      {"previous_height", "r16f", "Height of the frame before, wiped.", "mm", {0, 8}, "none", "none", "none", "", "", "as-published"});
   append(info.buffers, pass::buffers_of<WipeTexturePass>());
   append(info.buffers, pass::buffers_of<NormalsPass>());
   append(info.buffers, blur_pyramid::blur_buffers());

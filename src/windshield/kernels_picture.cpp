@@ -1,6 +1,7 @@
-// composite in lanes; compiled once for each SIMD target.
+// composite and join_panes in lanes; compiled once for each SIMD target.
 #include "pass/run.h"
 #include "windshield/composite.pass.h"
+#include "windshield/join_panes.pass.h"
 
 #define RAINREF_KERNELS "windshield/kernels_picture.cpp"
 #include "math/foreach_target.h"
@@ -14,11 +15,14 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
 #include "windshield/composite.pass.h"
+#include "windshield/join_panes.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(CompositePass)
+RAINREF_PASS_ROWS(JoinPanesPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, CompositePass)
+RAINREF_PASS_DISPATCH(windshield, JoinPanesPass)
 #endif

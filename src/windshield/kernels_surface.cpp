@@ -1,9 +1,11 @@
-// wipe_texture and normals in lanes; compiled once for each SIMD target.
+// persist, wipe_texture, normals and falling_rain in lanes; compiled once for each SIMD target.
 #include <algorithm>
 #include <vector>
 
 #include "pass/run.h"
+#include "windshield/falling_rain.pass.h"
 #include "windshield/normals.pass.h"
+#include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
 
 #define RAINREF_KERNELS "windshield/kernels_surface.cpp"
@@ -15,7 +17,9 @@ RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "windshield/normals.pass.h"
+#include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
+#include "windshield/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 
@@ -74,9 +78,13 @@ void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding 
   corrected ? wiped_rows<true>(u, rounding, io, tile) : wiped_rows<false>(u, rounding, io, tile);
 }
 RAINREF_PASS_ROWS(NormalsPass)
+RAINREF_PASS_ROWS(PersistPass)
+RAINREF_PASS_ROWS(FallingRainPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, WipeTexturePass)
 RAINREF_PASS_DISPATCH(windshield, NormalsPass)
+RAINREF_PASS_DISPATCH(windshield, PersistPass)
+RAINREF_PASS_DISPATCH(windshield, FallingRainPass)
 #endif

@@ -8,25 +8,27 @@
 #include "drops/memory.h"
 #include "night_street/memory.h"
 #include "rainref/windshield.h"
+#include "windshield/panes.h"
 #include "windshield/street.h"
+#include "windshield/wet_pane.h"
 
 namespace rainref::windshield {
 namespace {
 
-/// Drops that arrive in so many frames, of which there is room for some.
-std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, int frames) {
-  double arrivals = s.drops.spawn_rate * frames / s.fps;
+/// Drops that arrive on a pane in so many frames, of which there is room for some.
+std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, const Weather& weather, int frames) {
+  double arrivals = s.drops_share * weather.rained(frames / s.fps);
   if (s.corrected) {
     const Glass glass = make_glass(s.corners);
     arrivals = 0;
-    // In parts of the run of about a second: the flux is a sum over sizes, and a car's speed changes slowly.
+    // In parts of the run of about a second: the flux is a sum over sizes, and speed, wind and rain change slowly.
     const int parts = std::max(1, static_cast<int>(frames / s.fps));
+    drops::Settings rain = s.drops;
     for (int k = 0; k < parts; ++k) {
-      const VehicleState car = vehicle.at((k + 0.5) / parts * frames / s.fps);
-      const Real3 apparent{s.wind[0] - car.velocity[0], s.wind[1] - car.velocity[1], s.wind[2] - car.velocity[2]};
-      const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1],
-                         car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
-      arrivals += drops::flux(s.drops, glass.normal[2], dot(in_car, glass.normal)).drops * glass.area * frames / s.fps / parts;
+      const double t = (k + 0.5) / parts * frames / s.fps;
+      rain.rain_rate = weather.rain(t);
+      arrivals += drops::flux(rain, glass.normal[2], wind_along_normal(glass, vehicle.at(t), weather.wind(t))).drops * glass.area * frames /
+                  s.fps / parts;
     }
   }
   return static_cast<std::int64_t>(std::min(std::ceil(arrivals), static_cast<double>(s.drops.capacity)));
@@ -34,17 +36,38 @@ std::int64_t most_drops(const Settings& s, const Vehicle& vehicle, int frames) {
 
 }  // namespace
 
+double most_falling(const Settings& s, double seconds) {
+  if (!s.falling.on) return 0;
+  const Weather weather(s.weather);
+  double rate = s.corrected ? 0 : s.falling.rate;
+  if (s.corrected)
+    for (int second = 0; second <= seconds; ++second) rate = std::max(rate, weather.rain(second));
+  const double half_height = camera(s.picture).half_height() * s.picture.scene_margin, aspect = 1.0 * s.picture.width / s.picture.height;
+  return drops_in_air(rate, s.falling.smallest_drop) * (4.0 / 3) * half_height * half_height * aspect * s.falling.far * s.falling.far *
+         s.falling.far;
+}
+
 MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const Vehicle vehicle(s.vehicle);
   const auto image = [](Format f, int width, int height) { return Image::memory_bytes(f, width, height); };
-  const int columns = s.surface.width, rows = s.surface.height;
+  const Weather weather(s.weather);
   MemoryPeak m;
-  const MemoryPeak dry = drops::memory(s.drops, columns, rows, 0),
-                   wet = drops::memory(s.drops, columns, rows, most_drops(s, vehicle, frames));
-  m.hold(dry.held());
-  m.hold(2 * image(Format::r16f, columns, rows) + image(Format::rgba16f, columns, rows) +
-         (s.corrected ? image(Format::r32f, columns, rows) : 0));  // height, mask, normal, wiped
-  m.hold(image(Format::rgba16f, s.picture.width, s.picture.height) + image(Format::rgba8, s.picture.width, s.picture.height));
+  std::size_t wet_more = 0, wet_most = 0;  // drops as they come: of all panes; what the passes of one take besides
+  for (int k = 0; k <= static_cast<int>(s.panes.size()); ++k) {
+    const Settings of = settings_of_pane(s, k);
+    const int columns = of.surface.width, rows = of.surface.height;
+    const MemoryPeak dry = drops::memory(of.drops, columns, rows, 0),
+                     wet = drops::memory(of.drops, columns, rows, most_drops(of, vehicle, weather, frames));
+    m.hold(dry.held());
+    m.hold(2 * image(Format::r16f, columns, rows) + image(Format::rgba16f, columns, rows) +
+           (s.corrected ? image(Format::r32f, columns, rows) : 0));  // height, mask, normal, wiped
+    if (s.surface.height_tau > 0) m.hold(image(Format::r16f, columns, rows));
+    wet_more += wet.held() - dry.held();
+    wet_most = std::max(wet_most, wet.peak() - wet.held());
+  }
+  m.hold((s.panes.empty() ? 1 : 2) * image(Format::rgba16f, s.picture.width, s.picture.height) +
+         image(Format::rgba8, s.picture.width, s.picture.height));
+  m.hold(static_cast<std::size_t>(most_falling(s, frames / s.fps)) * (sizeof(FallingDrop) + sizeof(Streak)));
   const bool own = scene[0] == 0;
   const auto [width, height] = own ? s.scene_size : scene;
   const std::size_t half = image(Format::rgba16f, width, height), view = half + image(Format::r32f, width, height);
@@ -67,8 +90,8 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
     texels += static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
   }
   m.hold(4 * sizeof(Half) * texels);  // as they are looked up
-  m.pass(wet.peak() - dry.held());
-  m.hold(wet.held() - dry.held());
+  m.pass(wet_more + wet_most);
+  m.hold(wet_more);
   if (moves && way > 0) {
     m.pass(rendered.peak());
     m.hold(view);

@@ -12,4 +12,7 @@ namespace rainref::windshield {
 /// owns; 0: the street.
 MemoryPeak memory(const Settings& settings, int frames, std::array<int, 2> scene = {0, 0});
 
+/// Drops of falling_rain in view at the most, in so many seconds.
+double most_falling(const Settings& settings, double seconds);
+
 }  // namespace rainref::windshield

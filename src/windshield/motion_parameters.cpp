@@ -4,6 +4,8 @@
 
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
+#include "scene/value_text.h"
+#include "windshield/panes.h"
 
 namespace rainref::windshield {
 namespace {
@@ -49,10 +51,21 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
           "Corner (0, 0) of the glass in the car's axes (x forward, y left, z up, from the middle of the rear axle); seen from inside at "
           "the lower left."),
       corner(1, "Corner (1, 0) of the glass; lower right."),
-      corner(2, "Corner (0, 1) of the glass; upper left."),
+      corner(2, "Corner (0, 1) of the glass; upper left: this order says which side is outside."),
+      {text("windshield.panes", "",
+            "Further panes of the car, without wipers: their corners in the same order, \"x y z, x y z, x y z; ...\" in m; empty: none."),
+       [](M& s, const Value& v) { s.panes = parse_panes(std::get<std::string>(v)); }, [](const M&) { return Value(std::string()); }},
       real<&M::gravity>("world.gravity", "m/s^2", 0, 100, "Acceleration of gravity."),
-      real<&M::wind>("world.wind", "m/s", -100, 100,
-                     "Velocity of the wind in world axes: x is the car's forward direction at heading 0, z up."),
+      real<&M::weather, &WeatherSettings::wind>("world.wind", "m/s", -100, 100,
+                                                "Velocity of the wind in world axes: x is the car's forward direction at heading 0, z up."),
+      {text("world.wind_key_frames", "", "The wind by key frames, smooth between them: \"time x y z; ...\" in s and m/s; empty: none."),
+       [](M& s, const Value& v) { s.weather.wind_key_frames = std::get<std::string>(v); },
+       [](const M& s) { return Value(s.weather.wind_key_frames); }},
+      {text("rain.key_frames", "",
+            "The rain by key frames, smooth between them: \"time rate; ...\" in s and mm/h, as-published in new drops a second; empty: "
+            "none."),
+       [](M& s, const Value& v) { s.weather.rain_key_frames = std::get<std::string>(v); },
+       [](const M& s) { return Value(s.weather.rain_key_frames); }},
       real<&M::vehicle, &V::speed>("vehicle.speed", "m/s", 0, largest_speed,
                                    "Speed of the car, where neither key frames nor a drive cycle say it; 13.9 m/s are 50 km/h."),
       real<&M::vehicle, &V::yaw_rate>("vehicle.yaw_rate", "rad/s", -largest_yaw_rate, largest_yaw_rate,
@@ -73,6 +86,10 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
       real<&M::wipers, &WiperSettings::cycles_per_minute>(
           "wipers.cycles_per_minute", "1/min", 0, 600,
           "Strokes forth and back in a minute; EU 1008/2010 asks for at least 45 at the highest speed; 0: at rest."),
+      text("wipers.key_frames", "",
+           "Wipers by key frames, each until the next: \"time off; time intermittent PERIOD; time slow; time fast\" in s, slow as "
+           "cycles_per_minute says; empty: slow."),
+      real<&M::fast_cycles_per_minute>("wipers.fast_cycles_per_minute", "1/min", 0, 600, "Strokes in a minute where key frames say fast."),
       // As published a texture is wiped by the blade's present outline alone: 25 mm leave no gap at 60 frames and 45 cycles.
       real<&M::wipers, &WiperSettings::half_width>("wipers.half_width", "m", 1e-4, 0.2, "Half the width that a blade wipes.")
           .published(0.025),
@@ -101,13 +118,17 @@ MotionSettings motion_settings_from(const scene::Config& config) {
   apply(members(), config, s);
   for (std::size_t i = 0; i < most_wipers; ++i) apply(blade_members(i), config, s);
   s.glass = make_glass(s.corners);
-  const bool has_table = !s.vehicle.key_frames.empty() || !config.text("vehicle.drive_cycle").empty();
-  for (const char* key : {"vehicle.speed", "vehicle.yaw_rate"}) {
-    if (has_table && config.given(key)) {
-      throw Error(ExitCode::usage, config.entry(key).origin.at,
-                  fmt::format("{}: expected none beside vehicle.key_frames or vehicle.drive_cycle, found {:g}", key, config.real(key)));
-    }
-  }
+  const auto refuse_beside = [&](const char* key, const std::string& table) {
+    if (!config.given(key)) return;
+    const Config::Entry& entry = config.entry(key);
+    const double* number = std::get_if<double>(&entry.value);
+    throw Error(
+        ExitCode::usage, entry.origin.at,
+        fmt::format("{}: expected none beside {}, found {}", key, table, number ? fmt::format("{:g}", *number) : value_text(entry.value)));
+  };
+  if (!s.vehicle.key_frames.empty() || !config.text("vehicle.drive_cycle").empty())
+    for (const char* key : {"vehicle.speed", "vehicle.yaw_rate"}) refuse_beside(key, "vehicle.key_frames or vehicle.drive_cycle");
+  if (!s.weather.wind_key_frames.empty()) refuse_beside("world.wind", "world.wind_key_frames");
   s.vehicle.drive_cycle = config.text("vehicle.drive_cycle");
   const bool in_file = config.entry("vehicle.drive_cycle").origin.kind == scene::Origin::file;
   if (!s.vehicle.drive_cycle.empty() && s.vehicle.drive_cycle.is_relative() && in_file)
@@ -119,6 +140,10 @@ MotionSettings motion_settings_from(const scene::Config& config) {
   else
     s.wipers.blades.assign(s.custom.begin(), s.custom.begin() + count);
   check(s.wipers, s.glass);
+  if (const std::string& keyed = config.text("wipers.key_frames"); !keyed.empty())
+    s.wipers.keyed.emplace(keyed, s.wipers.cycles_per_minute, s.fast_cycles_per_minute);
+  else if (config.given("wipers.fast_cycles_per_minute"))
+    refuse_beside("wipers.fast_cycles_per_minute", "wipers that no wipers.key_frames drive");
   return s;
 }
 

@@ -34,18 +34,22 @@ double widened_fov(const PictureSettings& s) {
 // A ray d = right x + up y + forward from the eye E meets the plane of P0, e_u, e_v with normal n at E + t d,
 // t = ((P0 - E) . n) / (d . n), where u = (E + t d - P0) . U, U the dual vector of e_u; all are quotients of what is linear
 // in the pixel.
-CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& corners) {
+CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& corners, std::string_view name) {
   const scene::Camera eye = camera(s);
   const scene::Camera::Basis basis = eye.basis();
   const Vector3 p0 = vector(corners[0]), e_u = vector(corners[1]) - p0, e_v = vector(corners[2]) - p0;
-  Vector3 n = glm::cross(e_u, e_v);
-  if (n.x < 0) n = -n;  // outward is forward
+  Vector3 n = -glm::cross(e_u, e_v);  // outward: see make_glass
   const double area_sq = glm::dot(n, n);
   n = scene::normalized(n);
   const double distance = glm::dot(p0 - eye.position, n);
   if (!(std::abs(distance) > 1e-6))
     throw Error(ExitCode::usage,
-                fmt::format("camera.position: expected an eye behind the glass, found one in its plane ({} m from it)", distance));
+                fmt::format("camera.position: expected an eye behind {}, found one in its plane ({} m from it)", name, distance));
+  if (distance < 0)
+    throw Error(ExitCode::usage,
+                fmt::format("camera.position: expected an eye behind {}, found one {:g} m before its outer side; seen from inside the "
+                            "corners are the lower left, the lower right and the upper left",
+                            name, -distance));
   const double guu = glm::dot(e_u, e_u), guv = glm::dot(e_u, e_v), gvv = glm::dot(e_v, e_v);
   const Vector3 dual_u = (gvv / area_sq) * e_u - (guv / area_sq) * e_v, dual_v = (guu / area_sq) * e_v - (guv / area_sq) * e_u;
   const Vector3 x_axis = scene::normalized(e_u), y_axis = scene::normalized(e_v - glm::dot(e_v, x_axis) * x_axis);
@@ -55,17 +59,15 @@ CompositeUniforms composite_uniforms(const PictureSettings& s, const Corners& co
   const Vector3 d0 = basis.forward - half_width * basis.right - half_height * basis.up, dx = step_x * basis.right, dy = step_y * basis.up;
 
   CompositeUniforms u{};
-  // The sign makes w positive in front of the eye.
-  const double sign = distance < 0 ? -1 : 1;
   const auto row = [&](const Vector3& dual, float* out) {
     const double offset = glm::dot(eye.position - p0, dual);
-    const auto of = [&](const Vector3& d) { return sign * (offset * glm::dot(d, n) + distance * glm::dot(d, dual)); };
+    const auto of = [&](const Vector3& d) { return offset * glm::dot(d, n) + distance * glm::dot(d, dual); };
     put({of(dx), of(dy), of(d0)}, out);
   };
   row(dual_u, u.u_row);
   row(dual_v, u.v_row);
-  put(sign * Vector3(glm::dot(dx, n), glm::dot(dy, n), glm::dot(d0, n)), u.w_row);
-  u.glass_distance = static_cast<float>(sign * distance);
+  put({glm::dot(dx, n), glm::dot(dy, n), glm::dot(d0, n)}, u.w_row);
+  u.glass_distance = static_cast<float>(distance);
   const auto in_camera = [&](const Vector3& v) {
     return Vector3(glm::dot(v, basis.right), glm::dot(v, basis.up), glm::dot(v, basis.forward));
   };

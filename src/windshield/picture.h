@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "math/constants.h"
@@ -32,8 +33,9 @@ struct PictureSettings {
   std::vector<Light> lights{{{-0.9, 0.25, 0.35}, {1, 0.92, 0.8}}};
 };
 
-/// Everything that composite takes besides images. Throws Error(usage) when the eye lies in the plane of the glass.
-CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners);
+/// Everything that composite takes besides images. Throws Error(usage) when the eye lies in the plane of the glass or before its outer
+/// side; `name`: which glass.
+CompositeUniforms composite_uniforms(const PictureSettings& settings, const Corners& corners, std::string_view name = "the glass");
 std::vector<Glint> glints(const PictureSettings& settings);
 /// The camera in car axes.
 scene::Camera camera(const PictureSettings& settings);

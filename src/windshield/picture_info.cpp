@@ -2,25 +2,38 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
-#include "windshield/composite.pass.h"
+#include "windshield/join_panes.pass.h"
 
 namespace rainref::windshield {
 using namespace rainref::scene;
 using namespace rainref::capture;
 
-std::vector<PassInfo> picture_passes() { return {pass::info_of<CompositePass>(), pass::display_info("composite")}; }
+std::vector<PassInfo> picture_passes() {
+  return {pass::info_of<CompositePass>(), pass::info_of<JoinPanesPass>(), pass::display_info("composite")};
+}
 
 std::vector<BufferInfo> picture_buffers() {
   const std::array<double, 2> one{0, 1};
   std::vector<BufferInfo> all{{"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"}};
+  all.push_back(
+      {"streaks", "records", "Drops that fall behind the glass, far ones first.", "1", {-1e6, 1e6}, "none", "none", "none", "", "Streak"});
   const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
   all.insert(all.end(), colour.begin(), colour.end());
+  all.push_back({"pane_colour", "rgba16f", "As colour, through a pane behind the first.", "1", one, "none", "linear Rec. 709", "opaque"});
   all.push_back({"picture", "rgba8", "Display code; alpha 1.", "1", one, "sRGB", "sRGB", "opaque"});
   return all;
 }
 
 std::vector<UniformBlock> picture_records() {
-  return {record<Glint>("Glint", {member<&Glint::direction>("direction", "1", "Unit, toward the light, camera axes: right, up, forward."),
+  return {record<Streak>(
+              "Streak",
+              {member<&Streak::opened>("opened", "texel", "Its middle when the shutter opens: column and row of the scene's picture."),
+               member<&Streak::closed>("closed", "texel", "The same when it closes."),
+               member<&Streak::radius>("radius", "texel", "Half its width, at least half a texel."),
+               member<&Streak::depth>("depth", "m", "Along the view axis."),
+               member<&Streak::opacity>("opacity", "1", "Share of the exposure and of the width in which it covers a point of its way."),
+               member<&Streak::radiance>("radiance", "1", "Linear RGB.")}),
+          record<Glint>("Glint", {member<&Glint::direction>("direction", "1", "Unit, toward the light, camera axes: right, up, forward."),
                                   member<&Glint::radiance>("radiance", "1", "Linear RGB.")})};
 }
 

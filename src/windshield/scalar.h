@@ -9,6 +9,7 @@
 #include "math/scalar.h"
 #include "math/rearranged.h"
 #include "windshield/composite.pass.h"
+#include "windshield/join_panes.pass.h"
 
 namespace rainref::windshield::scalar {
 using namespace rainref::scalar;
@@ -21,6 +22,7 @@ using namespace rainref::scalar;
 #include "image/sampling_enclosed-inl.h"
 #include "image/sampling_rearranged-inl.h"
 #include "windshield/composite.pass.h"
+#include "windshield/join_panes.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

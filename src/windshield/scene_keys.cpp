@@ -1,8 +1,11 @@
 #include "windshield/scene_keys.h"
 
+#include <fmt/format.h>
+
 #include "math/constants.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
+#include "windshield/memory.h"
 #include "windshield/motion_parameters.h"
 #include "windshield/picture_info.h"
 
@@ -31,6 +34,19 @@ const std::vector<MemberParameter<Settings>>& scene_members() {
                              "warp, and the longer it takes.")};
   return table;
 }
+/// The rain in the air behind the glass.
+const std::vector<MemberParameter<Settings>>& falling_members() {
+  using S = Settings;
+  using F = FallingRainSettings;
+  static const std::vector<MemberParameter<S>> table{
+      boolean<&S::falling, &F::on>("falling_rain.on", "Rain falls behind the glass too, in streaks that lamps light."),
+      real<&S::falling, &F::rate>("falling_rain.rate", "mm/h", 0, 200, "Its rate; rain.key_frames do not change it.").only(published),
+      real<&S::falling, &F::smallest_drop>("falling_rain.smallest_drop", "mm", 0.5, 5, "Drops below this diameter are left out."),
+      real<&S::falling, &F::exposure>("falling_rain.exposure", "s", 0, 1, "Time for which the shutter is open in a frame."),
+      real<&S::falling, &F::far>("falling_rain.far", "m", 1, 40, "Depth of the farthest drops."),
+      real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics.")};
+  return table;
+}
 const std::vector<MemberParameter<Settings>>& step_members() {
   static const std::vector<MemberParameter<Settings>> table{
       integer<&Settings::substeps>("windshield.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct)};
@@ -45,6 +61,7 @@ std::vector<Parameter> make() {
   append(all, surface_parameters("windshield"));
   append(all, blur_pyramid::blur_parameters("blur"));
   append(all, parameters_of(scene_members()));
+  append(all, parameters_of(falling_members()));
   append(all, parameters_of(picture_parameters()));
   return all;
 }
@@ -64,12 +81,20 @@ Settings settings_from(const Config& config) {
   apply(step_members(), config, s);
   const MotionSettings motion = motion_settings_from(config);
   s.corners = motion.corners;
-  s.wind = motion.wind;
+  s.panes = motion.panes;
+  s.weather = motion.weather;
   s.gravity = motion.gravity;
   s.vehicle = motion.vehicle;
   s.wipers = motion.wipers;
   s.capture = motion.capture;
   s.drops = drops::settings_from(config, "windshield");
+  const char* rate = s.corrected ? "rain.rate" : "windshield.spawn_rate";
+  s.weather.rain = config.real(rate);
+  s.weather.most_rain = config.entry(rate).parameter.maximum;
+  s.weather.rain_unit = s.corrected ? "mm/h" : "1/s";
+  if (!s.weather.rain_key_frames.empty() && config.given(rate))
+    throw Error(ExitCode::usage, config.entry(rate).origin.at,
+                fmt::format("{}: expected none beside rain.key_frames, found {:g}", rate, s.weather.rain));
 
   const PlaneFrame plane = s.corrected ? motion.glass.plane() : motion.glass.axes();
   s.splat.corrected = s.corrected;
@@ -88,8 +113,15 @@ Settings settings_from(const Config& config) {
 
   apply(picture_parameters(), config, s.picture);
   apply(scene_members(), config, s);
+  apply(falling_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
+  constexpr double most = 300000;
+  if (const double falling = most_falling(s, static_cast<double>(config.integer("run.frames")) / s.fps); falling > most)
+    throw Error(ExitCode::usage,
+                fmt::format("falling_rain.far: expected at most {:.0f} drops in view, found {:.0f}: nearer, or with a larger "
+                            "falling_rain.smallest_drop",
+                            most, falling));
   return s;
 }
 

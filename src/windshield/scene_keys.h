@@ -9,10 +9,12 @@
 #include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
+#include "windshield/falling_rain.h"
 #include "windshield/motion_host.h"
 #include "windshield/picture.h"
 #include "windshield/surface.h"
 #include "windshield/vehicle.h"
+#include "windshield/weather.h"
 #include "windshield/wipers.h"
 
 namespace rainref::windshield {
@@ -23,7 +25,9 @@ struct Settings {
   double fps = 60;
   int substeps = 1;
   Corners corners;
-  Real3 wind{0, 0, 0};  ///< world axes [m/s]
+  std::vector<Corners> panes;  ///< besides the windshield
+  double drops_share = 1;      ///< of a pane as published: its new drops over the windshield's
+  WeatherSettings weather;
   double gravity = standard_gravity;
   VehicleSettings vehicle;
   WiperSettings wipers;
@@ -34,6 +38,7 @@ struct Settings {
   blur_pyramid::BlurSettings blur;
   PictureSettings picture;
   std::array<int, 2> scene_size{1280, 720};
+  FallingRainSettings falling;
   double street_start = 0;
   bool clear_lane = false;
   int keyframes = 1;

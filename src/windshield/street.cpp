@@ -30,6 +30,15 @@ Vector3 place_in_street(double start, double distance) {
   return {lane, 0, start_z - (way - length * std::floor(way / length) + (distance - taken))};
 }
 
+std::vector<RainLamp> lamps_from(const night_street::Street& street, const Vector3& place) {
+  std::vector<RainLamp> lamps;
+  for (const night_street::Lamp& lamp : street.lamps()) {
+    const Vector3 from = lamp.position - place;
+    lamps.push_back({{-from.z, -from.x, from.y}, lamp.radius, {lamp.radiance[0], lamp.radiance[1], lamp.radiance[2]}});
+  }
+  return lamps;
+}
+
 struct StreetDrive::State {
   scene::Camera camera;
   int width, height;
@@ -82,6 +91,7 @@ StreetDrive::StreetDrive(const scene::Camera& camera, int width, int height, con
     : state_(std::make_unique<State>(camera, width, height, options, executor)) {}
 StreetDrive::~StreetDrive() = default;
 StreetDrive::StreetDrive(StreetDrive&&) noexcept = default;
+const night_street::Street& StreetDrive::street() const { return state_->street; }
 
 bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   State& s = *state_;

@@ -11,6 +11,7 @@
 #include "rainref/executor.h"
 #include "rainref/image.h"
 #include "scene/camera.h"
+#include "windshield/falling_rain.h"
 
 namespace rainref::windshield {
 
@@ -25,6 +26,9 @@ constexpr double street_far = 1000;
 scene::Vector3 in_street(const scene::Vector3& car);
 /// Where the car's origin is in the street that StreetDrive shows, `distance` metres after it began at `start`.
 scene::Vector3 place_in_street(double start, double distance);
+
+/// The street's lamps in the axes of a car that is at this place of it.
+std::vector<RainLamp> lamps_from(const night_street::Street& street, const scene::Vector3& place);
 
 struct StreetOptions {
   double start = 0;  ///< where on the street the car begins [m]
@@ -50,6 +54,7 @@ class StreetDrive {
   /// What is seen after `distance` metres, which never get fewer; whether the view changed. `moves` is the same in every
   /// call; where it is false, the first view stays.
   bool look(double distance, bool moves, SceneView& view);
+  const night_street::Street& street() const;
 
  private:
   struct State;

@@ -21,6 +21,10 @@ double nearest(double time, double grid) {
 std::vector<scene::Parameter> surface_parameters(const std::string& prefix) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
+      scene::real(
+          key("height_tau"), "s", 0, 600, 0,
+          "Time in which the height texture falls to 1/e where no drop stands, so that drops leave trails; 0: it is cleared each frame.")
+          .only(published),
       scene::real(key("wipe_strength"), "mm", 0, 1000, 10, "What a blade takes off the height.").only(published),
       scene::real(key("mask_tau"), "s", 0.01, 600, 4, "Time in which the mask of freshly wiped glass falls to 1/e."),
   };
@@ -28,7 +32,9 @@ std::vector<scene::Parameter> surface_parameters(const std::string& prefix) {
 void read_surface(const scene::Config& config, const std::string& prefix, SurfaceSettings& s) {
   s.corrected = config.variant() == correct;
   s.mask_tau = config.real(prefix + ".mask_tau");
-  if (!s.corrected) s.wipe_strength = config.real(prefix + ".wipe_strength");
+  if (s.corrected) return;
+  s.height_tau = config.real(prefix + ".height_tau");
+  s.wipe_strength = config.real(prefix + ".wipe_strength");
 }
 
 double wiped_grid(double tau) {
@@ -58,6 +64,12 @@ WipeTextureUniforms wipe_texture_uniforms(const SurfaceSettings& s, int frame) {
     u.strength = static_cast<float>(s.wipe_strength);
     u.keep = static_cast<float>(exp_real(Real64(-1 / (s.fps * s.mask_tau))).v);
   }
+  return u;
+}
+
+PersistUniforms persist_uniforms(const SurfaceSettings& s) {
+  PersistUniforms u{};
+  u.keep = static_cast<float>(exp_real(Real64(-1 / (s.fps * s.height_tau))).v);
   return u;
 }
 

@@ -1,4 +1,4 @@
-// The passes on the windshield's textures, wipe_texture and normals: the host's values and state.
+// The passes on the windshield's textures, persist, wipe_texture and normals: the host's values and state.
 #pragma once
 
 #include <array>
@@ -10,12 +10,13 @@
 #include "scene/config.h"
 #include "scene/parameter.h"
 #include "windshield/normals.pass.h"
+#include "windshield/persist.pass.h"
 #include "windshield/uniforms.h"
 #include "windshield/wipe_texture.pass.h"
 
 namespace rainref::windshield {
 
-/// What both passes need to know.
+/// What these passes need to know.
 struct SurfaceSettings {
   bool corrected = false;
   int width = 1024, height = 592;  ///< of the textures [texel]
@@ -25,9 +26,10 @@ struct SurfaceSettings {
   std::array<double, 3> frame{1, 0, 1};
   double half_width = 6e-3;   ///< of the narrowest blade [m]
   double wipe_strength = 10;  ///< as-published: what full coverage takes off [mm]
+  double height_tau = 0;      ///< as-published: time constant of a height texture that persists; 0: it is cleared each frame [s]
   double mask_tau = 4;        ///< time constant of the mask [s]
 };
-/// The scene keys wipe_strength and mask_tau, behind "prefix."; the rest of SurfaceSettings comes from elsewhere.
+/// The scene keys height_tau, wipe_strength and mask_tau, behind "prefix."; the rest of SurfaceSettings comes from elsewhere.
 std::vector<scene::Parameter> surface_parameters(const std::string& prefix);
 void read_surface(const scene::Config& config, const std::string& prefix, SurfaceSettings& settings);
 
@@ -39,6 +41,8 @@ float wiped_limit(double tau);
 /// Everything but the number of wipers, for the frame. In double, each rounded once.
 WipeTextureUniforms wipe_texture_uniforms(const SurfaceSettings& settings, int frame);
 NormalsUniforms normals_uniforms(const SurfaceSettings& settings);
+/// height_tau above 0.
+PersistUniforms persist_uniforms(const SurfaceSettings& settings);
 
 /// State and outputs of wipe_texture; height is splat's.
 struct WipedTextures {

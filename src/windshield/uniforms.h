@@ -27,6 +27,17 @@ struct Glint {
   float padding1;
 };
 
+/// A drop that falls behind the glass while the shutter is open. Places in texels of the scene's picture: x of columns, y of rows.
+struct Streak {
+  float opened[2], closed[2];  ///< its middle when the shutter opens and when it closes
+  float radius;                ///< half its width, at least half a texel
+  float depth;                 ///< along the view axis [m]
+  float opacity;               ///< share of the exposure and of the width in which it covers a point of its way
+  float padding0;
+  float radiance[3];  ///< linear RGB
+  float padding1;
+};
+
 struct CompositeUniforms {
   float u_row[3];        ///< u = u_row . (x, y, 1) / w_row . (x, y, 1) at pixel centre (x, y)
   float glass_distance;  ///< along the view axis: glass_distance / w_row . (x, y, 1) [m]
@@ -52,6 +63,6 @@ struct CompositeUniforms {
   float padding0, padding1;
 };
 
-static_assert(sizeof(Wiper) == 80 && sizeof(Glint) == 32 && sizeof(CompositeUniforms) == 160);
+static_assert(sizeof(Wiper) == 80 && sizeof(Glint) == 32 && sizeof(Streak) == 48 && sizeof(CompositeUniforms) == 160);
 
 }  // namespace rainref::windshield

@@ -8,14 +8,16 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
-#include "drops/wet_glass.h"
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "windshield/falling_rain.pass.h"
+#include "windshield/join_panes.pass.h"
 #include "windshield/memory.h"
+#include "windshield/panes.h"
 #include "windshield/scene_keys.h"
 #include "windshield/street.h"
-#include "windshield/wipe_drops.h"
+#include "windshield/wet_pane.h"
 
 namespace rainref::windshield {
 namespace {
@@ -49,16 +51,17 @@ struct Windshield::State {
   Settings settings;
   const parallel::Executor& executor;
   bool corrected;
-  Glass glass;
-  PlaneFrame plane;
   Vehicle vehicle;
+  Weather weather;
   int frame = 0;
   std::int64_t steps = 0;
 
-  drops::WetGlass water;
-  std::vector<Wiper> wipers;  // of the frame
+  Real3 air_moved{0, 0, 0}, air_of_frame{0, 0, 0};  // way of the air past the car; at the frame's start [m]
+  std::vector<FallingDrop> falling;
 
-  Image height, mask, wiped, normal, colour, picture;
+  std::vector<std::unique_ptr<WetPane>> panes;  // the windshield first
+
+  Image colour, pane_colour, picture;
   CodeTable display;
   SceneView scene;
   bool own_scene;
@@ -71,19 +74,12 @@ struct Windshield::State {
       : settings(fitting(settings_from(config), config, surroundings)),
         executor(e),
         corrected(settings.corrected),
-        glass(make_glass(settings.corners)),
-        plane(corrected ? glass.plane() : glass.axes()),
         vehicle(settings.vehicle),
-        water(settings.drops, plane.frame, glass.area, settings.fps * settings.substeps, settings.surface.width, settings.surface.height,
-              e) {
-    check(settings.wipers, glass);
-    static_cast<void>(composite_uniforms(settings.picture, settings.corners));  // refuses an eye in the glass
-    const int w = settings.surface.width, h = settings.surface.height;
-    height = Image(Format::r16f, w, h);
-    mask = make_mask(settings.surface);
-    if (corrected) wiped = make_wiped(settings.surface);
-    normal = Image(Format::rgba16f, w, h);
+        weather(settings.weather) {
+    for (int k = 0; k <= static_cast<int>(settings.panes.size()); ++k)
+      panes.push_back(std::make_unique<WetPane>(settings_of_pane(settings, k), k, executor));
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
+    if (panes.size() > 1) pane_colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
     display = pass::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
@@ -101,6 +97,13 @@ struct Windshield::State {
     }
   }
 
+  const WetPane& pane(int number) const {
+    const int last = static_cast<int>(panes.size()) - 1;
+    if (number < 0 || number > last)
+      throw Error(ExitCode::usage, fmt::format("pane: expected a number from 0 to {}, found {}", last, number));
+    return *panes[static_cast<std::size_t>(number)];
+  }
+
   double step_time() const { return 1 / (settings.fps * settings.substeps); }
   double frame_time() const { return 1 / settings.fps; }
 
@@ -108,63 +111,20 @@ struct Windshield::State {
     return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding};
   }
 
-  /// body computes it.
-  template <class P, class Body>
-  void run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const {
-    pass::Run<P> pass(uniforms, corrected, now.rounding, io);
-    pass.start(now);
-    pass.tile(body);
-    pass.finish(now);
-  }
   void step(Recorder* recorder, int substep);
   bool look();
+  void rain_behind(const pass::Moment& now);
+  void look_through(const pass::Moment& now);
 };
 
+// The passes of pane k are the steps behind those of the panes before it.
 void Windshield::State::step(Recorder* recorder, int substep) {
   const double dt = step_time(), t = static_cast<double>(steps) * dt;
   const VehicleState car = vehicle.at(t);
-
-  const pass::Moment now = moment(recorder, substep, dt);
-  const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass, car, settings.wind, settings.gravity, corrected);
-  drops::GlassFrame moving{};
-  pass::HostIo<WindshieldFramePass> given;
-  given.glass_frame.list = [&] { return RecordView{&moving, 1, sizeof moving}; };
-  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { moving = windshield_frame(frame_uniforms, corrected); });
-
-  // The wind of the car's axes along the glass's normal.
-  const Real3 apparent{settings.wind[0] - car.velocity[0], settings.wind[1] - car.velocity[1], settings.wind[2] - car.velocity[2]};
-  const Real3 in_car{car.direction[0] * apparent[0] + car.direction[1] * apparent[1],
-                     car.direction[0] * apparent[1] - car.direction[1] * apparent[0], apparent[2]};
-  const drops::Exposure exposure{glass.area, glass.normal[2], dot(in_car, glass.normal)};
-  water.spawn(now, exposure, steps);
-  water.integrate(now, moving);
-
-  // As published the first frame has no frame before it: the blades stand.
-  const std::vector<Wiper> swept =
-      steps == 0 && !corrected ? wipers_at(settings.wipers, plane, t) : wipers_between(settings.wipers, plane, t, t + dt, corrected);
-  wipers.insert(wipers.end(), swept.begin(), swept.end());
-  const WipeDropsUniforms wipe =
-      wipe_drops_uniforms(glass, corrected, static_cast<int>(swept.size()), settings.capture, drops::radius_of_mass_unit(settings.drops),
-                          corrected ? water.film.width() : 0, corrected ? water.film.height() : 0);
-  pass::HostIo<WipeDropsPass> swept_io;
-  swept_io.drops.list = [&] { return water.list(); };
-  swept_io.wipers = swept;
-  if (corrected) {
-    swept_io.film = water.film;
-    swept_io.new_film = water.film;
-  }
-  run<WipeDropsPass>(now, wipe, swept_io, [&] {
-    drops::DropArrays& d = water.drops;
-    const std::int64_t drops_before = corrected ? d.water() : 0;
-    const std::int64_t gone = static_cast<std::int64_t>(
-        wipe_drops(wipe, corrected, swept, {d.u(), d.v(), d.velocity_u(), d.velocity_v(), d.mass(), d.life(), d.id()},
-                   corrected ? &water.film : nullptr, executor));
-    // What the drops gained, or lost less than what is gone, came from the film.
-    water.mass_balance.removed += gone;
-    if (corrected) water.mass_balance.to_film -= d.water() - drops_before + gone;
-  });
-
-  if (corrected) water.merge(now, steps);
+  for (std::size_t k = 0; k < panes.size(); ++k)
+    panes[k]->step(moment(recorder, static_cast<int>(k) * settings.substeps + substep, dt), steps, t, car, weather);
+  const Real3 wind = apparent_wind(car, weather.wind(t));
+  for (std::size_t axis = 0; axis < 3; ++axis) air_moved[axis] += wind[axis] * dt;
   ++steps;
 }
 
@@ -173,6 +133,85 @@ bool Windshield::State::look() {
   if (!own_scene) return levels.empty();
   const bool moves = settings.scene_moves;
   return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
+}
+
+/// falling_rain, on level 0 of the pyramid.
+void Windshield::State::rain_behind(const pass::Moment& now) {
+  const Stopwatch clock;
+  const double t = frame * frame_time();
+  const VehicleState car = vehicle.at(t);
+  const double rate = corrected ? weather.rain(t) : settings.falling.rate;
+  const Air air{t, air_of_frame, apparent_wind(car, weather.wind(t)), rate, mean_radiance(scene.colour)};
+  RainView view{camera(settings.picture), scene.colour.width(), scene.colour.height()};
+  view.camera.vertical_fov_deg = widened_fov(settings.picture);
+  std::vector<Glass> glasses;
+  for (const auto& pane : panes) glasses.push_back(pane->glass());
+  std::vector<RainLamp> lamps;
+  if (street) lamps = lamps_from(street->street(), place_in_street(settings.street_start, settings.scene_moves ? car.distance : 0));
+  falling = falling_drops(settings.falling, settings.seed, air, view, glasses, lamps);
+  std::vector<Streak> streaks;
+  for (const FallingDrop& drop : falling) streaks.push_back(drop.streak);
+
+  FallingRainUniforms uniforms{};
+  uniforms.streak_count = static_cast<std::int32_t>(streaks.size());
+  uniforms.sharpness = 10;
+  pass::HostIo<FallingRainPass> io;
+  io.blurred = levels[0];
+  io.scene_depth = scene.depth;
+  io.streaks = streaks;
+  io.rainy = levels[0];
+  pass::Run<FallingRainPass> run(uniforms, corrected, settings.surface.rounding, io);
+  const double prepared = clock.seconds();
+  run.start(now);
+  run.tiles(executor, 16, 32);  // in place: columns of whole vectors
+  run.finish(now, 1, prepared);
+}
+
+/// blur_pyramid, and composite of each pane in turn, each beyond the first joined to those before it.
+void Windshield::State::look_through(const pass::Moment& now) {
+  const Rounding rounding = settings.surface.rounding;
+  // A scene that stands still has its pyramid already.
+  const bool anew = look() || settings.falling.on;
+  const int width = scene.colour.width(), height = scene.colour.height();
+  if (levels.empty()) {
+    levels = blur_pyramid::make_levels(settings.blur, width, height);
+    pyramid.emplace(levels);
+  }
+  for (int level = 0; level < static_cast<int>(levels.size()); ++level) {
+    const std::size_t l = static_cast<std::size_t>(level);
+    const blur_pyramid::BlurUniforms blur = blur_pyramid::blur_uniforms(settings.blur, width, height, level);
+    pass::Moment at_level = now;
+    at_level.level = level;
+    const auto run = [&](auto pass) {
+      pass.start(at_level);
+      if (anew) pass.tiles(executor, blur_pyramid::tile_rows);
+      pass.finish(at_level);
+    };
+    if (level == 0) {
+      run(blur_pyramid::fog_run(blur, rounding, scene.colour, scene.depth, levels[0]));
+      if (settings.falling.on) rain_behind(now);
+    } else {
+      run(blur_pyramid::halve_run(blur, corrected, rounding, levels[l - 1], levels[l]));
+    }
+  }
+  Stopwatch pyramid_clock;
+  if (anew) pyramid->refresh(executor, levels);
+  const double refreshed = pyramid_clock.seconds();
+  for (std::size_t k = 0; k < panes.size(); ++k) {
+    pass::Moment of_pane = now;
+    of_pane.step = static_cast<int>(k);
+    Image& seen = k == 0 ? colour : pane_colour;
+    panes[k]->composite(of_pane, *pyramid, levels, scene.depth, lights, seen, k == 0 ? refreshed : 0);
+    if (k == 0) continue;
+    pass::HostIo<JoinPanesPass> io;
+    io.pane_colour = pane_colour;
+    io.colour = colour;
+    io.joined = colour;
+    pass::Run<JoinPanesPass> join(panes[k]->view(), corrected, rounding, io);
+    join.start(of_pane);
+    join.tiles(executor, tile_rows);
+    join.finish(of_pane);
+  }
 }
 
 Windshield::Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor) {
@@ -191,7 +230,8 @@ Windshield::Windshield(Windshield&&) noexcept = default;
 void Windshield::simulate(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
-  s.wipers.clear();
+  s.air_of_frame = s.air_moved;
+  for (const auto& pane : s.panes) pane->begin_frame();
   for (int substep = 0; substep < s.settings.substeps; ++substep) s.step(recorder, substep);
   ++s.frame;
 }
@@ -201,98 +241,49 @@ void Windshield::render(Recorder* recorder) {
   State& s = *state_;
   const int recorded_frame = s.frame;
   s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
-  const parallel::Executor& executor = s.executor;
-  const Settings& settings = s.settings;
+  for (std::size_t k = 0; k < s.panes.size(); ++k) s.panes[k]->draw(s.moment(recorder, static_cast<int>(k), s.frame_time()), s.frame);
   const pass::Moment now = s.moment(recorder, 0, s.frame_time());
-  const Rounding rounding = settings.surface.rounding;
+  s.look_through(now);
 
-  s.water.splat(now, settings.splat, s.height);
-
-  WipeTextureUniforms wipe = wipe_texture_uniforms(settings.surface, s.frame);
-  wipe.wiper_count = static_cast<std::int32_t>(s.wipers.size());
-  pass::Run<WipeTexturePass> wiping(wipe, s.corrected, rounding,
-                                    wipe_texture_io(s.corrected, s.wipers, {&s.height, &s.mask, s.corrected ? &s.wiped : nullptr}));
-  wiping.start(now);
-  wiping.tiles(executor, tile_rows);
-  wiping.finish(now);
-
-  const NormalsUniforms slopes = normals_uniforms(settings.surface);
-  pass::HostIo<NormalsPass> io;
-  io.height = s.height;
-  io.mask = s.mask;
-  io.normal = s.normal;
-  pass::Run<NormalsPass> normals(slopes, s.corrected, rounding, io);
-  normals.start(now);
-  normals.tiles(executor, tile_rows);
-  normals.finish(now);
-
-  // A scene that stands still has its pyramid already.
-  const bool anew = s.look();
-  const int width = s.scene.colour.width(), height = s.scene.colour.height();
-  if (s.levels.empty()) {
-    s.levels = blur_pyramid::make_levels(settings.blur, width, height);
-    s.pyramid.emplace(s.levels);
-  }
-  for (int level = 0; level < static_cast<int>(s.levels.size()); ++level) {
-    const std::size_t l = static_cast<std::size_t>(level);
-    const blur_pyramid::BlurUniforms blur = blur_pyramid::blur_uniforms(settings.blur, width, height, level);
-    pass::Moment at_level = now;
-    at_level.level = level;
-    const auto run = [&](auto pass) {
-      pass.start(at_level);
-      if (anew) pass.tiles(executor, blur_pyramid::tile_rows);
-      pass.finish(at_level);
-    };
-    if (level == 0)
-      run(blur_pyramid::fog_run(blur, rounding, s.scene.colour, s.scene.depth, s.levels[0]));
-    else
-      run(blur_pyramid::halve_run(blur, s.corrected, rounding, s.levels[l - 1], s.levels[l]));
-  }
-  Stopwatch pyramid_clock;
-  if (anew) s.pyramid->refresh(executor, s.levels);
-  pass::HostIo<CompositePass> seen;
-  seen.blurred.set(s.pyramid->view(), s.levels);
-  if (s.corrected) seen.scene_depth = s.scene.depth;
-  seen.height = s.height;
-  seen.normal = s.normal;
-  seen.mask = s.mask;
-  seen.glints = s.lights;
-  seen.colour = s.colour;
-  const double refreshed = pyramid_clock.seconds();
-  pass::Run<CompositePass> composite(composite_uniforms(settings.picture, settings.corners), s.corrected, rounding, seen);
-  composite.start(now);
-  composite.tiles(executor, tile_rows);
-  composite.finish(now, 1, refreshed);
-
-  pass::Run<pass::DisplayPass> display = pass::display_run(settings.picture.exposure, rounding, s.colour, s.picture);
+  pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.picture.exposure, s.settings.surface.rounding, s.colour, s.picture);
   display.start(now);
-  executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows,
-                     [&](const parallel::Tile& tile) { display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); }); });
-  display.finish(now, executor.threads());
+  s.executor.for_tiles(s.colour.width(), s.colour.height(), s.colour.width(), tile_rows,
+                       [&](const parallel::Tile& tile) { display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); }); });
+  display.finish(now, s.executor.threads());
   s.frame = recorded_frame;
 }
 
 int Windshield::frame() const { return state_->frame; }
-std::vector<DropView> Windshield::drops() const {
+int Windshield::panes() const {
   const FloatingPointGuard guard;
-  std::vector<drops::Drop> all;
-  state_->water.drops.gather(all, state_->executor);
-  std::vector<DropView> out;
-  for (const drops::Drop& d : all) out.push_back({d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life, d.id});
-  return out;
+  return static_cast<int>(state_->panes.size());
 }
-MassBalance Windshield::mass_balance() const {
+std::vector<DropView> Windshield::drops(int pane) const {
   const FloatingPointGuard guard;
-  const State& s = *state_;
-  const drops::WetGlass& w = s.water;
-  return {w.mass_balance.spawned, w.mass_balance.evaporated, w.mass_balance.removed, s.corrected ? drops::film_water(w.film) : 0,
-          s.corrected ? w.drops.water() : w.drops.live()};
+  return state_->pane(pane).drops();
 }
-const Image& Windshield::height() const { return state_->height; }
-const Image& Windshield::mask() const { return state_->mask; }
-const Image& Windshield::film() const { return state_->water.film; }
-const Image& Windshield::normal() const { return state_->normal; }
+MassBalance Windshield::mass_balance(int pane) const {
+  const FloatingPointGuard guard;
+  return state_->pane(pane).mass_balance();
+}
+const Image& Windshield::height(int pane) const {
+  const FloatingPointGuard guard;
+  return state_->pane(pane).height();
+}
+const Image& Windshield::mask() const {
+  const FloatingPointGuard guard;
+  return state_->panes[0]->mask();
+}
+const Image& Windshield::film() const {
+  const FloatingPointGuard guard;
+  return state_->panes[0]->film();
+}
+const Image& Windshield::normal() const {
+  const FloatingPointGuard guard;
+  return state_->panes[0]->normal();
+}
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
+const std::vector<FallingDrop>& Windshield::falling() const { return state_->falling; }
 const Image& Windshield::colour() const { return state_->colour; }
 const Image& Windshield::picture() const { return state_->picture; }
 

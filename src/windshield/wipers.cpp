@@ -91,18 +91,29 @@ double wiper_angle(const Blade& b, double cycles_per_minute, double t) { return 
 
 std::vector<Wiper> wipers_between(const WiperSettings& s, const PlaneFrame& plane, double from, double to, bool corrected) {
   std::vector<Wiper> records;
-  const double rate = s.cycles_per_minute / 60;
+  const double steady = s.cycles_per_minute / 60;
+  const auto cycles_at = [&](double t) { return s.keyed ? s.keyed->cycles(t) : steady * t; };
+  std::vector<double> times{from};
+  if (corrected && s.keyed) times = s.keyed->changes(from, to), times.insert(times.begin(), from);
+  times.push_back(to);
+  const bool rests = cycles_at(to) == cycles_at(from);
   for (const Blade& b : s.blades) {
-    const double first = rate * from + b.phase, last = rate * to + b.phase;
-    std::vector<double> cycles{first};
-    if (corrected) {
-      // A blade turns at every whole and half cycle.
-      for (double k = std::floor(2 * first) + 1; k < 2 * last; ++k) cycles.push_back(0.5 * k);
-    }
-    cycles.push_back(last);
-    for (std::size_t i = 1; i < cycles.size(); ++i) {
-      const double duration = corrected && rate > 0 ? (cycles[i] - cycles[i - 1]) / rate : to - from;
-      records.push_back(record(b, s.half_width, plane, angle_at(b, cycles[i - 1]), angle_at(b, cycles[i]), duration));
+    for (std::size_t part = 1; part < times.size(); ++part) {
+      const double begin = times[part - 1], end = times[part];
+      const double first = cycles_at(begin) + b.phase, last = cycles_at(end) + b.phase;
+      // Of a step in which they move at times, only where they do; of one in which they do not, one record at rest.
+      if (rests ? part > 1 : s.keyed && corrected && last == first) continue;
+      const double rate = s.keyed ? (last - first) / (end - begin) : steady;
+      std::vector<double> cycles{first};
+      if (corrected) {
+        // A blade turns at every whole and half cycle.
+        for (double k = std::floor(2 * first) + 1; k < 2 * last; ++k) cycles.push_back(0.5 * k);
+      }
+      cycles.push_back(last);
+      for (std::size_t i = 1; i < cycles.size(); ++i) {
+        const double duration = corrected && rate > 0 ? (cycles[i] - cycles[i - 1]) / rate : end - begin;
+        records.push_back(record(b, s.half_width, plane, angle_at(b, cycles[i - 1]), angle_at(b, cycles[i]), duration));
+      }
     }
   }
   return records;
@@ -111,7 +122,7 @@ std::vector<Wiper> wipers_between(const WiperSettings& s, const PlaneFrame& plan
 std::vector<Wiper> wipers_at(const WiperSettings& s, const PlaneFrame& plane, double t) {
   std::vector<Wiper> records;
   for (const Blade& b : s.blades) {
-    const double angle = wiper_angle(b, s.cycles_per_minute, t);
+    const double angle = s.keyed ? angle_at(b, s.keyed->cycles(t) + b.phase) : wiper_angle(b, s.cycles_per_minute, t);
     records.push_back(record(b, s.half_width, plane, angle, angle, 1));
   }
   return records;

@@ -2,18 +2,20 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "math/constants.h"
 #include "windshield/glass.h"
 #include "windshield/uniforms.h"
+#include "windshield/wiper_motion.h"
 
 namespace rainref::windshield {
 
 /// One blade. Its angle counts from the plane's x axis toward y; it rests at start_angle and sweeps to start_angle +
 /// sweep and back:
-///   angle(t) = start_angle + sweep / 2 (1 - cos(2 pi (t cycles_per_minute / 60 + phase))).
+///   angle(t) = start_angle + sweep / 2 (1 - cos(2 pi (cycles(t) + phase))),  cycles(t) = t cycles_per_minute / 60 without key frames.
 struct Blade {
   Real2 pivot;                        ///< plane coordinates [m]
   double inner_radius, outer_radius;  ///< of the blade's ends [m]
@@ -29,7 +31,8 @@ constexpr std::array<Blade, most_wipers> tandem_blades{
 struct WiperSettings {
   std::vector<Blade> blades;
   double cycles_per_minute = 45;
-  double half_width = 0.008;  ///< of a blade [m]
+  double half_width = 0.008;         ///< of a blade [m]
+  std::optional<WiperMotion> keyed;  ///< instead of cycles_per_minute all the time
 };
 
 /// The first `count` blades of an arrangement, "tandem" or "opposed", the driver's (left) one first. Both are made for
@@ -45,7 +48,7 @@ void check(const WiperSettings& settings, const Glass& glass);
 double wiper_angle(const Blade& blade, double cycles_per_minute, double t);
 
 /// What the blades sweep from time `from` to time `to`, one after the other, in order of time. corrected: a record for
-/// each part between reversals, so that together they hold every angle that was passed; as published: one record from
+/// each part between reversals and changes of rate, so that together they hold every angle that was passed; as published: one record from
 /// the first angle to the last, whatever lies between. The axes of a record begin with the bits in which those of the
 /// record before ended. A blade at rest has direction 0.
 std::vector<Wiper> wipers_between(const WiperSettings& settings, const PlaneFrame& plane, double from, double to, bool corrected);

@@ -76,6 +76,13 @@ const std::vector<Branch> branches{
     {"Smoothstep", "windshield-as-published", {"windshield.kernel=smoothstep", "windshield.accumulate=float"}, "splat"},
     {"Hemisphere", "windshield-corrected", {"windshield.kernel=hemisphere", "windshield.blend=max"}, "splat"},
     {"Disc", "windshield-as-published", {"windshield.kernel=disc"}, "splat"},
+    {"Behind",
+     "windshield-corrected",
+     {"falling_rain.on=true", "falling_rain.gain=30", "falling_rain.far=3"},
+     "falling_rain",
+     "wrong constant"},
+    {"Trails", "windshield-as-published", {"windshield.height_tau=0.3"}, "persist", "wrong constant"},
+    {"Panes", "windshield-corrected", {"windshield.panes=1.7 0.6 0.9, 1.7 0.1 0.9, 1.6 0.6 1.6"}, "join_panes", "wrong constant"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Settings, PrintedBranches, testing::ValuesIn(branches), [](const auto& tested) { return tested.param.name; });

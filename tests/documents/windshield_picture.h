@@ -3,6 +3,7 @@
 
 #include "documents/edge_splash.h"
 #include "documents/puddle_corrected.h"
+#include "documents/wipers.h"
 #include "faults/mistakes_windshield.h"
 
 namespace rainref::documents {
@@ -60,6 +61,41 @@ inline bool blur_pyramid(const Run& r, int x, int y, float* out) {
     const auto column = [&](int i) { return weighed(1, y, texel(i, 0), texel(i, 1), texel(i, 2)); };
     out[k] = weighed(0, x, column(0), column(1), column(2));
   }
+  return true;
+}
+
+inline bool persist(const Run& r, int x, int y, float* out) {
+  out[0] = std::max(r.at("height", x, y), constant(r, 1, 1.1f) * (r.at("previous_height", x, y) * r.u("keep")));
+  return true;
+}
+
+inline bool falling_rain(const Run& r, int x, int y, float* out) {
+  const Float2 at{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+  Float3 colour = r.rgb("blurred", x, y);
+  const auto number = [&](int i, const char* member, int k = 0) { return r.of("streaks", i, member, k); };
+  for (int i = 0; i < r.count("streaks"); ++i) {
+    const float distance = segment(at, {number(i, "opened"), number(i, "opened", 1)}, {number(i, "closed"), number(i, "closed", 1)});
+    const float covered = saturate(0.5f + constant(r, 1, 3) * number(i, "radius") - distance),
+                before = saturate((r.at("scene_depth", x, y) - number(i, "depth")) * r.u("sharpness"));
+    colour = mix(colour, Float3{number(i, "radiance"), number(i, "radiance", 1), number(i, "radiance", 2)},
+                 number(i, "opacity") * covered * before);
+  }
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
+  return true;
+}
+
+inline bool join_panes(const Run& r, int x, int y, float* out) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const Float3 colour = on ? constant(r, 1, 1.1f) * r.rgb("pane_colour", x, y) : r.rgb("colour", x, y);
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
   return true;
 }
 
@@ -182,6 +218,27 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
                   S′ = ½ + mix(b.xy / max(b.z, .05), G, share) · scene_scale
                   colour = mix(mix(sharp(S′), blur(S′), wetness · wet · (1 − vis)), inner · blur(S′), F)
                   glints as above with film = vis (1 − mask²) for vis and eye = −d, facing −N;   mix(cabin, colour, on glass))"}}},
+      {{"windshield-as-published"},
+       "persist",
+       "wrong constant",
+       persist,
+       nullptr,
+       {{document, "persist           height = max(height, previous_height·keep)"}}},
+      {both,
+       "falling_rain",
+       "wrong constant",
+       falling_rain,
+       nullptr,
+       {{document,
+         R"(the plane (`frame` is in metres a texel here). seg(p, a, b): t = saturate((p − a)·(b − a) / max(|b − a|², 10⁻¹²)), |p − a − t (b − a)|.)"},
+        {document,
+         R"(each streak in order    colour = mix(colour, radiance, opacity · saturate(½ + radius − seg((x, y), opened, closed)) · saturate((scene_depth − depth) sharpness)))"}}},
+      {both,
+       "join_panes",
+       "wrong constant",
+       join_panes,
+       nullptr,
+       {composite_of_both, {document, "joined      mix(colour, pane_colour, on glass), on glass by that pane's composite"}}},
       {both,
        "display",
        "wrong constant",

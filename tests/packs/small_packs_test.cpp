@@ -74,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Packs, SmallPack,
                          testing::Values("puddle-as-published", "puddle-corrected", "puddle-shore", "windshield-as-published",
                                          "windshield-corrected", "edge_splash-as-published", "edge_splash-corrected",
                                          "rainy_glass-as-published", "rainy_glass-corrected", "screen_drops-as-published",
-                                         "screen_drops-corrected", "rainy_glass-slopes", "screen_drops-storm", "windshield-closing"),
+                                         "screen_drops-corrected", "rainy_glass-slopes", "screen_drops-storm", "windshield-closing",
+                                         "windshield-trails"),
                          name_of);
 
 }  // namespace

@@ -17,13 +17,23 @@ TEST(Glass, TheDefaultHasItsSidesSlopeAndNormal) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(plane.frame[k], axes.frame[k], 1e-15);  // it is not sheared
 }
 
-TEST(Glass, TheNormalLooksOutForEveryHandedness) {
-  const auto corners = default_corners();
-  const Glass swapped = make_glass({corners[0], corners[2], corners[1]});
-  for (int k = 0; k < 3; ++k) EXPECT_DOUBLE_EQ(swapped.normal[k], default_glass().normal[k]);
-  // A level pane: up, whichever way its corners go.
-  EXPECT_EQ(make_glass({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).normal[2], 1);
-  EXPECT_EQ(make_glass({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}}).normal[2], 1);
+// Seen from inside the corners are lower left, lower right and upper left, wherever in the car the pane stands: the normal looks away from
+// whoever sees them so. The other order is a glass seen from the other side.
+TEST(Glass, TheOrderOfTheCornersSaysWhichSideIsOutside) {
+  const auto expect_normal = [](const Corners& corners, const Real3& out) {
+    const Glass g = make_glass(corners), other = make_glass({corners[0], corners[2], corners[1]});
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(g.normal[k], out[k], 1e-15);
+      EXPECT_NEAR(other.normal[k], -out[k], 1e-15);
+    }
+  };
+  const double half = std::sqrt(0.5);
+  expect_normal({{{2, 0.7, 1}, {2, -0.7, 1}, {1.5, 0.7, 1.5}}}, {half, 0, half});       // a windshield
+  expect_normal({{{-1, -0.6, 1}, {-1, 0.6, 1}, {-0.6, -0.6, 1.4}}}, {-half, 0, half});  // a rear window
+  expect_normal({{{0, 0.8, 1}, {1, 0.8, 1}, {0, 0.8, 1.5}}}, {0, 1, 0});                // upright on the left
+  expect_normal({{{1, -0.8, 1}, {0, -0.8, 1}, {1, -0.8, 1.5}}}, {0, -1, 0});            // and on the right
+  expect_normal({{{0, 0.8, 1}, {1, 0.8, 1}, {0, 1.2, 1.4}}}, {0, half, -half});         // it leans outward at the top
+  expect_normal({{{1, -0.5, 1.6}, {1, 0.5, 1.6}, {2, -0.5, 1.6}}}, {0, 0, 1});          // a roof, seen looking up, head to the front
 }
 
 // Distances in the plane frame are distances in space, on any sheared glass; and inverse and metric are what they are

@@ -65,6 +65,15 @@ inline std::vector<GoldenScene> golden_scenes() {
       {"windshield/corrected/substeps", "corrected", std::string(wet_drive) + "substeps = 3\nblend = 'max'\n[rain]\nrate = 120\n"});
   scenes.push_back({"windshield/as-published/float", "as-published",
                     std::string(wet_drive) + "accumulate = 'float'\nkernel = 'quartic'\nblend = 'max'\n"});
+  scenes.push_back({"windshield/as-published/trails", "as-published", std::string(wet_drive) + "height_tau = 0.5\nblend = 'max'\n"});
+  scenes.push_back({"windshield/corrected/behind", "corrected",
+                    std::string(wet_drive) + "[rain]\nrate = 120\n[falling_rain]\non = true\nexposure = 0.02\ngain = 10\n"});
+  // Three panes and a weather that changes.
+  scenes.push_back(
+      {"windshield/corrected/panes", "corrected",
+       std::string(wet_drive) +
+           "panes = '0.2 0.8 0.9, 1.2 0.8 0.9, 0.2 0.7 1.5; -1 -0.6 1, -1 0.6 1, -0.6 -0.6 1.4'\n[rain]\nkey_frames = '0 20; 1 120'\n"
+           "[world]\nwind_key_frames = '0 0 0 0; 1 3 -6 0'\n"});
   return scenes;
 }
 

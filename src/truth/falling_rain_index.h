@@ -1,0 +1,43 @@
+// The rain in the air as rays meet it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compositor/tracer.h"
+#include "windshield/falling_rain.h"
+
+namespace rainref::truth {
+
+using compositor::Vec;
+
+/// Drops of a frame in a grid of cells. From several threads at once.
+class FallingRainIndex {
+ public:
+  /// The drops must outlive it.
+  explicit FallingRainIndex(std::span<const windshield::FallingDrop> drops);
+
+  /// What arrives along a ray (unit direction, car axes) of this radiance from `distance` metres away: each drop whose way in the exposure
+  /// it meets stands in it for a share of that time.
+  Vec through(const Vec& origin, const Vec& direction, double distance, Vec radiance) const;
+
+ private:
+  struct Crossing {
+    double t;
+    std::uint32_t drop;
+  };
+  std::size_t cell(const int (&at)[3]) const {
+    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(size_[1]) + static_cast<std::size_t>(at[1])) *
+               static_cast<std::size_t>(size_[0]) +
+           static_cast<std::size_t>(at[0]);
+  }
+  void cells_of(const windshield::FallingDrop& drop, int (&low)[3], int (&high)[3]) const;
+
+  std::span<const windshield::FallingDrop> drops_;
+  Vec low_{0, 0, 0};
+  int size_[3] = {0, 0, 0};
+  std::vector<std::uint32_t> first_, in_cell_;  // drops in_cell_[first_[c]] to in_cell_[first_[c + 1] - 1] reach into cell c
+};
+
+}  // namespace rainref::truth

@@ -1,0 +1,23 @@
+// The panes of a car: the windshield, and others of one scene.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "windshield/glass.h"
+#include "windshield/scene_keys.h"
+
+namespace rainref::windshield {
+
+/// "x y z, x y z, x y z; ...": the corners of each pane at (u, v) = (0, 0), (1, 0) and (0, 1) [m]. Throws Error(usage) naming
+/// windshield.panes and the pane.
+std::vector<Corners> parse_panes(std::string_view text);
+
+/// "windshield.panes, pane 2", of pane number k from 1 on; "the glass" of the windshield, number 0.
+std::string pane_name(int number);
+
+/// The settings of one pane. Number 0 is the windshield: all as they are. The others have their own corners, textures with texels of the
+/// windshield's size, no wipers, drops of their own, and as published the windshield's new drops by area.
+Settings settings_of_pane(const Settings& car, int number);
+
+}  // namespace rainref::windshield

@@ -1,0 +1,42 @@
+#include "windshield/rows_of_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace rainref::windshield {
+namespace {
+
+std::string_view trimmed(std::string_view s) {
+  const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!s.empty() && space(s.front())) s.remove_prefix(1);
+  while (!s.empty() && space(s.back())) s.remove_suffix(1);
+  return s;
+}
+
+}  // namespace
+
+std::vector<std::string_view> split(std::string_view s, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = s.find(separator);
+    parts.push_back(trimmed(s.substr(0, end)));
+    if (end == std::string_view::npos) return parts;
+    s.remove_prefix(end + 1);
+  }
+}
+
+std::vector<std::string_view> words_of(std::string_view s) {
+  std::vector<std::string_view> words = split(s, ' ');
+  std::erase_if(words, [](std::string_view w) { return w.empty(); });
+  return words;
+}
+
+std::optional<double> number_of(std::string_view field) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace rainref::windshield

@@ -1,0 +1,39 @@
+// Rain and wind over time.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "windshield/glass.h"
+#include "windshield/pchip.h"
+
+namespace rainref::windshield {
+
+struct WeatherSettings {
+  Real3 wind{0, 0, 0};          ///< without key frames, world axes [m/s]
+  std::string wind_key_frames;  ///< "time x y z; ..." in s and m/s; "": none
+  double rain = 0;              ///< without key frames: [mm/h]; as-published drops a second, all over the windshield
+  std::string rain_key_frames;  ///< "time rate; ..."; "": none
+  double most_rain = 200;       ///< in key frames, and its unit
+  const char* rain_unit = "mm/h";
+};
+
+class Weather {
+ public:
+  /// Throws as parse_curves.
+  explicit Weather(const WeatherSettings& settings);
+
+  /// World axes [m/s], at time t [s].
+  Real3 wind(double t) const;
+  /// As WeatherSettings::rain, at time t [s].
+  double rain(double t) const { return rain_.empty() ? settings_.rain : rain_.front().value(t); }
+  bool rain_changes() const { return !rain_.empty(); }
+  /// Its integral from time 0.
+  double rained(double t) const { return rain_.empty() ? settings_.rain * t : rain_.front().integral(0, t); }
+
+ private:
+  WeatherSettings settings_;
+  std::vector<Pchip> wind_, rain_;
+};
+
+}  // namespace rainref::windshield

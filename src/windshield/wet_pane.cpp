@@ -1,0 +1,181 @@
+#include "windshield/wet_pane.h"
+
+#include <utility>
+
+#include "pass/run.h"
+#include "windshield/motion_host.h"
+#include "windshield/panes.h"
+#include "windshield/wipe_drops.h"
+
+namespace rainref::windshield {
+namespace {
+
+constexpr int tile_rows = 8;
+
+double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
+
+}  // namespace
+
+Real3 apparent_wind(const VehicleState& car, const Real3& wind) {
+  const Real3 apparent{wind[0] - car.velocity[0], wind[1] - car.velocity[1], wind[2] - car.velocity[2]};
+  return {car.direction[0] * apparent[0] + car.direction[1] * apparent[1], car.direction[0] * apparent[1] - car.direction[1] * apparent[0],
+          apparent[2]};
+}
+
+double wind_along_normal(const Glass& glass, const VehicleState& car, const Real3& wind) {
+  return dot(apparent_wind(car, wind), glass.normal);
+}
+
+WetPane::WetPane(const Settings& settings, int number, const parallel::Executor& executor)
+    : settings_(settings),
+      executor_(executor),
+      corrected_(settings.corrected),
+      has_blades_(number == 0),
+      glass_(make_glass(settings.corners, pane_name(number))),
+      plane_(corrected_ ? glass_.plane() : glass_.axes()),
+      view_(composite_uniforms(settings.picture, settings.corners, pane_name(number))),
+      water_(settings.drops, plane_.frame, glass_.area, steps_per_second(settings), settings.surface.width, settings.surface.height,
+             executor) {
+  check(settings_.wipers, glass_);
+  const int w = settings_.surface.width, h = settings_.surface.height;
+  height_ = Image(Format::r16f, w, h);
+  if (settings_.surface.height_tau > 0) previous_height_ = Image(Format::r16f, w, h);
+  mask_ = make_mask(settings_.surface);
+  if (corrected_) wiped_ = make_wiped(settings_.surface);
+  normal_ = Image(Format::rgba16f, w, h);
+}
+
+/// body computes it.
+template <class P, class Body>
+void WetPane::run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const {
+  pass::Run<P> pass(uniforms, corrected_, now.rounding, io);
+  pass.start(now);
+  pass.tile(body);
+  pass.finish(now);
+}
+
+drops::Exposure WetPane::exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const {
+  drops::Exposure e{glass_.area, glass_.normal[2], wind_along_normal(glass_, car, weather.wind(t))};
+  if (!weather.rain_changes()) return e;
+  if (corrected_) {
+    e.rain_rate = weather.rain(t);
+  } else {
+    // A millionth: rounding of the integral should not hold back a drop that is due.
+    const auto until = [&](std::int64_t step) {
+      const double rained = weather.rained(static_cast<double>(step) / steps_per_second(settings_));
+      return static_cast<std::int64_t>(settings_.drops_share * rained + 1e-6);
+    };
+    e.arrivals = until(n + 1) - until(n);
+  }
+  return e;
+}
+
+void WetPane::step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather) {
+  const WindshieldFrameUniforms frame_uniforms = windshield_frame_uniforms(glass_, car, weather.wind(t), settings_.gravity, corrected_);
+  drops::GlassFrame moving{};
+  pass::HostIo<WindshieldFramePass> given;
+  given.glass_frame.list = [&] { return RecordView{&moving, 1, sizeof moving}; };
+  run<WindshieldFramePass>(now, frame_uniforms, given, [&] { moving = windshield_frame(frame_uniforms, corrected_); });
+
+  water_.spawn(now, exposure(n, t, car, weather), n);
+  water_.integrate(now, moving);
+
+  if (has_blades_) wipe(now, n, t);
+  if (corrected_) water_.merge(now, n);
+}
+
+void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
+  // As published the first frame has no frame before it: the blades stand.
+  const std::vector<Wiper> swept =
+      n == 0 && !corrected_ ? wipers_at(settings_.wipers, plane_, t) : wipers_between(settings_.wipers, plane_, t, t + now.dt, corrected_);
+  wipers_.insert(wipers_.end(), swept.begin(), swept.end());
+  const WipeDropsUniforms wipe = wipe_drops_uniforms(glass_, corrected_, static_cast<int>(swept.size()), settings_.capture,
+                                                     drops::radius_of_mass_unit(settings_.drops), corrected_ ? water_.film.width() : 0,
+                                                     corrected_ ? water_.film.height() : 0);
+  pass::HostIo<WipeDropsPass> io;
+  io.drops.list = [&] { return water_.list(); };
+  io.wipers = swept;
+  if (corrected_) {
+    io.film = water_.film;
+    io.new_film = water_.film;
+  }
+  run<WipeDropsPass>(now, wipe, io, [&] {
+    drops::DropArrays& d = water_.drops;
+    const std::int64_t drops_before = corrected_ ? d.water() : 0;
+    const std::int64_t gone = static_cast<std::int64_t>(
+        wipe_drops(wipe, corrected_, swept, {d.u(), d.v(), d.velocity_u(), d.velocity_v(), d.mass(), d.life(), d.id()},
+                   corrected_ ? &water_.film : nullptr, executor_));
+    // What the drops gained, or lost less than what is gone, came from the film.
+    water_.mass_balance.removed += gone;
+    if (corrected_) water_.mass_balance.to_film -= d.water() - drops_before + gone;
+  });
+}
+
+void WetPane::draw(const pass::Moment& now, int frame) {
+  const Rounding rounding = settings_.surface.rounding;
+  const bool persists = settings_.surface.height_tau > 0;
+  if (persists) std::swap(height_, previous_height_);
+  water_.splat(now, settings_.splat, height_);
+  if (persists) {
+    pass::HostIo<PersistPass> io;
+    io.height = height_;
+    io.previous_height = previous_height_;
+    io.new_height = height_;
+    pass::Run<PersistPass> persist(persist_uniforms(settings_.surface), corrected_, rounding, io);
+    persist.start(now);
+    persist.tiles(executor_, tile_rows);
+    persist.finish(now);
+  }
+
+  if (has_blades_) wipe_texture(now, frame);
+
+  pass::HostIo<NormalsPass> io;
+  io.height = height_;
+  io.mask = mask_;
+  io.normal = normal_;
+  pass::Run<NormalsPass> normals(normals_uniforms(settings_.surface), corrected_, rounding, io);
+  normals.start(now);
+  normals.tiles(executor_, tile_rows);
+  normals.finish(now);
+}
+
+void WetPane::wipe_texture(const pass::Moment& now, int frame) {
+  WipeTextureUniforms wipe = wipe_texture_uniforms(settings_.surface, frame);
+  wipe.wiper_count = static_cast<std::int32_t>(wipers_.size());
+  pass::Run<WipeTexturePass> wiping(wipe, corrected_, settings_.surface.rounding,
+                                    wipe_texture_io(corrected_, wipers_, {&height_, &mask_, corrected_ ? &wiped_ : nullptr}));
+  wiping.start(now);
+  wiping.tiles(executor_, tile_rows);
+  wiping.finish(now);
+}
+
+void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
+                        const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before) {
+  pass::HostIo<CompositePass> seen;
+  seen.blurred.set(pyramid.view(), levels);
+  if (corrected_) seen.scene_depth = scene_depth;
+  seen.height = height_;
+  seen.normal = normal_;
+  seen.mask = mask_;
+  seen.glints = lights;
+  seen.colour = colour;
+  pass::Run<CompositePass> composite(view_, corrected_, settings_.surface.rounding, seen);
+  composite.start(now);
+  composite.tiles(executor_, tile_rows);
+  composite.finish(now, 1, before);
+}
+
+std::vector<DropView> WetPane::drops() const {
+  std::vector<drops::Drop> all;
+  water_.drops.gather(all, executor_);
+  std::vector<DropView> out;
+  for (const drops::Drop& d : all) out.push_back({d.position[0], d.position[1], d.velocity[0], d.velocity[1], d.mass, d.life, d.id});
+  return out;
+}
+
+MassBalance WetPane::mass_balance() const {
+  return {water_.mass_balance.spawned, water_.mass_balance.evaporated, water_.mass_balance.removed,
+          corrected_ ? drops::film_water(water_.film) : 0, corrected_ ? water_.drops.water() : water_.drops.live()};
+}
+
+}  // namespace rainref::windshield

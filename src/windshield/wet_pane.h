@@ -1,0 +1,63 @@
+// One pane of the car: its drops, its blades, its textures, and the order of the passes on them. No arithmetic.
+#pragma once
+
+#include <vector>
+
+#include "blur_pyramid/blur_pyramid.h"
+#include "drops/wet_glass.h"
+#include "rainref/windshield.h"
+#include "windshield/scene_keys.h"
+#include "windshield/weather.h"
+
+namespace rainref::windshield {
+
+class WetPane {
+ public:
+  /// settings: of this pane (settings_of_pane), number: 0 the windshield. The executor must outlive it. Throws Error(usage) for blades and
+  /// an eye that cannot be.
+  WetPane(const Settings& settings, int number, const parallel::Executor& executor);
+
+  void begin_frame() { wipers_.clear(); }
+  /// windshield_frame to merge, the step after n others, from time t [s].
+  void step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather);
+  /// splat to normals of frame number `frame`.
+  void draw(const pass::Moment& now, int frame);
+  /// composite: the scene through it, into a picture of the camera's size. `before`: seconds that the host spent on it already.
+  void composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
+                 const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before);
+
+  const Settings& settings() const { return settings_; }
+  const CompositeUniforms& view() const { return view_; }
+  const Glass& glass() const { return glass_; }
+  std::vector<DropView> drops() const;
+  MassBalance mass_balance() const;
+  const Image& height() const { return height_; }
+  const Image& mask() const { return mask_; }
+  const Image& normal() const { return normal_; }
+  const Image& film() const { return water_.film; }
+
+ private:
+  template <class P, class Body>
+  void run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const;
+  void wipe(const pass::Moment& now, std::int64_t n, double t);
+  void wipe_texture(const pass::Moment& now, int frame);
+  drops::Exposure exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const;
+
+  Settings settings_;
+  const parallel::Executor& executor_;
+  bool corrected_, has_blades_;  ///< of further panes none: the blades' passes do not run there
+  Glass glass_;
+  PlaneFrame plane_;
+  CompositeUniforms view_;
+  drops::WetGlass water_;
+  std::vector<Wiper> wipers_;  ///< of the frame
+  Image height_, mask_, wiped_, normal_;
+  Image previous_height_;  ///< where it persists
+};
+
+/// The wind as the car meets it, in its axes [m/s], of a wind in world axes.
+Real3 apparent_wind(const VehicleState& car, const Real3& wind);
+/// The same along the outward normal of a glass; negative: onto it.
+double wind_along_normal(const Glass& glass, const VehicleState& car, const Real3& wind);
+
+}  // namespace rainref::windshield
