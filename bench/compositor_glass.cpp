@@ -38,7 +38,7 @@ void picture(benchmark::State& state, double radius, const std::string& embree_c
   std::string hash;
   for (auto _ : state) {
     std::unique_ptr<Scene> scene;
-    const double update = bench::seconds_of([&] { scene = view.scene(rendered->height(), 0); });
+    const double update = bench::seconds_of([&] { scene = view.scene(*rendered); });
     Picture traced;
     const double seconds = bench::seconds_of([&] { traced = trace_picture(*scene, view.camera(), width, height, {}, executor); });
     const PrimaryRays primary(view.camera(), width, height);

@@ -34,7 +34,7 @@ struct FallingRainPass {
          member<&U::sharpness>("sharpness", "1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
   }
   /// Those that may cover a texel of the tile, in their order: the others cover nothing there, which changes no bit.
-  static std::vector<Streak> near(std::span<const Streak> all, bool, int, const parallel::Tile& t) {
+  static std::vector<Streak> near(const Uniforms&, std::span<const Streak> all, bool, int, const parallel::Tile& t) {
     std::vector<Streak> some;
     for (const Streak& s : all) {
       const float reach = s.radius + 2;
