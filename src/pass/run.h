@@ -76,7 +76,12 @@ class Run {
 
   /// Some of its texels; thread-safe.
   void tile(const parallel::Tile& t) {
-    clock_.add([&] { compute(t); });
+    clock_.add([&] {
+      if constexpr (requires { &P::near; })
+        rows<P>(uniforms_, corrected_, rounding_, near(io_, t), t);
+      else
+        rows<P>(uniforms_, corrected_, rounding_, io_, t);
+    });
   }
   /// The same, by what computes them in the place of the pass's own rows; body() gives the same values.
   template <class Body>
@@ -86,7 +91,20 @@ class Run {
   /// All of them. tile_columns 0: whole rows.
   void tiles(const parallel::Executor& executor, int tile_rows, int tile_columns = 0) {
     const capture::Stopwatch watch;
-    executor.for_tiles(width_, height_, tile_columns > 0 ? tile_columns : width_, tile_rows, [&](const parallel::Tile& t) { compute(t); });
+    if (tile_columns <= 0) tile_columns = width_;
+    if constexpr (requires { &P::near; }) {
+      // What is near a tile is near its band of rows: each band asks the whole list, and its tiles the band's.
+      executor.for_tiles(width_, height_, width_, tile_rows, [&](const parallel::Tile& band) {
+        const HostIo<P> io = near(io_, band);
+        for (int x = band.x0; x < band.x1; x += tile_columns) {
+          const parallel::Tile t{x, band.y0, std::min(x + tile_columns, band.x1), band.y1};
+          rows<P>(uniforms_, corrected_, rounding_, near(io, t), t);
+        }
+      });
+    } else {
+      executor.for_tiles(width_, height_, tile_columns, tile_rows,
+                         [&](const parallel::Tile& t) { rows<P>(uniforms_, corrected_, rounding_, io_, t); });
+    }
     seconds_ += watch.seconds();
   }
   void start(const Moment& m) const {
@@ -139,17 +157,18 @@ class Run {
   static RecordView records_of(const Moment& m, const Changed& member) {
     return m.is_read(P::about.name) ? member.list() : RecordView{nullptr, 0, member.record_bytes};
   }
-  void compute(const parallel::Tile& t) const {
-    if constexpr (requires { &P::near; }) {
-      HostIo<P> io = io_;
-      each<P>(io, [&](auto& member) {
-        if constexpr (requires { P::near(uniforms_, member.records, true, 0, t); })
-          member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
-      });
-      rows<P>(uniforms_, corrected_, rounding_, io, t);
-    } else {
-      rows<P>(uniforms_, corrected_, rounding_, io_, t);
-    }
+  /// The lists that P chooses from, with what may count in a tile.
+  HostIo<P> near(const HostIo<P>& all, const parallel::Tile& t) const {
+    HostIo<P> io = all;
+    bool takes_a_list = false;
+    each<P>(io, [&](auto& member) {
+      if constexpr (requires { P::near(uniforms_, member.records, true, 0, t); }) {
+        member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
+        takes_a_list = true;
+      }
+    });
+    if (!takes_a_list) throw Error(ExitCode::internal, fmt::format("{}: near() takes none of its lists", P::about.name));
+    return io;
   }
 
   typename P::Uniforms uniforms_;
