@@ -37,6 +37,32 @@ std::string image_of(const Probe& p, std::size_t node) {
   return "a texture";
 }
 
+bool is_multiple(PlaceFault fault) {
+  switch (fault) {
+    case PlaceFault::first_twice:
+    case PlaceFault::second_twice:
+    case PlaceFault::first_squared:
+    case PlaceFault::second_squared:
+    case PlaceFault::doubled:
+    case PlaceFault::halved:
+    case PlaceFault::squared:
+    case PlaceFault::rooted:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Of a choice between -floor(-x) and floor(x), which is x cut toward zero: x. -1 of others.
+std::int32_t cut(const Probe& p, const Node& n) {
+  const auto at = [&](std::int32_t node) { return node >= 0 ? &p.trace.nodes[static_cast<std::size_t>(node)] : nullptr; };
+  const Node *up = at(n.of[0]), *down = at(n.of[1]);
+  if (up && down && up->op != Op::negation) std::swap(up, down);
+  if (!up || !down || up->op != Op::negation || down->op != Op::floor) return -1;
+  const Node* const floor = at(up->of[0]);
+  return floor && floor->op == Op::floor ? down->of[0] : -1;
+}
+
 /// What a mistake makes of a node, in words.
 std::vector<Words> words_of(const Probe& p, std::size_t at) {
   const Node& n = p.trace.nodes[at];
@@ -56,6 +82,8 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
           n.op == Op::sum ? fmt::format("in {} the term {} has the other sign", all, a) : fmt::format("{} is taken the other way", all));
       add(PlaceFault::first_twice, "term twice: " + a, fmt::format("in {} the term {} counts twice", all, a));
       add(PlaceFault::second_twice, "term twice: " + b, fmt::format("in {} the term {} counts twice", all, b));
+      if (n.op == Op::difference)
+        add(PlaceFault::other, "complement left out: " + all, fmt::format("for {} stands {}", all, b));
       add(PlaceFault::rooted, "root for square: " + all,
           fmt::format("the square root of {} is taken in place of it: a length for its square", all));
       break;
@@ -89,6 +117,10 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::second, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, b));
       add(PlaceFault::other, fmt::format("{} for {}: {}", n.op == Op::minimum ? "max" : "min", name, all),
           fmt::format("{} is taken the other way", all));
+      add(PlaceFault::added, fmt::format("sum for {}: {}", name, all), fmt::format("{} and {} are added in place of their {}", a, b, name));
+      if (n.op == Op::maximum)
+        add(PlaceFault::saturated, fmt::format("sum for max: {}", all),
+            fmt::format("{} and {} are added, and held to [0, 1], in place of their max", a, b));
       break;
     }
     case Op::magnitude:
@@ -143,9 +175,16 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::other, "linear for smoothstep: " + all, fmt::format("{} is a linear ramp", all));
       break;
     case Op::choice:
+      if (const std::int32_t whole = cut(p, n); whole >= 0) {
+        const std::string x = shortened(p, whole);
+        add(PlaceFault::nearest, "rounding for cutting: " + x, fmt::format("{} is rounded to the nearest whole number, or to another side: it should be cut toward zero", x));
+        add(PlaceFault::first, "cut left out: " + x, fmt::format("{} is not cut", x));
+        break;
+      }
       add(PlaceFault::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
       break;
     case Op::comparison:
+      add(PlaceFault::swapped, fmt::format("condition the other way: {} < {}", a, b), fmt::format("{} < {} is taken the other way", a, b));
       add(PlaceFault::always, fmt::format("condition left out: {} < {}", a, b), fmt::format("{} < {} is taken to hold everywhere", a, b));
       add(PlaceFault::never, fmt::format("condition never holds: {} < {}", a, b), fmt::format("{} < {} is taken to hold nowhere", a, b));
       break;
@@ -176,7 +215,7 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
 
 }  // namespace
 
-void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
+void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind) {
   const auto shared = std::make_shared<const std::vector<float>>(known);
   const auto add = [&](const Words& w, std::array<perturbed::Place, 2> places, std::string remark) {
     Fault d;
@@ -198,10 +237,10 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         if (occurrence >= 0 && (count == 1 || count > most)) continue;
         if (!done.insert({n.shape, occurrence}).second) continue;
         for (const Words& w : words_of(p, at))
-          add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
+          if ((kind == PlaceKind::multiple) == is_multiple(w.fault)) add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
               occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
       }
-      if (n.op != Op::lookup) continue;
+      if (n.op != Op::lookup || kind == PlaceKind::multiple) continue;
       // Both coordinates of a lookup: fx and fy of a blend are what a coordinate has beyond its floor.
       const auto coordinate_of = [&](std::int32_t fraction) -> std::int32_t {
         if (fraction < 0) return -1;
