@@ -31,7 +31,8 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   for (std::uint32_t part = 0; part < (draws.counts_one_draw ? std::min(c.parts, 1u) : c.parts); ++part) {
     const std::uint32_t word = draws.block(seed, random::Purpose::drop_count, c.step, part)[0];
     const auto above = std::upper_bound(used.begin(), used.end(), word, [](std::uint32_t w, CountThreshold t) { return w < t.threshold; });
-    count += static_cast<std::uint32_t>(c.first_count) + draws.count(static_cast<std::uint32_t>(above - used.begin()), static_cast<std::uint32_t>(used.size()));
+    count += static_cast<std::uint32_t>(c.first_count) +
+             draws.count(static_cast<std::uint32_t>(above - used.begin()), static_cast<std::uint32_t>(used.size()));
   }
   if (!all) count = std::min(count, c.room);
   std::vector<Drop> out;

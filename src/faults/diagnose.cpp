@@ -124,7 +124,8 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   std::stable_sort(causes.begin(), causes.end(), [&](const Tried& a, const Tried& b) { return rank(a) > rank(b); });
   std::vector<Cause> out;
   for (const Tried& c : causes)
-    if (score(c) > 0 && out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; })) out.push_back(c);
+    if (score(c) > 0 && out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; }))
+      out.push_back(c);
   // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
   // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
   constexpr std::ptrdiff_t most_rivals = 20;

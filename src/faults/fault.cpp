@@ -231,7 +231,8 @@ void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* befo
         add("as BGRA", fmt::format("{} is read in the order BGRA", name), [](Array& a) { swap_channels(a, 0, 2); });
       }
       if (i.array.levels.size() > 1) {
-        add("without mip levels", fmt::format("{} has its first level only, or is read at level 0", name), [](Array& a) { a.levels.resize(1); });
+        add("without mip levels", fmt::format("{} has its first level only, or is read at level 0", name),
+            [](Array& a) { a.levels.resize(1); });
       }
     }
     const CaseInput* old = before ? before->input(name) : nullptr;

@@ -43,10 +43,10 @@ struct Fault {
   /// The behaviour at one texel. `loads` is room for Behaviour::loads.
   std::function<void(Texel, perturbed::Behaviour&, std::vector<float>& loads)> at_texel;
   std::optional<perturbed::Rewrite> rewrite;  ///< at one place, of other values of the invocation
-  std::optional<random::Draws> draws;    ///< of a pass of whole numbers: how it draws
-  std::optional<judge::HalfMode> stores;  ///< how halves are stored, whatever was declared
-  bool legal = false;                     ///< a conforming GPU may do this: not a bug, but it explains differences
-  bool for_diagnosis = false;             ///< asked by the diagnosis only: `mutate` has enough of its kind
+  std::optional<random::Draws> draws;         ///< of a pass of whole numbers: how it draws
+  std::optional<judge::HalfMode> stores;      ///< how halves are stored, whatever was declared
+  bool legal = false;                         ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool for_diagnosis = false;                 ///< asked by the diagnosis only: `mutate` has enough of its kind
 
   bool is_evaluated() const { return !alter_outputs && !alter_list && !draws; }
 };

@@ -103,9 +103,7 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
     if (std::abs(root - *best) <= 0.05f * std::abs(*best)) sum += root, count += 1;
   if (const float mean = sum / count; mean != pass.constant)
     if (const double m = misfit(mean); m < least) least = m, best = mean;
-  const auto suits = [&](float r) {
-    return r != pass.constant && misfit(r) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size());
-  };
+  const auto suits = [&](float r) { return r != pass.constant && misfit(r) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()); };
   for (int digits = 1; *best != 0 && digits < 7; ++digits) {
     if (const float nice = rounded(*best, digits); suits(nice)) return nice;
     if (const float nice = 1 / rounded(1 / *best, digits); digits < 4 && suits(nice)) return nice;

@@ -49,7 +49,8 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
 /// A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
 bool is_of_channel(const Fault& d) {
   const std::string& n = d.name;
-  return n.starts_with("input ") && (n.ends_with(" negated") || n.ends_with(" from 1 down") || n.find(" without its ") != std::string::npos);
+  return n.starts_with("input ") &&
+         (n.ends_with(" negated") || n.ends_with(" from 1 down") || n.find(" without its ") != std::string::npos);
 }
 
 /// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.

@@ -11,7 +11,8 @@ namespace rainref::faults {
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before) {
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before);
   // As for texels, constants are tried by their names.
-  std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_of_uniform(d); });
+  std::erase_if(all,
+                [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_of_uniform(d); });
   if (!p.bind) add_draw_faults(all);
   return all;
 }

@@ -50,8 +50,8 @@ void add_parts(Adder& add, const Probe& p, std::size_t at, std::int8_t k, const 
   const std::int32_t whole = n.of[static_cast<std::size_t>(k)];
   const auto node = [&](std::int32_t i) -> const Node& { return p.trace.nodes[static_cast<std::size_t>(i)]; };
   const Op op = node(whole).op;
-  const bool gathers = op == Op::sum || op == Op::difference || op == Op::mix || op == Op::minimum || op == Op::maximum || op == Op::choice ||
-                       op == Op::floor || op == Op::fract;
+  const bool gathers = op == Op::sum || op == Op::difference || op == Op::mix || op == Op::minimum || op == Op::maximum ||
+                       op == Op::choice || op == Op::floor || op == Op::fract;
   if (!gathers && uses[static_cast<std::size_t>(whole)] < 2) return;
   const auto one = [&](std::int32_t part, std::array<std::int8_t, 2> path) {
     if (part < 0 || node(part).op == Op::comparison) return;
@@ -59,7 +59,8 @@ void add_parts(Adder& add, const Probe& p, std::size_t at, std::int8_t k, const 
     const std::string wrong = words(p, part), right = words(p, whole);
     if (wrong == right || wrong == "...") return;
     add(r, fmt::format("value of before: {} for {}", wrong, right),
-        fmt::format("in {} stands {} where {} is meant: the value of before a step", words(p, static_cast<std::int32_t>(at)), wrong, right));
+        fmt::format("in {} stands {} where {} is meant: the value of before a step", words(p, static_cast<std::int32_t>(at)), wrong,
+                    right));
   };
   for (std::int8_t i = 0; i < 3; ++i) {
     const std::int32_t part = node(whole).of[static_cast<std::size_t>(i)];
@@ -78,8 +79,10 @@ void add_factors(Adder& add, const Probe& p, std::size_t at) {
     const Node& operand = p.trace.nodes[static_cast<std::size_t>(of)];
     if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::product)
       for (std::int8_t f = 0; f < 2; ++f)
-        add({RewriteKind::over_all, n.shape, occurrence, k, {f, -1}}, "factor of the whole sum: " + words(p, operand.of[static_cast<std::size_t>(f)]),
-            fmt::format("{} multiplies all of {}, after the sum, where it should multiply one term", words(p, operand.of[static_cast<std::size_t>(f)]), all));
+        add({RewriteKind::over_all, n.shape, occurrence, k, {f, -1}},
+            "factor of the whole sum: " + words(p, operand.of[static_cast<std::size_t>(f)]),
+            fmt::format("{} multiplies all of {}, after the sum, where it should multiply one term",
+                        words(p, operand.of[static_cast<std::size_t>(f)]), all));
     if (n.op == Op::product && (operand.op == Op::sum || operand.op == Op::difference))
       for (const RewriteKind kind : {RewriteKind::over_first, RewriteKind::over_second})
         add({kind, n.shape, occurrence, k, {-1, -1}}, "factor of one term: " + words(p, n.of[static_cast<std::size_t>(1 - k)]),

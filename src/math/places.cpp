@@ -200,7 +200,9 @@ Perturbed Perturbed::with_fault(Op op, const Perturbed& r, const Perturbed* of_,
              : op == Op::power      ? pow(b, a)
              : op == Op::smoothstep ? one - r
              : op == Op::choice     ? (c.v != 0 ? b : a)
-             : op == Op::comparison ? (a.v < b.v ? zero : b.v < a.v ? one : r)
+             : op == Op::comparison ? (a.v < b.v   ? zero
+                                       : b.v < a.v ? one
+                                                   : r)
                                     : r;
     case PlaceFault::inverted:
       return op == Op::quotient ? a * b : op == Op::power ? pow(a, one / b) : b.v != 0 ? a / b : zero;
