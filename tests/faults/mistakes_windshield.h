@@ -187,7 +187,7 @@ inline std::vector<Pass> windshield_passes() {
            {"linear visibility", {"linear for smoothstep"}},
            {"scene upside down", {"scene_scale.y with the other sign", "uniform scene_scale y negated", "scene_scale.y"}},
            {"refraction the other way",
-            {"refraction with the other sign", "uniform refraction negated", "sign of a product: refraction",
+            {"sign of a term: (refraction", "refraction with the other sign", "uniform refraction negated", "sign of a product: refraction",
              "sign of a term: refraction"}},
 
            {"one level too coarse",
