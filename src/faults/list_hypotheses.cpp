@@ -7,12 +7,18 @@
 #include "faults/whole_faults.h"
 
 namespace rainref::faults {
+namespace {
+
+/// That one is not set is plain, as what is wrong with all of a list.
+bool is_mixed_up_uniform(const Fault& d) { return is_of_uniform(d) && !d.name.ends_with("is zero"); }
+
+}  // namespace
 
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before) {
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before);
   // As for texels, constants are tried by their names.
-  std::erase_if(all,
-                [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_of_uniform(d); });
+  std::erase_if(
+      all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_mixed_up_uniform(d); });
   if (!p.bind) add_draw_faults(all);
   return all;
 }
@@ -36,7 +42,7 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list) {
   const std::vector<Probe> alike = is_followed ? probes_again(p.model, probes, {}, list) : std::vector<Probe>();
   add_place_faults(all, alike, {}, PlaceKind::plain);
   for (Fault& d : faults_of(p.pass, p.c, p.model, nullptr))
-    if (is_of_operation(d) || is_of_uniform(d)) all.push_back(std::move(d));
+    if (is_of_operation(d) || is_mixed_up_uniform(d)) all.push_back(std::move(d));
   add_place_faults(all, probes, known, PlaceKind::multiple);
   add_named_constants(all, constants, true);
   add_place_faults(all, alike, {}, PlaceKind::multiple);

@@ -40,7 +40,9 @@ std::string image_of(const Probe& p, std::size_t node) {
   return "a texture";
 }
 
-bool is_multiple(PlaceFault fault) {
+/// `op`: of the place. Which side of a decision is taken is less plain than what is left out.
+bool is_multiple(PlaceFault fault, Op op) {
+  if (fault == PlaceFault::swapped && (op == Op::choice || op == Op::comparison)) return true;
   switch (fault) {
     case PlaceFault::first_twice:
     case PlaceFault::second_twice:
@@ -249,7 +251,7 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       if (one.op != other.op || !done.insert({one.shape ^ other.shape * 5, 0}).second) continue;
       const std::vector<Words> first = words_of(p, at[0]), second = words_of(p, at[1]);
       for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k)
-        if (!is_multiple(first[k].fault) && first[k].fault == second[k].fault)
+        if (!is_multiple(first[k].fault, one.op) && first[k].fault == second[k].fault)
           add(first[k], {perturbed::Place{one.shape, -1, first[k].fault}, perturbed::Place{other.shape, -1, first[k].fault}},
               ", and so in the other component");
     }
@@ -261,7 +263,7 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         if (occurrence >= 0 && (count == 1 || count > most)) continue;
         if (!done.insert({n.shape, occurrence}).second) continue;
         for (const Words& w : words_of(p, at))
-          if ((kind == PlaceKind::multiple) == is_multiple(w.fault))
+          if ((kind == PlaceKind::multiple) == is_multiple(w.fault, n.op))
             add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
                 occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
       }
