@@ -88,7 +88,7 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   const std::vector<Probe> alike = probes_again(p.model, probes, {});
   add_place_faults(all, probes, known, PlaceKind::plain);
   add_named_constants(all, constants, false);
-  take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero"); });
+  take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero") || d.name.ends_with("the other way"); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
   add_place_faults(all, alike, {}, PlaceKind::plain);
