@@ -5,9 +5,11 @@
 // thousands of them that is open for most drops, so it is no alternative but an interval of the drop's mass, and of the
 // texel's water. That both agree is not judged.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <type_traits>
 
 #include "drops/scalar.h"
 #include "drops/evaluations.h"
@@ -66,28 +68,32 @@ class Merging {
   template <class N>
   std::vector<Member<N>> merged(int group) const {
     const Group& g = groups_[static_cast<std::size_t>(group)];
-    const std::size_t n = g.drops.size();
     std::vector<Member<N>> all;
     for (const std::size_t i : g.drops) all.push_back({&drops_[i], true, state_of<N>(drops_[i])});
-    constexpr std::size_t none = ~std::size_t{0};
-    std::vector<std::size_t> to(n, none);
-    for (const auto& [a, b] : g.pairs) {
-      if (!touching(all[a].state, all[b].state)) continue;
-      const auto [small, large] = is_larger(*all[b].drop, *all[a].drop) ? std::pair(a, b) : std::pair(b, a);
-      if (to[small] == none || is_larger(*all[large].drop, *all[to[small]].drop)) to[small] = large;
-    }
-    // In ascending id, as drops_ are.
-    for (std::size_t i = 0; i < n; ++i) {
-      if (to[i] == none) continue;
-      std::size_t root = to[i];
-      while (to[root] != none) root = to[root];
-      Member<N>&into = all[root], &from = all[i];
-      if (mass_of(into.state) + static_cast<double>(from.drop->mass) > most_mass) continue;
-      into.state = scalar::absorb(into.state, from.state);
-      from.lives = false;
-    }
+    Pairs touching_ones;
+    for (const auto& [a, b] : g.pairs)
+      if (touching(all[a].state, all[b].state)) touching_ones.emplace_back(a, b);
+    merge(all, touching_ones);
     return all;
   }
+  /// Of all groups, whoever touches whom: with a mistake in it that may be drops far apart.
+  template <class N>
+  std::vector<Member<N>> merged_from_anywhere() const {
+    std::vector<Member<N>> all;
+    std::vector<std::array<N, 3>> circles;
+    for (const Drop& d : drops_) {
+      const Member<N>& m = all.emplace_back(Member<N>{&d, true, state_of<N>(d)});
+      circles.push_back({scalar::plane_x(u_, m.state.u, m.state.v), scalar::plane_y(u_, m.state.v), scalar::base_radius(u_, m.state.mass)});
+    }
+    Pairs touching_ones;
+    for (std::size_t a = 0; a < circles.size(); ++a)
+      for (std::size_t b = a + 1; b < circles.size(); ++b)
+        if (scalar::touches(circles[a][0], circles[a][1], circles[a][2], circles[b][0], circles[b][1], circles[b][2]))
+          touching_ones.emplace_back(a, b);
+    merge(all, touching_ones);
+    return all;
+  }
+  std::size_t drops() const { return drops_.size(); }
 
   template <class N>
   scalar::Trail<N> trail(const scalar::DropState<N>& d) const {
@@ -124,6 +130,28 @@ class Merging {
     std::vector<std::size_t> drops;                          ///< ascending
     std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< that may touch, by place in `drops`
   };
+
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+  template <class N>
+  static void merge(std::vector<Member<N>>& all, const Pairs& touching_ones) {
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> to(all.size(), none);
+    for (const auto& [a, b] : touching_ones) {
+      const auto [small, large] = is_larger(*all[b].drop, *all[a].drop) ? std::pair(a, b) : std::pair(b, a);
+      if (to[small] == none || is_larger(*all[large].drop, *all[to[small]].drop)) to[small] = large;
+    }
+    // In ascending id, as drops_ are.
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (to[i] == none) continue;
+      std::size_t root = to[i];
+      while (to[root] != none) root = to[root];
+      Member<N>&into = all[root], &from = all[i];
+      if (mass_of(into.state) + static_cast<double>(from.drop->mass) > most_mass) continue;
+      into.state = scalar::absorb(into.state, from.state);
+      from.lives = false;
+    }
+  }
 
   template <class N>
   bool touching(const scalar::DropState<N>& a, const scalar::DropState<N>& b) const {
@@ -236,14 +264,19 @@ class MergedDrops : public capture::KeyedModel {
   template <class N>
   std::vector<std::byte> list() const {
     std::vector<Drop> out;
-    for (int group = 0; group < groups(); ++group) {
-      for (const Merging::Member<N>& one : m_.merged<N>(group)) {
+    const auto add = [&](const std::vector<Merging::Member<N>>& members) {
+      for (const Merging::Member<N>& one : members) {
         if (!one.lives) continue;
         scalar::DropState<N> left = one.state;
         left.mass = left.mass - m_.trail(left).mass_units;
         out.push_back(pass::stored(left, *one.drop));
       }
-    }
+    };
+    constexpr std::size_t most_for_all_pairs = 512;
+    if (std::is_same_v<N, Perturbed> && m_.drops() <= most_for_all_pairs)
+      add(m_.merged_from_anywhere<N>());
+    else
+      for (int group = 0; group < groups(); ++group) add(m_.merged<N>(group));
     return pass::bytes_of(out);
   }
   const Merging& m_;

@@ -5,7 +5,7 @@
 #include "drops/passes.h"
 #include "drops/spawn.pass.h"
 #include "rainref/error.h"
-#include "random/counter.h"
+#include "random/draws.h"
 #include "random/poisson.h"
 
 namespace rainref::drops {
@@ -26,18 +26,21 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   }
   const std::uint64_t seed = c.seed[0] | static_cast<std::uint64_t>(c.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(c.threshold_count));
+  const random::Draws& draws = random::draws();
   std::uint32_t count = 0;
-  for (std::uint32_t part = 0; part < c.parts; ++part) {
-    const std::uint32_t word = random::block(seed, random::Purpose::drop_count, c.step, part)[0];
+  for (std::uint32_t part = 0; part < (draws.counts_one_draw ? std::min(c.parts, 1u) : c.parts); ++part) {
+    const std::uint32_t word = draws.block(seed, random::Purpose::drop_count, c.step, part)[0];
     const auto above = std::upper_bound(used.begin(), used.end(), word, [](std::uint32_t w, CountThreshold t) { return w < t.threshold; });
-    count += static_cast<std::uint32_t>(c.first_count) + static_cast<std::uint32_t>(above - used.begin());
+    count += static_cast<std::uint32_t>(c.first_count) +
+             draws.count(static_cast<std::uint32_t>(above - used.begin()), static_cast<std::uint32_t>(used.size()));
   }
   if (!all) count = std::min(count, c.room);
   std::vector<Drop> out;
   out.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const random::Block r = random::block(seed, random::Purpose::drop_arrival, c.step, i);
-    out.push_back({{random::uniform(r[0]), random::uniform(r[1])}, {0, 0}, masses[r[2] >> 22].mass, c.life, c.first_id + i, 0});
+    const random::Block r = draws.block(seed, random::Purpose::drop_arrival, c.step, i);
+    const auto place = [&](std::uint32_t word) { return static_cast<float>(draws.place(word, 24)) * 0x1p-24f; };
+    out.push_back({{place(r[0]), place(r[1])}, {0, 0}, masses[draws.choice(r[2], 10)].mass, c.life, c.first_id + i, 0});
   }
   return out;
 }

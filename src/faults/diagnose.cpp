@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "faults/bits_replay.h"
 #include "faults/list_replay.h"
 #include "faults/texel_replay.h"
 #include "faults/where.h"
+#include "judge/evaluations.h"
 #include "judge/judge.h"
 #include "judge/keyed.h"
 
@@ -30,6 +32,25 @@ std::vector<Cause> causes_of_lists(const FailedRun& f) {
     ListReplay run = replay_of(f);
     if (!run.fails()) continue;
     std::optional<ListReplay> other;
+    if (f.other) other.emplace(replay_of(*f.other));
+    for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
+  }
+  return found;
+}
+
+/// What explains lists that are whole numbers' work, judged by bits in their order.
+std::vector<Cause> causes_of_bits(const FailedRun& f) {
+  std::vector<Cause> found;
+  const capture::PassEvaluations* evaluations = judge::evaluations_of(f.run.c.effect, f.run.c.pass);
+  if (!evaluations || !evaluations->recompute) return found;
+  for (std::size_t o = 0; o < f.run.c.outputs.size(); ++o) {
+    if (!f.run.c.outputs[o].array.is_records) continue;
+    const auto replay_of = [&](const FailedRun& r) {
+      return BitsReplay(r.pass, r.run.c, r.before, *evaluations, r.run.stored[o], o, *r.options.executor);
+    };
+    BitsReplay run = replay_of(f);
+    if (!run.fails()) continue;
+    std::optional<BitsReplay> other;
     if (f.other) other.emplace(replay_of(*f.other));
     for (Cause& c : diagnosed(run, other && other->fails() ? &*other : nullptr)) found.push_back(std::move(c));
   }
@@ -61,7 +82,7 @@ judge::Explanation diagnose(const FailedRun& failed) {
     why.causes = causes_of_lists(failed);
     if (!why.causes.empty() || !failed.bind || !judge::is_enveloped(c)) return why;
   }
-  why.causes = causes_of_texels(failed);
+  why.causes = judge::is_enveloped(c) ? causes_of_texels(failed) : causes_of_bits(failed);
   return why;
 }
 
@@ -77,23 +98,34 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
   return found;
 }
 
-std::vector<Cause> best_causes(std::vector<Cause> causes) {
+std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // A fault that explains some texels of many explains nothing; a wrong cause would be worse than none.
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
-  if (causes.empty()) return causes;
+  if (causes.empty()) return {};
   // Bits count twice: what gives them is also near. Within 2 % of the best, causes explain as much as each other.
   const auto score = [](const Cause& c) {
     return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1));
   };
+  // A number can be fitted to much: it is believed only where no mistake that has a name comes near all of what fails.
+  const auto is_full = [](const Tried& c) { return c.inside * 50 >= c.of * 49 && c.misfit <= 0.1; };
+  if (std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return !is_fitted(c.name) && is_full(c); }))
+    for (Tried& c : causes)
+      if (is_fitted(c.name) && c.explained * 10 < c.of * 9) c.explained = c.inside = 0;
   double best = 0;
   for (const Cause& c : causes) best = std::max(best, score(c));
   // Records are few, and no device blurs which of them are there: of these the better explains more.
-  const auto is_best = [&](const Cause& c) { return score(c) >= best - (c.of_records ? 0 : 0.04); };
-  const auto rank = [&](const Cause& c) { return is_best(c) ? 2.0 : score(c); };
-  std::stable_sort(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });
+  const auto explains_most = [&](const Cause& c) { return score(c) >= best - (c.of_records ? 0 : 0.04); };
+  double least = 1;
+  for (const Tried& c : causes)
+    if (explains_most(c)) least = std::min(least, c.misfit);
+  // An envelope may be wide enough for several; the one that is meant leaves hardly anything.
+  const auto is_best = [&](const Tried& c) { return explains_most(c) && c.misfit <= 2 * least + 0.02; };
+  const auto rank = [&](const Tried& c) { return is_best(c) ? 3.0 : score(c); };
+  std::stable_sort(causes.begin(), causes.end(), [&](const Tried& a, const Tried& b) { return rank(a) > rank(b); });
   std::vector<Cause> out;
-  for (Cause& c : causes)
-    if (out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; })) out.push_back(c);
+  for (const Tried& c : causes)
+    if (score(c) > 0 && out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; }))
+      out.push_back(c);
   // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
   // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
   constexpr std::ptrdiff_t most_rivals = 20;

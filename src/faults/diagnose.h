@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "capture/pack_read.h"
+#include "faults/replay.h"
 #include "judge/judge_pass.h"
 
 namespace rainref::faults {
@@ -17,8 +18,9 @@ std::vector<judge::Cause> diagnose_lists(const capture::PackPass& pass, const ca
                                          const capture::PassModel* model, const std::vector<capture::Array>& port,
                                          const enclosed::Profile& profile, const parallel::Executor& executor);
 
-/// The three best of them, of those that explain enough. Of causes that explain about as much the one that comes first is taken:
-/// `causes` are in the order in which they are to be believed. Says which is likely.
-std::vector<judge::Cause> best_causes(std::vector<judge::Cause> causes);
+/// The three best of them, of those that explain enough. Of causes that explain about as much, and come about as near, the one that
+/// comes first is taken: `causes` are in the order in which they are to be believed. What is fitted to the port comes after all others.
+/// Says which is likely.
+std::vector<judge::Cause> best_causes(std::vector<Tried> causes);
 
 }  // namespace rainref::faults

@@ -120,6 +120,14 @@ void add_uniforms(std::vector<Fault>& out, const capture::PackPass& pass, const 
       d.alter_case = std::move(alter);
       out.push_back(std::move(d));
     };
+    if (m.scalar == scene::Scalar::int32 && m.components == 1) {
+      add("the other way", fmt::format("the choice that {} makes is inverted, or {} is not set", m.name, m.name), [m](PassCase& c) {
+        std::int32_t v;
+        std::memcpy(&v, c.uniforms.data() + m.offset, 4);
+        if (v == 0 || v == 1) set_member(c, m.offset, 1 - v);  // else it is no flag
+      });
+      out.back().for_diagnosis = true;
+    }
     add("is zero", fmt::format("{} is not set", m.name), [m](PassCase& c) { std::memset(c.uniforms.data() + m.offset, 0, m.size()); });
     if (m.components > 1) {
       add("reversed", fmt::format("the components of {} are in reverse order", m.name), [m](PassCase& c) {
@@ -223,7 +231,8 @@ void add_inputs(std::vector<Fault>& out, const PassCase& c, const PassCase* befo
         add("as BGRA", fmt::format("{} is read in the order BGRA", name), [](Array& a) { swap_channels(a, 0, 2); });
       }
       if (i.array.levels.size() > 1) {
-        add("without mip levels", fmt::format("{} has its first level only", name), [](Array& a) { a.levels.resize(1); });
+        add("without mip levels", fmt::format("{} has its first level only, or is read at level 0", name),
+            [](Array& a) { a.levels.resize(1); });
       }
     }
     const CaseInput* old = before ? before->input(name) : nullptr;
@@ -274,6 +283,9 @@ void FaultyPass::store(Texel at, std::vector<Array>& out) const {
   perturbed::Behaviour behaviour = fault_.behaviour;
   std::vector<float> loads;
   if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
+  perturbed::Trace trace;
+  if (fault_.rewrite) behaviour.trace = &trace;
+  const perturbed::RewriteScope rewriting(fault_.rewrite.value_or(perturbed::Rewrite()));
   const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
   (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());

@@ -13,6 +13,8 @@
 #include "judge/evaluations.h"
 #include "judge/slots.h"
 #include "judge/verdict.h"
+#include "math/rewrites.h"
+#include "random/draws.h"
 
 namespace rainref::faults {
 
@@ -40,11 +42,13 @@ struct Fault {
   std::function<float(float, const judge::Slot&)> alter_value;  ///< of the evaluated values, before they are stored
   /// The behaviour at one texel. `loads` is room for Behaviour::loads.
   std::function<void(Texel, perturbed::Behaviour&, std::vector<float>& loads)> at_texel;
-  std::optional<judge::HalfMode> stores;  ///< how halves are stored, whatever was declared
-  bool legal = false;                     ///< a conforming GPU may do this: not a bug, but it explains differences
-  bool for_diagnosis = false;             ///< asked by the diagnosis only: `mutate` has enough of its kind
+  std::optional<perturbed::Rewrite> rewrite;  ///< at one place, of other values of the invocation
+  std::optional<random::Draws> draws;         ///< of a pass of whole numbers: how it draws
+  std::optional<judge::HalfMode> stores;      ///< how halves are stored, whatever was declared
+  bool legal = false;                         ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool for_diagnosis = false;                 ///< asked by the diagnosis only: `mutate` has enough of its kind
 
-  bool is_evaluated() const { return !alter_outputs && !alter_list; }
+  bool is_evaluated() const { return !alter_outputs && !alter_list && !draws; }
 };
 
 /// All faults of a pass on a case: of the arithmetic, of each literal and uniform, of inputs, of finished buffers and lists.

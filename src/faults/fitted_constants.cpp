@@ -82,20 +82,32 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
     double sum = 0;
     for (const Wanted& w : wanted) {
       const std::size_t s = farthest_slot(w);
-      sum += std::abs(static_cast<double>(pass.value(w, s, r)) - w.port[s]) / std::max(w.step[s], 1e-30f);
+      // Half a step is the store's own rounding.
+      sum += std::max(0.0, std::abs(static_cast<double>(pass.value(w, s, r)) - w.port[s]) / std::max(w.step[s], 1e-30f) - 0.5);
     }
     return sum;
   };
   const double without = misfit(pass.constant);
   std::optional<float> best;
   double least = without / 10;  // it must be much better than the constant itself
+  std::vector<float> roots;
   for (std::size_t k = 0; k < std::min<std::size_t>(wanted.size(), 4); ++k)
-    for (const float root : replacements(pass, wanted[k]))
+    for (const float root : replacements(pass, wanted[k])) {
       if (const double m = misfit(root); m < least && root != pass.constant) least = m, best = root;
-  for (int digits = 1; best && *best != 0 && digits < 7; ++digits)
-    if (const float nice = rounded(*best, digits);
-        nice != pass.constant && misfit(nice) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()))
-      return nice;
+      roots.push_back(root);
+    }
+  if (!best) return best;
+  // Of coarse codes each texel leaves a range open: the number lies in all of them, and those of these that are near lie around it.
+  float sum = 0, count = 0;
+  for (const float root : roots)
+    if (std::abs(root - *best) <= 0.05f * std::abs(*best)) sum += root, count += 1;
+  if (const float mean = sum / count; mean != pass.constant)
+    if (const double m = misfit(mean); m < least) least = m, best = mean;
+  const auto suits = [&](float r) { return r != pass.constant && misfit(r) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()); };
+  for (int digits = 1; *best != 0 && digits < 7; ++digits) {
+    if (const float nice = rounded(*best, digits); suits(nice)) return nice;
+    if (const float nice = 1 / rounded(1 / *best, digits); digits < 4 && suits(nice)) return nice;
+  }
   return best;
 }
 

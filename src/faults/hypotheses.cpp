@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "faults/failing_texels.h"
+#include "faults/order_faults.h"
 #include "faults/place_faults.h"
 #include "faults/whole_faults.h"
 
@@ -45,6 +46,13 @@ std::vector<Wanted> telling(std::vector<Wanted> all, std::size_t most) {
   return all;
 }
 
+/// A channel of an input that has another sign, is taken from 1, or counts as 0: in the text a term has.
+bool is_of_channel(const Fault& d) {
+  const std::string& n = d.name;
+  return n.starts_with("input ") &&
+         (n.ends_with(" negated") || n.ends_with(" from 1 down") || n.find(" without its ") != std::string::npos);
+}
+
 /// Failing texels away from the edges, if there are some: what stands beyond an edge has no name.
 std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassModel& model) {
   std::vector<Texel> out;
@@ -58,36 +66,45 @@ std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassM
 
 }  // namespace
 
-bool is_mixed_up_uniform(const Fault& d) {
-  const bool is_plain = d.name.ends_with("is zero") || d.name.ends_with("negated") || d.name.ends_with("stale");
-  return d.name.starts_with("uniform") && !is_plain;
+bool is_of_uniform(const Fault& d) { return d.name.starts_with("uniform") && !d.name.ends_with("stale"); }
+
+bool is_of_operation(const Fault& d) {
+  return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
 }
 
 Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing) {
-  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations;
+  std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before), uniforms, operations, channels;
   // Constants are tried by their names; uniforms and what an operation may be mistaken for everywhere, after each place by itself.
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
-  take(all, uniforms, is_mixed_up_uniform);
-  take(all, operations, [](const Fault& d) {
-    return d.behaviour.fault >= perturbed::Fault::strict_for_weak && d.behaviour.fault <= perturbed::Fault::atan2_swapped;
-  });
+  take(all, uniforms, is_of_uniform);
+  take(all, operations, is_of_operation);
   add_output_mixups(all, p, before);
   add_tap_faults(all, p);
   add_input_mixups(all, p);
+  take(all, channels, is_of_channel);
   const std::vector<float> known = constants_everywhere(p.model);
   const std::vector<Probe> probes = probes_of(p, spread(inner(failing, p.model), 4), known);
   const Constants constants = names_of_constants(probes, known);
+  const std::vector<Probe> alike = probes_again(p.model, probes, {});
+  add_place_faults(all, probes, known, PlaceKind::plain);
   add_named_constants(all, constants, false);
-  add_place_faults(all, probes, known);
-  std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
-  add_scaled_inputs(all, p);
+  take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero") || d.name.ends_with("the other way"); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
-  add_named_constants(all, constants, true);
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
-  add_place_faults(all, probes_again(p.model, probes, {}), {});
+  add_place_faults(all, alike, {}, PlaceKind::plain);
+  std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
+  add_whole_mixups(all, p);
+  std::move(channels.begin(), channels.end(), std::back_inserter(all));
   std::move(operations.begin(), operations.end(), std::back_inserter(all));
+  add_place_faults(all, probes, known, PlaceKind::multiple);
+  add_scaled_inputs(all, p);
+  add_named_constants(all, constants, true);
+  add_place_faults(all, alike, {}, PlaceKind::multiple);
   add_odd_constants(all, p, constants);
-  return {std::move(all), constants};
+  std::vector<Fault> orders;
+  add_order_faults(orders, probes, known);
+  add_order_faults(orders, alike, {});
+  return {std::move(all), constants, std::move(orders)};
 }
 
 std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<Array>& port, const std::vector<Array>& reference,

@@ -13,6 +13,7 @@ namespace rainref::faults {
 struct Hypotheses {
   std::vector<Fault> faults;  ///< in the order in which they are to be believed
   Constants constants;        ///< that the pass meets
+  std::vector<Fault> orders;  ///< what is asked only where these explain little
 };
 /// `failing`: some texels that fail, at least one.
 Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing);
@@ -24,8 +25,10 @@ std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before);
 Hypotheses list_hypotheses(const Probed& p, const std::string& list);
 
-/// That a uniform is not set, or has another sign, is plain; that two are mistaken for each other is less so.
-bool is_mixed_up_uniform(const Fault& d);
+/// What is wrong with a uniform itself. A mistake in the text that gives the same is believed first.
+bool is_of_uniform(const Fault& d);
+/// What an operation may be mistaken for, everywhere. At one place it is said better.
+bool is_of_operation(const Fault& d);
 /// Moves some faults to another list.
 template <class Which>
 void take(std::vector<Fault>& from, std::vector<Fault>& to, Which which) {

@@ -68,6 +68,11 @@ std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t 
     return array_of(edit.records, finished);
   }
   if (d.alter_outputs || d.stores) return std::nullopt;
+  if (d.draws) {
+    if (evaluations.bind || !evaluations.recompute) return std::nullopt;
+    const random::DrawsScope scope(*d.draws);
+    return evaluations.recompute(c)[output];
+  }
   PassCase altered;
   std::unique_ptr<capture::PassModel> altered_model;
   if (d.alter_case) {
@@ -86,6 +91,9 @@ std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t 
   perturbed::Behaviour behaviour = d.behaviour;
   std::vector<float> unused;
   if (d.at_texel) d.at_texel({-1, -1}, behaviour, unused);
+  perturbed::Trace trace;
+  if (d.rewrite) behaviour.trace = &trace;
+  const perturbed::RewriteScope rewriting(d.rewrite.value_or(perturbed::Rewrite()));
   const perturbed::Scope scope(behaviour);
   const auto bytes = keyed->perturbed();
   if (!bytes) return std::nullopt;

@@ -156,6 +156,17 @@ void add_fields(Adder& a, bool has_input) {
             });
     }
   }
+  // What has four components and no name for each is a matrix of 2 x 2.
+  std::vector<Member> matrices;
+  for (const Member& m : a.list().fields)
+    if (m.scalar == scene::Scalar::float32 && m.components == 4) matrices.push_back(m);
+  if (!matrices.empty())
+    a.add("with its matrices transposed", "rows and columns of the matrices are exchanged: they are stored column by column",
+          [matrices](const List&, const PassCase&, ListEdit& e) {
+            for (auto& r : e.records)
+              for (const Member& m : matrices) std::swap_ranges(&r[m.offset + 4], &r[m.offset + 4] + 4, &r[m.offset + 8]);
+            return !e.records.empty();
+          });
   a.add("through half", "the fields have half precision", [](const List& list, const PassCase&, ListEdit& e) {
     for (auto& r : e.records)
       for (const Member& m : list.fields)

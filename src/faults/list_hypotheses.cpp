@@ -1,15 +1,25 @@
 // All that the diagnosis of a failing list tries.
+#include "faults/draw_faults.h"
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
+#include "faults/order_faults.h"
 #include "faults/place_faults.h"
 #include "faults/whole_faults.h"
 
 namespace rainref::faults {
+namespace {
+
+/// That one is not set is plain, as what is wrong with all of a list.
+bool is_mixed_up_uniform(const Fault& d) { return is_of_uniform(d) && !d.name.ends_with("is zero"); }
+
+}  // namespace
 
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before) {
   std::vector<Fault> all = faults_of(p.pass, p.c, p.model, before);
   // As for texels, constants are tried by their names.
-  std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
+  std::erase_if(
+      all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_mixed_up_uniform(d); });
+  if (!p.bind) add_draw_faults(all);
   return all;
 }
 
@@ -23,15 +33,23 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list) {
   const std::vector<Probe> probes = is_followed ? probes_of_list(p, list, known) : std::vector<Probe>();
   const Constants constants = names_of_constants(probes, known);
   add_named_constants(all, constants, false);
-  add_place_faults(all, probes, known);
+  add_place_faults(all, probes, known, PlaceKind::plain);
   std::set<std::string> used = uniforms_met(probes, p.pass);
   if (!is_followed)
     for (const scene::Member& m : p.pass.block.members) used.insert(m.name);
   add_uniform_mixups(all, p, used);
+  add_whole_mixups(all, p);
+  const std::vector<Probe> alike = is_followed ? probes_again(p.model, probes, {}, list) : std::vector<Probe>();
+  add_place_faults(all, alike, {}, PlaceKind::plain);
+  for (Fault& d : faults_of(p.pass, p.c, p.model, nullptr))
+    if (is_of_operation(d) || is_mixed_up_uniform(d)) all.push_back(std::move(d));
+  add_place_faults(all, probes, known, PlaceKind::multiple);
   add_named_constants(all, constants, true);
-  if (is_followed) add_place_faults(all, probes_again(p.model, probes, {}, list), {});
+  add_place_faults(all, alike, {}, PlaceKind::multiple);
   add_odd_constants(all, p, constants);
-  return {std::move(all), constants};
+  add_order_faults(all, probes, known);
+  add_order_faults(all, alike, {});
+  return {std::move(all), constants, {}};
 }
 
 }  // namespace rainref::faults

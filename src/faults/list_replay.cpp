@@ -192,12 +192,14 @@ std::vector<Fault> ListReplay::fitted() {
   return out;
 }
 
-Cause ListReplay::cause(const Fault& d) const {
-  Cause cause{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()), 0, true};
+Tried ListReplay::cause(const Fault& d) const {
+  Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()), 0, true}};
   const std::optional<Array> list = faulty_list(d, c_, output_, *evaluations_, model_, reference_, failing_, &stored_);
   if (!list) return cause;
   const ById guess = by_id(*list);
+  bool are_same_ids = true;
   for (const std::uint32_t id : failing_) {
+    are_same_ids &= of(guess, id).size() == of(got_, id).size();
     const Match with = compare(of(guess, id), of(got_, id), words_), without = compare(of(right_, id), of(got_, id), words_);
     cause.explained += with.exact && !without.exact;
     cause.inside += with.near && !without.near;
@@ -210,36 +212,14 @@ Cause ListReplay::cause(const Fault& d) const {
       broken += !compare(of(guess, id), of(right_, id), words_).near;
     }
   if (broken * 4 > cause.of) cause.explained = cause.inside = 0;
-  cause.is_likely = cause.inside * 10 >= cause.of * 9;
+  // That a list stays empty is no cause where one record is there.
+  cause.is_likely = are_same_ids && cause.inside * 10 >= cause.of * 9;
   return cause;
 }
 
-std::vector<Cause> ListReplay::causes(const std::vector<Fault>& all) const {
-  std::vector<Cause> out(all.size());
-  executor_.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const Fault& d = all[static_cast<std::size_t>(k)];
-      try {
-        out[static_cast<std::size_t>(k)] = cause(d);
-      } catch (const Error&) {
-        out[static_cast<std::size_t>(k)] = {d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()),
-                                            0,      true};  // the altered case is none that the pass can run
-      }
-    }
-  });
-  return out;
+std::vector<Tried> ListReplay::causes(const std::vector<Fault>& all) const {
+  return tried(executor_, all, {"", "", 0, static_cast<std::int64_t>(failing_.size()), 0, true}, [&](const Fault& d) { return cause(d); });
 }
-
-/// The list of a varied case.
-class ListReplay::Elsewhere : public ListReplay {
- public:
-  Elsewhere(const ListReplay& of, std::unique_ptr<capture::PassCase> c, std::unique_ptr<capture::PassModel> model)
-      : ListReplay(of, *c, *model), c_(std::move(c)), model_(std::move(model)) {}
-
- private:
-  std::unique_ptr<capture::PassCase> c_;
-  std::unique_ptr<capture::PassModel> model_;
-};
 
 ListReplay::ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model)
     : pass_(of.pass_),
@@ -260,11 +240,11 @@ std::unique_ptr<Replay> ListReplay::elsewhere() const {
     auto c = std::make_unique<capture::PassCase>(varied(pass_, c_));
     std::unique_ptr<capture::PassModel> model = evaluations_->bind(*c);
     if (!model->keyed(c_.outputs[output_].name)) return nullptr;
-    auto out = std::make_unique<Elsewhere>(*this, std::move(c), std::move(model));
+    auto out = std::make_unique<OwnReplay<ListReplay>>(*this, std::move(c), std::move(model));
+    ListReplay& there = *out;
     // A mistake of the finished list is made in what the pass gives there.
-    if (const std::optional<Array> own =
-            faulty_list(Fault{}, out->ListReplay::c_, output_, *evaluations_, out->ListReplay::model_, reference_))
-      out->reference_ = *own;
+    if (const std::optional<Array> own = faulty_list(Fault{}, there.c_, output_, *evaluations_, there.model_, reference_))
+      there.reference_ = *own;
     return out;
   } catch (const Error&) {
     return nullptr;  // the pass refuses such numbers

@@ -29,15 +29,17 @@ class ListReplay : public Replay {
   std::vector<Fault> plain() override;
   std::vector<Fault> deeper() override;
   std::vector<Fault> fitted() override;
-  std::vector<judge::Cause> causes(const std::vector<Fault>& all) const override;
+  std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
 
- private:
-  class Elsewhere;
-  using ById = std::map<std::uint32_t, Records>;
+ protected:
+  /// The list of a varied case.
   ListReplay(const ListReplay& of, const capture::PassCase& c, const capture::PassModel& model);
-  judge::Cause cause(const Fault& d) const;
+
+ private:
+  using ById = std::map<std::uint32_t, Records>;
+  Tried cause(const Fault& d) const;
 
   const capture::PackPass& pass_;
   const capture::PassCase& c_;

@@ -1,6 +1,9 @@
 #include "faults/place_faults.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <map>
 #include <memory>
 #include <set>
 #include <utility>
@@ -24,7 +27,7 @@ std::string shortened(const Probe& p, std::int32_t node) {
   for (int depth = 3; depth > 0; --depth)
     if (const std::string text = p.text(node, depth); text.size() <= 60) return text;
   const std::string text = p.text(node, 1);
-  return text.size() <= 80 ? text : text.substr(0, 77) + "...";
+  return text.size() <= 80 ? text : fmt::format("{:.77}...", text);
 }
 
 /// The input that a lookup's coordinate leads to: the next texel fetched.
@@ -35,6 +38,44 @@ std::string image_of(const Probe& p, std::size_t node) {
     return name.substr(0, name.find('.'));
   }
   return "a texture";
+}
+
+/// `op`: of the place. Which side of a decision is taken is less plain than what is left out.
+bool is_multiple(PlaceFault fault, Op op) {
+  if (fault == PlaceFault::swapped && (op == Op::choice || op == Op::comparison)) return true;
+  switch (fault) {
+    case PlaceFault::first_twice:
+    case PlaceFault::second_twice:
+    case PlaceFault::first_squared:
+    case PlaceFault::second_squared:
+    case PlaceFault::doubled:
+    case PlaceFault::halved:
+    case PlaceFault::squared:
+    case PlaceFault::rooted:
+    case PlaceFault::always:
+    case PlaceFault::never:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Column and row are the components of a texel's place.
+std::string with_columns(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t n = text.compare(at, 6, "column") == 0 ? 6 : text.compare(at, 3, "row") == 0 ? 3 : 0;
+    out.push_back(n > 0 ? 'x' : text[at]);
+    at += n > 0 ? n : 1;
+  }
+  return out;
+}
+/// A text in which the components of vectors have one name.
+std::string of_any_component(std::string text) {
+  const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (text[at] >= 'x' && text[at] <= 'z' && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = 'x';
+  return text;
 }
 
 /// What a mistake makes of a node, in words.
@@ -56,6 +97,7 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
           n.op == Op::sum ? fmt::format("in {} the term {} has the other sign", all, a) : fmt::format("{} is taken the other way", all));
       add(PlaceFault::first_twice, "term twice: " + a, fmt::format("in {} the term {} counts twice", all, a));
       add(PlaceFault::second_twice, "term twice: " + b, fmt::format("in {} the term {} counts twice", all, b));
+      if (n.op == Op::difference) add(PlaceFault::other, "complement left out: " + all, fmt::format("for {} stands {}", all, b));
       add(PlaceFault::rooted, "root for square: " + all,
           fmt::format("the square root of {} is taken in place of it: a length for its square", all));
       break;
@@ -89,6 +131,10 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::second, fmt::format("{} left out: {}", name, all), fmt::format("for {} stands {}", all, b));
       add(PlaceFault::other, fmt::format("{} for {}: {}", n.op == Op::minimum ? "max" : "min", name, all),
           fmt::format("{} is taken the other way", all));
+      add(PlaceFault::added, fmt::format("sum for {}: {}", name, all), fmt::format("{} and {} are added in place of their {}", a, b, name));
+      if (n.op == Op::maximum)
+        add(PlaceFault::saturated, fmt::format("sum for max: {}", all),
+            fmt::format("{} and {} are added, and held to [0, 1], in place of their max", a, b));
       break;
     }
     case Op::magnitude:
@@ -146,6 +192,7 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
       break;
     case Op::comparison:
+      add(PlaceFault::swapped, fmt::format("condition the other way: {} < {}", a, b), fmt::format("{} < {} is taken the other way", a, b));
       add(PlaceFault::always, fmt::format("condition left out: {} < {}", a, b), fmt::format("{} < {} is taken to hold everywhere", a, b));
       add(PlaceFault::never, fmt::format("condition never holds: {} < {}", a, b), fmt::format("{} < {} is taken to hold nowhere", a, b));
       break;
@@ -176,11 +223,12 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
 
 }  // namespace
 
-void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known) {
+void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind) {
   const auto shared = std::make_shared<const std::vector<float>>(known);
   const auto add = [&](const Words& w, std::array<perturbed::Place, 2> places, std::string remark) {
     Fault d;
     d.name = w.name;
+    if (remark.starts_with(", and so")) d.name.append(", in both components");
     d.sentence = w.sentence + remark;
     d.behaviour.places = places;
     d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
@@ -190,6 +238,23 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
   constexpr std::int32_t most = 6;  // of one shape that are tried one by one: components, neighbours
   std::set<std::pair<std::uint32_t, std::int32_t>> done;
   for (const Probe& p : probes) {
+    // A vector's two components stand at two places; a mistake in the vector is made at both.
+    std::map<std::string, std::vector<std::size_t>> vectors;
+    for (std::size_t at = p.trace.nodes.size(); at-- > 0 && kind == PlaceKind::plain;) {
+      const Node& n = p.trace.nodes[at];
+      if ((n.op == Op::sum || n.op == Op::difference || n.op == Op::product) && p.trace.met.at(n.shape) == 1)
+        vectors[of_any_component(with_columns(p.text(static_cast<std::int32_t>(at), 3)))].push_back(at);
+    }
+    for (const auto& [text, at] : vectors) {
+      if (at.size() != 2) continue;
+      const Node &one = p.trace.nodes[at[0]], &other = p.trace.nodes[at[1]];
+      if (one.op != other.op || !done.insert({one.shape ^ other.shape * 5, 0}).second) continue;
+      const std::vector<Words> first = words_of(p, at[0]), second = words_of(p, at[1]);
+      for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k)
+        if (!is_multiple(first[k].fault, one.op) && first[k].fault == second[k].fault)
+          add(first[k], {perturbed::Place{one.shape, -1, first[k].fault}, perturbed::Place{other.shape, -1, first[k].fault}},
+              ", and so in the other component");
+    }
     // From the results to what they are made of: a whole term left out is a plainer mistake than one in its depths.
     for (std::size_t at = p.trace.nodes.size(); at-- > 0;) {
       const Node& n = p.trace.nodes[at];
@@ -198,10 +263,11 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         if (occurrence >= 0 && (count == 1 || count > most)) continue;
         if (!done.insert({n.shape, occurrence}).second) continue;
         for (const Words& w : words_of(p, at))
-          add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
-              occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
+          if ((kind == PlaceKind::multiple) == is_multiple(w.fault, n.op))
+            add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
+                occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
       }
-      if (n.op != Op::lookup) continue;
+      if (n.op != Op::lookup || kind == PlaceKind::multiple) continue;
       // Both coordinates of a lookup: fx and fy of a blend are what a coordinate has beyond its floor.
       const auto coordinate_of = [&](std::int32_t fraction) -> std::int32_t {
         if (fraction < 0) return -1;

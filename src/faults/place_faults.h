@@ -8,8 +8,13 @@
 
 namespace rainref::faults {
 
+/// What is wrong at a place.
+enum class PlaceKind {
+  plain,    ///< something left out, exchanged, of another sign
+  multiple  ///< a term or factor that counts otherwise: twice, half, squared
+};
 /// Adds what can go wrong at each place that the probes met. `known`: as they were made with.
-void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known);
+void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind);
 
 /// Adds, for each constant, the value that it would need to have for what the port stored at some failing texels, where there
 /// is one. `wanted`: texels and what the port stored there, one number for each slot.

@@ -16,12 +16,9 @@ namespace {
 using judge::Cause;
 
 double score(const Cause& c) { return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1)); }
-double best_score(const std::vector<Cause>& causes) {
-  double best = 0;
-  for (const Cause& c : causes) best = std::max(best, score(c));
-  return best;
+bool is_explained(const std::vector<Tried>& causes) {
+  return std::any_of(causes.begin(), causes.end(), [](const Tried& c) { return c.is_likely && score(c) >= 1.9; });
 }
-bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
 
 /// Those of these names that a run may have.
 std::vector<Fault> named(Replay& run, const std::set<std::string>& names) {
@@ -38,7 +35,7 @@ std::vector<Fault> named(Replay& run, const std::set<std::string>& names) {
 }
 
 /// Adds how well the causes that explain something explain another run.
-void check_in(Replay& other, std::vector<Cause>& causes) {
+void check_in(Replay& other, std::vector<Tried>& causes) {
   std::set<std::string> names;
   bool is_any_fitted = false;
   for (const Cause& c : causes) {
@@ -51,15 +48,15 @@ void check_in(Replay& other, std::vector<Cause>& causes) {
   if (is_any_fitted)
     for (Fault& d : other.fitted())
       if (names.contains(d.name)) all.push_back(std::move(d));
-  std::map<std::string, Cause> there;
-  for (Cause& c : other.causes(all)) {
+  std::map<std::string, Tried> there;
+  for (Tried& c : other.causes(all)) {
     const auto [at, is_new] = there.emplace(c.name, c);
     if (!is_new && score(c) > score(at->second)) at->second = c;
   }
   double best = 0;
   for (const auto& [name, c] : there) best = std::max(best, score(c));
   if (best < 1) return;  // there the mistake shows in another way
-  for (Cause& c : causes) {
+  for (Tried& c : causes) {
     const auto found = there.find(c.name);
     if (found == there.end()) {
       c.is_likely = false;
@@ -69,18 +66,24 @@ void check_in(Replay& other, std::vector<Cause>& causes) {
     c.inside += found->second.inside;
     c.of += found->second.of;
     c.is_likely &= found->second.is_likely;
+    c.misfit = std::max(c.misfit, found->second.misfit);
   }
 }
 
-/// Whether two mistakes give the same numbers, but for rounding.
-bool alike(const std::vector<float>& a, const std::vector<float>& b) {
+bool same(float a, float b) {
+  const double size = std::max(std::abs(static_cast<double>(a)), std::abs(static_cast<double>(b)));
+  return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(static_cast<double>(a) - b) <= 0x1p-8 * size + 0x1p-20;
+}
+/// Whether two mistakes give the same numbers, but for rounding, where either shows: where it gives others than `right`.
+bool alike(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& right) {
   if (a.size() != b.size()) return false;
-  std::size_t same = 0;
+  std::size_t alike = 0, shown = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const double size = std::max(std::abs(static_cast<double>(a[k])), std::abs(static_cast<double>(b[k])));
-    same += a[k] == b[k] || (std::isnan(a[k]) && std::isnan(b[k])) || std::abs(static_cast<double>(a[k]) - b[k]) <= 0x1p-8 * size + 0x1p-20;
+    if (right.size() == a.size() && same(a[k], right[k]) && same(b[k], right[k])) continue;
+    ++shown;
+    alike += same(a[k], b[k]);
   }
-  return same * 50 >= a.size() * 49;
+  return shown > 0 && alike * 50 >= shown * 49;
 }
 
 /// Whether one of these would be another mistake than the first elsewhere.
@@ -93,32 +96,67 @@ bool has_rival(const Replay& run, const std::string& first, const std::set<std::
   std::map<std::string, std::vector<std::vector<float>>> given;
   for (const Fault& d : named(*elsewhere, names))
     if (std::vector<float> numbers = elsewhere->given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
+  const std::vector<float> right = elsewhere->given(Fault{});
   const auto own = given.find(first);
   if (own == given.end()) return false;
   return std::any_of(others.begin(), others.end(), [&](const std::string& name) {
     const auto theirs = given.find(name);
     return theirs != given.end() && std::none_of(theirs->second.begin(), theirs->second.end(), [&](const std::vector<float>& b) {
-             return std::any_of(own->second.begin(), own->second.end(), [&](const std::vector<float>& a) { return alike(a, b); });
+             return std::any_of(own->second.begin(), own->second.end(), [&](const std::vector<float>& a) { return alike(a, b, right); });
            });
   });
 }
 
+/// Mistakes that give the same wherever it was looked, in the order in which they are to be believed: the port has one of them.
+void say_one_of(Cause& first, const std::vector<Tried>& causes, std::set<std::string> others) {
+  constexpr int most = 2;
+  int said = 0;
+  const std::string own = first.sentence;
+  for (const Tried& c : causes)
+    if (said < most && c.sentence != own && others.erase(c.name) > 0) {
+      first.sentence += (said == 0 ? "; or, which gives the same, " : "; or ") + c.sentence;
+      ++said;
+    }
+}
+
 }  // namespace
 
+bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
+
+std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const Cause& none,
+                         const std::function<Tried(const Fault&)>& try_one) {
+  std::vector<Tried> out(all.size());
+  executor.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const Fault& d = all[static_cast<std::size_t>(k)];
+      Tried& made = out[static_cast<std::size_t>(k)];
+      try {
+        made = try_one(d);
+      } catch (const Error&) {
+        made = none;  // the altered case is none that the pass can run
+        made.name = d.name;
+        made.sentence = d.sentence;
+      }
+    }
+  });
+  return out;
+}
+
 std::vector<Cause> diagnosed(Replay& run, Replay* other) {
-  std::vector<Cause> causes = run.causes(run.plain());
+  std::vector<Tried> causes = run.causes(run.plain());
   // Where nearly all of it is explained by what is plain, what is less so is not needed.
   for (const auto more : {&Replay::deeper, &Replay::fitted})
-    if (best_score(causes) < 1.9)
-      for (Cause& c : run.causes((run.*more)())) causes.push_back(std::move(c));
+    if (!is_explained(causes))
+      for (Tried& c : run.causes((run.*more)())) causes.push_back(std::move(c));
   if (other) check_in(*other, causes);
   std::vector<Cause> best = best_causes(causes);
   if (best.empty() || !best.front().is_likely) return best;
   std::set<std::string> others;
   const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
-  for (const Cause& c : causes)
-    if (c.of > 0 && score(c) >= least && c.name != best.front().name && !is_fitted(c.name)) others.insert(c.name);
+  for (const Tried& c : causes)
+    if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && c.name != best.front().name && !is_fitted(c.name)) others.insert(c.name);
   best.front().is_likely = !has_rival(run, best.front().name, others);
+  if (best.front().is_likely) say_one_of(best.front(), causes, others);
   return best;
 }
 

@@ -1,12 +1,22 @@
 // A failing run in which mistakes are made, to see which gives what the port stored.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "faults/fault.h"
+#include "rainref/executor.h"
 
 namespace rainref::faults {
+
+/// A mistake that was tried on a run.
+struct Tried : judge::Cause {
+  Tried() = default;
+  Tried(judge::Cause cause, double how_far = 0) : Cause(std::move(cause)), misfit(how_far) {}
+  double misfit = 0;  ///< of what the port is off from the reference, the share that is left with the mistake: 0 to 1
+};
 
 class Replay {
  public:
@@ -18,13 +28,32 @@ class Replay {
   /// What is fitted to the port, asked where all that explains too little. After these.
   virtual std::vector<Fault> fitted() = 0;
   /// How well each explains what fails.
-  virtual std::vector<judge::Cause> causes(const std::vector<Fault>& all) const = 0;
+  virtual std::vector<Tried> causes(const std::vector<Fault>& all) const = 0;
 
   /// The pass on a case of other numbers: what gives the same bits here may differ there. Null: there is none.
   virtual std::unique_ptr<Replay> elsewhere() const = 0;
-  /// What the pass gives with a mistake, at some places; empty where it cannot be made.
+  /// What the pass gives with a mistake, at some places; empty where it cannot be made. Of a fault without a name: without one.
   virtual std::vector<float> given(const Fault& d) const = 0;
 };
+
+/// Whether a cause of this name is a number fitted to what the port stored.
+bool is_fitted(const std::string& name);
+
+/// A replay of a case that nobody else holds, from R(of, case, model).
+template <class R>
+class OwnReplay : public R {
+ public:
+  OwnReplay(const R& of, std::unique_ptr<capture::PassCase> c, std::unique_ptr<capture::PassModel> model)
+      : R(of, *c, *model), c_(std::move(c)), model_(std::move(model)) {}
+
+ private:
+  std::unique_ptr<capture::PassCase> c_;
+  std::unique_ptr<capture::PassModel> model_;
+};
+
+/// try_one(fault) of each, in parallel. A mistake in what the pass is given may make it none that the pass can run: then `none` of it.
+std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const judge::Cause& none,
+                         const std::function<Tried(const Fault&)>& try_one);
 
 /// What explains a run, best first. `other`: another failing run of the pass, or null: what explains both is believed. A cause is
 /// likely where no rival, which would be another mistake elsewhere, explains as much.

@@ -44,6 +44,7 @@ struct Match {
   bool exact = false;  ///< the same bits
   bool near = false;   ///< as near as a device's own differences, and much nearer than the reference
   bool tells = false;  ///< so near, or so much nearer than the reference, that it is no chance
+  double left = 1;     ///< of what the port is off from the reference, the share that is left: 0 to 1
 };
 
 std::int64_t gap(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
@@ -85,6 +86,7 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
               std::size_t k) {
   Match m{true, true, true};
   bool nearer = false;
+  double off_with = 0, off_before = 0;
   for (std::size_t v = 0; v < slots.size(); ++v) {
     if (model.is_free(static_cast<int>(v))) continue;
     const Slot& s = slots[v];
@@ -94,6 +96,8 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
     const auto code = [&](const std::byte* at) { return enclosed::ordered_code(s.kind, at); };
     const std::int64_t far = gap(code(got), code(guess)), before = gap(code(got), code(base));
     const double off = std::abs(static_cast<double>(stored_value(s, got)) - stored_value(s, guess));
+    off_with += static_cast<double>(far);
+    off_before += static_cast<double>(before);
     m.exact &= far == 0;
     m.near &= far <= leeway.codes[v] || off <= leeway.values[k][v];
     nearer |= far < before && 4 * far <= before;
@@ -102,6 +106,7 @@ Match compare(const std::vector<Slot>& slots, const capture::PassModel& model, c
   m.exact &= nearer;  // else the reference gives the same bits, and the fault explains nothing
   m.near &= nearer;
   m.tells &= m.near;
+  m.left = off_before > 0 ? std::min(1.0, off_with / off_before) : 1;
   return m;
 }
 
@@ -147,6 +152,7 @@ std::vector<Fault> TexelReplay::plain() {
   if (failing_.empty()) return {};
   Hypotheses all = hypotheses(probed_, before_, failing_);
   constants_ = std::move(all.constants);
+  orders_ = std::move(all.orders);
   return std::move(all.faults);
 }
 std::vector<Fault> TexelReplay::fitted() { return fits(probed_, constants_, port_, reference_, failing_); }
@@ -156,8 +162,8 @@ std::optional<Cause> TexelReplay::alternative_formula(const enclosed::Profile& p
   return faults::alternative_formula(probed_.c, port_, profile, mode_, failing_, few_passing_);
 }
 
-Cause TexelReplay::cause(const Fault& d) const {
-  Cause cause{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size())};
+Tried TexelReplay::cause(const Fault& d) const {
+  Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size())}, 1};
   const FaultyPass faulty(d, probed_.c, probed_.bind, probed_.model, mode_, reference_);
   if (!faulty.applies()) return cause;
   std::vector<Array> stored = reference_;
@@ -176,11 +182,13 @@ Cause TexelReplay::cause(const Fault& d) const {
   }
   if (matching * 6 < few) return cause;
   std::int64_t telling = 0;
+  double left = 0;
   for (std::size_t t = 0; t < failing_.size(); ++t) {
     const Match m = match_at(t);
     cause.explained += m.exact;
     cause.inside += m.near;
     telling += m.tells;
+    left += m.left;
   }
   // In a buffer that is nearly empty a mirror image, too, has zero wherever the port lost something. A cause must not
   // break about as many texels as it explains.
@@ -188,35 +196,13 @@ Cause TexelReplay::cause(const Fault& d) const {
   if (contradicted(slots_, probed_.model, faulty, port_, reference_, leeway_, passing) * passing_per_failing_ * 4 > 1)
     cause.explained = cause.inside = 0;
   cause.is_likely = telling * 10 >= cause.of * 9;
+  cause.misfit = left / static_cast<double>(failing_.size());
   return cause;
 }
 
-std::vector<Cause> TexelReplay::causes(const std::vector<Fault>& all) const {
-  std::vector<Cause> out(all.size());
-  executor_.for_range(static_cast<std::int64_t>(all.size()), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) {
-      const Fault& d = all[static_cast<std::size_t>(k)];
-      try {
-        out[static_cast<std::size_t>(k)] = cause(d);
-      } catch (const Error&) {
-        out[static_cast<std::size_t>(k)] = {d.name, d.sentence, 0,
-                                            static_cast<std::int64_t>(failing_.size())};  // the altered case is none that the pass can run
-      }
-    }
-  });
-  return out;
+std::vector<Tried> TexelReplay::causes(const std::vector<Fault>& all) const {
+  return tried(executor_, all, {"", "", 0, static_cast<std::int64_t>(failing_.size())}, [&](const Fault& d) { return cause(d); });
 }
-
-/// The run of a varied case, whose port is the reference.
-class TexelReplay::Elsewhere : public TexelReplay {
- public:
-  Elsewhere(const TexelReplay& of, std::unique_ptr<capture::PassCase> c, std::unique_ptr<capture::PassModel> model)
-      : TexelReplay(of, *c, *model), c_(std::move(c)), model_(std::move(model)) {}
-
- private:
-  std::unique_ptr<capture::PassCase> c_;
-  std::unique_ptr<capture::PassModel> model_;
-};
 
 TexelReplay::TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model)
     : probed_{of.probed_.pass, c, of.probed_.bind, model},
@@ -226,13 +212,15 @@ TexelReplay::TexelReplay(const TexelReplay& of, const capture::PassCase& c, cons
       slots_(of.slots_),
       port_(of.port_),
       reference_(of.reference_),
-      failing_(spread(of.failing_, 24)) {}
+      failing_(spread(of.failing_, 64)) {
+  for (const Texel t : spread(of.few_passing_, 32)) failing_.push_back(t);
+}
 
 std::unique_ptr<Replay> TexelReplay::elsewhere() const {
   try {
     auto c = std::make_unique<capture::PassCase>(varied(probed_.pass, probed_.c));
     std::unique_ptr<capture::PassModel> model = probed_.bind(*c);
-    return std::make_unique<Elsewhere>(*this, std::move(c), std::move(model));
+    return std::make_unique<OwnReplay<TexelReplay>>(*this, std::move(c), std::move(model));
   } catch (const Error&) {
     return nullptr;  // the pass refuses such numbers
   }

@@ -25,17 +25,20 @@ class TexelReplay : public Replay {
               const capture::PassModel& model, const std::vector<capture::Array>& port, const judge::CaseJudgement& judgement,
               const enclosed::Profile& profile, judge::HalfMode mode, const parallel::Executor& executor);
   std::vector<Fault> plain() override;
+  std::vector<Fault> deeper() override { return std::move(orders_); }
   std::vector<Fault> fitted() override;
-  std::vector<judge::Cause> causes(const std::vector<Fault>& all) const override;
+  std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
   std::vector<float> given(const Fault& d) const override;
   /// What faults::alternative_formula says of the failing texels and some that passed.
   std::optional<judge::Cause> alternative_formula(const enclosed::Profile& profile) const;
 
- private:
-  class Elsewhere;
+ protected:
+  /// The run of a varied case, whose port is the reference.
   TexelReplay(const TexelReplay& of, const capture::PassCase& c, const capture::PassModel& model);
-  judge::Cause cause(const Fault& d) const;
+
+ private:
+  Tried cause(const Fault& d) const;
 
   Probed probed_;
   const capture::PassCase* before_;
@@ -48,6 +51,7 @@ class TexelReplay : public Replay {
   Leeway leeway_;
   double passing_per_failing_ = 0;
   Constants constants_;
+  std::vector<Fault> orders_;  ///< for deeper()
 };
 
 }  // namespace rainref::faults

@@ -33,6 +33,12 @@ std::vector<Member> floats_of(const capture::PackPass& pass, const std::set<std:
                [&](const Member& m) { return m.scalar == Scalar::float32 && used.contains(m.name); });
   return out;
 }
+std::vector<Member> whole_of(const capture::PackPass& pass) {
+  std::vector<Member> out;
+  std::copy_if(pass.block.members.begin(), pass.block.members.end(), std::back_inserter(out),
+               [](const Member& m) { return m.scalar != Scalar::float32 && !m.name.starts_with("padding"); });
+  return out;
+}
 bool same_value(const PassCase& c, const Member& a, const Member& b) {
   return std::memcmp(c.uniforms.data() + a.offset, c.uniforms.data() + b.offset, a.size()) == 0;
 }
@@ -42,15 +48,16 @@ void add_exchanges(CaseAdder& add, const PassCase& c, const std::vector<Member>&
     for (std::size_t j = i + 1; j < members.size(); ++j) {
       const Member a = members[i], b = members[j];
       if (a.components != b.components || same_value(c, a, b)) continue;
+      // One in place of another is the plainer mistake.
+      for (const auto& [to, from] : {std::pair(a, b), std::pair(b, a)})
+        add(fmt::format("uniform {} is {}", to.name, from.name), fmt::format("{} stands where {} is meant", from.name, to.name),
+            [to = to, from = from](PassCase& altered) {
+              std::memcpy(altered.uniforms.data() + to.offset, altered.uniforms.data() + from.offset, to.size());
+            });
       add(fmt::format("uniforms {} and {} exchanged", a.name, b.name), fmt::format("{} and {} have each other's value", a.name, b.name),
           [a, b](PassCase& altered) {
             std::swap_ranges(&altered.uniforms[a.offset], &altered.uniforms[a.offset] + a.size(), &altered.uniforms[b.offset]);
           });
-      for (const auto& [to, from] : {std::pair(a, b), std::pair(b, a)})
-        add(fmt::format("uniform {} is {}", to.name, from.name), fmt::format("{} has the value of {}", to.name, from.name),
-            [to = to, from = from](PassCase& altered) {
-              std::memcpy(altered.uniforms.data() + to.offset, altered.uniforms.data() + from.offset, to.size());
-            });
     }
 }
 
@@ -154,9 +161,15 @@ class Replacer {
 void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used) {
   const std::vector<Member> members = floats_of(p.pass, used);
   CaseAdder add(out);
+
   add_permutations(add, p.c, members);
   add_transposes(add, p.c, members);
   add_exchanges(add, p.c, members);
+}
+
+void add_whole_mixups(std::vector<Fault>& out, const Probed& p) {
+  CaseAdder add(out);
+  add_exchanges(add, p.c, whole_of(p.pass));
 }
 
 void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals) {
@@ -182,6 +195,8 @@ void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants
     if (value > 0) as(std::sqrt(value), "without its square");
     as(value * aspect, "times the aspect ratio");
     as(value / aspect, "without the aspect ratio");
+    as(value * 4, "four times as large");
+    as(value / 4, "a quarter of itself");
     as(value + 1, "one more");
     as(value - 1, "one less");
     as(value * (pi / 180), "in degrees");

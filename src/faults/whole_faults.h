@@ -10,6 +10,8 @@
 
 namespace rainref::faults {
 
+/// Whole uniforms exchanged.
+void add_whole_mixups(std::vector<Fault>& out, const Probed& p);
 /// Uniforms exchanged, permuted, transposed, in another encoding; of those that the pass uses.
 void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used);
 /// Inputs exchanged, shifted, by another address mode, level or encoding; the other variant's formula. Without `images` those of

@@ -89,7 +89,6 @@ Explanation explained(const PassTask& task, const PassJudgement& judged, const J
                    [&](std::size_t a, std::size_t b) { return judged.cases[a].failing > judged.cases[b].failing; });
   if (failing.empty()) return {};
   const Asked worst = asked(task, failing[0]);
-  if (!is_enveloped(worst.run.c) && keyed_outputs(worst.run.c).empty()) return {};
   const auto failed = [&](const Asked& a, std::size_t k, const FailedRun* other) -> FailedRun {
     return {*task.pass, a.run, a.before ? &a.before->c : nullptr, task.bind, a.model.get(), judged.cases[k], judged, judged.half_mode,
             options,    other};

@@ -75,7 +75,7 @@ class Shadow {
     describe_port(files_.info(), result);
     std::vector<PassTask> tasks;
     for (const capture::PackPass& pass : plan_.passes)
-      if (is_wanted(pass.name)) tasks.push_back(task_of(pass));
+      if (is_wanted(pass.name) && may_run(pass.name)) tasks.push_back(task_of(pass));
     const enclosed::Profile& chosen = profile(options_.profile);
     result.passes =
         judge_passes(tasks, {&chosen, chosen.reference ? nullptr : &profile("typical"), options_.executor, declared_mode(files_.info())});
@@ -194,6 +194,10 @@ class Shadow {
   }
 
   // ---- a pass --------------------------------------------------------------------------------------------------------
+  /// What neither the scene (or the manifest) runs nor the port is left out: a scene without rain behind its glass has no such pass.
+  bool may_run(const std::string& pass) const {
+    return std::any_of(runs_.begin(), runs_.end(), [&](const Run& r) { return r.pass == pass; });
+  }
   /// What was dumped of a pass; without any run nothing that was not dumped is listed.
   PassTask task_of(const capture::PackPass& pass) {
     std::vector<const Run*> own;

@@ -4,11 +4,13 @@
 #include <bit>
 
 #include "math/perturbed.h"
+#include "math/rewrites.h"
 
 namespace rainref::perturbed {
 namespace {
 
 thread_local int unseen = 0;
+thread_local Rewrite rewriting;
 
 /// Murmur3's finalizer (Appleby) over a running sum.
 std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
@@ -19,6 +21,105 @@ std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
 }
 
 }  // namespace
+
+namespace {
+
+/// An operation again, of other operands; as it was where it cannot be.
+Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
+  const auto& [a, b, c, d] = of;
+  switch (op) {
+    case Op::sum:
+      return a + b;
+    case Op::difference:
+      return a - b;
+    case Op::negation:
+      return -a;
+    case Op::product:
+      return a * b;
+    case Op::quotient:
+      return a / b;
+    case Op::minimum:
+      return min(a, b);
+    case Op::maximum:
+      return max(a, b);
+    case Op::magnitude:
+      return abs(a);
+    case Op::root:
+      return sqrt(a);
+    case Op::square:
+      return square(a);
+    case Op::floor:
+      return floor(a);
+    case Op::fract:
+      return fract(a);
+    case Op::exponential:
+      return exp(a);
+    case Op::exponential2:
+      return exp2(a);
+    case Op::logarithm:
+      return log(a);
+    case Op::power:
+      return pow(a, b);
+    case Op::sine:
+      return sin(a);
+    case Op::cosine:
+      return cos(a);
+    case Op::angle:
+      return atan2(a, b);
+    case Op::mix:
+      return mix(a, b, c);
+    case Op::choice:
+      return c.v != 0 ? a : b;
+    case Op::coordinate:
+    case Op::level:
+      return a;
+    case Op::comparison:
+      return a.v < b.v ? Perturbed::of(1.0f) : b.v < a.v ? Perturbed::of(0.0f) : r;
+    default:
+      return r;
+  }
+}
+/// What the thread's rewrite makes of an operation, whose operands are these nodes of the trace.
+Perturbed rewritten(Op op, const Perturbed& r, std::array<Perturbed, 4> of, const std::array<std::int32_t, 4>& nodes, const Trace& trace) {
+  const Unseen parts;
+  const auto k = static_cast<std::size_t>(rewriting.operand);
+  if (nodes[k] < 0) return r;
+  const Trace::Node& operand = trace.nodes[static_cast<std::size_t>(nodes[k])];
+  const auto value = [&](std::int32_t node) { return Perturbed::of(trace.nodes[static_cast<std::size_t>(node)].value); };
+  const auto child = [](const Trace::Node& n, int i) { return i < 0 ? -1 : n.of[static_cast<std::size_t>(i)]; };
+  switch (rewriting.kind) {
+    case RewriteKind::none:
+      return r;
+    case RewriteKind::part: {
+      std::int32_t part = child(operand, rewriting.path[0]);
+      if (part >= 0 && rewriting.path[1] >= 0) part = child(trace.nodes[static_cast<std::size_t>(part)], rewriting.path[1]);
+      if (part < 0) return r;
+      of[k] = value(part);
+      return again(op, r, of);
+    }
+    case RewriteKind::over_all: {
+      const std::int32_t factor = child(operand, rewriting.path[0]), other = child(operand, 1 - rewriting.path[0]);
+      if (operand.op != Op::product || factor < 0 || other < 0) return r;
+      of[k] = value(other);
+      return again(op, r, of) * value(factor);
+    }
+    case RewriteKind::over_first:
+    case RewriteKind::over_second: {
+      const std::int32_t first = child(operand, 0), second = child(operand, 1);
+      if ((operand.op != Op::sum && operand.op != Op::difference) || first < 0 || second < 0) return r;
+      const Perturbed factor = of[1 - k], a = value(first), b = value(second);
+      const bool is_first = rewriting.kind == RewriteKind::over_first;
+      return again(operand.op, r, {is_first ? a * factor : a, is_first ? b : b * factor, a, a});
+    }
+  }
+  return r;
+}
+
+}  // namespace
+
+const Rewrite& rewrite() { return rewriting; }
+RewriteScope::RewriteScope(const Rewrite& r) : saved_(rewriting) { rewriting = r; }
+RewriteScope::~RewriteScope() { rewriting = saved_; }
 
 Unseen::Unseen() { ++unseen; }
 Unseen::~Unseen() { --unseen; }
@@ -45,6 +146,14 @@ Perturbed Perturbed::follow(Op op, Perturbed r, std::initializer_list<Perturbed>
     if (place.fault == PlaceFault::none || place.shape != shape) continue;
     const std::int32_t occurrence = place.seen++;
     if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of.begin(), of.size(), place.fault);
+  }
+  if (b.trace && rewriting.kind != RewriteKind::none && rewriting.shape == shape &&
+      (rewriting.occurrence < 0 || rewriting.occurrence == b.trace->met[shape])) {
+    std::array<Perturbed, 4> operands;
+    std::array<std::int32_t, 4> nodes{-1, -1, -1, -1};
+    std::copy_n(of.begin(), of.size(), operands.begin());
+    std::transform(of.begin(), of.end(), nodes.begin(), [](const Perturbed& operand) { return operand.node_; });
+    r = rewritten(op, r, operands, nodes, *b.trace);
   }
   std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
   if (!b.trace) return r;
@@ -91,7 +200,9 @@ Perturbed Perturbed::with_fault(Op op, const Perturbed& r, const Perturbed* of_,
              : op == Op::power      ? pow(b, a)
              : op == Op::smoothstep ? one - r
              : op == Op::choice     ? (c.v != 0 ? b : a)
-             : op == Op::comparison ? one - r
+             : op == Op::comparison ? (a.v < b.v   ? zero
+                                       : b.v < a.v ? one
+                                                   : r)
                                     : r;
     case PlaceFault::inverted:
       return op == Op::quotient ? a * b : op == Op::power ? pow(a, one / b) : b.v != 0 ? a / b : zero;
@@ -106,6 +217,7 @@ Perturbed Perturbed::with_fault(Op op, const Perturbed& r, const Perturbed* of_,
              : op == Op::smoothstep   ? scalar::saturate((a - b) / (c - b))
              : op == Op::square       ? a * a * a
              : op == Op::fract        ? a
+             : op == Op::difference   ? b
                                       : r;
     case PlaceFault::doubled:
       return r + r;
@@ -118,13 +230,13 @@ Perturbed Perturbed::with_fault(Op op, const Perturbed& r, const Perturbed* of_,
     case PlaceFault::linear:
       return one + a;
     case PlaceFault::added:
-      return a + b * c;
+      return op == Op::mix ? a + b * c : a + b;
     case PlaceFault::in_gamma: {
       const Perturbed gamma = of(2.2f), encoding = of(1 / 2.2f);
       return pow(mix(pow(max(a, zero), encoding), pow(max(b, zero), encoding), c), gamma);
     }
     case PlaceFault::saturated:
-      return scalar::saturate(r);
+      return scalar::saturate(op == Op::maximum ? a + b : r);
     case PlaceFault::nearest:
       return floor(r + half);
     case PlaceFault::half_less:

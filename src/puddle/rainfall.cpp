@@ -8,7 +8,7 @@
 #include "math/constants.h"
 #include "rain/rain.h"
 #include "rainref/error.h"
-#include "random/counter.h"
+#include "random/draws.h"
 
 namespace rainref::puddle {
 namespace {
@@ -71,13 +71,15 @@ std::vector<Drop> drops_of(const RainfallUniforms& u, std::span<const Drop> crat
   }
   const std::uint64_t seed = u.seed[0] | static_cast<std::uint64_t>(u.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(u.threshold_count));
-  const std::uint32_t word = random::block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0];
-  const auto count = u.first_count + static_cast<int>(std::upper_bound(used.begin(), used.end(), word) - used.begin());
+  const random::Draws& draws = random::draws();
+  const std::uint32_t word = draws.block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0];
+  const auto passed = static_cast<std::uint32_t>(std::upper_bound(used.begin(), used.end(), word) - used.begin());
+  const auto count = u.first_count + static_cast<int>(draws.count(passed, static_cast<std::uint32_t>(used.size())));
   for (int i = 0; i < count; ++i) {
-    const random::Block r = random::block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
-    Drop drop = craters[r[2] >> 22];
-    drop.x = static_cast<float>(((r[0] >> 16) * u.columns) >> 8) * 0x1p-8f;
-    drop.y = static_cast<float>(((r[1] >> 16) * u.rows) >> 8) * 0x1p-8f;
+    const random::Block r = draws.block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
+    Drop drop = craters[draws.choice(r[2], 10)];
+    drop.x = static_cast<float>((draws.place(r[0], 16) * u.columns) >> 8) * 0x1p-8f;
+    drop.y = static_cast<float>((draws.place(r[1], 16) * u.rows) >> 8) * 0x1p-8f;
     add_with_images(drop, u, out);
   }
   return out;

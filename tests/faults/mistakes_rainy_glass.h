@@ -75,7 +75,9 @@ inline std::vector<Pass> rainy_glass_passes() {
            {"phases alike", {"term left out: 0.5", "literal 0.5 left out"}},
            {"weight of the first for the second", {"mix ends swapped"}},
 
-           {"flow against", {"flow_strength with the other sign", "uniform flow_strength negated", "sign of a product: flow_strength"}},
+           {"flow against",
+            {"sign of a term: rivulets.z * (flow_strength", "flow_strength with the other sign", "uniform flow_strength negated",
+             "sign of a product: flow_strength"}},
 
            {"normal's z for its y",
             {"orientation read in z for y", "input orientation with its z for y", "input orientation with its y and z exchanged"}},

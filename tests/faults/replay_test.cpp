@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "faults/diagnose.h"
+
 namespace rainref::faults {
 namespace {
 
@@ -22,17 +24,21 @@ Fault of_name(const std::string& name) {
 class Told : public Replay {
  public:
   std::map<std::string, int> first, second, third;
+  std::map<std::string, double> misfits;
   std::map<std::string, std::vector<float>> numbers;
   int asked_for_more = 0;
 
   std::vector<Fault> plain() override { return of(first); }
   std::vector<Fault> deeper() override { return ++asked_for_more, of(second); }
   std::vector<Fault> fitted() override { return ++asked_for_more, of(third); }
-  std::vector<Cause> causes(const std::vector<Fault>& all) const override {
-    std::vector<Cause> out;
+  std::vector<Tried> causes(const std::vector<Fault>& all) const override {
+    std::vector<Tried> out;
     for (const Fault& d : all)
       for (const auto* stage : {&first, &second, &third})
-        if (const auto at = stage->find(d.name); at != stage->end()) out.push_back({d.name, "", at->second, 100, at->second, false, true});
+        if (const auto at = stage->find(d.name); at != stage->end()) {
+          const auto left = misfits.find(d.name);
+          out.push_back({{d.name, "", at->second, 100, at->second, false, true}, left == misfits.end() ? 0 : left->second});
+        }
     return out;
   }
   std::unique_ptr<Replay> elsewhere() const override { return std::make_unique<Told>(*this); }
@@ -68,16 +74,42 @@ TEST(Replay, MoreIsAskedWherePlainCausesExplainLittle) {
 TEST(Replay, ARivalIsAnotherMistakeElsewhere) {
   Told run;
   run.first = {{"a", 100}, {"b", 100}};
-  run.numbers = {{"a", {1, 2}}, {"b", {1, 2}}};
+  run.numbers = {{"", {0, 0}}, {"a", {1, 2}}, {"b", {1, 2}}};
   EXPECT_TRUE(diagnosed(run, nullptr)[0].is_likely);
   run.numbers["b"] = {1, 3};
   EXPECT_EQ(diagnosed(run, nullptr)[0].name, "a");
   EXPECT_FALSE(diagnosed(run, nullptr)[0].is_likely);
 }
+// Where neither shows they are alike whatever they are; most of a picture may be so.
+TEST(Replay, ARivalIsLookedForWhereTheMistakesShow) {
+  Told run;
+  run.first = {{"a", 100}, {"b", 100}};
+  std::vector<float> numbers(1000, 7.0f);
+  run.numbers[""] = run.numbers["a"] = numbers;
+  run.numbers["a"][0] = 8;
+  run.numbers["b"] = run.numbers["a"];
+  EXPECT_TRUE(diagnosed(run, nullptr)[0].is_likely);
+  run.numbers["b"][0] = 9;
+  EXPECT_FALSE(diagnosed(run, nullptr)[0].is_likely);
+}
+// Within wide envelopes several mistakes come near; the one that is meant leaves hardly anything.
+TEST(Replay, OfCausesThatComeNearTheNearestIsTaken) {
+  Told run;
+  run.first = {{"a", 100}, {"b", 100}};
+  run.misfits = {{"a", 0.3}, {"b", 0.01}};
+  run.numbers = {{"", {0}}, {"a", {1}}, {"b", {2}}};
+  EXPECT_EQ(diagnosed(run, nullptr)[0].name, "b");
+  EXPECT_TRUE(diagnosed(run, nullptr)[0].is_likely);
+}
+TEST(Replay, AFittedNumberIsNoRivalOfAMistakeWithAName) {
+  const auto cause = [](const char* name, int exact) { return Tried({name, "", exact, 100, 100, false, true}, 0.001); };
+  EXPECT_EQ(best_causes({cause("a", 10), cause("another value of c", 40)})[0].name, "a");
+  EXPECT_EQ(best_causes({cause("a", 10), cause("another value of c", 95)})[0].name, "another value of c");
+}
 TEST(Replay, WhatExplainsBothRunsIsBelieved) {
   Told run, other;
   run.first = {{"a", 100}, {"b", 100}};
-  run.numbers = {{"a", {1}}, {"b", {2}}};
+  run.numbers = {{"", {0}}, {"a", {1}}, {"b", {2}}};
   other.first = {{"a", 10}, {"b", 100}};
   const std::vector<Cause> causes = diagnosed(run, &other);
   EXPECT_EQ(causes[0].name, "b");

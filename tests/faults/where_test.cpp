@@ -123,7 +123,7 @@ TEST(BestCauses, WhatExplainsLittleIsNoCauseAndAFewTexelsProveNothing) {
   EXPECT_TRUE(best_causes({few})[0].is_likely);
 }
 TEST(BestCauses, WhereDozensExplainAsMuchNoneIsLikely) {
-  std::vector<Cause> many;
+  std::vector<Tried> many;
   for (int k = 0; k < 21; ++k) many.push_back(cause("a", 100, 100, true));
   EXPECT_FALSE(best_causes(many)[0].is_likely);
   many.pop_back();

@@ -1,0 +1,62 @@
+#include "faults/draw_faults.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace rainref::faults {
+namespace {
+
+using random::Draws;
+
+const char* const ordinals[] = {"first", "second", "third", "fourth"};
+
+/// Another word in the place of one, and two exchanged.
+template <class Add>
+void add_words(const Add& add) {
+  for (std::uint8_t to = 0; to < 4; ++to)
+    for (std::uint8_t from = 0; from < 4; ++from) {
+      if (to == from) continue;
+      Draws d;
+      d.words[to] = from;
+      add(d, fmt::format("random word {} for {}", from, to),
+          fmt::format("of a block of random words the {} is taken where the {}, r[{}], is meant", ordinals[from], ordinals[to], to));
+      if (from < to) continue;
+      d.words[from] = to;
+      add(d, fmt::format("random words {} and {} exchanged", to, from),
+          fmt::format("of a block of random words r[{}] and r[{}] are taken for each other", to, from));
+    }
+}
+
+}  // namespace
+
+void add_draw_faults(std::vector<Fault>& out) {
+  const auto add = [&](const Draws& draws, std::string name, std::string sentence) {
+    Fault d;
+    d.name = std::move(name);
+    d.sentence = std::move(sentence);
+    d.draws = draws;
+    d.for_diagnosis = true;
+    out.push_back(std::move(d));
+  };
+  const auto set = [&](auto Draws::*member, auto value, const char* name, const char* sentence) {
+    Draws d;
+    d.*member = value;
+    add(d, name, sentence);
+  };
+  set(&Draws::are_counters_swapped, true, "random counters exchanged",
+      "the two counters of a block of random words, as the step and the number of a record, are exchanged");
+  set(&Draws::are_seeds_swapped, true, "random seed's words exchanged", "the low and the high word of the seed are exchanged");
+  set(&Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
+  set(&Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");
+  set(&Draws::is_place_of_low_bits, true, "place from low bits", "a place takes the low bits of its random word in place of the high ones");
+  set(&Draws::is_choice_of_low_bits, true, "class from low bits",
+      "what is chosen from a table is chosen by the low bits of its random word in place of the high ones");
+  set(&Draws::counts_above, true, "thresholds counted the other way",
+      "the thresholds above the random word are counted, in place of those that it is not below");
+  set(&Draws::counts_one_draw, true, "one draw alone", "of several draws that add up the first alone counts");
+  add_words(add);
+}
+
+}  // namespace rainref::faults

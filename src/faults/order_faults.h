@@ -1,0 +1,13 @@
+// Mistakes in the order of steps: a value of before in place of the new one, a factor that is applied too early or too late.
+#pragma once
+
+#include <vector>
+
+#include "faults/probe.h"
+
+namespace rainref::faults {
+
+/// Adds them for what the probes met. `known`: as they were made with.
+void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known);
+
+}  // namespace rainref::faults

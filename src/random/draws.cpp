@@ -1,0 +1,24 @@
+#include "random/draws.h"
+
+#include <utility>
+
+namespace rainref::random {
+namespace {
+
+thread_local Draws current;
+
+}  // namespace
+
+Block Draws::block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) const {
+  if (are_counters_swapped) std::swap(a, b);
+  if (are_seeds_swapped) seed = seed >> 32 | seed << 32;
+  const Block right =
+      random::block(seed, static_cast<Purpose>(static_cast<std::uint32_t>(purpose) + static_cast<std::uint32_t>(purpose_off)), a, b);
+  return {right[words[0]], right[words[1]], right[words[2]], right[words[3]]};
+}
+
+const Draws& draws() { return current; }
+DrawsScope::DrawsScope(const Draws& d) : saved_(current) { current = d; }
+DrawsScope::~DrawsScope() { current = saved_; }
+
+}  // namespace rainref::random
