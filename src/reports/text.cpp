@@ -21,8 +21,8 @@ using judge::PortJudgement;
 using judge::QuantityJudgement;
 using judge::Status;
 
-constexpr std::size_t shown_outputs = 4;   // of a pass that fails
-constexpr std::size_t worst_shown = 3;  // of an output
+constexpr std::size_t shown_outputs = 4;  // of a pass that fails
+constexpr std::size_t worst_shown = 3;    // of an output
 constexpr std::size_t columns = 120;
 
 /// The text in lines of at most `columns`, broken at blanks, all but the first with this indent; a longer word stays whole.
