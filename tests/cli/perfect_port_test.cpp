@@ -62,9 +62,8 @@ TEST_F(PerfectPort, OfScreenDropsAsPublishedIsGreen) {
 TEST_F(PerfectPort, OfEdgeSplashIsGreen) {
   expect_green("edge_splash/default.toml", {{"vulkan", {0, 0}}, {"webgpu", {0.19, 0}}, {"d3d", {0, 0}}, {"cuda", {0, 0}}});
 }
-TEST_F(PerfectPort, OfThePuddleIsGreen) {
-  expect_green("puddle/default.toml", {{"vulkan", {1.04, 0.2}}, {"webgpu", {1.18, 0.2}}, {"d3d", {1.03, 0.2}}, {"cuda", {0.19, 0.19}}});
-}
+// The README's own example. One loose and one tight profile here, as it takes longest; the script has the others.
+TEST_F(PerfectPort, OfThePuddleIsGreen) { expect_green("puddle/default.toml", {{"vulkan", {1.04, 0.2}}, {"cuda", {0.19, 0.19}}}); }
 
 }  // namespace
 }  // namespace rainref::cli
