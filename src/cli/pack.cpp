@@ -55,17 +55,17 @@ void require_lossless(const effect::Inputs& inputs) {
                       input.key, input.path));
 }
 
-/// How far beyond its last frame a run is followed for passes that have not run or done nothing till then: a scene of one picture has drops
-/// that arrive every second or so.
+/// How far beyond its end a run is followed for passes that run and have done nothing till then: a scene of one picture has drops that
+/// arrive every second or so.
 constexpr int frames_beyond = 120;
 
 /// The frames to take of each pass: those asked for in which it runs; where there is none, the first in which it does.
 class Frames : public Recorder {
  public:
-  /// Runs the scene beforehand, until each pass has run in a frame asked for; to the last of these, and on to the end of the run and
-  /// frames_beyond while some of the passes have not run.
+  /// Runs the scene beforehand, until each pass has run in a frame asked for; to the last of these, and on to the end of the run while
+  /// some of the passes have not run.
   Frames(simulation::Opened scene, const std::vector<int>& asked, const std::vector<std::string>& passes) : asked_(asked) {
-    const int longest = std::max(asked.back() + 1, static_cast<int>(scene.config().integer("run.frames")) + frames_beyond);
+    const int longest = std::max(asked.back() + 1, static_cast<int>(scene.config().integer("run.frames")));
     const auto has_run = [&](const std::string& pass) { return first_.contains(pass); };
     for (int frame = 0; frame < longest; ++frame) {
       if (std::all_of(passes.begin(), passes.end(), [&](const std::string& pass) { return runs_when_asked_.contains(pass); })) break;

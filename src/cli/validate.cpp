@@ -226,7 +226,10 @@ judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) 
   judged.judgement.command = request.command;
   reports.apply_baseline(judged.judgement);
   const std::string text = reports::report_text(judged.judgement);
-  reports.has_standard_output() ? print_aside(text) : print_text(text);
+  if (reports.has_standard_output())
+    print_aside(text);
+  else
+    print_text(text);
   reports.write(judged.judgement, judged.source);
   return std::move(judged.judgement);
 }

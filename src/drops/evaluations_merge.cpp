@@ -5,7 +5,6 @@
 // thousands of them that is open for most drops, so it is no alternative but an interval of the drop's mass, and of the
 // texel's water. That both agree is not judged.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -80,16 +79,12 @@ class Merging {
   template <class N>
   std::vector<Member<N>> merged_from_anywhere() const {
     std::vector<Member<N>> all;
-    std::vector<std::array<N, 3>> circles;
-    for (const Drop& d : drops_) {
-      const Member<N>& m = all.emplace_back(Member<N>{&d, true, state_of<N>(d)});
-      circles.push_back({scalar::plane_x(u_, m.state.u, m.state.v), scalar::plane_y(u_, m.state.v), scalar::base_radius(u_, m.state.mass)});
-    }
+    std::vector<Base<N>> bases;
+    for (const Drop& d : drops_) bases.push_back(base_of(all.emplace_back(Member<N>{&d, true, state_of<N>(d)}).state));
     Pairs touching_ones;
-    for (std::size_t a = 0; a < circles.size(); ++a)
-      for (std::size_t b = a + 1; b < circles.size(); ++b)
-        if (scalar::touches(circles[a][0], circles[a][1], circles[a][2], circles[b][0], circles[b][1], circles[b][2]))
-          touching_ones.emplace_back(a, b);
+    for (std::size_t a = 0; a < bases.size(); ++a)
+      for (std::size_t b = a + 1; b < bases.size(); ++b)
+        if (touching(bases[a], bases[b])) touching_ones.emplace_back(a, b);
     merge(all, touching_ones);
     return all;
   }
@@ -153,6 +148,19 @@ class Merging {
     }
   }
 
+  /// Where a drop stands on the glass: a circle.
+  template <class N>
+  struct Base {
+    N x, y, radius;
+  };
+  template <class N>
+  Base<N> base_of(const scalar::DropState<N>& d) const {
+    return {scalar::plane_x(u_, d.u, d.v), scalar::plane_y(u_, d.v), scalar::base_radius(u_, d.mass)};
+  }
+  template <class N>
+  static bool touching(const Base<N>& a, const Base<N>& b) {
+    return scalar::touches(a.x, a.y, a.radius, b.x, b.y, b.radius);
+  }
   template <class N>
   bool touching(const scalar::DropState<N>& a, const scalar::DropState<N>& b) const {
     return scalar::touches(scalar::plane_x(u_, a.u, a.v), scalar::plane_y(u_, a.v), scalar::base_radius(u_, a.mass),

@@ -39,7 +39,7 @@ std::vector<Drop> arrivals_of(const SpawnUniforms& c, std::span<const CountThres
   out.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const random::Block r = draws.block(seed, random::Purpose::drop_arrival, c.step, i);
-    const auto place = [&](std::uint32_t word) { return static_cast<float>(draws.place(word, 24)) * 0x1p-24f; };
+    const auto place = [&](std::uint32_t word) { return random::uniform(draws.place(word, 24) << 8); };
     out.push_back({{place(r[0]), place(r[1])}, {0, 0}, masses[draws.choice(r[2], 10)].mass, c.life, c.first_id + i, 0});
   }
   return out;

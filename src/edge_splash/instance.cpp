@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "edge_splash/evaluations.h"
-#include "edge_splash/film.h"
+#include "edge_splash/scene_pictures.h"
 #include "edge_splash/host.h"
 #include "edge_splash/info.h"
 #include "edge_splash/memory.h"
@@ -17,11 +17,11 @@
 namespace rainref::edge_splash {
 namespace {
 
-Inputs pictures(const scene::Config& config, const Settings& s, const Film& film, const parallel::Executor& executor,
+Inputs pictures(const scene::Config& config, const Settings& s, const ScenePictures& named, const parallel::Executor& executor,
                 effect::Inputs& files) {
   Inputs in;
   const std::string source = config.text("scene.source");
-  film.fill(0, in, files);
+  named.fill(0, in, files);
   if (source != "files") {
     in.depth_is_distance = true;
     const scene::Camera eye = camera(s);
@@ -65,19 +65,19 @@ effect::RunMemory memory_of(const scene::Config& config) {
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, const Inputs& pictures, Film film, const parallel::Executor& executor)
-    : InstanceOf(settings, pictures, executor), film_(std::move(film)), shown_(film_.shown_in(0)) {}
+Instance::Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor)
+    : InstanceOf(settings, pictures, executor), named_(std::move(named)), shown_(named_.shown_in(0)) {}
 
 void Instance::show_pictures_of(int frame) {
-  const Film::Shown wanted = film_.shown_in(frame);
+  const ScenePictures::Shown wanted = named_.shown_in(frame);
   if (wanted == shown_) return;
   Inputs in;
   effect::Inputs none;
-  film_.fill(frame, in, none);
+  named_.fill(frame, in, none);
   try {
     changed().show(in);
   } catch (const Error& e) {
-    throw film_.about_depth(e, frame);
+    throw named_.about_depth(e, frame);
   }
   shown_ = wanted;
 }
@@ -100,9 +100,9 @@ effect::Effect entry() {
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
             const Settings settings = settings_from(config);
             check(settings);
-            Film film(config, inputs);
-            const Inputs first = pictures(config, settings, film, executor, inputs);
-            auto instance = std::make_unique<Instance>(settings, first, std::move(film), executor);
+            ScenePictures named(config, inputs);
+            const Inputs first = pictures(config, settings, named, executor, inputs);
+            auto instance = std::make_unique<Instance>(settings, first, std::move(named), executor);
             for (const std::string& warning : instance->running().warnings()) inputs.warnings.push_back(warning);
             return instance;
           }};

@@ -1,7 +1,7 @@
 // Splashes at edges as a scene says it: opened, run and written like every effect.
 #pragma once
 
-#include "edge_splash/film.h"
+#include "edge_splash/scene_pictures.h"
 #include "effect/effect.h"
 #include "rainref/edge_splash.h"
 
@@ -12,17 +12,17 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<EdgeSplash> {
  public:
-  /// `pictures`: of the film's frame 0, or made.
-  Instance(const Settings& settings, const Inputs& pictures, Film film, const parallel::Executor& executor);
+  /// `pictures`: of frame 0, or made.
+  Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor);
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
-  bool has_film() const override { return film_.moves(); }
+  bool has_sequence() const override { return named_.moves(); }
 
  private:
   void show_pictures_of(int frame) override;
 
-  Film film_;
-  Film::Shown shown_;
+  ScenePictures named_;
+  ScenePictures::Shown shown_;
 };
 
 }  // namespace rainref::edge_splash

@@ -34,7 +34,7 @@ class Instance {
   /// What an EXR file of the frame holds, row 0 = bottom.
   virtual std::vector<image_io::Layer> layers() const = 0;
   /// Whether the pictures that it takes change from frame to frame.
-  virtual bool has_film() const { return false; }
+  virtual bool has_sequence() const { return false; }
   /// What goes into files of its own beside the first EXR.
   virtual std::vector<Map> maps() const { return {}; }
 };

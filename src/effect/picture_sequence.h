@@ -1,4 +1,4 @@
-// Pictures of a film as a scene names them: files with a number in their names, "frames/%04d.png".
+// A sequence of pictures as a scene names it: files with a number in their names, "frames/%04d.png".
 #pragma once
 
 #include <cstdint>

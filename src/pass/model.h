@@ -246,7 +246,8 @@ Inputs<P> inputs_of(const capture::PassCase& c) {
     if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
   }
   each<P>(m.captured, [&](auto& member) {
-    if constexpr (requires { P::near(m.uniforms, member.records, true, 0, parallel::Tile{}); })
+    if constexpr (
+        requires { &P::near; } && requires { member.near; })
       member.choose(m.width, m.height,
                     [&](const parallel::Tile& t) { return P::near(m.uniforms, member.records, m.corrected, m.width, t); });
   });

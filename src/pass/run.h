@@ -160,14 +160,9 @@ class Run {
   /// The lists that P chooses from, with what may count in a tile.
   HostIo<P> near(const HostIo<P>& all, const parallel::Tile& t) const {
     HostIo<P> io = all;
-    bool takes_a_list = false;
     each<P>(io, [&](auto& member) {
-      if constexpr (requires { P::near(uniforms_, member.records, true, 0, t); }) {
-        member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
-        takes_a_list = true;
-      }
+      if constexpr (requires { member.near; }) member.choose(P::near(uniforms_, member.records, corrected_, width_, t));
     });
-    if (!takes_a_list) throw Error(ExitCode::internal, fmt::format("{}: near() takes none of its lists", P::about.name));
     return io;
   }
 

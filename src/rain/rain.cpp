@@ -24,6 +24,8 @@ constexpr std::array<Entry, 35> gunn_kinzer{{{0.0, 0.0},  {0.1, .27},  {0.2, .72
 // Midpoint rule in this many equal cells: the table's corners bound its error to about 1e-6 of the flux.
 constexpr int cells = 6000;
 
+constexpr double drops_of_no_size = 8000;  // N(0) [1/m^3/mm]
+
 }  // namespace
 
 double terminal_velocity(double diameter_mm) {
@@ -50,7 +52,11 @@ DropSizes::DropSizes(double rate_mm_per_h, double smallest_mm) : rate_(rate_mm_p
 }
 
 double DropSizes::density(double diameter_mm) const {
-  return 8000.0 * exp_real(Real64(-lambda_ * diameter_mm)).v * terminal_velocity(diameter_mm);
+  return drops_of_no_size * exp_real(Real64(-lambda_ * diameter_mm)).v * terminal_velocity(diameter_mm);
+}
+
+double DropSizes::in_air(double diameter_mm) const {
+  return rate_ == 0 ? 0 : drops_of_no_size / lambda_ * exp_real(Real64(-lambda_ * diameter_mm)).v;
 }
 
 double DropSizes::water_mm_per_h() const {

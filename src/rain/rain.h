@@ -22,6 +22,8 @@ class DropSizes {
   double flux() const { return flux_; }
   /// Lambda [1/mm].
   double lambda() const { return lambda_; }
+  /// Drops in the air of at least this diameter [1/m^3].
+  double in_air(double diameter_mm) const;
   /// The water that these drops bring [mm/h]. From 1 to 100 mm/h it is above the rate asked for by 3 to 19 %: that is the
   /// model, not an error.
   double water_mm_per_h() const;

@@ -14,20 +14,20 @@
 namespace rainref::rainy_glass {
 namespace {
 
-Image depth_of(const Instance::Film& film, const Image& colour, int frame, effect::Inputs& inputs) {
-  const std::int64_t picture = film.depth->shown_in(frame);
-  const image_io::Picture read = film.depth->read(picture, inputs);
+Image depth_of(const Instance::Sequences& sequences, const Image& colour, int frame, effect::Inputs& inputs) {
+  const std::int64_t picture = sequences.depth->shown_in(frame);
+  const image_io::Picture read = sequences.depth->read(picture, inputs);
   try {
-    return effect::depth_of(read, film.depth_scale, colour);
+    return effect::depth_of(read, sequences.depth_scale, colour);
   } catch (const Error& e) {
-    throw film.depth->about(e, picture);
+    throw sequences.depth->about(e, picture);
   }
 }
-Image colour_of(const Instance::Film& film, int frame, effect::Inputs& inputs) {
-  return effect::linear_of(film.colour.read(film.colour.shown_in(frame), inputs));
+Image colour_of(const Instance::Sequences& sequences, int frame, effect::Inputs& inputs) {
+  return effect::linear_of(sequences.colour.read(sequences.colour.shown_in(frame), inputs));
 }
 
-Surroundings surroundings_of(const scene::Config& config, const Settings& settings, std::optional<Instance::Film>& film,
+Surroundings surroundings_of(const scene::Config& config, const Settings& settings, std::optional<Instance::Sequences>& sequences,
                              const parallel::Executor& executor, effect::Inputs& inputs) {
   const bool corrected = settings.variant == Variant::corrected;
   const bool own_scene = !config.text("scene.image").empty();
@@ -44,14 +44,14 @@ Surroundings surroundings_of(const scene::Config& config, const Settings& settin
   const Image panorama = effect::read_panorama(config, inputs);
   Surroundings s;
   if (own_scene) {
-    Instance::Film seen{effect::PictureSource(config, "scene.image", inputs), {}};
+    Instance::Sequences seen{effect::PictureSource(config, "scene.image", inputs), {}};
     if (corrected) {
       seen.depth.emplace(config, "scene.depth_image", inputs, &seen.colour);
       seen.depth_scale = config.real("scene.depth_scale");
     }
     s.colour = colour_of(seen, 0, inputs);
     if (corrected) s.depth = depth_of(seen, s.colour, 0, inputs);
-    if (seen.colour.is_sequence() || (seen.depth && seen.depth->is_sequence())) film = std::move(seen);
+    if (seen.colour.is_sequence() || (seen.depth && seen.depth->is_sequence())) sequences = std::move(seen);
   } else {
     Settings street = settings;
     street.use_probe = settings.use_probe && config.text("glass.probe_image").empty();
@@ -95,14 +95,18 @@ effect::RunMemory memory_of(const scene::Config& config) {
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, Surroundings surroundings, std::optional<Film> film, const parallel::Executor& executor)
-    : InstanceOf(settings, surroundings, executor), film_(std::move(film)), settings_(settings), surroundings_(std::move(surroundings)) {}
+Instance::Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences,
+                   const parallel::Executor& executor)
+    : InstanceOf(settings, surroundings, executor),
+      sequences_(std::move(sequences)),
+      settings_(settings),
+      surroundings_(std::move(surroundings)) {}
 
 void Instance::show_pictures_of(int frame) {
-  if (!film_ || frame == shown_) return;
+  if (!sequences_ || frame == shown_) return;
   effect::Inputs none;
-  const Image colour = colour_of(*film_, frame, none);
-  changed().show(colour, film_->depth ? depth_of(*film_, colour, frame, none) : Image());
+  const Image colour = colour_of(*sequences_, frame, none);
+  changed().show(colour, sequences_->depth ? depth_of(*sequences_, colour, frame, none) : Image());
   shown_ = frame;
 }
 
@@ -125,9 +129,9 @@ effect::Effect entry() {
           memory_of,
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
             const Settings settings = settings_from(config);
-            std::optional<Instance::Film> film;
-            Surroundings around = surroundings_of(config, settings, film, executor, inputs);
-            return std::make_unique<Instance>(settings, std::move(around), std::move(film), executor);
+            std::optional<Instance::Sequences> sequences;
+            Surroundings around = surroundings_of(config, settings, sequences, executor, inputs);
+            return std::make_unique<Instance>(settings, std::move(around), std::move(sequences), executor);
           }};
 }
 

@@ -15,26 +15,26 @@ effect::Effect entry();
 class Instance final : public effect::InstanceOf<RainyGlass> {
  public:
   /// The pictures behind the glass, where one of them is a sequence.
-  struct Film {
+  struct Sequences {
     effect::PictureSource colour;
     std::optional<effect::PictureSource> depth;
     double depth_scale = 1;
   };
-  /// `film`: its pictures of frame 0 are in `surroundings`; or nothing.
-  Instance(const Settings& settings, Surroundings surroundings, std::optional<Film> film, const parallel::Executor& executor);
+  /// `sequences`: its pictures of frame 0 are in `surroundings`; or nothing.
+  Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// Of a film those of frame 0.
+  /// Of sequences those of frame 0.
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
   /// The maps have a size of their own.
   std::vector<effect::Map> maps() const override { return {{"raindrops", &running().raindrops()}, {"rivulets", &running().rivulets()}}; }
-  bool has_film() const override { return film_.has_value(); }
+  bool has_sequence() const override { return sequences_.has_value(); }
 
  private:
   void show_pictures_of(int frame) override;
 
-  std::optional<Film> film_;
+  std::optional<Sequences> sequences_;
   int shown_ = 0;  ///< frame
   Settings settings_;
   Surroundings surroundings_;

@@ -126,7 +126,7 @@ RAINREF_FN PublishedDrop<N> published_drop(const PublishedDropsUniforms& d, cons
   const bool misprint = d.printed_misprint != 0;
   const N middle(d.noise_middle), per_unit(d.displacement);
   const N shift_x = (misprint ? one - middle : n[0] - middle) * per_unit, shift_y = (misprint ? one - middle : n[1] - middle) * per_unit;
-  // A block from outside may say anything.
+  // No pack or scene says more, but a mistake that is tried on the uniforms may.
   for (int r = d.layers < most_published_layers ? d.layers : most_published_layers; r > 0; --r) {
     const N layer(static_cast<float>(r)), columns = width * layer * N(d.grid), rows = height * layer * N(d.grid);
     const N px = N(d.cell_angle) * u * columns + shift_x, py = N(d.cell_angle) * v * rows + shift_y;

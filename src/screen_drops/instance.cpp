@@ -18,7 +18,7 @@ namespace {
 
 constexpr double street_far = 1000;  // depth of its sky [m]; nobody looks at it
 
-Inputs pictures(const scene::Config& config, const Settings& settings, std::optional<effect::PictureSource>& film,
+Inputs pictures(const scene::Config& config, const Settings& settings, std::optional<effect::PictureSource>& sequence,
                 const parallel::Executor& executor, effect::Inputs& files) {
   check(settings);
   effect::refuse_unused_sequence(config, {"scene.image"});
@@ -32,7 +32,7 @@ Inputs pictures(const scene::Config& config, const Settings& settings, std::opti
   } else {
     const effect::PictureSource source(config, "scene.image", files);
     in.colour = effect::linear_of(source.read(source.shown_in(0), files));
-    if (source.is_sequence()) film = source;
+    if (source.is_sequence()) sequence = source;
   }
   if (settings.variant == Variant::as_published && !config.text("noise.image").empty())
     in.noise = effect::read_tile(config, "noise.image", false, files);
@@ -56,15 +56,15 @@ effect::RunMemory memory_of(const scene::Config& config) {
 
 }  // namespace
 
-Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> film, const FlowSettings* flow,
+Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
                    const parallel::Executor& executor)
-    : InstanceOf(settings, pictures, executor, flow), film_(std::move(film)), settings_(settings), pictures_(std::move(pictures)) {}
+    : InstanceOf(settings, pictures, executor, flow), sequence_(std::move(sequence)), settings_(settings), pictures_(std::move(pictures)) {}
 
 // Each frame's background is a run of its own, so that what a frame records does not depend on the frames before it.
 void Instance::show_pictures_of(int frame) {
-  if (!film_ || frame == shown_) return;
+  if (!sequence_ || frame == shown_) return;
   effect::Inputs none;
-  changed().show(effect::linear_of(film_->read(film_->shown_in(frame), none)));
+  changed().show(effect::linear_of(sequence_->read(sequence_->shown_in(frame), none)));
   shown_ = frame;
 }
 
@@ -92,10 +92,10 @@ effect::Effect entry() {
           memory_of,
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
             const Settings settings = settings_from(config);
-            std::optional<effect::PictureSource> film;
-            Inputs seen = pictures(config, settings, film, executor, inputs);
+            std::optional<effect::PictureSource> sequence;
+            Inputs seen = pictures(config, settings, sequence, executor, inputs);
             const std::optional<FlowSettings> flow = flow_from(config, settings);
-            return std::make_unique<Instance>(settings, std::move(seen), std::move(film), flow ? &*flow : nullptr, executor);
+            return std::make_unique<Instance>(settings, std::move(seen), std::move(sequence), flow ? &*flow : nullptr, executor);
           }};
 }
 

@@ -14,20 +14,20 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<ScreenDrops> {
  public:
-  /// `film`: a sequence, whose picture of frame 0 is in `pictures`, or nothing.
-  Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> film, const FlowSettings* flow,
+  /// `sequence`: its picture of frame 0 is in `pictures`; or nothing.
+  Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
            const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// The scene's picture; of a film that of frame 0.
+  /// The scene's picture; of a sequence that of frame 0.
   const Image& scene_colour() const { return pictures_.colour; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
-  bool has_film() const override { return film_.has_value(); }
+  bool has_sequence() const override { return sequence_.has_value(); }
 
  private:
   void show_pictures_of(int frame) override;
 
-  std::optional<effect::PictureSource> film_;
+  std::optional<effect::PictureSource> sequence_;
   int shown_ = 0;  ///< frame
   Settings settings_;
   Inputs pictures_;

@@ -5,7 +5,6 @@
 
 #include "math/constants.h"
 #include "math/half.h"
-#include "math/real64.h"
 #include "rain/rain.h"
 #include "random/counter.h"
 #include "random/poisson.h"
@@ -23,9 +22,6 @@ constexpr double least_share = 1.0 / 2048;
 constexpr double asymmetry = 0.75;
 
 Vector3 vector(const Real3& a) { return {a[0], a[1], a[2]}; }
-
-double number_above(double lambda, double diameter) { return 8000 / lambda * exp_real(Real64(-lambda * diameter)).v; }
-double lambda_of(double rate) { return 4.1 * pow_real(Real64(rate), Real64(-0.21)).v; }
 
 /// [1/sr], of the cosine of the angle by which light is turned.
 double phase(double cosine) {
@@ -98,8 +94,6 @@ std::uint32_t word(double whole) { return static_cast<std::uint32_t>(static_cast
 
 }  // namespace
 
-double drops_in_air(double rate, double smallest) { return rate > 0 ? number_above(lambda_of(rate), smallest) : 0; }
-
 Vector3 mean_radiance(const Image& colour) {
   constexpr int every = 4;
   Vector3 sum(0);
@@ -119,10 +113,11 @@ std::vector<FallingDrop> falling_drops(const FallingRainSettings& s, std::uint64
   const Projection picture(view);
   Vector3 low, high;
   picture.box(s.far, low, high);
-  const double lambda = lambda_of(air.rate), width = (rain::DropSizes::largest_mm - s.smallest_drop) / classes;
+  const rain::DropSizes sizes(air.rate, s.smallest_drop);
+  const double width = (rain::DropSizes::largest_mm - s.smallest_drop) / classes;
   for (int k = 0; k < classes; ++k) {
     const double smallest = s.smallest_drop + k * width, fall = rain::terminal_velocity(smallest + 0.5 * width);
-    const double mean = (number_above(lambda, smallest) - number_above(lambda, smallest + width)) * cell * cell * cell;
+    const double mean = (sizes.in_air(smallest) - sizes.in_air(smallest + width)) * cell * cell * cell;
     const random::PoissonTable number(std::min(mean, random::PoissonTable::max_mean));
     const Vector3 velocity = vector(air.wind) - Vector3(0, 0, fall), moved = vector(air.moved) - Vector3(0, 0, fall * air.time);
     // Cells of the air, which moved with it.

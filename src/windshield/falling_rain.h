@@ -64,7 +64,4 @@ std::vector<FallingDrop> falling_drops(const FallingRainSettings& settings, std:
 /// The mean of some of an image's texels (rgba16f).
 scene::Vector3 mean_radiance(const Image& colour);
 
-/// Drops in the air above a diameter [1/m^3].
-double drops_in_air(double rate_mm_per_h, double smallest_mm);
-
 }  // namespace rainref::windshield

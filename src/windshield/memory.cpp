@@ -7,6 +7,7 @@
 #include "drops/host.h"
 #include "drops/memory.h"
 #include "night_street/memory.h"
+#include "rain/rain.h"
 #include "rainref/windshield.h"
 #include "windshield/panes.h"
 #include "windshield/street.h"
@@ -43,8 +44,8 @@ double most_falling(const Settings& s, double seconds) {
   if (s.corrected)
     for (int second = 0; second <= seconds; ++second) rate = std::max(rate, weather.rain(second));
   const double half_height = camera(s.picture).half_height() * s.picture.scene_margin, aspect = 1.0 * s.picture.width / s.picture.height;
-  return drops_in_air(rate, s.falling.smallest_drop) * (4.0 / 3) * half_height * half_height * aspect * s.falling.far * s.falling.far *
-         s.falling.far;
+  return rain::DropSizes(rate, s.falling.smallest_drop).in_air(s.falling.smallest_drop) * (4.0 / 3) * half_height * half_height * aspect *
+         s.falling.far * s.falling.far * s.falling.far;
 }
 
 MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {

@@ -14,6 +14,14 @@ constexpr int tile_rows = 8;
 
 double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
 
+/// All of its texels; before: seconds that the host spent on it.
+template <class P>
+void draw_all(pass::Run<P> pass, const pass::Moment& now, const parallel::Executor& executor, double before = 0) {
+  pass.start(now);
+  pass.tiles(executor, tile_rows);
+  pass.finish(now, 1, before);
+}
+
 }  // namespace
 
 Real3 apparent_wind(const VehicleState& car, const Real3& wind) {
@@ -121,10 +129,7 @@ void WetPane::draw(const pass::Moment& now, int frame) {
     io.height = height_;
     io.previous_height = previous_height_;
     io.new_height = height_;
-    pass::Run<PersistPass> persist(persist_uniforms(settings_.surface), corrected_, rounding, io);
-    persist.start(now);
-    persist.tiles(executor_, tile_rows);
-    persist.finish(now);
+    draw_all(pass::Run<PersistPass>(persist_uniforms(settings_.surface), corrected_, rounding, io), now, executor_);
   }
 
   if (has_blades_) wipe_texture(now, frame);
@@ -133,20 +138,15 @@ void WetPane::draw(const pass::Moment& now, int frame) {
   io.height = height_;
   io.mask = mask_;
   io.normal = normal_;
-  pass::Run<NormalsPass> normals(normals_uniforms(settings_.surface), corrected_, rounding, io);
-  normals.start(now);
-  normals.tiles(executor_, tile_rows);
-  normals.finish(now);
+  draw_all(pass::Run<NormalsPass>(normals_uniforms(settings_.surface), corrected_, rounding, io), now, executor_);
 }
 
 void WetPane::wipe_texture(const pass::Moment& now, int frame) {
   WipeTextureUniforms wipe = wipe_texture_uniforms(settings_.surface, frame);
   wipe.wiper_count = static_cast<std::int32_t>(wipers_.size());
-  pass::Run<WipeTexturePass> wiping(wipe, corrected_, settings_.surface.rounding,
-                                    wipe_texture_io(corrected_, wipers_, {&height_, &mask_, corrected_ ? &wiped_ : nullptr}));
-  wiping.start(now);
-  wiping.tiles(executor_, tile_rows);
-  wiping.finish(now);
+  draw_all(pass::Run<WipeTexturePass>(wipe, corrected_, settings_.surface.rounding,
+                                      wipe_texture_io(corrected_, wipers_, {&height_, &mask_, corrected_ ? &wiped_ : nullptr})),
+           now, executor_);
 }
 
 void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
@@ -159,10 +159,7 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.mask = mask_;
   seen.glints = lights;
   seen.colour = colour;
-  pass::Run<CompositePass> composite(view_, corrected_, settings_.surface.rounding, seen);
-  composite.start(now);
-  composite.tiles(executor_, tile_rows);
-  composite.finish(now, 1, before);
+  draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before);
 }
 
 std::vector<DropView> WetPane::drops() const {

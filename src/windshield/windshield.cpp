@@ -154,7 +154,7 @@ void Windshield::State::rain_behind(const pass::Moment& now) {
 
   FallingRainUniforms uniforms{};
   uniforms.streak_count = static_cast<std::int32_t>(streaks.size());
-  uniforms.sharpness = 10;
+  uniforms.sharpness = 10;  // what stands in the street hides a streak within 10 cm
   pass::HostIo<FallingRainPass> io;
   io.blurred = levels[0];
   io.scene_depth = scene.depth;

@@ -90,7 +90,7 @@ TEST(ScreenDropsPublishedKeys, KeepFromAndLayersChooseTheLayers) {
 }
 
 // A fresh drop covers the share of its cell where sin a + sin b > threshold: (1 / 2 pi^2) Int acos(clamp(threshold - sin b, -1, 1)) db.
-// A pack, or a mistake that is tried on its uniforms, may say 2^30: to count that far took minutes for a few texels.
+// A mistake that the diagnosis tries on the uniforms may say 2^30: to count that far took minutes for a few texels.
 TEST(ScreenDropsPublishedKeys, MoreLayersThanThereMayBeAreNotCounted) {
   const auto picture = [](int layers) {
     Published p(40, 40, 1.0 / 7, {0.5f, 0.25f, 0});

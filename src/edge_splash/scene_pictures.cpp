@@ -1,4 +1,4 @@
-#include "edge_splash/film.h"
+#include "edge_splash/scene_pictures.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 namespace rainref::edge_splash {
 
-Film::Film(const scene::Config& config, effect::Inputs& files) {
+ScenePictures::ScenePictures(const scene::Config& config, effect::Inputs& files) {
   const bool corrected = config.variant() == name(Variant::corrected);
   const std::string source = config.text("scene.source");
   for (const char* key : {"scene.image", "scene.depth_image"}) {
@@ -34,18 +34,18 @@ Film::Film(const scene::Config& config, effect::Inputs& files) {
     throw Error(ExitCode::usage, fmt::format("scene.layer_image: a sequence needs scene.source = \"files\", found \"{}\"", source));
 }
 
-bool Film::moves() const {
+bool ScenePictures::moves() const {
   for (const auto* source : {&colour_, &depth_, &layer_})
     if (*source && (*source)->is_sequence()) return true;
   return false;
 }
 
-Film::Shown Film::shown_in(int frame) const {
+ScenePictures::Shown ScenePictures::shown_in(int frame) const {
   const auto of = [&](const std::optional<effect::PictureSource>& source) { return source ? source->shown_in(frame) : 0; };
   return {of(colour_), of(depth_), of(layer_)};
 }
 
-void Film::fill(int frame, Inputs& in, effect::Inputs& files) const {
+void ScenePictures::fill(int frame, Inputs& in, effect::Inputs& files) const {
   const auto [colour, depth, layer] = shown_in(frame);
   if (colour_) {
     const image_io::Picture picture = colour_->read(colour, files);
@@ -64,6 +64,8 @@ void Film::fill(int frame, Inputs& in, effect::Inputs& files) const {
   if (layer_) in.layer = flipped(layer_->read(layer, files).image);
 }
 
-Error Film::about_depth(const Error& error, int frame) const { return depth_ ? depth_->about(error, depth_->shown_in(frame)) : error; }
+Error ScenePictures::about_depth(const Error& error, int frame) const {
+  return depth_ ? depth_->about(error, depth_->shown_in(frame)) : error;
+}
 
 }  // namespace rainref::edge_splash
