@@ -14,6 +14,7 @@
 #include "compositor/native.h"
 #include "compositor/world.h"
 #include "stream.h"
+#include "thread_counts.h"
 
 namespace rainref::compositor {
 namespace {
@@ -153,7 +154,7 @@ void compare(benchmark::State& state, const std::string& set, int threads, bool 
 }
 
 const bool registered = [] {
-  for (const int threads : {1, 2}) {
+  for (const int threads : bench::thread_counts()) {
     for (const bool as_records : {false, true}) {
       for (const std::string set : {"camera", "grazing", "reflection"}) {
         benchmark::RegisterBenchmark(

@@ -9,6 +9,7 @@
 #include "truth/windshield_view.h"
 #include "scene/toml.h"
 #include "stream.h"
+#include "thread_counts.h"
 
 namespace rainref::truth {
 namespace {
@@ -77,7 +78,7 @@ void picture(benchmark::State& state, double radius, const std::string& embree_c
 
 const bool registered = [] {
   for (const double radius : {0.0, 3.0}) {
-    for (const int threads : {1, 2}) {
+    for (const int threads : bench::thread_counts()) {
       for (const std::string config : {"", "isa=sse2"}) {
         if (threads > 1 && !config.empty()) continue;
         benchmark::RegisterBenchmark(fmt::format("traced_windshield/640x360/{}/threads:{}{}", radius > 0 ? "bent" : "flat", threads,

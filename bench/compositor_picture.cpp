@@ -11,6 +11,7 @@
 #include "puddle/parameters.h"
 #include "scene/toml.h"
 #include "stream.h"
+#include "thread_counts.h"
 
 namespace rainref::truth {
 namespace {
@@ -58,7 +59,7 @@ void picture(benchmark::State& state, int samples, const std::string& embree_con
 
 const bool registered = [] {
   for (const int samples : {1, 4}) {
-    for (const int threads : {1, 2}) {
+    for (const int threads : bench::thread_counts()) {
       for (const std::string config : {"", "isa=sse2"}) {
         if (samples > 1 && !config.empty()) continue;
         benchmark::RegisterBenchmark(

@@ -14,6 +14,7 @@
 #include "drops/passes.h"
 #include "random/counter.h"
 #include "stream.h"
+#include "thread_counts.h"
 
 namespace rainref::drops {
 namespace {
@@ -127,7 +128,7 @@ const bool registered = [] {
   };
   for (const bool corrected : {false, true}) {
     for (const std::int64_t count : {100'000, 1'000'000, 10'000'000}) {
-      for (const int threads : {1, 2}) {
+      for (const int threads : bench::thread_counts()) {
         add(fmt::format("integrate/{}/{}/threads:{}", corrected ? "corrected" : "as-published", count, threads),
             [=](benchmark::State& state) { integrate(state, corrected, count, threads); });
       }
@@ -135,7 +136,7 @@ const bool registered = [] {
   }
   for (const bool settled : {false, true}) {
     for (const std::int64_t count : {100'000, 1'000'000, 10'000'000}) {
-      for (const int threads : {1, 2}) {
+      for (const int threads : bench::thread_counts()) {
         add(fmt::format("merge/{}/{}/threads:{}", settled ? "settled" : "crowded", count, threads),
             [=](benchmark::State& state) { merge(state, settled, count, threads); });
       }

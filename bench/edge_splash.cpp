@@ -7,6 +7,7 @@
 #include "pass_row.h"
 #include "rainref/edge_splash.h"
 #include "scene/toml.h"
+#include "thread_counts.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -33,7 +34,7 @@ const bool registered = [] {
     const std::vector<std::pair<std::string, bench::Traffic>> passes{{"splash", {variant == "corrected" ? 13 : 12, 11}},
                                                                      {"display", {8, 4}}};
     for (const auto& [pass, traffic] : passes) {
-      for (const int threads : {1, 2}) {
+      for (const int threads : bench::thread_counts()) {
         benchmark::RegisterBenchmark(
             fmt::format("edge_splash.{}/{}/1920x1080/threads:{}", pass, variant, threads).c_str(),
             [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, name, bytes, threads); })

@@ -12,9 +12,11 @@
 #include "puddle/kernels.h"
 #include "puddle/parameters.h"
 #include "puddle/rainfall.h"
+#include "puddle/wave_blocks.h"
 #include "rainref/puddle.h"
 #include "scene/toml.h"
 #include "stream.h"
+#include "thread_counts.h"
 
 namespace rainref::puddle {
 namespace {
@@ -59,23 +61,16 @@ class Water {
     encode_rows(start_.data(), newest_, settings_.boundary, rest_, settings_.rounding);
     encode_rows(start_.data(), previous_, settings_.boundary, rest_, settings_.rounding);
   }
-  void step(const parallel::Executor& executor) {
-    const bool corrected = settings_.variant == Variant::corrected;
-    WaveJob job{wave_step_uniforms(settings_),
-                corrected,
-                settings_.rounding,
-                settings_.boundary,
-                &newest_,
-                &previous_,
-                &rest_row_,
-                nullptr,
-                drops_};
-    job.uniforms.drop_count = static_cast<std::int32_t>(drops_.size());
-    executor.for_tiles(side_, side_, side_, wave_tile_rows, [&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
-    if (corrected && !drops_.empty()) {
-      executor.for_tiles(side_, side_, side_, wave_tile_rows, [&](const parallel::Tile& tile) { wave_previous_rows(job, newest_, tile); });
+  void step(const parallel::Executor& executor, int steps) {
+    std::vector<WaveJob> jobs;
+    for (int k = 0; k < steps; ++k) {
+      Image* levels[2] = {&newest_, &previous_};
+      jobs.push_back({wave_step_uniforms(settings_), settings_.variant == Variant::corrected, settings_.rounding, settings_.boundary,
+                      levels[k % 2], levels[1 - k % 2], &rest_row_, nullptr, drops_});
+      jobs.back().uniforms.drop_count = static_cast<std::int32_t>(drops_.size());
     }
-    std::swap(newest_, previous_);
+    step_wave(jobs, executor);
+    if (steps % 2 == 1) std::swap(newest_, previous_);
   }
   std::string hash() const { return capture::hash_of(BufferView(settings_.storage, {&newest_, &previous_})).text().substr(0, 16); }
 
@@ -88,7 +83,8 @@ class Water {
   std::vector<float> start_;
 };
 
-void wave_step(benchmark::State& state, const std::string& variant, const std::string& storage, int side, int threads) {
+// steps: at a time, those of a frame.
+void wave_step(benchmark::State& state, const std::string& variant, const std::string& storage, int side, int steps, int threads) {
   const parallel::Executor executor(threads);
   std::vector<std::string> values{"puddle.storage=" + storage, fmt::format("run.size=[{}, {}]", side, side)};
   if (variant == "corrected") {
@@ -96,19 +92,20 @@ void wave_step(benchmark::State& state, const std::string& variant, const std::s
     values.push_back("puddle.shape=basin");  // the shore of a natural puddle is one more plane to read
   }
   Water water(settings(variant, values), side);
-  for (int step = 0; step < 8; ++step) water.step(executor);
+  for (int step = 0; step < 8; ++step) water.step(executor, 1);
   const std::string hash = water.hash();
   const int bytes = storage == "rg16f" ? 2 : 4;
   const double bound = bench::stream_seconds(executor, side, side, wave_tile_rows, {bytes, bytes});
   double best = 1e9;
-  int steps = 8;
+  int made = 8;
   for (auto _ : state) {
-    if (steps++ % 64 == 0) water.reset();
-    const double seconds = bench::seconds_of([&] { water.step(executor); });
+    if (made % 64 < steps) water.reset();
+    made += steps;
+    const double seconds = bench::seconds_of([&] { water.step(executor, steps); });
     best = std::min(best, seconds);
     state.SetIterationTime(seconds);
   }
-  report(state, best, bound, static_cast<double>(side) * side, "Gcell/s", hash);
+  report(state, best, steps * bound, static_cast<double>(side) * side * steps, "Gcell/s", hash);
 }
 
 void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int threads) {
@@ -126,11 +123,15 @@ const bool registered = [] {
   for (const std::string variant : {"as-published", "corrected"}) {
     for (const std::string storage : {"rg16f", "rg32f"}) {
       for (const int side : {1024, 2048, 4096}) {
-        for (const int threads : {1, 2}) {
-          benchmark::RegisterBenchmark(fmt::format("wave_step/{}/{}/{}/threads:{}", variant, storage, side, threads).c_str(),
-                                       [=](benchmark::State& state) { wave_step(state, variant, storage, side, threads); })
-              ->UseManualTime()
-              ->Unit(benchmark::kMillisecond);
+        for (const int steps : {1, 5}) {
+          if (steps > 1 && variant == "as-published") continue;  // takes one a frame
+          for (const int threads : bench::thread_counts()) {
+            const std::string many = steps > 1 ? fmt::format("/steps:{}", steps) : "";
+            benchmark::RegisterBenchmark(fmt::format("wave_step/{}/{}/{}{}/threads:{}", variant, storage, side, many, threads).c_str(),
+                                         [=](benchmark::State& state) { wave_step(state, variant, storage, side, steps, threads); })
+                ->UseManualTime()
+                ->Unit(benchmark::kMillisecond);
+          }
         }
       }
     }
@@ -140,7 +141,7 @@ const bool registered = [] {
     const std::vector<std::pair<std::string, bench::Traffic>> passes{
         {"surface_hit", {0, 24}}, {"shade", {24 + noise, 8}}, {"display", {8, 4}}};
     for (const auto& [pass, traffic] : passes) {
-      for (const int threads : {1, 2}) {
+      for (const int threads : bench::thread_counts()) {
         benchmark::RegisterBenchmark(
             fmt::format("{}/{}/1280x720/threads:{}", pass, variant, threads).c_str(),
             [=, name = pass, bytes = traffic](benchmark::State& state) { picture(state, variant, name, bytes, threads); })

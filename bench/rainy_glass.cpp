@@ -5,6 +5,7 @@
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/parameters.h"
 #include "scene/toml.h"
+#include "thread_counts.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -45,7 +46,7 @@ const bool registered = [] {
       for (const auto& [pass, traffic] : passes) {
         if (pass == "display" && shape == "sphere") continue;
         for (const int height : {720, 1080}) {
-          for (const int threads : {1, 2}) {
+          for (const int threads : bench::thread_counts()) {
             benchmark::RegisterBenchmark(fmt::format("{}/{}/{}/{}p/threads:{}", pass, variant, shape, height, threads).c_str(),
                                          [=, name = pass, bytes = traffic](benchmark::State& state) {
                                            picture(state, variant, shape, name, bytes, height, threads);

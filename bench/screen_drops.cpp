@@ -4,6 +4,7 @@
 #include "pass_row.h"
 #include "rainref/screen_drops.h"
 #include "scene/toml.h"
+#include "thread_counts.h"
 #include "screen_drops/parameters.h"
 
 namespace rainref::screen_drops {
@@ -34,7 +35,7 @@ const bool registered = [] {
   const bench::Traffic window{8, 9}, shown{8, 4};
   const auto add = [](const std::string& name, const std::string& variant, const std::string& pass, bench::Traffic traffic, bool flows) {
     for (const int height : {720, 1080}) {
-      for (const int threads : {1, 2}) {
+      for (const int threads : bench::thread_counts()) {
         benchmark::RegisterBenchmark(fmt::format("{}/{}p/threads:{}", name, height, threads).c_str(),
                                      [=](benchmark::State& state) { picture(state, variant, pass, traffic, flows, height, threads); })
             ->UseManualTime()

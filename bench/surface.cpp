@@ -14,6 +14,7 @@
 #include "math/half.h"
 #include "pass/run.h"
 #include "stream.h"
+#include "thread_counts.h"
 #include "windshield/surface.h"
 
 namespace rainref {
@@ -203,7 +204,7 @@ void add(const std::string& name, const std::function<void(benchmark::State&)>& 
 const bool registered = [] {
   for (const bool corrected : {false, true}) {
     const char* variant = corrected ? "corrected" : "as-published";
-    for (const int threads : {1, 2}) {
+    for (const int threads : bench::thread_counts()) {
       for (const std::int64_t count : {1000, 10000, 100000, 1000000}) {
         add(fmt::format("splat/{}/{}/threads:{}", variant, count, threads),
             [=](benchmark::State& s) { splat(s, corrected, count, threads); });

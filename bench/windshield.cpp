@@ -4,6 +4,7 @@
 #include "pass_row.h"
 #include "rainref/windshield.h"
 #include "scene/toml.h"
+#include "thread_counts.h"
 #include "windshield/scene_images.h"
 #include "windshield/scene_keys.h"
 
@@ -35,7 +36,7 @@ const bool registered = [] {
   // A texel each of normal, height, mask, the scene's colour and, corrected, its depth.
   for (const std::string variant : {"as-published", "corrected"}) {
     for (const int height : {720, 1080}) {
-      for (const int threads : {1, 2}) {
+      for (const int threads : bench::thread_counts()) {
         benchmark::RegisterBenchmark(fmt::format("composite/{}/{}x{}/threads:{}", variant, height * 16 / 9, height, threads).c_str(),
                                      [=](benchmark::State& state) {
                                        picture(state, variant, "composite", {variant == "corrected" ? 24 : 20, 8}, height, threads);

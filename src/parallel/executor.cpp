@@ -24,7 +24,8 @@ Executor::~Executor() = default;
 
 int Executor::threads() const { return pool_->threads(); }
 
-void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t, std::int64_t)>& body) const {
+void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::function<void(std::int64_t, std::int64_t)>& body,
+                         Placement placement) const {
   if (count <= 0) return;
   const FloatingPointGuard caller;
   const std::int64_t chunks = (count + chunk - 1) / chunk;
@@ -38,21 +39,24 @@ void Executor::for_range(std::int64_t count, std::int64_t chunk, const std::func
       std::swap(order[i - 1], order[(state >> 33) % i]);
     }
   }
-  pool_->run(chunks, [&](std::int64_t i) {
+  const auto run_chunk = [&](std::int64_t i) {
     const std::int64_t index = order.empty() ? i : order[static_cast<std::size_t>(i)];
     const FloatingPointGuard guard;
     body(index * chunk, std::min(count, (index + 1) * chunk));
-  });
+  };
+  pool_->run(chunks, run_chunk, placement);
 }
 
-void Executor::for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body) const {
+void Executor::for_tiles(int width, int height, int tile_width, int tile_height, const std::function<void(const Tile&)>& body,
+                         Placement placement) const {
   const int columns = (width + tile_width - 1) / tile_width, rows = (height + tile_height - 1) / tile_height;
-  for_range(static_cast<std::int64_t>(columns) * rows, 1, [&](std::int64_t begin, std::int64_t end) {
+  const auto tiles = [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const int x = static_cast<int>(i % columns) * tile_width, y = static_cast<int>(i / columns) * tile_height;
       body({x, y, std::min(width, x + tile_width), std::min(height, y + tile_height)});
     }
-  });
+  };
+  for_range(static_cast<std::int64_t>(columns) * rows, 1, tiles, placement);
 }
 
 }  // namespace rainref::parallel

@@ -27,7 +27,7 @@ struct Executor::Pool {
   ~Pool();
   int threads() const;
   /// Calls body(i) for i in [0, count), each on any thread. Rethrows the first exception of a body.
-  void run(std::int64_t count, const std::function<void(std::int64_t)>& body) const;
+  void run(std::int64_t count, const std::function<void(std::int64_t)>& body, Placement placement) const;
 
  private:
   struct Threads;

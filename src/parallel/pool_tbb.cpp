@@ -25,14 +25,17 @@ Executor::Pool::~Pool() = default;
 
 int Executor::Pool::threads() const { return threads_->arena.max_concurrency(); }
 
-void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body) const {
+void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64_t)>& body, Placement placement) const {
+  using Range = oneapi::tbb::blocked_range<std::int64_t>;
+  const Range all(0, count, 1);
+  const auto some = [&](const Range& range) {
+    for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
+  };
   threads_->arena.execute([&] {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::int64_t>(0, count, 1),
-        [&](const oneapi::tbb::blocked_range<std::int64_t>& range) {
-          for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
-        },
-        oneapi::tbb::simple_partitioner());
+    if (placement == Placement::same_thread)
+      oneapi::tbb::parallel_for(all, some, oneapi::tbb::static_partitioner());
+    else
+      oneapi::tbb::parallel_for(all, some, oneapi::tbb::simple_partitioner());
   });
 }
 

@@ -1,6 +1,7 @@
 // Channels of an image as planes of their own, readable beyond the ends by the image's address rule.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "capture/pass_case.h"
@@ -19,11 +20,16 @@ void in_storage(Format format, const F& f) {
 /// Fills the margins of a row with what stands beyond its ends; a mirrored image counts as a clamped one.
 template <class Storage>
 void fill_margins(Storage* row, int width, Address address, Storage border) {
-  const auto wrapped = [&](int x) { return ((x % width) + width) % width; };
-  for (int k = 0; k < Image::left_margin; ++k) {
-    const int left = -1 - k, right = width + k;
-    row[left] = address == Address::border ? border : row[address == Address::repeat ? wrapped(left) : 0];
-    row[right] = address == Address::border ? border : row[address == Address::repeat ? wrapped(right) : width - 1];
+  constexpr int margin = Image::left_margin;
+  if (address != Address::repeat) {
+    std::fill_n(row - margin, margin, address == Address::border ? border : row[0]);
+    std::fill_n(row + width, margin, address == Address::border ? border : row[width - 1]);
+    return;
+  }
+  // Outwards, so that a row shorter than a margin repeats what was filled before.
+  for (int k = 0; k < margin; ++k) {
+    row[-1 - k] = row[width - 1 - k];
+    row[width + k] = row[k];
   }
 }
 /// The row that stands for row y. border_row: one row of the border's value.

@@ -17,20 +17,26 @@ struct WaveJob {
   bool corrected;
   Rounding rounding;
   Boundary boundary;
-  const Image* newest;    ///< ghost columns filled
+  Image* newest;          ///< ghost columns filled; corrected: wave_previous_rows adds the drops to it
   Image* previous;        ///< in: the previous level; out: the next one, ghost columns filled
   const Image* rest_row;  ///< one row at rest, for Boundary::fixed
   const Image* shore;     ///< r32f, or null
   std::span<const Drop> drops;
 };
 
+/// What stands beyond the edge of the wave.
+constexpr Address address_of(Boundary boundary) {
+  return boundary == Boundary::periodic ? Address::repeat : boundary == Boundary::fixed ? Address::border : Address::clamp;
+}
+
 /// Encodes stored values, `width` to a row, into a plane, ghost columns included.
 void encode_rows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding);
 
 /// wave_step over whole rows; the tile must span the width.
 void wave_step_rows(const WaveJob& job, const parallel::Tile& tile);
-/// The second output of the corrected wave_step: adds the drops to the level in `plane`, in place, where they touch it.
-void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile);
+/// The second output of the corrected wave_step: adds the drops to `newest`, in place, where they touch it. After all steps that read
+/// these rows.
+void wave_previous_rows(const WaveJob& job, const parallel::Tile& tile);
 /// Decodes rows of a single-channel plane to floats, `width` to a row.
 void decode_rows(const Image& plane, float* out, const parallel::Tile& tile);
 /// Largest |s - rest| of a block of cells, and largest difference between one of them and its neighbour to the right or

@@ -1,9 +1,8 @@
-// Shells of raindrops and wave_step; compiled once for each SIMD target.
+// Shell of wave_step; compiled once for each SIMD target.
 #include <algorithm>
 
 #include "pass/planes.h"
 #include "puddle/kernels.h"
-#include "puddle/raindrops.pass.h"
 #include "puddle/wave_step.pass.h"
 
 #define RAINREF_KERNELS "puddle/kernels_wave.cpp"
@@ -12,13 +11,9 @@
 
 RAINREF_TARGET_BEGIN(puddle)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
-#include "puddle/raindrops.pass.h"
 #include "puddle/wave_step.pass.h"
 #undef RAINREF_FN
 
-Address address_of(Boundary boundary) {
-  return boundary == Boundary::periodic ? Address::repeat : boundary == Boundary::fixed ? Address::border : Address::clamp;
-}
 template <class Storage>
 Storage encode_one(float x, Rounding rounding) {
   Storage s;
@@ -26,166 +21,181 @@ Storage encode_one(float x, Rounding rounding) {
   return s;
 }
 
-// The drops that reach into columns [x0, x1) of the row at centre height fy, in order.
-std::span<const Drop> near_drops(std::span<const Drop> drops, const std::vector<int>& in_row, int x0, int x1, std::vector<Drop>& out) {
+// ---- the drops of a place ------------------------------------------------------------------------------------------
+// A drop adds exactly nothing beyond its radius, so that any choice which holds those that reach into a place gives its bits.
+void drops_in_rows(std::span<const Drop> drops, int y0, int y1, std::vector<Drop>& out) {
   out.clear();
-  for (const int i : in_row) {
-    const Drop& d = drops[static_cast<std::size_t>(i)];
-    if (d.x + d.radius >= static_cast<float>(x0) && d.x - d.radius <= static_cast<float>(x1)) out.push_back(d);
-  }
-  return out;
+  for (const Drop& d : drops)
+    if (d.y + d.radius >= static_cast<float>(y0) && d.y - d.radius <= static_cast<float>(y1)) out.push_back(d);
 }
-void drops_in_row(std::span<const Drop> drops, int y, std::vector<int>& out) {
+void drops_in_columns(std::span<const Drop> drops, int x0, int x1, std::vector<Drop>& out) {
   out.clear();
-  for (std::size_t i = 0; i < drops.size(); ++i) {
-    const Drop& d = drops[i];
-    if (d.y + d.radius >= static_cast<float>(y) && d.y - d.radius <= static_cast<float>(y + 1)) out.push_back(static_cast<int>(i));
+  for (const Drop& d : drops)
+    if (d.x + d.radius >= static_cast<float>(x0) && d.x - d.radius <= static_cast<float>(x1)) out.push_back(d);
+}
+// Columns [x0, x1) from left to right: without(begin, end) where no drop of the row reaches, with(x, drops) for a vector where some may.
+// x0 and every begin are multiples of a vector's length.
+template <class Without, class With>
+HWY_INLINE HWY_ATTR void for_drops(std::span<const Drop> in_row, int x0, int x1, const Without& without, const With& with) {
+  const int n = Lanes::size();
+  std::vector<Drop> near;
+  int done = x0;
+  while (done < x1) {
+    // The next vector that a drop reaches into.
+    int next = x1;
+    for (const Drop& d : in_row) {
+      if (d.x + d.radius < static_cast<float>(done)) continue;
+      const float first = d.x - d.radius - 1.0f;
+      if (first >= static_cast<float>(next)) continue;
+      next = first <= static_cast<float>(done) ? done : static_cast<int>(first) / n * n;
+    }
+    if (next > done) without(done, next);
+    if (next < x1) {
+      drops_in_columns(in_row, next, next + n, near);
+      with(next, std::span<const Drop>(near));
+    }
+    done = next + n;
   }
 }
 
-// A row, by `step` (column, columns) in whole vectors and one of the rest: the compiler knows the length of all but the last.
-template <class Storage, class Step>
-HWY_INLINE HWY_ATTR void step_row(int width, Storage* out, Rounding rounding, const Step& step) {
-  const int n = Lanes::size();
-  int x = 0;
-  for (; x + n <= width; x += n) store(out + x, step(x, n), rounding, n);
-  if (x < width) store(out + x, step(x, width - x), rounding, width - x);
-}
+// ---- rows of the newest level ----------------------------------------------------------------------------------------
+// As wave_step reads them in columns [x0, x1) of a tile: floats where they stand; other storage decoded once and not for each neighbour.
 template <class Storage>
-void step_rows(const WaveJob& job, const parallel::Tile& tile) {
-  const int width = job.newest->width();
-  const Address edge = address_of(job.boundary);
-  std::vector<int> in_row;
-  std::vector<Drop> near;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const auto newest = [&](int dy) HWY_ATTR { return pass::row_at<Storage>(*job.newest, *job.rest_row, edge, y + dy); };
-    Storage* out = job.previous->row<Storage>(y);
-    const WaveRows<Storage> rows =
-        rows_around<Storage>(job.uniforms, job.corrected, newest, out, job.shore ? job.shore->row<float>(y) : nullptr);
-    drops_in_row(job.drops, y, in_row);
-    // What does not change along a row is asked once: the variant, and whether any drop reaches the row.
-    if (!in_row.empty()) {
-      step_row<Storage>(width, out, job.rounding, [&](int x, int count) HWY_ATTR {
-        const std::span<const Drop> drops = near_drops(job.drops, in_row, x, x + count, near);
-        return job.corrected ? wave_step_corrected<Lanes>(job.uniforms, rows, drops, x, y)
-                             : wave_step_as_published<Lanes>(job.uniforms, rows, drops, x, y);
-      });
-    } else if (job.corrected) {
-      step_row<Storage>(width, out, job.rounding,
-                        [&](int x, int) HWY_ATTR { return wave_step_corrected<Lanes>(job.uniforms, rows, std::span<const Drop>(), x, y); });
-    } else {
-      step_row<Storage>(width, out, job.rounding, [&](int x, int) HWY_ATTR {
-        return wave_step_as_published<Lanes>(job.uniforms, rows, std::span<const Drop>(), x, y);
-      });
-    }
-    pass::fill_margins(out, width, edge, encode_one<Storage>(job.uniforms.rest, job.rounding));
+class NewestRows {
+ public:
+  static constexpr int columns = 4096;  // of a strip: its rows stay in a cache
+  NewestRows(const WaveJob& job, int reach) : job_(job), rows_(2 * reach + 1), ring_(static_cast<std::size_t>(rows_) * stride) {}
+  /// Row y is read from now on; rows must come in ascending order within a strip.
+  HWY_ATTR void add(int y, int x0, int x1) {
+    const Storage* from = pass::row_at<Storage>(*job_.newest, *job_.rest_row, edge(), y);
+    float* to = line(y);
+    for (int x = x0 - margin; x < x1 + margin; x += Lanes::size()) hn::StoreU(Lanes::load(from + x).v, Lanes::D(), to + margin + x - x0);
+    x0_ = x0;
   }
+  const float* row(int y) const { return const_cast<NewestRows*>(this)->line(y) + margin - x0_; }
+
+ private:
+  static constexpr int margin = Image::left_margin;
+  static constexpr std::size_t stride = columns + 2 * margin + HWY_MAX_BYTES / sizeof(float);
+  Address edge() const { return address_of(job_.boundary); }
+  float* line(int y) { return ring_.data() + static_cast<std::size_t>((y + rows_ * margin) % rows_) * stride; }
+  const WaveJob& job_;
+  int rows_, x0_ = 0;
+  std::vector<float> ring_;
+};
+template <>
+class NewestRows<float> {
+ public:
+  static constexpr int columns = 1 << 30;
+  NewestRows(const WaveJob& job, int) : job_(job) {}
+  void add(int, int, int) {}
+  const float* row(int y) const { return pass::row_at<float>(*job_.newest, *job_.rest_row, address_of(job_.boundary), y); }
+
+ private:
+  const WaveJob& job_;
+};
+
+// Without it the compiler calls some of these, and what they refer to lives in memory.
+#undef RAINREF_INLINED
+#define RAINREF_INLINED HWY_ATTR __attribute__((always_inline))
+
+// ---- steps -----------------------------------------------------------------------------------------------------------
+// Columns [begin, end) of a row by value(column). Values and not references come in, so that no store can change them.
+template <Rounding rounding, class Storage, class Value>
+HWY_INLINE HWY_ATTR void store_columns(Storage* out, int begin, int end, const Value& value) {
+  constexpr int n = Lanes::size();
+  int x = begin;
+  for (; x + n <= end; x += n) store(out + x, value(x), rounding, n);
+  if (x < end) store(out + x, value(x), rounding, end - x);
+}
+template <bool corrected, Rounding rounding, class Storage>
+HWY_NOINLINE HWY_ATTR void step_columns(WaveStepUniforms u, WaveRows<float, Storage> rows, Storage* out, int begin, int end, int y) {
+  constexpr std::span<const Drop> none;
+  if constexpr (corrected) {
+    if (rows.shore) {
+      store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
+    } else {
+      rows.shore = nullptr;  // known from here on
+      store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
+    }
+  } else if (rows.fraction != 0.0f) {
+    store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_as_published<Lanes>(u, rows, none, x, y); });
+  } else {
+    rows.fraction = 0.0f;
+    store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_as_published<Lanes>(u, rows, none, x, y); });
+  }
+}
+template <bool corrected, Rounding rounding, class Storage>
+HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
+  const WaveStepUniforms u = job.uniforms;
+  const int n = Lanes::size(), width = job.newest->width();
+  const int reach = corrected ? 1 : static_cast<int>(__builtin_ceilf(u.step));
+  std::vector<Drop> in_tile, in_row;
+  drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
+  NewestRows<Storage> newest(job, reach);
+  for (int x0 = 0; x0 < width; x0 += std::min(width, newest.columns)) {
+    const int x1 = std::min(width - x0, newest.columns) + x0;
+    for (int y = tile.y0 - reach; y < tile.y0 + reach; ++y) newest.add(y, x0, x1);
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      newest.add(y + reach, x0, x1);
+      Storage* out = job.previous->row<Storage>(y);
+      const auto row = [&](int dy) HWY_ATTR { return newest.row(y + std::clamp(dy, -reach, reach)); };
+      const WaveRows<float, Storage> rows = rows_around<float>(u, corrected, row, out, job.shore ? job.shore->row<float>(y) : nullptr);
+      drops_in_rows(in_tile, y, y + 1, in_row);
+      for_drops(
+          in_row, x0, x1, [&](int begin, int end) { step_columns<corrected, rounding>(u, rows, out, begin, end, y); },
+          [&](int x, std::span<const Drop> drops) HWY_ATTR {
+            store_columns<rounding>(out, x, std::min(x + n, x1), [&](int at) RAINREF_INLINED {
+              if constexpr (corrected)
+                return wave_step_corrected<Lanes>(u, rows, drops, at, y);
+              else
+                return wave_step_as_published<Lanes>(u, rows, drops, at, y);
+            });
+          });
+    }
+  }
+  const Storage rest = encode_one<Storage>(u.rest, rounding);
+  for (int y = tile.y0; y < tile.y1; ++y) pass::fill_margins(job.previous->row<Storage>(y), width, address_of(job.boundary), rest);
+}
+// f with the variant and the rounding as constants.
+template <class F>
+HWY_ATTR void with_constants(const WaveJob& job, const F& f) {
+  using Corrected = std::true_type;
+  using AsPublished = std::false_type;
+  using Nearest = std::integral_constant<Rounding, Rounding::rne>;
+  using TowardZero = std::integral_constant<Rounding, Rounding::rtz>;
+  if (job.rounding == Rounding::rne)
+    job.corrected ? f(Corrected(), Nearest()) : f(AsPublished(), Nearest());
+  else
+    job.corrected ? f(Corrected(), TowardZero()) : f(AsPublished(), TowardZero());
 }
 void StepRows(const WaveJob& job, const parallel::Tile& tile) {
-  pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR { step_rows<Storage>(job, tile); });
+  pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR {
+    with_constants(job, [&](auto corrected, auto rounding) HWY_ATTR { step_rows<corrected(), rounding(), Storage>(job, tile); });
+  });
 }
 
 template <class Storage>
-void previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile) {
-  const int n = Lanes::size(), width = plane.width();
-  std::vector<int> in_row;
-  std::vector<Drop> near;
+HWY_ATTR void previous_rows(const WaveJob& job, const parallel::Tile& tile) {
+  const int width = job.newest->width();
+  std::vector<Drop> in_tile, in_row;
+  drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
+  const Storage rest = encode_one<Storage>(job.uniforms.rest, job.rounding);
   for (int y = tile.y0; y < tile.y1; ++y) {
-    drops_in_row(job.drops, y, in_row);
+    drops_in_rows(in_tile, y, y + 1, in_row);
     if (in_row.empty()) continue;
-    Storage* row = plane.row<Storage>(y);
+    Storage* row = job.newest->row<Storage>(y);
     const float* shore = job.shore ? job.shore->row<float>(y) : nullptr;
-    for (int x = 0; x < width; x += n) {
-      const int count = std::min(n, width - x);
-      const std::span<const Drop> drops = near_drops(job.drops, in_row, x, x + count, near);
-      if (drops.empty()) continue;
-      store(row + x, wave_previous_corrected<Lanes>(row, shore, drops, x, y), job.rounding, count);
-    }
-    pass::fill_margins(row, width, address_of(job.boundary), encode_one<Storage>(job.uniforms.rest, job.rounding));
+    for_drops(
+        in_row, 0, width, [](int, int) {},
+        [&](int x, std::span<const Drop> drops) HWY_ATTR {
+          store(row + x, wave_previous_corrected<Lanes>(row, shore, drops, x, y), job.rounding, std::min(Lanes::size(), width - x));
+        });
+    pass::fill_margins(row, width, address_of(job.boundary), rest);
   }
 }
-void PreviousRows(const WaveJob& job, Image& plane, const parallel::Tile& tile) {
-  pass::in_storage(plane.format(), [&]<class Storage>(Storage) HWY_ATTR { previous_rows<Storage>(job, plane, tile); });
-}
-
-template <class Storage>
-void encode(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding) {
-  const int n = Lanes::size(), width = plane.width();
-  HWY_ALIGN float block[HWY_MAX_BYTES / sizeof(float)] = {};
-  for (int y = 0; y < plane.height(); ++y) {
-    Storage* row = plane.row<Storage>(y);
-    for (int x = 0; x < width; x += n) {
-      const int count = std::min(n, width - x);
-      std::copy_n(stored + static_cast<std::size_t>(y) * width + x, count, block);
-      store(row + x, Lanes::load(block), rounding, count);
-    }
-    pass::fill_margins(row, width, address_of(boundary), encode_one<Storage>(rest, rounding));
-  }
-}
-void EncodeRows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding) {
-  pass::in_storage(plane.format(), [&]<class Storage>(Storage) HWY_ATTR { encode<Storage>(stored, plane, boundary, rest, rounding); });
-}
-
-template <class Storage>
-void decode(const Image& plane, float* out, const parallel::Tile& tile) {
-  const int n = Lanes::size(), width = plane.width();
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const Storage* row = plane.row<Storage>(y);
-    float* to = out + static_cast<std::size_t>(y) * width;
-    for (int x = 0; x < width; x += n) store(to + x, Lanes::load(row + x), Rounding::rne, std::min(n, width - x));
-  }
-}
-void DecodeRows(const Image& plane, float* out, const parallel::Tile& tile) {
-  pass::in_storage(plane.format(), [&]<class Storage>(Storage) HWY_ATTR { decode<Storage>(plane, out, tile); });
-}
-
-// A maximum does not depend on the order of its operands, so lanes may hold partial ones.
-float largest(Lanes x) {
-  HWY_ALIGN float lanes[HWY_MAX_BYTES / sizeof(float)];
-  hn::Store(x.v, Lanes::D(), lanes);
-  return *std::max_element(lanes, lanes + Lanes::size());
-}
-void ExtentsOfRows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile, Extent* blocks) {
-  const int n = Lanes::size();
-  const auto magnitude = [](float x) { return x < 0 ? -x : x; };
-  for (int x0 = 0; x0 < width; x0 += extent_block) {
-    const int x1 = std::min(width, x0 + extent_block);
-    Lanes top(0.0f), step(0.0f);
-    float tail_top = 0, tail_step = 0;
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      const float *row = decoded + static_cast<std::size_t>(y) * width, *next = y + 1 < height ? row + width : row;
-      // The water falls to the rest level beyond its edge.
-      if (x0 == 0) tail_step = std::max(tail_step, magnitude(row[0] - rest));
-      if (x1 == width) tail_step = std::max(tail_step, magnitude(row[width - 1] - rest));
-      if (y == 0 || y + 1 == height) {
-        for (int x = x0; x < x1; ++x) tail_step = std::max(tail_step, magnitude(row[x] - rest));
-      }
-      int x = x0;
-      for (; x + n <= x1 && x + n < width; x += n) {
-        const Lanes here = Lanes::load(row + x);
-        top = max(top, abs(here - Lanes(rest)));
-        step = max(step, max(abs(Lanes::load(row + x + 1) - here), abs(Lanes::load(next + x) - here)));
-      }
-      for (; x < x1; ++x) {
-        tail_top = std::max(tail_top, magnitude(row[x] - rest));
-        if (x + 1 < width) tail_step = std::max(tail_step, magnitude(row[x + 1] - row[x]));
-        tail_step = std::max(tail_step, magnitude(next[x] - row[x]));
-      }
-    }
-    *blocks++ = {std::max(tail_top, largest(top)), std::max(tail_step, largest(step))};
-  }
-}
-
-void RaindropsAsPublished(const RaindropsUniforms& uniforms, Drop* out) {
-  const int n = Lanes::size();
-  for (int i = 0; i < uniforms.drop_count; i += n) {
-    const Vec3<Lanes> drop = raindrop_as_published<Lanes>(uniforms, i);
-    HWY_ALIGN float x[HWY_MAX_BYTES / sizeof(float)], y[HWY_MAX_BYTES / sizeof(float)], strength[HWY_MAX_BYTES / sizeof(float)];
-    hn::Store(drop.x.v, Lanes::D(), x);
-    hn::Store(drop.y.v, Lanes::D(), y);
-    hn::Store(drop.z.v, Lanes::D(), strength);
-    for (int k = 0; k < std::min(n, uniforms.drop_count - i); ++k) out[i + k] = {x[k], y[k], strength[k] + 0.0f, raindrop_radius};
-  }
+void PreviousRows(const WaveJob& job, const parallel::Tile& tile) {
+  pass::in_storage(job.newest->format(), [&]<class Storage>(Storage) HWY_ATTR { previous_rows<Storage>(job, tile); });
 }
 RAINREF_TARGET_END(puddle)
 
@@ -194,25 +204,9 @@ namespace rainref::puddle {
 
 RAINREF_EXPORT(StepRows);
 RAINREF_EXPORT(PreviousRows);
-RAINREF_EXPORT(EncodeRows);
-RAINREF_EXPORT(DecodeRows);
-RAINREF_EXPORT(ExtentsOfRows);
-RAINREF_EXPORT(RaindropsAsPublished);
 
-void encode_rows(const float* stored, Image& plane, Boundary boundary, float rest, Rounding rounding) {
-  RAINREF_DISPATCH(EncodeRows)(stored, plane, boundary, rest, rounding);
-}
 void wave_step_rows(const WaveJob& job, const parallel::Tile& tile) { RAINREF_DISPATCH(StepRows)(job, tile); }
-void wave_previous_rows(const WaveJob& job, Image& plane, const parallel::Tile& tile) { RAINREF_DISPATCH(PreviousRows)(job, plane, tile); }
-void decode_rows(const Image& plane, float* out, const parallel::Tile& tile) { RAINREF_DISPATCH(DecodeRows)(plane, out, tile); }
-void extents_of_rows(const float* decoded, int width, int height, float rest, const parallel::Tile& tile, Extent* blocks) {
-  RAINREF_DISPATCH(ExtentsOfRows)(decoded, width, height, rest, tile, blocks);
-}
-std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms) {
-  std::vector<Drop> drops(static_cast<std::size_t>(std::max(0, uniforms.drop_count)));
-  RAINREF_DISPATCH(RaindropsAsPublished)(uniforms, drops.data());
-  return drops;
-}
+void wave_previous_rows(const WaveJob& job, const parallel::Tile& tile) { RAINREF_DISPATCH(PreviousRows)(job, tile); }
 
 }  // namespace rainref::puddle
 #endif

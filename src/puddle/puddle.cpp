@@ -19,6 +19,7 @@
 #include "puddle/memory.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/rainfall.h"
+#include "puddle/wave_blocks.h"
 #include "puddle/wave_step.pass.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
@@ -147,25 +148,46 @@ struct Puddle::State {
     }
     return drops;
   }
-  /// Pass wave_step. wave: what the planes are seen as from outside.
-  void make_wave(const pass::Moment& now, const std::vector<Drop>& drops, const BufferView& wave) {
-    WaveJob job{wave_step_uniforms(settings),     corrected, settings.rounding, settings.boundary, &newest, &previous, &rest_row,
-                shore.empty() ? nullptr : &shore, drops};
-    job.uniforms.drop_count = static_cast<std::int32_t>(drops.size());
-    pass::HostIo<WaveStepPass> io;
+  /// Passes raindrops and wave_step of the steps [steps, end), one frame's. wave: what the levels are seen as from outside.
+  void advance(Recorder* recorder, std::int64_t end, const BufferView& wave) {
+    const pass::Moment first = moment(recorder, 0, step_time());
+    // Levels in between are shown to those who read them; else the steps of a frame go together.
+    const std::int64_t together = first.is_read("wave_step") || first.is_read("raindrops") ? 1 : end - steps;
+    for (int step = 0; steps < end;) {
+      std::vector<std::vector<Drop>> drops;
+      for (std::int64_t k = 0; k < together; ++k, ++steps) drops.push_back(fall(moment(recorder, step + static_cast<int>(k), step_time())));
+      make_wave(moment(recorder, step, step_time()), drops, wave);
+      step += static_cast<int>(together);
+    }
+  }
+  /// Pass wave_step of as many steps as there are lists of drops.
+  void make_wave(pass::Moment now, const std::vector<std::vector<Drop>>& drops, const BufferView& wave) {
+    std::vector<WaveJob> jobs;
+    for (const std::vector<Drop>& fallen : drops) {
+      const bool even = jobs.size() % 2 == 0;
+      WaveJob& job = jobs.emplace_back(WaveJob{wave_step_uniforms(settings), corrected, settings.rounding, settings.boundary,
+                                               even ? &newest : &previous, even ? &previous : &newest, &rest_row,
+                                               shore.empty() ? nullptr : &shore, fallen});
+      job.uniforms.drop_count = static_cast<std::int32_t>(fallen.size());
+    }
     const PassInput loaded = loaded_wave(wave);
-    io.wave.input = &loaded;
-    io.drops = drops;
-    if (job.shore) io.shore = shore;
-    io.next.planes = &wave;
-    pass::Run<WaveStepPass> run(job.uniforms, corrected, settings.rounding, io);
-    run.start(now);
-    run.tile([&] {
-      wave_tiles([&](const parallel::Tile& tile) { wave_step_rows(job, tile); });
-      if (corrected && !drops.empty()) wave_tiles([&](const parallel::Tile& tile) { wave_previous_rows(job, newest, tile); });
-      std::swap(newest, previous);
-    });
-    run.finish(now);
+    double seconds = 0;  // of all
+    for (std::size_t k = 0; k < jobs.size(); ++k, ++now.step) {
+      pass::HostIo<WaveStepPass> io;
+      io.wave.input = &loaded;
+      io.drops = drops[k];
+      if (jobs[k].shore) io.shore = shore;
+      io.next.planes = &wave;
+      pass::Run<WaveStepPass> run(jobs[k].uniforms, corrected, settings.rounding, io);
+      run.start(now);
+      if (k == 0) {
+        const Stopwatch watch;
+        step_wave(jobs, executor);
+        if (jobs.size() % 2 == 1) std::swap(newest, previous);
+        seconds = watch.seconds();
+      }
+      run.finish(now, 1, seconds / static_cast<double>(jobs.size()));
+    }
   }
   /// The wave as wave_step loads it: the boundary rule is an address rule, the border the stored rest value.
   PassInput loaded_wave(BufferView wave) const {
@@ -188,11 +210,7 @@ void Puddle::simulate(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const std::int64_t end = steps_until(s.settings, s.frame + 1);
-  for (int step = 0; s.steps < end; ++step, ++s.steps) {
-    const pass::Moment now = s.moment(recorder, step, s.step_time());
-    const std::vector<Drop> drops = s.fall(now);
-    s.make_wave(now, drops, wave());
-  }
+  s.advance(recorder, end, wave());
   ++s.frame;
 }
 

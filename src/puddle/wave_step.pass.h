@@ -51,22 +51,23 @@ struct WaveStepPass {
 #endif
 #else
 
-/// Rows of stored values. here, below and above are the newest level, readable `reach` texels to both sides.
-template <class Storage>
+/// Rows of values, stored or decoded. here, below and above are the newest level, readable `reach` texels to both sides.
+template <class Newest, class Previous>
 struct WaveRows {
-  const Storage *here, *below, *above, *below_next, *above_next, *previous;
+  const Newest *here, *below, *above, *below_next, *above_next;
+  const Previous* previous;
   int reach;           ///< whole texels to the neighbours
   float fraction;      ///< what is left of a fractional offset; *_next are the rows one texel further out
   const float* shore;  ///< corrected: share of the wave that the shore leaves; null: all of it
 };
-/// newest(dy) and previous: the row dy rows away.
-template <class Storage, class Newest>
-RAINREF_FN WaveRows<Storage> rows_around(const WaveStepUniforms& u, bool corrected, const Newest& newest, const Storage* previous,
-                                         const float* shore) {
+/// newest_row(dy): the row dy rows away.
+template <class Newest, class NewestRow, class Previous>
+RAINREF_FN WaveRows<Newest, Previous> rows_around(const WaveStepUniforms& u, bool corrected, const NewestRow& newest_row,
+                                                  const Previous* previous, const float* shore) {
   // With a whole offset r the neighbours are r away; with a fractional one between r and r + 1.
   const int r = corrected ? 1 : static_cast<int>(u.step);
   const float fraction = corrected ? 0.0f : u.step - static_cast<float>(r);
-  return {newest(0), newest(-r), newest(r), newest(-r - 1), newest(r + 1), previous, r, fraction, shore};
+  return {newest_row(0), newest_row(-r), newest_row(r), newest_row(-r - 1), newest_row(r + 1), previous, r, fraction, shore};
 }
 
 // ---- as published --------------------------------------------------------------------------------------------------
@@ -77,8 +78,8 @@ RAINREF_FN N drop_as_published(const Drop& drop, N x, N y) {
   const N distance = length(N(drop.x) - x, N(drop.y) - y);
   return N(drop.amplitude) * smoothstep(4.0f, 0.5f, distance);
 }
-template <class N, class Storage, class Drops>
-RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops drops, int x, int y) {
+template <class N, class Newest, class Previous, class Drops>
+RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Newest, Previous>& in, Drops drops, int x, int y) {
   const int r = in.reach;
   N left = N::load(in.here + x - r), right = N::load(in.here + x + r), down = N::load(in.below + x), up = N::load(in.above + x);
   if (in.fraction != 0.0f) {
@@ -120,8 +121,8 @@ RAINREF_FN N impulse_corrected(Drops drops, int x, int y) {
   for (const Drop& drop : drops) sum = sum + drop_corrected(drop, fx, fy);
   return sum;
 }
-template <class N, class Storage, class Drops>
-RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Storage>& in, Drops drops, int x, int y) {
+template <class N, class Newest, class Previous, class Drops>
+RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Newest, Previous>& in, Drops drops, int x, int y) {
   const N here = N::load(in.here + x);
   // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
   const N around = sum_any_order_in_pairs(N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.below + x), N::load(in.above + x));
@@ -150,7 +151,8 @@ struct WaveStepPassText {
     const std::span<const Drop> near = found;
     io.wave.in_storage([&]<class Storage>(Storage) {
       const auto newest = [&](int dy) { return io.wave.template row<Storage>(0, dy); };
-      const WaveRows<Storage> rows = rows_around(u, corrected, newest, io.wave.template row<Storage>(1, 0), io.shore.row[0]);
+      const WaveRows<Storage, Storage> rows =
+          rows_around<Storage>(u, corrected, newest, io.wave.template row<Storage>(1, 0), io.shore.row[0]);
       if constexpr (corrected) {
         const N next = wave_step_corrected<N>(u, rows, near, x, y);
         io.next(next, near.empty() ? N::load(rows.here + x) : wave_previous_corrected<N>(rows.here, rows.shore, near, x, y));

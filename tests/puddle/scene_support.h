@@ -168,7 +168,7 @@ struct Water {
   void step(const std::vector<Drop>& drops = {}) {
     const WaveJob job{uniforms, is_corrected(), settings.rounding, settings.boundary, &newest, &previous, &rest_row, nullptr, drops};
     wave_step_rows(job, all());
-    if (is_corrected() && !drops.empty()) wave_previous_rows(job, newest, all());
+    if (is_corrected() && !drops.empty()) wave_previous_rows(job, all());
     std::swap(newest, previous);
   }
   std::vector<float> decoded(const Image& plane) const {

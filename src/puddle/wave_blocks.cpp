@@ -1,0 +1,103 @@
+// Steps blocked in time. A step makes row y from rows y - reach ... y + reach of the level before; in place, so that it also takes the
+// room of the level before that. Bands of rows go through all steps at once, each step `reach` rows narrower at both ends than the
+// step before (a trapezoid of rows and steps); what is left between two bands are triangles, made afterwards. Nothing is
+// made twice, and every row is made from the same rows as one step at a time makes it from.
+#include "puddle/wave_blocks.h"
+
+#include <algorithm>
+
+namespace rainref::puddle {
+namespace {
+
+constexpr int tile_rows = 32;  // of a step by itself
+constexpr int band_rows = 64;  // of steps together, at least
+constexpr int visit_rows = 8;  // that a band takes from one step to the next
+
+class Blocks {
+ public:
+  explicit Blocks(std::span<const WaveJob> jobs)
+      : jobs_(jobs),
+        reach_(jobs[0].corrected ? 1 : static_cast<int>(__builtin_ceilf(jobs[0].uniforms.step))),
+        steps_(static_cast<int>(jobs.size())),
+        height_(jobs[0].newest->height()),
+        wraps_(jobs[0].boundary == Boundary::periodic),
+        bands_(height_ / std::max(band_rows, 2 * reach_ * steps_)) {}
+
+  int bands() const { return bands_; }
+  /// Bands and triangles must not meet: there are none where the wave is lower than one band.
+  bool possible() const { return bands_ > 0; }
+  void band(int k) const {
+    const int begin = first_row(k), end = first_row(k + 1);
+    const bool open_below = k > 0 || wraps_, open_above = k + 1 < bands_ || wraps_;
+    // A front of visits moves up; each step follows `reach` rows behind the step before.
+    for (int front = begin; front < end + steps_ * reach_ + visit_rows; front += visit_rows) {
+      for (int step = 0; step < steps_; ++step) {
+        const int narrower = step * reach_, y = front - narrower;
+        rows(step, std::max(y, open_below ? begin + narrower : begin), std::min(y + visit_rows, open_above ? end - narrower : end));
+      }
+    }
+  }
+  /// Between band k - 1 and band k.
+  void triangle(int k) const {
+    if (k == 0 && !wraps_) return;
+    const int middle = first_row(k);
+    for (int step = 1; step < steps_; ++step) rows(step, middle - step * reach_, middle + step * reach_);
+  }
+
+ private:
+  int first_row(int band) const { return static_cast<int>(static_cast<std::int64_t>(height_) * band / bands_); }
+  /// Rows [y0, y1) of a step; negative ones stand at the upper end of a wave that wraps.
+  void rows(int step, int y0, int y1) const {
+    if (y0 < 0) {
+      rows(step, y0 + height_, std::min(y1, 0) + height_);
+      y0 = 0;
+    }
+    if (y0 >= y1) return;
+    const parallel::Tile tile{0, y0, jobs_[0].newest->width(), y1};
+    // All that read these rows of the level before without its drops have done so.
+    if (step > 0) add_drops(jobs_[static_cast<std::size_t>(step) - 1], tile);
+    wave_step_rows(jobs_[static_cast<std::size_t>(step)], tile);
+  }
+  static void add_drops(const WaveJob& job, const parallel::Tile& tile) {
+    if (job.corrected && !job.drops.empty()) wave_previous_rows(job, tile);
+  }
+
+  std::span<const WaveJob> jobs_;
+  int reach_, steps_, height_;
+  bool wraps_;
+  int bands_;
+};
+
+}  // namespace
+
+void step_wave(std::span<const WaveJob> jobs, const parallel::Executor& executor) {
+  if (jobs.empty()) return;
+  const auto add_drops = [&](const WaveJob& job) {
+    if (!job.corrected || job.drops.empty()) return;
+    executor.for_tiles(
+        job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
+        [&](const parallel::Tile& tile) { wave_previous_rows(job, tile); }, parallel::Placement::same_thread);
+  };
+  const Blocks blocks(jobs);
+  if (jobs.size() > 1 && blocks.possible()) {
+    const auto each = [&](const auto& body) {
+      executor.for_range(
+          blocks.bands(), 1,
+          [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t k = begin; k < end; ++k) body(static_cast<int>(k));
+          },
+          parallel::Placement::same_thread);
+    };
+    each([&](int k) { blocks.band(k); });
+    each([&](int k) { blocks.triangle(k); });
+    return add_drops(jobs.back());
+  }
+  for (const WaveJob& job : jobs) {
+    executor.for_tiles(
+        job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
+        [&](const parallel::Tile& tile) { wave_step_rows(job, tile); }, parallel::Placement::same_thread);
+    add_drops(job);
+  }
+}
+
+}  // namespace rainref::puddle
