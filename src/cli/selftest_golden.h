@@ -9,11 +9,11 @@ struct SelftestGolden {
   const char* hash;
 };
 inline constexpr SelftestGolden selftest_goldens[] = {
-    {"puddle", "as-published", "8ad7bfe1f7282bb65ea03ea2a6a6bde4"},       {"puddle", "corrected", "ddfa8cd3a32b5146de7d969d28776af6"},
-    {"windshield", "as-published", "89e50b34a8414ba9571c6a0e51feebc7"},   {"windshield", "corrected", "91a20872711a143b74df6308f082e214"},
-    {"edge_splash", "as-published", "e6ef4a11f8b8bd41160ce95c013ac411"},  {"edge_splash", "corrected", "c2b905e62723573b9213f4214a66997f"},
-    {"screen_drops", "as-published", "e3e4bba3deb25fb089f3bd74476e9f4e"}, {"screen_drops", "corrected", "efb1b8a49c914bf08c5e83d6235aa70b"},
-    {"rainy_glass", "as-published", "3bb777326773f3c69cd6775f3fa00731"},  {"rainy_glass", "corrected", "33e2e112009562ac094582f544137651"},
+    {"puddle", "as-published", "30add08e3949d255eda7b36a9a8dff3c"},       {"puddle", "corrected", "ea9a08b41862a31459aa62058ff58568"},
+    {"windshield", "as-published", "c71e1194f001b4e650fa8d3c86f49741"},   {"windshield", "corrected", "178b2b3316f22c4206762130741c60a4"},
+    {"edge_splash", "as-published", "489e98dff58b34e3b5e364ac3a427365"},  {"edge_splash", "corrected", "4212a5e8125bedacb031a03b8b669312"},
+    {"screen_drops", "as-published", "2d0a5ec7a5978dd2b9367e7b327c116f"}, {"screen_drops", "corrected", "24b32f3fe0b199b08ad31716f5a0ebcd"},
+    {"rainy_glass", "as-published", "b0f495e7beed9fa7794e8d51b70f394e"},  {"rainy_glass", "corrected", "83c1ffa8a7e3c6fda85b563b52a6b157"},
 };
 
 }  // namespace rainref::cli
