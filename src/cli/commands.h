@@ -24,6 +24,7 @@ struct RunOptions {
   int every = 0;                 ///< 0: the last frame only
   bool png = true, exr = false;
   bool json = false;
+  bool keep_images = true;     ///< what default scenes begin with, in the user's cache folder
   bool compare_truth = false;  ///< against the traced truth, on the frames that are written
   enum Capture : std::uint8_t { none, passes, all } capture = none;
 };

@@ -14,6 +14,7 @@
 #include "base/file_lock.h"
 #include "base/folders.h"
 #include "base/hidden.h"
+#include "cache/kept_images.h"
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
 #include "capture/pack_write.h"
@@ -141,6 +142,7 @@ int run(const RunOptions& options) {
   if (options.capture != RunOptions::none) add_captures(memory);
   require_memory(memory);
   const std::size_t stated = memory.peak.peak() + resident_memory();
+  if (options.keep_images) cache::keep_in(cache::folder_of_user());
   simulation::Opened opened = open_scene(config, executor);
   if (options.compare_truth && !opened.has_truth()) {
     throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle "

@@ -56,6 +56,8 @@ Verb run_verb(CLI::App& app) {
       ->type_name("WHAT");
   verb.add_flag("--compare-truth", f->options.compare_truth,
                 "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
+  verb.add_flag("!--no-cache", f->options.keep_images,
+                "Neither read nor keep the made street and other pictures that a scene begins with ($XDG_CACHE_HOME/rainref)");
   verb.add_flag("--json", f->options.json, "Print the summary as JSON");
   verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
   return {&verb, [f] {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "cache/kept_images.h"
 #include "math/real64.h"
 
 namespace rainref::edge_splash {
@@ -177,9 +179,7 @@ Vec radiance(const std::vector<const Solid*>& near, const Vec& from, const Vec& 
   return behind + clear * (surface - behind);
 }
 
-}  // namespace
-
-ShapesView render_shapes(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor) {
+ShapesView rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor) {
   constexpr int tile = 16, samples = 4;  // a grid of samples x samples rays to a pixel
   const std::vector<Solid> all = solids();
   const scene::Camera::Basis basis = camera.basis();
@@ -222,6 +222,22 @@ ShapesView render_shapes(const scene::Camera& camera, int width, int height, dou
     }
   });
   return view;
+}
+
+}  // namespace
+
+ShapesView render_shapes(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor) {
+  cache::Recipe recipe("edge_splash shapes");
+  recipe.add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
+  for (const Vec& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
+  recipe.add({camera.vertical_fov_deg, far});
+  std::vector<Image> images = cache::images(recipe, [&] {
+    ShapesView view = rendered(camera, width, height, far, executor);
+    std::vector<Image> all;
+    for (Image* image : {&view.colour, &view.depth}) all.push_back(std::move(*image));
+    return all;
+  });
+  return {std::move(images[0]), std::move(images[1])};
 }
 
 }  // namespace rainref::edge_splash

@@ -8,7 +8,7 @@
 
 namespace rainref::night_street {
 
-Street::Street(const Options& options) {
+Street::Street(const Options& options) : options_(options) {
   FloatingPointGuard guard;  // the light map is computed here, outside the tiles that pin the state
   auto city = std::make_unique<City>(options.seed, options.clear_lane);
   lamps_ = city->lamps;

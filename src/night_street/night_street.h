@@ -59,7 +59,8 @@ class Street {
     Image depth;   ///< r32f, metres along the view axis at the texel centre; `far` for sky and whatever lies beyond
     Image normal;  ///< rgba32f, world normal at the texel centre, alpha 1 on surfaces; 0 0 0 0 where depth is `far`
   };
-  /// The street seen by a camera; row 0 = bottom (v = 0). Throws Error(usage) when `far` is not positive and finite.
+  /// The street seen by a camera; row 0 = bottom (v = 0). Kept for other runs, as a panorama is (cache/kept_images.h), when it has nine
+  /// parts: other views pass. Throws Error(usage) when `far` is not positive and finite.
   View view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
             Parts parts = Parts::nine) const;
 
@@ -71,6 +72,9 @@ class Street {
   Sight look(const scene::Vector3& origin, const scene::Vector3& direction) const;
 
  private:
+  View rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor, Parts parts) const;
+  Image traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const;
+  Options options_;
   std::unique_ptr<const City> city_;
   std::vector<Lamp> lamps_;
 };

@@ -1,5 +1,7 @@
+#include <utility>
 #include <vector>
 
+#include "cache/kept_images.h"
 #include "math/constants.h"
 #include "math/real64.h"
 #include "night_street/antialias.h"
@@ -24,6 +26,17 @@ struct Angles {
 }  // namespace
 
 Image Street::panorama(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {
+  cache::Recipe recipe("night_street panorama");
+  recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
+  recipe.add({eye.x, eye.y, eye.z});
+  return std::move(cache::images(recipe, [&] {
+    std::vector<Image> all;
+    all.push_back(traced(width, height, eye, executor));
+    return all;
+  })[0]);
+}
+
+Image Street::traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {
   const Vec origin = from(eye);
   const Angles azimuth(3 * width, -pi, 2 * pi), elevation(3 * height, -0.5 * pi, pi);
   const auto ray_of = [&](int i, int j) {

@@ -1,5 +1,9 @@
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "cache/kept_images.h"
 #include "night_street/antialias.h"
 #include "night_street/city.h"
 #include "rainref/error.h"
@@ -9,6 +13,22 @@ namespace rainref::night_street {
 Street::View Street::view(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
                           Parts parts) const {
   if (!(far > 0 && far < 1e300)) throw Error(ExitCode::usage, fmt::format("far: expected a positive distance in metres, found {}", far));
+  if (parts != Parts::nine) return rendered(camera, width, height, far, executor, parts);
+  cache::Recipe recipe("night_street view");
+  recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
+  for (const scene::Vector3& v : {camera.position, camera.target, camera.up}) recipe.add({v.x, v.y, v.z});
+  recipe.add({camera.vertical_fov_deg, far});
+  std::vector<Image> images = cache::images(recipe, [&] {
+    View view = rendered(camera, width, height, far, executor, parts);
+    std::vector<Image> all;
+    for (Image* image : {&view.colour, &view.depth, &view.normal}) all.push_back(std::move(*image));
+    return all;
+  });
+  return {std::move(images[0]), std::move(images[1]), std::move(images[2])};
+}
+
+Street::View Street::rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor,
+                              Parts parts) const {
   const scene::Camera::Basis basis = camera.basis();
   const Vec origin = from(camera.position), right = from(basis.right), up = from(basis.up), forward = from(basis.forward);
   const double half_height = camera.half_height(), half_width = half_height * width / height;

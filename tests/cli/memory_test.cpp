@@ -33,7 +33,7 @@ TEST_P(StatedMemory, IsWithinATenthOfThePeak) {
   const Case& c = GetParam();
   const TemporaryFolder folder;
   put_sky(folder / "sky.npy");
-  std::vector<std::string> command{"run",       fmt::format("{}/scenes/{}", rainref::test::source_folder(), c.scene),
+  std::vector<std::string> command{"run", "--no-cache",       fmt::format("{}/scenes/{}", rainref::test::source_folder(), c.scene),
                                    "--threads", "2",
                                    "--frames",  "2",
                                    "--image",   c.pictures,

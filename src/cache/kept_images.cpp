@@ -1,0 +1,229 @@
+#include "cache/kept_images.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <system_error>
+
+#include "base/hash.h"
+#include "base/hidden.h"
+#include "cache/program.h"
+#include "rainref/error.h"
+
+namespace rainref::cache {
+namespace {
+
+namespace fs = std::filesystem;
+static_assert(std::endian::native == std::endian::little, "the folder belongs to one machine, but its files say nothing of byte order");
+
+struct Folder {
+  fs::path path;
+  std::uintmax_t most_bytes = 0;
+};
+Folder& folder() {
+  static Folder one;
+  return one;
+}
+
+// ---- a file: Head, the recipe, ImageHead for each image, their rows without margins -------------------------------------
+constexpr char magic[16] = "rainref kept 1\n";
+constexpr std::string_view suffix = ".images";
+struct Head {
+  char magic[16];
+  std::uint64_t high, low;  // hash of all that follows the head
+  std::uint32_t recipe_bytes, images;
+};
+struct ImageHead {
+  std::uint32_t format, width, height;
+};
+std::size_t row_bytes(const Image& image) { return static_cast<std::size_t>(image.width()) * info(image.format()).texel_bytes(); }
+std::span<const std::byte> row(const Image& image, int y) { return {image.row_bytes(y), row_bytes(image)}; }
+template <class T>
+std::span<const std::byte> bytes_of(const T& x) {
+  return std::as_bytes(std::span(&x, 1));
+}
+ImageHead head_of(const Image& image) {
+  return {static_cast<std::uint32_t>(image.format()), static_cast<std::uint32_t>(image.width()),
+          static_cast<std::uint32_t>(image.height())};
+}
+
+/// All that follows the head, piece by piece.
+template <class Piece>
+void pieces(const std::string& recipe, const std::vector<Image>& images, const Piece& piece) {
+  piece(std::as_bytes(std::span(recipe)));
+  for (const Image& image : images) piece(bytes_of(head_of(image)));
+  for (const Image& image : images)
+    for (int y = 0; y < image.height(); ++y) piece(row(image, y));
+}
+Head head_of(const std::string& recipe, const std::vector<Image>& images) {
+  Hasher hasher(0);
+  pieces(recipe, images, [&](std::span<const std::byte> bytes) { hasher.add(bytes); });
+  const Hash128 hash = hasher.finish();
+  Head head{{}, hash.high, hash.low, static_cast<std::uint32_t>(recipe.size()), static_cast<std::uint32_t>(images.size())};
+  std::memcpy(head.magic, magic, sizeof magic);
+  return head;
+}
+
+/// A file that is read from the front, its bytes hashed.
+class Reader {
+ public:
+  explicit Reader(const fs::path& path) : file_(path, std::ios::binary), left_(fs::file_size(path)) {}
+  std::uintmax_t left() const { return left_; }
+  bool read(std::span<std::byte> to) {
+    if (to.size() > left_ || !file_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()))) return false;
+    hasher_->add(to);
+    left_ -= to.size();
+    return true;
+  }
+  template <class T>
+  bool read(T& x) {
+    return read(std::as_writable_bytes(std::span(&x, 1)));
+  }
+  void hash_from_here() { hasher_.emplace(0); }
+  Hash128 hash() const { return hasher_->finish(); }
+
+ private:
+  std::ifstream file_;
+  std::uintmax_t left_;
+  std::optional<Hasher> hasher_{std::in_place, 0};
+};
+/// None where it is not of this recipe, or not whole.
+std::optional<std::vector<Image>> read(const fs::path& path, const std::string& recipe) {
+  Reader file(path);
+  Head head;
+  if (!file.read(head) || std::memcmp(head.magic, magic, sizeof magic) != 0 || head.recipe_bytes != recipe.size()) return {};
+  file.hash_from_here();
+  std::string read_recipe(recipe.size(), '\0');
+  if (!file.read(std::as_writable_bytes(std::span(read_recipe))) || read_recipe != recipe) return {};
+  // Sizes are held to the file's before anything is allocated for them.
+  if (head.images > file.left() / sizeof(ImageHead)) return {};
+  std::vector<ImageHead> heads(head.images);
+  std::uintmax_t expected = 0;
+  for (ImageHead& image : heads) {
+    if (!file.read(image) || image.format > static_cast<std::uint32_t>(Format::r32ui) || image.width > 65536 || image.height > 65536)
+      return {};
+    expected += std::uintmax_t{image.width} * image.height * info(static_cast<Format>(image.format)).texel_bytes();
+  }
+  if (expected != file.left()) return {};
+  std::vector<Image> images;
+  for (const ImageHead& of : heads) {
+    Image& image = images.emplace_back(static_cast<Format>(of.format), static_cast<int>(of.width), static_cast<int>(of.height));
+    for (int y = 0; y < image.height(); ++y)
+      if (!file.read({image.row_bytes(y), row_bytes(image)})) return {};
+  }
+  if (file.hash() != Hash128{head.high, head.low}) return {};
+  return images;
+}
+std::optional<std::vector<Image>> found(const fs::path& path, const std::string& recipe) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return {};
+  try {
+    std::optional<std::vector<Image>> images = read(path, recipe);
+    if (images)
+      fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // used last
+    else
+      fs::remove(path, error);
+    return images;
+  } catch (const std::system_error&) {  // it went meanwhile
+    return {};
+  } catch (const Error&) {  // an image of no size
+    return {};
+  }
+}
+
+void write_all(int descriptor, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw std::system_error(errno, std::generic_category());
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+/// Removes those used longest ago until the rest fit.
+void make_room(const Folder& in) {
+  struct File {
+    fs::file_time_type used;
+    fs::path path;
+    std::uintmax_t bytes;
+  };
+  std::vector<File> files;
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(in.path)) {
+    std::error_code error;  // another process may have removed it
+    if (entry.path().extension() != suffix) continue;
+    const std::uintmax_t size = entry.file_size(error);
+    if (error) continue;
+    files.push_back({entry.last_write_time(error), entry.path(), size});
+    bytes += size;
+  }
+  std::sort(files.begin(), files.end(), [](const File& a, const File& b) { return a.used < b.used; });
+  for (const File& file : files) {
+    if (bytes <= in.most_bytes) return;
+    std::error_code error;
+    fs::remove(file.path, error);
+    bytes -= file.bytes;
+  }
+}
+void keep(const Folder& in, const fs::path& path, const std::string& recipe, const std::vector<Image>& images) {
+  try {
+    fs::create_directories(in.path);
+    remove_leftovers(in.path);
+    Hidden file(in.path, Hidden::Kind::file);
+    write_all(file.descriptor(), bytes_of(head_of(recipe, images)));
+    std::vector<std::byte> gathered;
+    pieces(recipe, images, [&](std::span<const std::byte> bytes) {
+      gathered.insert(gathered.end(), bytes.begin(), bytes.end());
+      if (gathered.size() < (std::size_t{1} << 20)) return;
+      write_all(file.descriptor(), gathered);
+      gathered.clear();
+    });
+    write_all(file.descriptor(), gathered);
+    file.become(path);
+    make_room(in);
+  } catch (const std::system_error&) {
+    // No room, no right to write: the next run makes them again.
+  }
+}
+
+}  // namespace
+
+Recipe& Recipe::add(std::initializer_list<double> numbers) {
+  for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x));
+  return *this;
+}
+Recipe& Recipe::add(std::uint64_t number) {
+  text_.append(reinterpret_cast<const char*>(&number), sizeof number);
+  return *this;
+}
+
+void keep_in(fs::path path, std::uintmax_t most_bytes) { folder() = {std::move(path), most_bytes}; }
+
+fs::path folder_of_user() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    const fs::path path = value ? value : "";
+    return path.is_absolute() ? path : fs::path();  // others are to be ignored (XDG Base Directory Specification 0.8)
+  };
+  if (const fs::path cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache / "rainref";
+  const fs::path home = variable("HOME");
+  return home.empty() ? home : home / ".cache" / "rainref";
+}
+
+std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make) {
+  const Folder& in = folder();
+  const std::optional<Hash128> program = in.path.empty() ? std::nullopt : program_hash();
+  if (!program) return make();
+  const std::string whole = program->text() + recipe.text();
+  const fs::path path = in.path / (file_hash(std::as_bytes(std::span(whole))).text() + std::string(suffix));
+  if (std::optional<std::vector<Image>> kept = found(path, whole)) return std::move(*kept);
+  std::vector<Image> made = make();
+  keep(in, path, whole, made);
+  return made;
+}
+
+}  // namespace rainref::cache

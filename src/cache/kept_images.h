@@ -1,0 +1,40 @@
+// Images that take long to make and are the same in every run, kept in a folder of the user's. Never needed: what is not there, is
+// damaged, or cannot be written is made anew, silently.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rainref/image.h"
+
+namespace rainref::cache {
+
+/// What images are made of, in bytes: all numbers that they depend on.
+class Recipe {
+ public:
+  /// what: names the maker, and no other one.
+  explicit Recipe(std::string_view what) : text_(what) { text_.push_back('\0'); }
+  Recipe& add(std::initializer_list<double> numbers);
+  Recipe& add(std::uint64_t number);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// From here on images are kept in this folder, which is made when the first is; an empty path: nowhere, as at the start. At most
+/// `most_bytes` of them, those used last. From the thread that starts the others.
+void keep_in(std::filesystem::path folder, std::uintmax_t most_bytes = std::uintmax_t{2} << 30);
+/// $XDG_CACHE_HOME/rainref, or ~/.cache/rainref; empty where neither variable says an absolute path.
+std::filesystem::path folder_of_user();
+
+/// The images of make(). Read instead where they were kept by this very program (its file's bytes count) for this recipe, and their
+/// hash says that they are whole.
+std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make);
+
+}  // namespace rainref::cache

@@ -1,0 +1,44 @@
+#include "cache/program.h"
+
+#include <charconv>
+#include <fstream>
+#include <string>
+
+#include "base/read_file.h"
+#include "rainref/error.h"
+
+namespace rainref::cache {
+namespace {
+
+/// The file of the mapping that holds an address, from lines "begin-end rights offset device inode path"; empty: none.
+std::string mapped_file(const void* address) {
+  const auto wanted = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    const char* const stop = line.data() + line.size();
+    const auto first = std::from_chars(line.data(), stop, begin, 16);
+    if (first.ec != std::errc() || first.ptr == stop || *first.ptr != '-') continue;
+    if (std::from_chars(first.ptr + 1, stop, end, 16).ec != std::errc() || wanted < begin || wanted >= end) continue;
+    const std::size_t path = line.find('/');
+    return path == std::string::npos ? std::string() : line.substr(path);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Hash128> program_hash() {
+  static const std::optional<Hash128> hash = []() -> std::optional<Hash128> {
+    const std::string file = mapped_file(reinterpret_cast<const void*>(&program_hash));
+    if (file.empty()) return {};
+    try {
+      return file_hash(read_file(file));
+    } catch (const Error&) {
+      return {};
+    }
+  }();
+  return hash;
+}
+
+}  // namespace rainref::cache

@@ -1,0 +1,168 @@
+// Kept images are those that were made, or they are made anew.
+#include "cache/kept_images.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/temporary_folder.h"
+
+namespace rainref::cache {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<Image> pattern(int shift) {
+  std::vector<Image> all;
+  for (const Format format : {Format::rgba32f, Format::r16f, Format::r8}) {
+    Image& image = all.emplace_back(format, 33, 7);
+    for (int y = 0; y < 7; ++y)
+      for (int x = 0; x < 33 * info(format).texel_bytes(); ++x) image.row_bytes(y)[x] = static_cast<std::byte>(x * 5 + y * 3 + shift);
+  }
+  return all;
+}
+bool same(const std::vector<Image>& a, const std::vector<Image>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].format() != b[k].format() || a[k].width() != b[k].width() || a[k].height() != b[k].height()) return false;
+    const auto bytes = static_cast<std::size_t>(a[k].width()) * info(a[k].format()).texel_bytes();
+    for (int y = 0; y < a[k].height(); ++y)
+      if (std::memcmp(a[k].row_bytes(y), b[k].row_bytes(y), bytes) != 0) return false;
+  }
+  return true;
+}
+
+class KeptImages : public testing::Test {
+ protected:
+  KeptImages() { keep_in(folder / "kept"); }
+  ~KeptImages() override { keep_in({}); }
+  std::vector<Image> get(double number) {
+    return images(Recipe("pattern").add({number}), [&] {
+      ++made;
+      return pattern(static_cast<int>(number));
+    });
+  }
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> all;
+    if (fs::exists(folder / "kept"))
+      for (const auto& entry : fs::directory_iterator(folder / "kept")) all.push_back(entry.path());
+    return all;
+  }
+  TemporaryFolder folder;
+  int made = 0;
+};
+
+TEST_F(KeptImages, AreMadeOnceAndReadAfterwards) {
+  for (int k = 0; k < 3; ++k) ASSERT_TRUE(same(get(1), pattern(1)));
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(files().size(), 1u);
+}
+TEST_F(KeptImages, AnotherRecipeIsAnotherFile) {
+  ASSERT_TRUE(same(get(1), pattern(1)));
+  ASSERT_TRUE(same(get(2), pattern(2)));
+  ASSERT_TRUE(same(images(Recipe("other").add({1.0}), [] { return pattern(9); }), pattern(9)));
+  // Numbers do not run into the name or into one another.
+  EXPECT_NE(Recipe("a").add({1.0, 2.0}).text(), Recipe("a").add({2.0, 1.0}).text());
+  EXPECT_NE(Recipe("ab").text(), Recipe("a").text() + "b");
+  EXPECT_EQ(made, 2);
+  EXPECT_EQ(files().size(), 3u);
+}
+TEST_F(KeptImages, NowhereUnlessAFolderIsSaid) {
+  keep_in({});
+  ASSERT_TRUE(same(get(1), pattern(1)));
+  ASSERT_TRUE(same(get(1), pattern(1)));
+  EXPECT_EQ(made, 2);
+  EXPECT_TRUE(files().empty());
+}
+TEST_F(KeptImages, ADamagedFileIsMadeAnew) {
+  get(1);
+  const fs::path file = files().at(0);
+  std::string whole(fs::file_size(file), '\0');
+  std::ifstream(file, std::ios::binary).read(whole.data(), static_cast<std::streamsize>(whole.size()));
+  const auto expect_anew = [&](const std::string& text, const std::string& what) {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+    const int before = made;
+    ASSERT_TRUE(same(get(1), pattern(1))) << what;
+    ASSERT_EQ(made, before + 1) << what;
+    ASSERT_EQ(fs::file_size(file), whole.size()) << what;
+  };
+  for (std::size_t k = 0; k < whole.size(); k += k < 200 ? 1 : 97) {
+    std::string damaged = whole;
+    damaged[k] = static_cast<char>(damaged[k] ^ 0x41);
+    expect_anew(damaged, "byte " + std::to_string(k));
+  }
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{1}, std::size_t{39}, std::size_t{40}, std::size_t{100}, whole.size() - 1})
+    expect_anew(whole.substr(0, bytes), std::to_string(bytes) + " bytes");
+  expect_anew(whole + "x", "one byte more");
+}
+TEST_F(KeptImages, ThoseUsedLongestAgoGiveWay) {
+  get(1);
+  const std::uintmax_t bytes = fs::file_size(files().at(0));
+  keep_in(folder / "kept", 2 * bytes + 1);
+  const auto age = [&] {  // file times may be coarse
+    for (const fs::path& file : files()) fs::last_write_time(file, fs::last_write_time(file) - std::chrono::hours(1));
+  };
+  age();
+  get(2);
+  age();
+  get(1);  // used again
+  get(3);
+  EXPECT_EQ(files().size(), 2u);
+  made = 0;
+  get(1);
+  get(3);
+  EXPECT_EQ(made, 0);
+  get(2);
+  EXPECT_EQ(made, 1);
+}
+TEST_F(KeptImages, AreMadeWhereNothingCanBeKept) {
+  std::ofstream(folder / "file") << "in the way";
+  keep_in(folder / "file" / "below");
+  ASSERT_TRUE(same(get(1), pattern(1)));
+  ASSERT_TRUE(same(get(1), pattern(1)));
+  EXPECT_EQ(made, 2);
+  if (::geteuid() == 0) return;  // nothing keeps root out
+  fs::create_directory(folder / "read_only");
+  fs::permissions(folder / "read_only", fs::perms::owner_read | fs::perms::owner_exec);
+  keep_in(folder / "read_only");
+  ASSERT_TRUE(same(get(1), pattern(1)));
+}
+TEST_F(KeptImages, ManyAtOnceLeaveWholeFiles) {
+  std::vector<pid_t> children;
+  for (int k = 0; k < 6; ++k) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      bool right = true;
+      for (int round = 0; round < 40; ++round) right = right && same(get(round % 5), pattern(round % 5));
+      ::_exit(right ? 0 : 1);
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(files().size(), 5u);
+  for (int k = 0; k < 5; ++k) ASSERT_TRUE(same(get(k), pattern(k)));
+  EXPECT_EQ(made, 0);
+}
+TEST_F(KeptImages, TheFolderOfTheUserIsAsTheSpecificationSays) {
+  const char* const cache = std::getenv("XDG_CACHE_HOME");
+  const std::string before = cache ? cache : "";
+  ::setenv("XDG_CACHE_HOME", "/some/where", 1);
+  EXPECT_EQ(folder_of_user(), "/some/where/rainref");
+  ::setenv("XDG_CACHE_HOME", "relative", 1);  // "invalid and ... ignored"
+  ::setenv("HOME", "/home/of", 1);
+  EXPECT_EQ(folder_of_user(), "/home/of/.cache/rainref");
+  ::unsetenv("HOME");
+  EXPECT_EQ(folder_of_user(), "");
+  ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace rainref::cache
