@@ -33,10 +33,9 @@ TEST_P(StatedMemory, IsWithinATenthOfThePeak) {
   const Case& c = GetParam();
   const TemporaryFolder folder;
   put_sky(folder / "sky.npy");
-  std::vector<std::string> command{"run", "--no-cache",       fmt::format("{}/scenes/{}", rainref::test::source_folder(), c.scene),
-                                   "--threads", "2",
-                                   "--frames",  "2",
-                                   "--image",   c.pictures,
+  std::vector<std::string> command{"run",       "--no-cache", fmt::format("{}/scenes/{}", rainref::test::source_folder(), c.scene),
+                                   "--threads", "2",          "--frames",
+                                   "2",         "--image",    c.pictures,
                                    "-o",        "out"};
   for (const std::string& s : c.set) command.insert(command.end(), {"--set", s});
   const Outcome o = run_rainref(folder.path(), command);
