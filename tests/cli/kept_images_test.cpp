@@ -23,7 +23,8 @@ class RunKeeps : public testing::Test {
   }
   // The picture's bytes.
   std::string run(const std::string& effect, std::vector<std::string> more = {}) {
-    std::ofstream(folder / "scene.toml") << "effect = '" << effect << "'\nvariant = 'corrected'\nseed = 5\n[run]\nframes = 2\nsize = [64, 36]\n";
+    std::ofstream(folder / "scene.toml") << "effect = '" << effect
+                                         << "'\nvariant = 'corrected'\nseed = 5\n[run]\nframes = 2\nsize = [64, 36]\n";
     std::vector<std::string> all{"run", "scene.toml", "-o", "out"};
     all.insert(all.end(), more.begin(), more.end());
     const Outcome o = run_rainref(folder.path(), all);
