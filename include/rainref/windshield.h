@@ -2,6 +2,7 @@
 // and corrected. Mathematics, choices and the list of what is corrected: docs/effects/windshield.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -18,8 +19,6 @@ class Config;
 
 namespace windshield {
 
-struct FallingDrop;  // src/windshield/falling_rain.h
-
 /// What lies before the car, where it is not the street at night made here.
 struct Surroundings {
   Image colour;  ///< rgba16f, linear radiance, in the camera's view widened by scene.margin; row 0 = bottom. Empty: the street
@@ -30,6 +29,14 @@ struct Surroundings {
 struct DropView {
   float u, v, velocity_u, velocity_v, mass, life;
   std::uint32_t id;
+};
+
+/// A drop in the air behind the glass, in car axes: x forward, y left, z up.
+struct FallingDropView {
+  std::array<double, 3> from, to;  ///< its middle when the shutter opens and when it closes [m]
+  double radius;                   ///< [m]
+  double time_share;               ///< of the exposure in which it covers a point of its way: above 0, at most 1
+  std::array<double, 3> radiance;  ///< linear RGB
 };
 
 /// Water since the start, in whole mass units of 2e-11 kg (as-published: in drops).
@@ -76,10 +83,11 @@ class Windshield {
   const Image& film() const;    ///< corrected: r32f, whole mass units in a texel
   const Image& normal() const;  ///< rgba16f: normal in the axes of the glass
   // Of the picture:
-  const Image& scene_depth() const;                 ///< r32f: along the view axis [m], in the widened view
-  const std::vector<FallingDrop>& falling() const;  ///< the rain behind the glass of the frame that was rendered last
-  const Image& colour() const;                      ///< rgba16f: linear radiance
-  const Image& picture() const;                     ///< rgba8: display code values; row 0 = bottom
+  /// The rain behind the glass of the frame that was rendered last, far drops first; empty where falling_rain.on is false.
+  std::vector<FallingDropView> falling() const;
+  const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
+  const Image& colour() const;       ///< rgba16f: linear radiance
+  const Image& picture() const;      ///< rgba8: display code values; row 0 = bottom
 
  private:
   struct State;

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/glm.hpp>
 
 namespace rainref::truth {
 namespace {
 
 constexpr double cell_size = 0.3;  // m
 
+}  // namespace
+
 /// Where on the ray a drop's way is nearest to it; negative where it is further away than the drop's radius.
-double crossing(const Vec& origin, const Vec& direction, const windshield::FallingDrop& d) {
+double FallingRainIndex::crossing(const Vec& origin, const Vec& direction, const Drop& d) {
   const Vec way = d.to - d.from, away = origin - d.from;
   const double along = glm::dot(way, way), slant = glm::dot(direction, way), level = glm::dot(away, way);
   // The nearest point of the way to the line, held to its ends; then the ray's nearest to that.
@@ -21,9 +24,7 @@ double crossing(const Vec& origin, const Vec& direction, const windshield::Falli
   return glm::dot(off, off) < d.radius * d.radius ? t : -1;
 }
 
-}  // namespace
-
-void FallingRainIndex::cells_of(const windshield::FallingDrop& d, int (&low)[3], int (&high)[3]) const {
+void FallingRainIndex::cells_of(const Drop& d, int (&low)[3], int (&high)[3]) const {
   for (int k = 0; k < 3; ++k) {
     const auto index = [&](double x) { return std::clamp(static_cast<int>((x - low_[k]) / cell_size), 0, size_[k] - 1); };
     low[k] = index(std::min(d.from[k], d.to[k]) - d.radius);
@@ -31,29 +32,31 @@ void FallingRainIndex::cells_of(const windshield::FallingDrop& d, int (&low)[3],
   }
 }
 
-FallingRainIndex::FallingRainIndex(std::span<const windshield::FallingDrop> drops) : drops_(drops) {
+FallingRainIndex::FallingRainIndex(std::span<const windshield::FallingDropView> drops) {
   if (drops.empty()) return;
-  Vec high = low_ = drops.front().from;
-  for (const windshield::FallingDrop& d : drops) {
+  const auto vec = [](const std::array<double, 3>& v) { return Vec(v[0], v[1], v[2]); };
+  for (const windshield::FallingDropView& d : drops) drops_.push_back({vec(d.from), vec(d.to), d.radius, d.time_share, vec(d.radiance)});
+  Vec high = low_ = drops_.front().from;
+  for (const Drop& d : drops_) {
     low_ = glm::min(low_, glm::min(d.from, d.to) - d.radius);
     high = glm::max(high, glm::max(d.from, d.to) + d.radius);
   }
   for (int k = 0; k < 3; ++k) size_[k] = static_cast<int>((high[k] - low_[k]) / cell_size) + 1;
   const int above[3] = {size_[0], size_[1], size_[2]};
   first_.assign(static_cast<std::size_t>(above[0]) * static_cast<std::size_t>(above[1]) * static_cast<std::size_t>(above[2]) + 1, 0);
-  const auto each = [&](const windshield::FallingDrop& d, const auto& f) {
+  const auto each = [&](const Drop& d, const auto& f) {
     int from[3], to[3];
     cells_of(d, from, to);
     for (int z = from[2]; z <= to[2]; ++z)
       for (int y = from[1]; y <= to[1]; ++y)
         for (int x = from[0]; x <= to[0]; ++x) f(cell({x, y, z}));
   };
-  for (const windshield::FallingDrop& d : drops) each(d, [&](std::size_t c) { ++first_[c + 1]; });
+  for (const Drop& d : drops_) each(d, [&](std::size_t c) { ++first_[c + 1]; });
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   in_cell_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < drops.size(); ++i)
-    each(drops[i], [&](std::size_t c) { in_cell_[next[c]++] = static_cast<std::uint32_t>(i); });
+  for (std::size_t i = 0; i < drops_.size(); ++i)
+    each(drops_[i], [&](std::size_t c) { in_cell_[next[c]++] = static_cast<std::uint32_t>(i); });
 }
 
 Vec FallingRainIndex::through(const Vec& origin, const Vec& direction, double distance, Vec radiance) const {
@@ -97,7 +100,7 @@ Vec FallingRainIndex::through(const Vec& origin, const Vec& direction, double di
   }
   std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.t != b.t ? a.t > b.t : a.drop < b.drop; });
   for (const Crossing& m : met) {
-    const windshield::FallingDrop& d = drops_[m.drop];
+    const Drop& d = drops_[m.drop];
     radiance += d.time_share * (d.radiance - radiance);
   }
   return radiance;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compositor/tracer.h"
-#include "windshield/falling_rain.h"
+#include "rainref/windshield.h"
 
 namespace rainref::truth {
 
@@ -15,14 +15,19 @@ using compositor::Vec;
 /// Drops of a frame in a grid of cells. From several threads at once.
 class FallingRainIndex {
  public:
-  /// The drops must outlive it.
-  explicit FallingRainIndex(std::span<const windshield::FallingDrop> drops);
+  explicit FallingRainIndex(std::span<const windshield::FallingDropView> drops);
 
   /// What arrives along a ray (unit direction, car axes) of this radiance from `distance` metres away: each drop whose way in the exposure
   /// it meets stands in it for a share of that time.
   Vec through(const Vec& origin, const Vec& direction, double distance, Vec radiance) const;
 
  private:
+  struct Drop {
+    Vec from, to;
+    double radius, time_share;
+    Vec radiance;
+  };
+  static double crossing(const Vec& origin, const Vec& direction, const Drop& d);
   struct Crossing {
     double t;
     std::uint32_t drop;
@@ -32,9 +37,9 @@ class FallingRainIndex {
                static_cast<std::size_t>(size_[0]) +
            static_cast<std::size_t>(at[0]);
   }
-  void cells_of(const windshield::FallingDrop& drop, int (&low)[3], int (&high)[3]) const;
+  void cells_of(const Drop& drop, int (&low)[3], int (&high)[3]) const;
 
-  std::span<const windshield::FallingDrop> drops_;
+  std::vector<Drop> drops_;
   Vec low_{0, 0, 0};
   int size_[3] = {0, 0, 0};
   std::vector<std::uint32_t> first_, in_cell_;  // drops in_cell_[first_[c]] to in_cell_[first_[c + 1] - 1] reach into cell c

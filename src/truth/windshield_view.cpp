@@ -21,7 +21,7 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
 /// The street outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
 class Outside : public Environment {
  public:
-  Outside(const WindshieldView& view, double distance, std::span<const windshield::FallingDrop> falling)
+  Outside(const WindshieldView& view, double distance, std::span<const windshield::FallingDropView> falling)
       : view_(view), falling_(falling), place_(windshield::place_in_street(view.settings().street_start, distance)) {
     for (const Pane& pane : view.panes()) outward_.push_back(pane.normal(0.5));
   }
@@ -87,7 +87,7 @@ std::unique_ptr<Scene> WindshieldView::scene(const windshield::Windshield& rende
 }
 
 std::unique_ptr<Scene> WindshieldView::scene(std::span<const Image* const> heights, double distance,
-                                             std::span<const windshield::FallingDrop> falling) const {
+                                             std::span<const windshield::FallingDropView> falling) const {
   auto scene = std::make_unique<Scene>(tracer_);
   PaneMedia media;
   media.water = water(settings_.picture.water_ior);

@@ -32,7 +32,7 @@ class WindshieldView {
   /// from where it began.
   /// `falling` rain behind the glass must outlive the scene.
   std::unique_ptr<Scene> scene(std::span<const Image* const> heights, double distance,
-                               std::span<const windshield::FallingDrop> falling = {}) const;
+                               std::span<const windshield::FallingDropView> falling = {}) const;
   /// Where the car of that frame is along the street [m].
   double distance(const windshield::Windshield& rendered) const;
 

@@ -33,10 +33,15 @@ struct FallingRainPass {
         {member<&U::streak_count>("streak_count", "1", {0, 1 << 24}, "Streaks in the list."),
          member<&U::sharpness>("sharpness", "1/m", {0, 1000}, "1 over the depth in which what stands in the street hides a streak.")});
   }
+  /// As many as the uniform says, or all: of a port that lost some there may be fewer.
+  static std::span<const Streak> counted(const Uniforms& u, std::span<const Streak> all) {
+    const auto said = static_cast<std::size_t>(u.streak_count);
+    return u.streak_count < 0 || said > all.size() ? all : all.first(said);
+  }
   /// Those that may cover a texel of the tile, in their order: the others cover nothing there, which changes no bit.
-  static std::vector<Streak> near(const Uniforms&, std::span<const Streak> all, bool, int, const parallel::Tile& t) {
+  static std::vector<Streak> near(const Uniforms& u, std::span<const Streak> all, bool, int, const parallel::Tile& t) {
     std::vector<Streak> some;
-    for (const Streak& s : all) {
+    for (const Streak& s : counted(u, all)) {
       const float reach = s.radius + 2;
       const auto [left, right] = std::minmax(s.opened[0], s.closed[0]);
       const auto [low, high] = std::minmax(s.opened[1], s.closed[1]);
@@ -50,7 +55,7 @@ struct FallingRainPass {
   struct Io {
     typename B::template Texels<Format::rgba16f> blurred = pass::In{.name = "blurred", .from = "blur_pyramid"};
     typename B::template Texels<Format::r32f> scene_depth = pass::In{.name = "scene_depth"};
-    typename B::template Records<Streak> streaks = pass::In{.name = "streaks", .count = "streak_count"};
+    typename B::template Records<Streak> streaks = pass::In{.name = "streaks"};
     typename B::template Result<Format::rgba16f> rainy = pass::Out{.name = "blurred"};
   };
 };

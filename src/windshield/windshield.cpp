@@ -283,7 +283,13 @@ const Image& Windshield::normal() const {
   return state_->panes[0]->normal();
 }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
-const std::vector<FallingDrop>& Windshield::falling() const { return state_->falling; }
+std::vector<FallingDropView> Windshield::falling() const {
+  const FloatingPointGuard guard;
+  const auto three = [](const scene::Vector3& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+  std::vector<FallingDropView> out;
+  for (const FallingDrop& d : state_->falling) out.push_back({three(d.from), three(d.to), d.radius, d.time_share, three(d.radiance)});
+  return out;
+}
 const Image& Windshield::colour() const { return state_->colour; }
 const Image& Windshield::picture() const { return state_->picture; }
 

@@ -135,6 +135,20 @@ TEST_F(Installation, AMissingOrForeignLibraryIsOneClearError) {
   EXPECT_EQ(rainref(run_of_arrays("none"), c).code, 0);
 }
 
+// Whatever a public header names it has, or includes: nothing of it hangs on what else a program includes, or on a header of src.
+TEST_F(Installation, EachHeaderStandsAlone) {
+  installed();
+  const std::filesystem::path include = folder / "moved/include";
+  std::string headers;
+  for (const auto& entry : std::filesystem::directory_iterator(include / "rainref")) {
+    const std::string name = entry.path().filename();
+    put(folder / (name + ".cpp"), fmt::format("#include \"rainref/{0}\"\n#include \"rainref/{0}\"\n", name));
+    headers += name + ".cpp ";
+  }
+  EXPECT_THAT(headers, HasSubstr("windshield.h.cpp"));
+  output(fmt::format("{} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I'{}' {}", RAINREF_CXX_COMPILER, include.string(), headers));
+}
+
 // The installed headers are all that a program has; pkg-config finds them where the installation lies now, not where it was made.
 TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   installed();

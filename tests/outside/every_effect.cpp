@@ -52,10 +52,12 @@ int main() try {
     tell("puddle", effect.picture());
   }
   {
-    const SceneText scene{"[run]\nsize = [32, 18]\n[scene]\nsize = [32, 18]\n", {"windshield.height_size=[64, 36]", "vehicle.speed=20"}};
+    const SceneText scene{"[run]\nsize = [32, 18]\n[scene]\nsize = [32, 18]\n",
+                          {"windshield.height_size=[64, 36]", "vehicle.speed=20", "falling_rain.on=true", "rain.rate=50"}};
     windshield::Windshield effect(scene, {}, executor);
     effect.next_frame();
     tell("windshield", effect.picture());
+    if (effect.falling().empty()) return 1;
   }
   {
     edge_splash::Inputs in;

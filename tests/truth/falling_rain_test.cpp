@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/glm.hpp>
 #include <random>
 
 #include "truth/falling_rain_index.h"
@@ -10,16 +12,18 @@
 namespace rainref::truth {
 namespace {
 
-using windshield::FallingDrop;
+using windshield::FallingDropView;
 
-std::vector<FallingDrop> some_drops(int count, double radius) {
+Vec vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+std::vector<FallingDropView> some_drops(int count, double radius) {
   std::mt19937 words(3);
   const auto unit = [&] { return words() * 0x1p-32; };
-  std::vector<FallingDrop> drops;
+  std::vector<FallingDropView> drops;
   for (int i = 0; i < count; ++i) {
-    FallingDrop d{};
+    FallingDropView d{};
     d.from = {1 + 4 * unit(), 3 * unit() - 1.5, 2 * unit()};
-    d.to = d.from + Vec(0.4 * unit() - 0.2, 0.1 * unit(), -0.3 * unit());
+    d.to = {d.from[0] + 0.4 * unit() - 0.2, d.from[1] + 0.1 * unit(), d.from[2] - 0.3 * unit()};
     d.radius = radius * (0.5 + unit());
     d.time_share = unit();
     d.radiance = {unit(), unit(), unit()};
@@ -29,7 +33,7 @@ std::vector<FallingDrop> some_drops(int count, double radius) {
 }
 
 TEST(FallingRainIndex, IsWhatAllDropsTogetherAre) {
-  const std::vector<FallingDrop> drops = some_drops(600, 0.03);
+  const std::vector<FallingDropView> drops = some_drops(600, 0.03);
   const FallingRainIndex index(drops);
   std::mt19937 words(4);
   const auto unit = [&] { return words() * 0x1p-32; };
@@ -39,15 +43,15 @@ TEST(FallingRainIndex, IsWhatAllDropsTogetherAre) {
     const double distance = 2 + 4 * unit();
     struct Met {
       double t;
-      const FallingDrop* drop;
+      const FallingDropView* drop;
     };
     std::vector<Met> found;
     bool is_close = false;  // a drop that the ray only just meets or misses
-    for (const FallingDrop& d : drops) {
+    for (const FallingDropView& d : drops) {
       // The nearest of many spheres along its way.
       double least = 1e9, at = 0;
       for (int k = 0; k <= 1000; ++k) {
-        const Vec to = d.from + k / 1000.0 * (d.to - d.from) - origin;
+        const Vec to = vec(d.from) + k / 1000.0 * (vec(d.to) - vec(d.from)) - origin;
         const double t = glm::dot(to, direction), away = glm::length(to - t * direction);
         if (away < least) least = away, at = t;
       }
@@ -61,7 +65,7 @@ TEST(FallingRainIndex, IsWhatAllDropsTogetherAre) {
       continue;
     }
     Vec expected(0.5, 0.25, 1);
-    for (const Met& m : found) expected += m.drop->time_share * (m.drop->radiance - expected);
+    for (const Met& m : found) expected += m.drop->time_share * (vec(m.drop->radiance) - expected);
     const Vec seen = index.through(origin, direction, distance, Vec(0.5, 0.25, 1));
     EXPECT_NEAR(glm::length(seen - expected), 0, 1e-12) << ray;
     met += static_cast<int>(found.size());

@@ -1,8 +1,12 @@
 // The published height texture that persists and decays: trails behind drops, gone where a blade wiped.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "base/temporary_folder.h"
 #include "math/half.h"
 #include "pass/run.h"
+#include "source_folder.h"
 #include "windshield/golden_scenes.h"
 #include "windshield/support.h"
 #include "windshield/surface.h"
@@ -92,6 +96,38 @@ TEST(Persist, TrailsStayUntilTheyAreWiped) {
   EXPECT_GT(trails.fresh, 300);
   EXPECT_LT(trails.wet_fresh, trails.fresh / 5);
   EXPECT_GT(static_cast<double>(trails.texels) / (140 * 80), 0.1);
+}
+
+/// The picture of scenes/windshield/as_published_trails.toml at its end, small: a quarter of the texels along each axis.
+std::vector<std::uint8_t> trails_scene(std::vector<std::string> more) {
+  const parallel::Executor executor(0);
+  const std::string file = rainref::test::source_folder() + "/scenes/windshield/as_published_trails.toml";
+  more.insert(more.end(), {"run.size=[240, 135]", "scene.size=[240, 135]", "windshield.height_size=[512, 292]"});
+  Windshield run({contents(file), more, file}, {}, executor);
+  for (int n = 0; n < 360; ++n) run.next_frame();
+  std::vector<std::uint8_t> codes;
+  for (int y = 0; y < 135; ++y) codes.insert(codes.end(), run.picture().row<std::uint8_t>(y), run.picture().row<std::uint8_t>(y) + 4 * 240);
+  return codes;
+}
+/// Share of the pixels in which some channel differs by more than four codes.
+double share_apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  int apart = 0;
+  for (std::size_t i = 0; i < a.size(); i += 4) {
+    int most = 0;
+    for (std::size_t k = i; k < i + 3; ++k) most = std::max(most, std::abs(a[k] - b[k]));
+    apart += most > 4;
+  }
+  return apart / (static_cast<double>(a.size()) / 4);
+}
+// The scene shows what it is for: against the same glass without rain, without persistence and without a blade. Measured: 0.327, 0.325 and
+// 0.192; cleared in each frame the drops are seen in 0.014 of the pixels (docs/notes/seeds.md).
+TEST(Persist, TheSceneOfTrailsShowsTrailsAndAWipedArc) {
+  const auto trails = trails_scene({}), dry = trails_scene({"windshield.spawn_rate=0"});
+  const auto cleared = trails_scene({"windshield.height_tau=0"}), unwiped = trails_scene({"wipers.count=0"});
+  EXPECT_GT(share_apart(trails, dry), 0.25);
+  EXPECT_LT(share_apart(cleared, dry), 0.03);
+  EXPECT_GT(share_apart(trails, cleared), 0.25);
+  EXPECT_GT(share_apart(trails, unwiped), 0.12);
 }
 
 }  // namespace

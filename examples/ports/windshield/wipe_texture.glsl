@@ -10,15 +10,11 @@ layout(std140, binding = 0) uniform WipeTextureUniforms {
   float wiped_limit;  //  40  [s] corrected: the time since a wipe grows to this and no further.
   int wiper_count;    //  44  [1] Wipers in the list.
 } u;
+#include "segment.glsl"
 #include "wiper_record.glsl"
 
 float coverage_at(float away, Wiper w) {
   return clamp(0.5 + (w.half_width - away) / u.edge_width, 0.0, 1.0);
-}
-float segment_distance(vec2 p, vec2 a, vec2 b) {
-  vec2 along = b - a, from = p - a;
-  float t = clamp(dot(from, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
-  return length(from - t * along);
 }
 vec2 in_plane(ivec2 texel) {
   vec2 at = vec2(texel) + 0.5;
