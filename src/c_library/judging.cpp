@@ -74,7 +74,7 @@ judge::PortJudgement judged(const rr_cases& cases, const std::vector<Run>& runs,
   }
   if (tasks.empty()) throw Error(ExitCode::port_files, "cases: expected outputs of a port (rr_give), found none");
   judge::PortJudgement result;
-  if (cases.pack) result.pack = cases.pack->folder().string();
+  result.pack = cases.pack ? cases.pack->folder().string() : cases.scene;
   result.port = o.port ? o.port : "outputs in memory";
   result.profile = name;
   result.effect = cases.effect;

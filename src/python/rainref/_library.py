@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes as c
 import os
+import weakref
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -132,15 +133,11 @@ class Handle:
     """A handle of the library, freed when nothing refers to it any more: arrays that look into it do."""
 
     def __init__(self, free: str, make: str, *arguments: object) -> None:
-        self._free = free
         made = c.c_void_p()
         call(make, *arguments, c.byref(made))
         self._as_parameter_ = made
-
-    def __del__(self) -> None:
-        made = getattr(self, "_as_parameter_", None)
-        if made:
-            _functions[self._free](made)
+        # Not at the end of the program, when arrays may still look into it.
+        weakref.finalize(self, _functions[free], made).atexit = False
 
 
 def version() -> str:
