@@ -17,6 +17,6 @@ def test_the_readmes_program(monkeypatch, capsys):
     text = (ROOT / "README.md").read_text()
     program = text.split("```python\n")[1].split("```")[0]
     monkeypatch.chdir(ROOT)
-    small = '(32, 18), "puddle.grid": (96, 64), "environment.image": "../../tests/packs/sky.png"'  # the street takes a second
+    small = '(32, 18), "puddle.grid": (96, 64), "environment.image": "tests/packs/sky.png"'  # the street takes a second
     exec(compile(program.replace("(320, 180)", small), "README.md", "exec"), {})
     assert "FAIL  display" in capsys.readouterr().out
