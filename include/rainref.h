@@ -263,7 +263,7 @@ typedef struct rr_cause {
 } rr_cause;
 RR_API int rr_get_cause(const rr_judgement* judgement, size_t pass, size_t index, rr_cause* cause);
 
-/// An element outside what is allowed; the worst is the first.
+/// An element outside what is allowed; the worst is the first. Records that are missing or too many are in the pass's `reason`.
 typedef struct rr_failure {
   size_t struct_bytes;
   const char* case_id;

@@ -34,8 +34,12 @@ const char* rr_version(void) { return version(); }
 uint32_t rr_golden_generation(void) { return golden_generation; }
 
 const char* rr_effect_name(size_t index) {
-  const auto& all = registry::effects();
-  return index < all.size() ? all[index]->name.c_str() : nullptr;
+  const char* name = nullptr;
+  call([&] {
+    const auto& all = registry::effects();
+    if (index < all.size()) name = all[index]->name.c_str();
+  });
+  return name;
 }
 const char* rr_profile_name(size_t index) {
   const char* name = nullptr;

@@ -102,6 +102,18 @@ TEST_F(CLibrary, HasAVersionedName) {
   EXPECT_THAT(dynamic, testing::HasSubstr("soname: [librainref.so.0]"));
 }
 
+// What crosses the border is caught, and the caller's floating-point state kept, by c_library::call alone.
+TEST_F(CLibrary, EveryFunctionThatMayFailGoesThroughOneDoor) {
+  int checked = 0;
+  const std::regex definition("\n(?:int|void) (rr_\\w+)\\([^{]*\\{\\s*([^\n]*)"), door("^(return )?call\\(.*|^return (open|report)\\(.*");
+  for (const auto& entry : fs::directory_iterator(test::source_folder() + "/src/c_library")) {
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator i(text.begin(), text.end(), definition), end; i != end; ++i, ++checked)
+      EXPECT_TRUE(std::regex_match((*i)[2].str(), door)) << (*i)[1] << ": " << (*i)[2];
+  }
+  EXPECT_GT(checked, 30);
+}
+
 TEST_F(CLibrary, GivesTheGoldenHashes) {
   for (const char* name : {"puddle_corrected", "windshield_corrected", "edge_splash_corrected", "edge_splash_published",
                            "screen_drops_corrected", "rainy_glass_corrected"})

@@ -37,3 +37,10 @@ def test_an_installed_package_stands_on_its_own(tmp_path):
     # Nothing of it looks back into the clone.
     run_path = run("readelf", "-d", library)
     assert "$ORIGIN" in run_path and str(ROOT) not in run_path
+
+
+def test_a_missing_library_is_one_clear_error(tmp_path):
+    done = subprocess.run([sys.executable, "-c", "import rainref"], capture_output=True, text=True,
+                          env=os.environ | {"PYTHONPATH": str(ROOT / "src/python"), "RAINREF_LIBRARY": str(tmp_path / "none.so")})
+    assert done.returncode == 1 and "ImportError: rainref needs librainref.so.0: scripts/build makes it" in done.stderr
+    assert str(tmp_path / "none.so") in done.stderr

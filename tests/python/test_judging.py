@@ -6,8 +6,6 @@ import pytest
 from conftest import PUDDLE, ROOT
 
 import rainref as rr
-from rainref.cases import Cases
-
 
 def test_a_right_port_passes(puddle):
     verdict = rr.judge(puddle, ports.right, frames=(0, 3))
@@ -62,9 +60,38 @@ def test_what_the_reference_gives_passes_for_every_pass(puddle):
         assert p.status in ("PASS", "WARN", "DATA", "UNTESTED") and p.outside == 0, p
 
 
+def test_lists_are_matched_by_id():
+    """Their order is free; a drop that is missing is named."""
+    drops = rr.open("windshield", {"run.size": (32, 18), "scene.size": (32, 18), "windshield.height_size": (64, 36), "rain.rate": 200,
+                                   "windshield.capacity": 3000, "wipers.count": 0})
+    kept = {}
+
+    def given(change):
+        @rr.port("windshield.integrate")
+        def integrate(i, u, case):
+            kept["drops"] = case.expected["drops"]
+            return {"drops": change(kept["drops"])}
+
+        return integrate
+
+    for _ in range(20):
+        drops.step()
+    assert rr.judge(drops, given(lambda d: d[::-1]), frames=[20]).ok
+    verdict = rr.judge(drops, given(lambda d: d[1:]), frames=[21])["integrate"]
+    assert len(kept["drops"]) > 3 and verdict.status == "FAIL" and verdict.outside > 0
+    assert verdict.reason == f"drops, missing: {kept['drops']['id'][0]}" and verdict.causes[0].explained == 1
+
+    def heavier(list_of_drops):
+        list_of_drops["mass"][7] *= 2
+        return list_of_drops
+
+    worst = rr.judge(drops, given(heavier), frames=[22])["integrate"].worst
+    assert [(w.output, w.field, w.x) for w in worst] == [("drops", "mass", kept["drops"]["id"][7])]
+
+
 def test_what_a_port_sees(puddle):
     puddle.step()
-    cases = Cases.of_simulation(puddle)
+    cases = rr.Cases.of_simulation(puddle)
     cases.add_next_frame(puddle, ["wave_step", "shade"])
     assert [c.name for c in cases] == ["wave_step"] * 4 + ["shade"] and cases[-1].id == "puddle.shade/0001.0"
     first, shade = cases[0], cases[-1]

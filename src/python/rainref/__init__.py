@@ -12,7 +12,7 @@ was expected, what was found and the nearest name.
 """
 
 from ._library import golden_generation, version
-from .cases import Case, Inputs
+from .cases import Case, Cases, Inputs
 from .errors import Error, FileError, StaleViewError
 from .judging import Cause, Failure, PassVerdict, Port, Verdict, judge, port
 from .parameters import Parameter, describe, effects, profiles
@@ -21,6 +21,6 @@ from .simulation import Frame, Simulation, open
 
 __version__ = version()
 __all__ = [
-    "Case", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Parameter", "PassVerdict", "Port", "Simulation", "StaleViewError",
-    "Verdict", "describe", "effects", "golden_generation", "judge", "open", "port", "profiles", "show", "shown", "version",
+    "Case", "Cases", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Parameter", "PassVerdict", "Port", "Simulation",
+    "StaleViewError", "Verdict", "describe", "effects", "golden_generation", "judge", "open", "port", "profiles", "show", "shown", "version",
 ]
