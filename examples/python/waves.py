@@ -46,6 +46,8 @@ a, b = np.linalg.solve(np.moveaxis(normal, (0, 1), (-2, -1)), np.moveaxis(right,
 
 # Theory: a is 2 sqrt(gamma) cos w and b is gamma, the energy kept in a step. The five-point Laplacian has
 # cos w = (1 + gamma) (1 - C^2 (2 - cos kx - cos ky)) / (2 sqrt gamma) for the angle w of a step; water this shallow has w = c k dt.
+k = 2 * np.pi * np.fft.fftfreq(SIDE)
+kx, ky = np.meshgrid(k, k)
 gamma = 0.99 ** (60 / value["step_rate"])  # puddle.damping is of 1/60 s
 
 
