@@ -12,7 +12,7 @@
 #include "rainref/version.h"
 #include "registry/registry.h"
 #include "scene/describe.h"
-#include "scene/json.h"
+#include "simulation/describe.h"
 #include "simulation/opened.h"
 
 namespace rainref::cli {
@@ -74,31 +74,7 @@ int describe(const std::string& name, bool json, const LayoutRequest& layout) {
   if (layout.pass || layout.variant)
     throw Error(ExitCode::usage, fmt::format("{}: only beside --layout", layout.pass ? "--pass" : "--variant"));
   if (json) {
-    nlohmann::ordered_json out{{"effect", e.name}, {"variants", e.variants}, {"parameters", scene::parameters_json(parameters)}};
-    out["passes"] = nlohmann::ordered_json::array();
-    for (const capture::PassInfo& p : e.info->passes) {
-      nlohmann::ordered_json pass{{"name", p.name},
-                                  {"sentence", p.sentence},
-                                  {"variants", variants_of(p)},
-                                  {"writes", p.writes},
-                                  {"judge", capture::judge_text(p)}};
-      pass["reads"] = nlohmann::ordered_json::array();
-      for (const capture::ReadInfo& r : p.reads) pass["reads"].push_back(r.buffer);
-      for (const capture::PassVariant& v : p.variants) pass["formulas"].push_back(capture::formula(*e.info, p, v));
-      for (const scene::UniformBlock& block : p.uniforms) pass["uniforms"].push_back(scene::uniform_block_json(block));
-      out["passes"].push_back(pass);
-    }
-    for (const capture::BufferInfo& b : e.info->buffers) {
-      out["buffers"].push_back({{"name", b.name},
-                                {"format", b.format},
-                                {"sentence", b.sentence},
-                                {"unit", b.unit},
-                                {"range", b.range},
-                                {"encoding", b.encoding}});
-      if (!b.variant.empty()) out["buffers"].back()["variant"] = b.variant;
-    }
-    for (const scene::UniformBlock& record : e.info->records) out["records"].push_back(scene::uniform_block_json(record));
-    say("{}\n", json_text(out));
+    say("{}\n", simulation::describe_json(name));
     return 0;
   }
   say("{}: variants {}\n\nParameters\n\n{}\nPasses, in the order of execution\n\n", e.name, fmt::join(e.variants, ", "),

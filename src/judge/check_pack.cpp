@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include "capture/check_case.h"
+#include "judge/keyed.h"
+#include "judge/reference_outputs.h"
+#include "judge/slots.h"
 #include "registry/registry.h"
 #include "rainref/error.h"
 
@@ -40,6 +43,21 @@ capture::PassCase read_case(const capture::Pack& pack, const capture::PackCase& 
   if (const std::string why = capture::record_fault(c); !why.empty())
     throw Error(ExitCode::port_files, fmt::format("{}: {}: {}", pack.folder().string(), entry.id, why));
   return c;
+}
+
+void require_reference(const capture::Pack& pack, const capture::PassCase& c, const capture::PassModel& model,
+                       const parallel::Executor& executor) {
+  const std::vector<capture::Array> reference = reference_outputs(c, model, executor);
+  for (std::size_t o = 0; o < reference.size(); ++o) {
+    const capture::Array& expected = c.outputs[o].array;
+    if (reference[o].levels == expected.levels) continue;
+    if (c.outputs[o].judge == capture::Judge::keyed && !is_placed(c.outputs[o]) && same_records(reference[o], expected)) continue;
+    throw Error(
+        ExitCode::port_files,
+        fmt::format(
+            "{}: {}/out.{}: expected what this version computes, found other values: the pack was made by rainref {}; make it again",
+            pack.folder().string(), c.folder(), c.outputs[o].name, pack.producer));
+  }
 }
 
 }  // namespace rainref::judge

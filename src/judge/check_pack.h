@@ -2,6 +2,8 @@
 #pragma once
 
 #include "capture/pack_read.h"
+#include "capture/pass_model.h"
+#include "rainref/executor.h"
 
 namespace rainref::judge {
 
@@ -12,5 +14,10 @@ void check_pack(const capture::Pack& pack);
 
 /// A case of a checked pack with its values; Error(port_files) where a record holds a float that is no finite number.
 capture::PassCase read_case(const capture::Pack& pack, const capture::PackCase& entry);
+
+/// The case's expected outputs are the reference's: else the pack is of another version, or damaged in a way that its
+/// hashes do not show. Error(port_files) then.
+void require_reference(const capture::Pack& pack, const capture::PassCase& c, const capture::PassModel& model,
+                       const parallel::Executor& executor);
 
 }  // namespace rainref::judge

@@ -9,10 +9,8 @@
 #include "judge/conclude.h"
 #include "judge/evaluations.h"
 #include "judge/judge_pass.h"
-#include "judge/keyed.h"
 #include "judge/port_files.h"
 #include "judge/profiles.h"
-#include "judge/reference_outputs.h"
 #include "judge/slots.h"
 #include "port_dump/dump_file.h"
 #include "rainref/error.h"
@@ -25,22 +23,6 @@ using capture::Pack;
 using capture::PackCase;
 using capture::PackPass;
 using capture::PassCase;
-
-/// The pack's expected outputs are the reference's: else the pack is of another version, or damaged in a way that its
-/// hashes do not show.
-void require_reference(const Pack& pack, const PassCase& c, const capture::PassModel& model, const parallel::Executor& executor) {
-  const std::vector<Array> reference = reference_outputs(c, model, executor);
-  for (std::size_t o = 0; o < reference.size(); ++o) {
-    const Array& expected = c.outputs[o].array;
-    if (reference[o].levels == expected.levels) continue;
-    if (c.outputs[o].judge == capture::Judge::keyed && !is_placed(c.outputs[o]) && same_records(reference[o], expected)) continue;
-    throw Error(
-        ExitCode::port_files,
-        fmt::format(
-            "{}: {}/out.{}: expected what this version computes, found other values: the pack was made by rainref {}; make it again",
-            pack.folder().string(), c.folder(), c.outputs[o].name, pack.producer));
-  }
-}
 
 std::vector<Array> read_outputs(PortFiles& port, const PassCase& c) {
   std::vector<Array> out;

@@ -168,7 +168,10 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
               testing::ElementsAre(HasSubstr("puddle 2: wave=768x512 "), HasSubstr("windshield 2: drops=records "),
                                    HasSubstr("edge_splash 2: edge=32x18 "), HasSubstr("screen_drops 2: background=32x18 "),
                                    HasSubstr("rainy_glass 2: raindrops=512x512 "), HasSubstr("did you mean 'puddle'?")));
-  for (const char* picture : {"rainy_glass.png", "splashes.png"}) EXPECT_TRUE(std::filesystem::exists(folder / picture)) << picture;
+  const std::string in_c = output("outside/simulate_c");
+  EXPECT_EQ(in_c, "rg16f 768x512 in 2 planes\n");
+  for (const char* picture : {"rainy_glass.png", "splashes.png", "puddle.png"})
+    EXPECT_TRUE(std::filesystem::exists(folder / picture)) << picture;
 
   std::string pc;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "moved")) {
@@ -186,6 +189,12 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
                      "/tests/outside/simulate.cpp -o by_pkg_config $({} --cflags --libs rainref)",
                      RAINREF_CXX_COMPILER, config));
   EXPECT_EQ(output("./by_pkg_config"), simulated);
+  output(fmt::format("cc -std=c11 -pedantic -Werror " RAINREF_SOURCE_DIR
+                     "/tests/outside/simulate.c -o c_by_pkg_config $(PKG_CONFIG_PATH='{}' pkg-config --cflags --libs rainref-c)",
+                     pc));
+  EXPECT_EQ(output("LD_LIBRARY_PATH=moved/" +
+                   std::filesystem::relative(std::filesystem::path(pc).parent_path(), folder / "moved").string() + " ./c_by_pkg_config"),
+            in_c);
 }
 
 // Where a package is put together it is installed below another root than the one where it will lie.

@@ -1,0 +1,26 @@
+"""rainref from Python: scenes that run, their buffers as arrays, and verdicts on ports.
+
+>>> import rainref
+>>> sim = rainref.open("edge_splash", {"run.size": (32, 18)})
+>>> for frame in sim.frames(2):
+...     picture = frame.picture  # a copy
+>>> picture.shape, picture.dtype
+((18, 32, 4), dtype('uint8'))
+
+It stands on librainref.so and needs NumPy and no compiler. What is wrong is an `Error`, which is a ValueError and names place, key, what
+was expected, what was found and the nearest name.
+"""
+
+from ._library import golden_generation, version
+from .cases import Case, Cases, Inputs
+from .errors import Error, FileError, StaleViewError
+from .judging import Cause, Failure, PassVerdict, Port, Verdict, judge, port
+from .parameters import Parameter, describe, effects, profiles
+from .pictures import show, shown
+from .simulation import Frame, Simulation, open
+
+__version__ = version()
+__all__ = [
+    "Case", "Cases", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Parameter", "PassVerdict", "Port", "Simulation",
+    "StaleViewError", "Verdict", "describe", "effects", "golden_generation", "judge", "open", "port", "profiles", "show", "shown", "version",
+]

@@ -1,0 +1,150 @@
+"""Finding librainref.so, loading it, and calling it."""
+
+from __future__ import annotations
+
+import ctypes as c
+import os
+import weakref
+from collections.abc import Iterable
+from pathlib import Path
+
+from . import _structs as s
+from .errors import error_of
+
+_NAME = "librainref.so.0"
+_HERE = Path(__file__).resolve().parent
+
+
+def _places() -> list[str]:
+    """Where the library may lie: where the environment says, in this package, in the build folder of the clone that this file lies in,
+    where the system looks."""
+    told = os.environ.get("RAINREF_LIBRARY")
+    if told:
+        return [told]
+    clone = _HERE.parents[2]
+    return [str(p) for p in (_HERE / "lib" / _NAME, clone / "build/release/lib" / _NAME) if p.exists()] + [_NAME]
+
+
+def _load() -> c.CDLL:
+    why = []
+    for place in _places():
+        try:
+            return c.CDLL(place)
+        except OSError as error:
+            why.append(str(error))
+    raise ImportError(f"rainref needs {_NAME}: scripts/build makes it, cmake --install puts it where the system looks, and RAINREF_LIBRARY "
+                      f"may name it; found: {'; '.join(why)}")
+
+
+_handle, _result, _index, _text, _out = c.c_void_p, c.c_int, c.c_size_t, c.c_char_p, c.POINTER(c.c_void_p)
+_texts, _text_out = c.POINTER(c.c_char_p), c.POINTER(c.c_char_p)
+_PROTOTYPES: dict[str, tuple[object, list[object]]] = {
+    "error": (_text, []),
+    "version": (_text, []),
+    "golden_generation": (c.c_uint32, []),
+    "effect_name": (_text, [_index]),
+    "profile_name": (_text, [_index]),
+    "describe": (_result, [_text, _text_out]),
+    "open": (_result, [_text, c.POINTER(s.OpenOptions), _out]),
+    "open_file": (_result, [_text, c.POINTER(s.OpenOptions), _out]),
+    "close": (None, [_handle]),
+    "get_info": (_result, [_handle, c.POINTER(s.SimulationInfo)]),
+    "warning": (_text, [_handle, _index]),
+    "simulate": (_result, [_handle]),
+    "render": (_result, [_handle]),
+    "next_frame": (_result, [_handle]),
+    "next_frame_hashes": (_result, [_handle, _text_out]),
+    "write_png": (_result, [_handle, _text]),
+    "write_exr": (_result, [_handle, _text]),
+    "get_layout": (_result, [_handle, c.POINTER(s.LayoutInfo)]),
+    "get_member": (_result, [_handle, _index, c.POINTER(s.Member)]),
+    "buffer_name": (_text, [_handle, _index]),
+    "get_buffer": (_result, [_handle, _text, c.POINTER(s.Array)]),
+    "get_picture": (_result, [_handle, c.POINTER(s.Array)]),
+    "cases_of_simulation": (_result, [_handle, _out]),
+    "next_frame_cases": (_result, [_handle, _texts, _index, _handle]),
+    "cases_of_pack": (_result, [_text, _texts, _index, _out]),
+    "free_cases": (None, [_handle]),
+    "case_count": (_index, [_handle]),
+    "get_case": (_result, [_handle, _index, c.POINTER(s.CaseInfo)]),
+    "get_uniforms": (_result, [_handle, _index, c.POINTER(s.Array)]),
+    "get_input": (_result, [_handle, _index, _index, c.c_int32, c.POINTER(s.Array)]),
+    "get_sampling": (_result, [_handle, _index, _index, c.POINTER(s.Sampling)]),
+    "get_expected": (_result, [_handle, _index, _index, c.POINTER(s.Array)]),
+    "get_judge": (_text, [_handle, _index, _index]),
+    "give": (_result, [_handle, _index, _index, c.c_void_p, _index, _index]),
+    "judge": (_result, [_handle, c.POINTER(s.JudgeOptions), _out]),
+    "free_judgement": (None, [_handle]),
+    "get_verdict": (_result, [_handle, c.POINTER(s.VerdictInfo)]),
+    "get_pass_verdict": (_result, [_handle, _index, c.POINTER(s.PassVerdictInfo)]),
+    "get_cause": (_result, [_handle, _index, _index, c.POINTER(s.CauseInfo)]),
+    "get_failure": (_result, [_handle, _index, _index, c.POINTER(s.FailureInfo)]),
+    "report_text": (_result, [_handle, _text_out]),
+    "report_json": (_result, [_handle, _text_out]),
+    "report_html": (_result, [_handle, _text_out]),
+}
+
+_loaded = _load()
+_functions = {}
+for _name, (_restype, _argtypes) in _PROTOTYPES.items():
+    _function = getattr(_loaded, "rr_" + _name)
+    _function.restype, _function.argtypes = _restype, _argtypes
+    _functions[_name] = _function
+
+
+def call(name: str, *arguments: object) -> object:
+    """rr_NAME(arguments). A function that can fail raises the Error that it names. Other threads run meanwhile."""
+    result = _functions[name](*arguments)
+    if _PROTOTYPES[name][0] is _result and result != 0:
+        raise error_of(result, decoded(_functions["error"]()))
+    return result
+
+
+def filled(name: str, struct: type[s.Struct], *arguments: object) -> s.Struct:
+    """The struct that rr_NAME fills, its last argument."""
+    out = struct.new()
+    call(name, *arguments, c.byref(out))
+    return out
+
+
+def text_of(name: str, *arguments: object) -> str:
+    """The text that rr_NAME gives by its last argument."""
+    out = c.c_char_p()
+    call(name, *arguments, c.byref(out))
+    return decoded(out.value)
+
+
+def decoded(text: bytes | None) -> str:
+    """Names of files need not be UTF-8."""
+    return (text or b"").decode("utf-8", "surrogateescape")
+
+
+def encoded(text: str | os.PathLike[str]) -> bytes:
+    return os.fspath(text).encode("utf-8", "surrogateescape")
+
+
+def texts(many: Iterable[str]) -> tuple[c.Array[c.c_char_p], int]:
+    """An array of texts, and how many they are."""
+    all_of_them = [encoded(t) for t in many]
+    return (c.c_char_p * len(all_of_them))(*all_of_them), len(all_of_them)
+
+
+class Handle:
+    """A handle of the library, freed when nothing refers to it any more: arrays that look into it do."""
+
+    def __init__(self, free: str, make: str, *arguments: object) -> None:
+        made = c.c_void_p()
+        call(make, *arguments, c.byref(made))
+        self._as_parameter_ = made
+        # Not at the end of the program, when arrays may still look into it.
+        weakref.finalize(self, _functions[free], made).atexit = False
+
+
+def version() -> str:
+    """ "major.minor.patch" of the library."""
+    return decoded(_functions["version"]())
+
+
+def golden_generation() -> int:
+    """The identity of the bits: it rises when a change alters those of any published pass."""
+    return int(_functions["golden_generation"]())

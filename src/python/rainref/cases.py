@@ -1,0 +1,144 @@
+"""Runs of passes with what they took and gave: what a port is run on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+
+from . import _structs as s
+from ._library import Handle, call, decoded, encoded, filled, texts
+from .buffers import copy_of, given
+from .errors import Error, unknown
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How a pass reads an input: filters "none" (by integer texel), "nearest" or "linear", address rules in u and v."""
+
+    filter: str
+    mip_filter: str
+    address: tuple[str, str]
+    border: tuple[float, float, float, float]
+
+
+class Inputs(SimpleNamespace):
+    """A case's inputs by name, level 0 of those that have mip levels: `inputs.wave`."""
+
+    def __getattr__(self, name: str) -> object:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise unknown("an input of this pass", name, vars(self))
+
+
+class Case:
+    """One run of one pass."""
+
+    def __init__(self, handle: Handle, index: int) -> None:
+        self._handle, self._index = handle, index
+        about = filled("get_case", s.CaseInfo, handle, index)
+        self.id: str = decoded(about.id)
+        self.effect: str = decoded(about.effect)
+        self.variant: str = decoded(about.variant)
+        self.name: str = decoded(about.pass_name)
+        self.formula: str = decoded(about.formula)
+        self.frame, self.step, self.level = int(about.frame), int(about.step), int(about.level)
+        self.time, self.dt = float(about.time), float(about.dt)
+        self._inputs = {decoded(self._input(i, 0).name): i for i in range(about.inputs)}
+        self._outputs = {decoded(self._expected(o).name): o for o in range(about.outputs)}
+
+    def __repr__(self) -> str:
+        return f"<case {self.id}>"
+
+    def _input(self, index: int, level: int) -> s.Array:
+        return filled("get_input", s.Array, self._handle, self._index, index, level)
+
+    def _expected(self, index: int) -> s.Array:
+        return filled("get_expected", s.Array, self._handle, self._index, index)
+
+    def _index_of(self, name: str) -> int:
+        if name not in self._inputs:
+            raise unknown(f"an input of {self.name}", name, self._inputs)
+        return self._inputs[name]
+
+    @property
+    def uniforms(self) -> np.record:
+        """The uniform block: `uniforms.damping`, vectors as arrays."""
+        return copy_of(filled("get_uniforms", s.Array, self._handle, self._index), self._handle).view(np.recarray)[0]
+
+    @property
+    def inputs(self) -> Inputs:
+        """Copies of all inputs."""
+        return Inputs(**{name: copy_of(self._input(i, 0), self._handle) for name, i in self._inputs.items()})
+
+    def levels(self, name: str) -> list[np.ndarray]:
+        """All mip levels of an input, the largest first."""
+        i = self._index_of(name)
+        return [copy_of(self._input(i, level), self._handle) for level in range(self._input(i, 0).levels)]
+
+    def sampling(self, name: str) -> Sampling:
+        """How the pass reads an input."""
+        raw = filled("get_sampling", s.Sampling, self._handle, self._index, self._index_of(name))
+        return Sampling(decoded(raw.filter), decoded(raw.mip_filter), (decoded(raw.address_u), decoded(raw.address_v)), tuple(raw.border))
+
+    @property
+    def expected(self) -> dict[str, np.ndarray]:
+        """What the reference gives, by output."""
+        return {name: copy_of(self._expected(o), self._handle) for name, o in self._outputs.items()}
+
+    @property
+    def judged(self) -> dict[str, str]:
+        """How each output is judged: "envelope", "bits", "keyed" or "input_only" (not at all)."""
+        return {name: decoded(call("get_judge", self._handle, self._index, o)) for name, o in self._outputs.items()}
+
+    def give(self, outputs: np.ndarray | dict[str, np.ndarray]) -> None:
+        """What a port gave: an array of a pass with one output, else a dict by name. Raises Error for a shape or a type that cannot be
+        stored; floats are rounded to the buffer's."""
+        if not isinstance(outputs, dict):
+            if len(self._outputs) != 1:
+                raise Error(f"{self.id}: expected a dict with {', '.join(self._outputs)}, found {type(outputs).__name__}")
+            outputs = {next(iter(self._outputs)): outputs}
+        for name, array in outputs.items():
+            if name not in self._outputs:
+                raise unknown(f"an output of {self.name}", name, self._outputs)
+            raw = self._expected(self._outputs[name])
+            rows = given(array, copy_of(raw, self._handle), f"{self.id}/out.{name}")
+            row_bytes = rows.dtype.itemsize if rows.dtype.names else raw.row_bytes
+            call("give", self._handle, self._index, self._outputs[name], rows.ctypes.data, row_bytes, len(rows))
+
+
+class Cases(Sequence[Case]):
+    """Cases of one scene or pack, in the order of execution."""
+
+    def __init__(self, handle: Handle) -> None:
+        self.handle = handle
+
+    @classmethod
+    def of_simulation(cls, simulation: object) -> Cases:
+        """None yet."""
+        return cls(Handle("free_cases", "cases_of_simulation", simulation._handle))
+
+    @classmethod
+    def of_pack(cls, folder: object, passes: Sequence[str] = ()) -> Cases:
+        """Those of a pack, with all their values."""
+        many, count = texts(passes)
+        return cls(Handle("free_cases", "cases_of_pack", encoded(folder), many, count))
+
+    def add_next_frame(self, simulation: object, passes: Sequence[str] = ()) -> None:
+        """The simulation's next frame; each run of these passes becomes a case, of every pass where none is named."""
+        many, count = texts(passes)
+        simulation.changes += 1
+        call("next_frame_cases", simulation._handle, many, count, self.handle)
+
+    def __len__(self) -> int:
+        return int(call("case_count", self.handle))
+
+    def __getitem__(self, index: int) -> Case:
+        if not -len(self) <= index < len(self):
+            raise IndexError(index)
+        return Case(self.handle, index % len(self))
+
+    def __iter__(self) -> Iterator[Case]:
+        return (Case(self.handle, i) for i in range(len(self)))

@@ -1,0 +1,193 @@
+"""Judging ports: functions that compute a pass in another way."""
+
+from __future__ import annotations
+
+import ctypes as c
+import inspect
+import json
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import _structs as s
+from ._library import Handle, decoded, encoded, filled, text_of
+from .cases import Case, Cases
+from .errors import Error, unknown
+from .parameters import describe
+from .simulation import Simulation
+
+
+@dataclass(frozen=True)
+class Port:
+    """A function that computes a pass; `port` makes one. Calling it calls the function."""
+
+    effect: str
+    name: str
+    function: Callable[..., np.ndarray | dict[str, np.ndarray]]
+
+    def __call__(self, *arguments: object) -> np.ndarray | dict[str, np.ndarray]:
+        return self.function(*arguments)
+
+    def run(self, case: Case) -> None:
+        """Runs it on a case, which keeps the outputs."""
+        takes_case = len(inspect.signature(self.function).parameters) > 2
+        case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
+
+
+def port(what: str) -> Callable[[Callable[..., object]], Port]:
+    """Says that a function is a port of a pass, "effect.pass". It takes the inputs and the uniform block, by name, and the Case if it has a
+    third parameter; it returns the output, or a dict of outputs by name.
+
+    >>> @port("edge_splash.display")
+    ... def black(inputs, uniforms):
+    ...     return np.zeros((*inputs.colour.shape[:2], 4), np.uint8)
+    >>> black.name
+    'display'
+    """
+    effect, _, name = what.partition(".")
+    passes = [p["name"] for p in describe(effect)["passes"]]
+    if name not in passes:
+        raise unknown(f"a pass of {effect}", name, passes)
+    return lambda function: Port(effect, name, function)
+
+
+@dataclass(frozen=True)
+class Cause:
+    """What would explain the failures of a pass."""
+
+    name: str
+    sentence: str
+    explained: int  #: failing texels, or records, whose bits it gives
+    of: int  #: failing ones that were looked at
+    inside: int  #: that it comes near
+    is_likely: bool  #: it explains nearly all of them
+
+
+@dataclass(frozen=True)
+class Failure:
+    """An element outside what is allowed: low to high is accepted. x of a record is its number or id."""
+
+    case: str
+    output: str
+    field: str
+    x: int
+    y: int
+    channel: int
+    got: float
+    low: float
+    high: float
+    expected: float
+    text: str
+
+
+@dataclass(frozen=True)
+class PassVerdict:
+    """What is said of a pass; counts are of channels of texels, or of fields of records."""
+
+    name: str
+    formula: str
+    status: str
+    reason: str
+    where: str  #: what the failures share: "only channel y of wave"
+    cases: int
+    elements: int
+    outside: int
+    differing: int
+    vacuous: int
+    causes: tuple[Cause, ...]  #: the best first
+    worst: tuple[Failure, ...]  #: the worst first
+
+
+class Verdict:
+    """What is said of ports: `status`, `passes`, `verdict["wave_step"].causes`; printed it is the report of `rainref validate`."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+        about = filled("get_verdict", s.VerdictInfo, handle)
+        self.status: str = decoded(about.status)
+        self.reason: str = decoded(about.reason)
+        self.first_bad_pass: str = decoded(about.first_bad_pass)
+        self.profile: str = decoded(about.profile)
+        self.passes: tuple[PassVerdict, ...] = tuple(self._pass(i) for i in range(about.passes))
+
+    def _pass(self, i: int) -> PassVerdict:
+        p = filled("get_pass_verdict", s.PassVerdictInfo, self._handle, i)
+        causes = [filled("get_cause", s.CauseInfo, self._handle, i, k) for k in range(p.causes)]
+        worst = [filled("get_failure", s.FailureInfo, self._handle, i, k) for k in range(p.worst)]
+        return PassVerdict(
+            decoded(p.pass_name), decoded(p.formula), decoded(p.status), decoded(p.reason), decoded(p.where), p.cases, p.elements, p.outside,
+            p.differing, p.vacuous,
+            tuple(Cause(decoded(k.name), decoded(k.sentence), k.explained, k.of, k.inside, bool(k.is_likely)) for k in causes),
+            tuple(Failure(decoded(f.case_id), decoded(f.output), decoded(f.field), f.x, f.y, f.channel, f.got, f.low, f.high, f.expected,
+                          decoded(f.text)) for f in worst))
+
+    @property
+    def ok(self) -> bool:
+        """Whether it is PASS or WARN."""
+        return self.status in ("PASS", "WARN")
+
+    def __getitem__(self, name: str) -> PassVerdict:
+        for p in self.passes:
+            if p.name == name:
+                return p
+        raise unknown("a pass that was judged", name, [p.name for p in self.passes])
+
+    def __str__(self) -> str:
+        return text_of("report_text", self._handle)
+
+    def __repr__(self) -> str:
+        return f"<verdict {self.status}{' in ' + self.first_bad_pass if self.first_bad_pass else ''}>"
+
+    def json(self) -> dict[str, object]:
+        """The whole judgement: docs/reports.md lists the keys."""
+        return json.loads(text_of("report_json", self._handle))
+
+    def html(self, path: str | os.PathLike[str]) -> None:
+        """Writes it as one page with pictures of what fails."""
+        Path(path).write_text(text_of("report_html", self._handle), "utf-8", "surrogateescape")
+
+
+def _run(ports: Iterable[Port], cases: Cases) -> None:
+    by_name = {p.name: p for p in ports}
+    for case in cases:
+        by_name[case.name].run(case)
+
+
+def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port], frames: Iterable[int] = (0, 1), profile: str = "vulkan", *,
+          half: str | None = None, threads: int = 0) -> Verdict:
+    """Runs ports on the cases of a simulation or of a pack's folder, and judges what they give.
+
+    A simulation runs on to the last of `frames`; none of them may lie behind it. `half` says how the ports round stores to binary16 ("rne",
+    "rtz"); None: it is found out where the profile leaves it open. Raises Error for what cannot be judged.
+    """
+    ports = [ports] if isinstance(ports, Port) else list(ports)
+    for p in ports:
+        if not isinstance(p, Port):
+            raise Error(f"ports: expected functions with @rainref.port(...), found {p!r}")
+    names = [p.name for p in ports]
+    if not ports or len(set(names)) != len(names):
+        raise Error(f"ports: expected one for each pass, found {', '.join(names) or 'none'}")
+    effect = what.effect if isinstance(what, Simulation) else None
+    if isinstance(what, Simulation):
+        wanted = sorted(set(frames))
+        if not wanted or wanted[0] < what.frame:
+            raise Error(f"frames: expected frames from {what.frame} on, found {', '.join(map(str, wanted)) or 'none'}")
+        cases = Cases.of_simulation(what)
+        for other in (p for p in ports if p.effect != effect):
+            raise Error(f"ports: expected ports of {effect}, found one of {other.effect}.{other.name}")
+        while what.frame <= wanted[-1]:
+            if what.frame in wanted:
+                cases.add_next_frame(what, names)
+            else:
+                what.step()
+    else:
+        cases = Cases.of_pack(what, names)
+        for other in (p for p in ports if len(cases) and p.effect != cases[0].effect):
+            raise Error(f"ports: expected ports of {cases[0].effect}, found one of {other.effect}.{other.name}")
+    _run(ports, cases)
+    options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads,
+                                 port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
+    return Verdict(Handle("free_judgement", "judge", cases.handle, c.byref(options)))

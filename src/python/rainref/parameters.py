@@ -1,0 +1,122 @@
+"""What a scene may say, by key, with units and ranges."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from . import _library
+from ._library import decoded, encoded, text_of
+from .errors import unknown
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A key of a scene."""
+
+    name: str
+    value: object  #: what the scene has; of `describe` the default
+    type: str
+    unit: str  #: "m/s"; "1" of a pure number, "" where a unit has no meaning
+    minimum: float | None  #: included, of each component; None: no bound
+    maximum: float | None
+    default: object
+    sentence: str
+    choices: tuple[str, ...] = ()
+
+
+def _names(function: str) -> tuple[str, ...]:
+    found = (_library.call(function, i) for i in itertools.count())
+    return tuple(decoded(name) for name in itertools.takewhile(lambda name: name is not None, found))
+
+
+def effects() -> tuple[str, ...]:
+    """
+    >>> effects()
+    ('puddle', 'windshield', 'edge_splash', 'screen_drops', 'rainy_glass')
+    """
+    return _names("effect_name")
+
+
+def profiles() -> tuple[str, ...]:
+    """What a port may be judged under.
+
+    >>> "vulkan" in profiles()
+    True
+    """
+    return _names("profile_name")
+
+
+@functools.cache
+def _described(effect: str) -> str:
+    return text_of("describe", encoded(effect))
+
+
+def describe(effect: str) -> dict[str, object]:
+    """What `rainref describe EFFECT --json` prints: parameters, passes, buffers, layouts.
+
+    >>> [p["name"] for p in describe("edge_splash")["passes"]]
+    ['splash', 'display']
+    """
+    return json.loads(_described(effect))
+
+
+class Parameters(Mapping[str, Parameter]):
+    """The keys of a scene; a wrong one names the nearest."""
+
+    def __init__(self, effect: str, values: Mapping[str, object]) -> None:
+        self._all: dict[str, Parameter] = {}
+        for p in describe(effect)["parameters"]:
+            if p["name"] in values:
+                self._all[p["name"]] = Parameter(p["name"], values[p["name"]], p["type"], p["unit"], p["minimum"], p["maximum"], p["default"],
+                                                 p["sentence"], tuple(p.get("choices", ())))
+
+    def __getitem__(self, key: str) -> Parameter:
+        if key not in self._all:
+            raise unknown("a key of this scene", key, self._all)
+        return self._all[key]
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._all
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{p.name} = {p.value!r}{' ' + p.unit if p.unit not in ('', '1') else ''}" for p in self.values())
+
+
+def _toml(value: object) -> str:
+    """A value as a scene file has it.
+
+    >>> [_toml(v) for v in (True, 2, 0.5, (640, 480), "street")]
+    ['true', '2', '0.5', '[640, 480]', '"street"']
+    """
+    if hasattr(value, "tolist"):
+        value = value.tolist()  # of NumPy
+    if isinstance(value, (tuple, list)):
+        return "[" + ", ".join(_toml(v) for v in value) + "]"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(value) if isinstance(value, (int, float)) else json.dumps(str(value), ensure_ascii=False)
+
+
+def changes(values: Mapping[str, object] | None) -> list[str]:
+    """{"rain.rate": 20} or {"rain": {"rate": 20}} as `--set` takes them.
+
+    >>> changes({"rain": {"rate": 20}, "run.size": (4, 3)})
+    ['rain.rate=20', 'run.size=[4, 3]']
+    """
+    out = []
+    for key, value in (values or {}).items():
+        if isinstance(value, Mapping):
+            out += changes({f"{key}.{inner}": v for inner, v in value.items()})
+        else:
+            out.append(f"{key}={_toml(value)}")
+    return out

@@ -1,0 +1,34 @@
+"""Looking at buffers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def shown(array: np.ndarray) -> np.ndarray:
+    """An image as one may look at it: uint8 (height, width) or (height, width, 3), top row first.
+
+    Display code stays as it is; of anything else the values from the least to the largest become black to white.
+
+    >>> shown(np.array([[0.0, 1.0], [2.0, 4.0]]))
+    array([[127, 255],
+           [  0,  63]], dtype=uint8)
+    """
+    a = np.asarray(array)[::-1]
+    if a.dtype == np.uint8:
+        return a[..., :3] if a.ndim == 3 and a.shape[2] >= 3 else a
+    a = (a[..., 0] if a.ndim == 3 and a.shape[2] < 3 else a[..., :3] if a.ndim == 3 else a).astype(np.float64)
+    finite = a[np.isfinite(a)]
+    low, high = (finite.min(), finite.max()) if finite.size else (0.0, 1.0)
+    scaled = np.nan_to_num((a - low) / ((high - low) or 1.0), nan=0.0, posinf=1.0, neginf=0.0)
+    return (255 * np.clip(scaled, 0, 1)).astype(np.uint8)
+
+
+def show(array: np.ndarray, title: str = "") -> object:
+    """Shows an image in a notebook or a window; needs Matplotlib. Returns its axes."""
+    from matplotlib import pyplot
+
+    axes = pyplot.subplots()[1]
+    axes.imshow(shown(array), cmap="gray", vmin=0, vmax=255)
+    axes.set(title=title, xticks=[], yticks=[])
+    return axes

@@ -1,0 +1,175 @@
+"""Opening scenes and running them."""
+
+from __future__ import annotations
+
+import ctypes as c
+import json
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from . import _structs as s
+from ._library import Handle, call, decoded, encoded, filled, text_of, texts
+from .buffers import View, buffer_of, copy_of, view_of
+from .errors import StaleViewError
+from .parameters import Parameters, changes, effects
+
+
+def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
+    """A scene that runs: a scene file's path, the name of an effect (all defaults), keys with values, or a scene's text (of several lines).
+
+    `set` wins over it: {"run.size": (320, 180), "rain.rate": 20}. `threads` 0 is one for each processor; no bit hangs on it. Raises Error
+    for what no scene may say, FileError for files.
+
+    >>> open("puddel")
+    Traceback (most recent call last):
+    ...
+    rainref.errors.FileError: cannot read 'puddel': No such file or directory
+    >>> open({"effect": "puddle", "rain": {"rte": 3}})
+    Traceback (most recent call last):
+    ...
+    rainref.errors.Error: --set rain.rte: unknown key; did you mean 'rain.rate'?
+    """
+    how = changes(set)
+    if isinstance(scene, Mapping):
+        return Simulation("", changes(scene) + how, threads)
+    if scene in effects():
+        return Simulation("", [f"effect={scene}", *how], threads)
+    if isinstance(scene, str) and "\n" in scene:
+        return Simulation(scene, how, threads)
+    return Simulation(Path(scene), how, threads)
+
+
+class Simulation:
+    """A scene that runs; `open` makes one. Every buffer has the same bits whatever the threads and the machine.
+
+    It is used by one thread at a time, and different ones by any number at once; a frame is computed without Python's lock.
+    """
+
+    def __init__(self, scene: str | Path, set: list[str], threads: int = 0) -> None:
+        many, count = texts(set)
+        options = s.OpenOptions.new(set=many, set_count=count, threads=threads)
+        if isinstance(scene, Path):
+            self._handle = Handle("close", "open_file", encoded(scene), c.byref(options))
+        else:
+            self._handle = Handle("close", "open", encoded(scene), c.byref(options))
+        self.changes = 0  #: counts what ends the validity of views
+        about = self._about()
+        self.effect: str = decoded(about.effect)
+        self.variant: str = decoded(about.variant)
+        #: Names of what is held between frames, in the order of the passes.
+        self.buffers: tuple[str, ...] = tuple(decoded(call("buffer_name", self._handle, i)) for i in range(about.buffers))
+        #: Every key of the scene with value, unit and range.
+        self.parameters = Parameters(self.effect, json.loads(decoded(about.scene_json)))
+        #: What is doubtful about the scene's files.
+        self.warnings: tuple[str, ...] = tuple(decoded(call("warning", self._handle, i)) for i in range(about.warnings))
+
+    def _about(self) -> s.SimulationInfo:
+        return filled("get_info", s.SimulationInfo, self._handle)
+
+    def __repr__(self) -> str:
+        return f"<rainref {self.effect} {self.variant}, frame {self.frame}>"
+
+    @property
+    def frame(self) -> int:
+        """Frames simulated so far."""
+        return int(self._about().frame)
+
+    def __len__(self) -> int:
+        """The frames that the scene asks for; more may be simulated."""
+        return int(self._about().frames)
+
+    def simulate(self) -> None:
+        """To the next frame; nothing is rendered."""
+        self.changes += 1
+        call("simulate", self._handle)
+
+    def render(self) -> None:
+        """The frame that was simulated last."""
+        self.changes += 1
+        call("render", self._handle)
+
+    def step(self) -> Frame:
+        """The next frame, simulated and rendered."""
+        self.changes += 1
+        call("next_frame", self._handle)
+        return Frame(self)
+
+    def step_hashes(self) -> dict[tuple[str, str], str]:
+        """The next frame, and what `rainref hash` prints of it: (pass, buffer) and hash.
+
+        >>> sim = open("edge_splash", {"run.size": (16, 9)})
+        >>> len(sim.step_hashes()["display", "picture"])
+        32
+        """
+        self.changes += 1
+        lines = text_of("next_frame_hashes", self._handle).splitlines()
+        return {(name, buffer): value for _, name, buffer, value in (line.split() for line in lines)}
+
+    def frames(self, count: int | None = None) -> Iterator[Frame]:
+        """The next frames, each computed when it is asked for; None: those that the scene asks for and that are still to come."""
+        for _ in range(max(0, len(self) - self.frame) if count is None else count):
+            yield self.step()
+
+    def __iter__(self) -> Iterator[Frame]:
+        return self.frames()
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A copy of a buffer; a structured array of a list of records. Error with the nearest name.
+
+        >>> sim = open("edge_splash", {"run.size": (16, 9)})
+        >>> sim["edgs"]
+        Traceback (most recent call last):
+        ...
+        rainref.errors.Error: edge_splash has no buffer 'edgs'; did you mean 'edge'?
+        """
+        return copy_of(buffer_of(self._handle, name), self._handle)
+
+    def view(self, name: str, channel: int | None = None) -> View:
+        """A look at an image, or at one channel of it, without a copy: valid until the simulation goes on, then it raises StaleViewError."""
+        return view_of(buffer_of(self._handle, name), channel, self._handle, self)
+
+    @property
+    def picture(self) -> np.ndarray:
+        """The picture that was rendered last: uint8 display code (height, width, 4), row 0 the bottom one."""
+        return copy_of(filled("get_picture", s.Array, self._handle), self._handle)
+
+    def write_png(self, path: str | os.PathLike[str]) -> None:
+        """The picture, 8 bits RGB."""
+        call("write_png", self._handle, encoded(path))
+
+    def write_exr(self, path: str | os.PathLike[str]) -> None:
+        """Radiance and what belongs to it, as named channels."""
+        call("write_exr", self._handle, encoded(path))
+
+
+class Frame:
+    """A frame of a simulation, as long as that has not gone on: what is asked of it later raises StaleViewError."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._then = simulation.changes
+        self.index: int = simulation.frame - 1
+
+    def _now(self) -> Simulation:
+        if self._simulation.changes != self._then:
+            raise StaleViewError(f"frame {self.index} is over: the simulation went on")
+        return self._simulation
+
+    def __repr__(self) -> str:
+        return f"<frame {self.index}>"
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A copy of a buffer."""
+        return self._now()[name]
+
+    def view(self, name: str, channel: int | None = None) -> View:
+        """A look at a buffer without a copy: Simulation.view."""
+        return self._now().view(name, channel)
+
+    @property
+    def picture(self) -> np.ndarray:
+        """Simulation.picture."""
+        return self._now().picture

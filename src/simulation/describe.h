@@ -1,0 +1,11 @@
+// What an effect is, as JSON for programs: `rainref describe EFFECT --json` and the C library.
+#pragma once
+
+#include <string>
+
+namespace rainref::simulation {
+
+/// Parameters with units, ranges and defaults; passes; buffers; layouts. Indented. Throws Error(usage) with the nearest effect.
+std::string describe_json(const std::string& effect);
+
+}  // namespace rainref::simulation

@@ -1,0 +1,146 @@
+// librainref.so from outside: what it exports, and a C program that loads it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "base/temporary_folder.h"
+#include "capture/array.h"
+#include "capture/npy_write.h"
+#include "capture/capture_recorder.h"
+#include "night_street/night_street.h"
+#include "rainref/executor.h"
+#include "source_folder.h"
+#include "windshield/golden_scenes.h"
+
+namespace rainref {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a command prints, its errors with it, and how it ended.
+std::pair<std::string, int> output_of(const std::string& command) {
+  std::string out;
+  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
+  return {out, ::pclose(pipe)};
+}
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+std::set<std::string> matches(const std::string& text, const char* pattern) {
+  std::set<std::string> found;
+  const std::regex regex(pattern);
+  for (std::sregex_iterator i(text.begin(), text.end(), regex), end; i != end; ++i) found.insert((*i)[1]);
+  return found;
+}
+
+/// The scenes beside this file with the pictures that their golden twins are handed as images.
+class CLibrary : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const parallel::Executor executor(2);
+    write("panorama.npy", night_street::Street().panorama(64, 32, {0, 0.05, 0}, executor));
+    const windshield::Surroundings before = windshield::small_surroundings();
+    write("before.npy", before.colour);
+    write("depth.npy", before.depth);
+    for (const auto& entry : fs::directory_iterator(test::source_folder() + "/tests/c_library/scenes"))
+      fs::copy_file(entry.path(), *folder_ / entry.path().filename().string());
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string scene(const std::string& name) { return (*folder_ / (name + ".toml")).string(); }
+  static std::string hashes() { return test::source_folder() + "/tests/golden/hashes.txt"; }
+  static void expect_success(const std::string& arguments) {
+    const auto [text, status] = output_of(fmt::format("{} {} {}", RAINREF_C_CLIENT, RAINREF_C_LIBRARY, arguments));
+    EXPECT_EQ(status, 0) << arguments << '\n' << text;
+  }
+
+ private:
+  /// Files have their top row first.
+  static void write(const char* name, const Image& image) {
+    capture::Array a = capture::array_of(BufferView(image), {"", 0, {}});
+    const std::size_t row = a.element_bytes() * static_cast<std::size_t>(a.width);
+    std::vector<std::byte> turned;
+    for (int y = a.height; y-- > 0;) {
+      const auto from = a.levels[0].begin() + static_cast<std::ptrdiff_t>(row) * y;
+      turned.insert(turned.end(), from, from + static_cast<std::ptrdiff_t>(row));
+    }
+    a.levels[0] = turned;
+    const std::vector<std::byte> bytes = capture::npy_bytes(a, 0);
+    std::ofstream(*folder_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  static TemporaryFolder* folder_;
+};
+TemporaryFolder* CLibrary::folder_ = nullptr;
+
+TEST_F(CLibrary, ExportsWhatTheHeaderDeclaresAndNothingElse) {
+  const auto [symbols, status] = output_of("nm -D --defined-only --format=posix " RAINREF_C_LIBRARY);
+  ASSERT_EQ(status, 0) << symbols;
+  std::set<std::string> exported = matches(symbols, "(?:^|\n)([^ @\n]+)[^\n]*");
+  exported.erase("RAINREF_0");  // the version
+  const std::set<std::string> declared = matches(text_of(test::source_folder() + "/include/rainref.h"), "\nRR_API [^(;]*?(rr_\\w+)\\(");
+  EXPECT_GT(declared.size(), 30u);
+  EXPECT_EQ(exported, declared);
+  EXPECT_EQ(matches(text_of(test::source_folder() + "/tests/c_library/client.h"), "X\\((rr_\\w+)\\)"), declared);
+}
+TEST_F(CLibrary, HasAVersionedName) {
+  const auto [dynamic, status] = output_of("readelf -d " RAINREF_C_LIBRARY);
+  EXPECT_EQ(status, 0);
+  EXPECT_THAT(dynamic, testing::HasSubstr("soname: [librainref.so.0]"));
+}
+
+// What crosses the border is caught, and the caller's floating-point state kept, by c_library::call alone.
+TEST_F(CLibrary, EveryFunctionThatMayFailGoesThroughOneDoor) {
+  int checked = 0;
+  const std::regex definition("\n(?:int|void) (rr_\\w+)\\([^{]*\\{\\s*([^\n]*)"), door("^(return )?call\\(.*|^return (open|report)\\(.*");
+  for (const auto& entry : fs::directory_iterator(test::source_folder() + "/src/c_library")) {
+    const std::string text = text_of(entry.path());
+    for (std::sregex_iterator i(text.begin(), text.end(), definition), end; i != end; ++i, ++checked)
+      EXPECT_TRUE(std::regex_match((*i)[2].str(), door)) << (*i)[1] << ": " << (*i)[2];
+  }
+  EXPECT_GT(checked, 30);
+}
+
+TEST_F(CLibrary, GivesTheGoldenHashes) {
+  for (const char* name : {"puddle_corrected", "windshield_corrected", "edge_splash_corrected", "edge_splash_published",
+                           "screen_drops_corrected", "rainy_glass_corrected"})
+    expect_success(fmt::format("golden {} {}", hashes(), scene(name)));
+}
+TEST_F(CLibrary, RunsInFourThreadsAtOnce) {
+  expect_success(fmt::format("threads {} {} {} {} {}", hashes(), scene("puddle_corrected"), scene("windshield_corrected"),
+                             scene("screen_drops_corrected"), scene("rainy_glass_corrected")));
+}
+TEST_F(CLibrary, GoesOnAfterFork) { expect_success(fmt::format("fork {} {}", hashes(), scene("puddle_corrected"))); }
+TEST_F(CLibrary, HangsOnNoFloatingPointState) {
+  for (const char* name :
+       {"puddle_corrected", "windshield_corrected", "edge_splash_corrected", "screen_drops_corrected", "rainy_glass_corrected"})
+    expect_success(fmt::format("states {} {}", hashes(), scene(name)));
+}
+TEST_F(CLibrary, RefusesBadArgumentsWithACodeAndASentence) {
+  expect_success("refusals " + scene("edge_splash_corrected"));
+  expect_success("refusals " + scene("puddle_corrected"));
+}
+TEST_F(CLibrary, ShowsBuffersWithoutCopies) {
+  expect_success("views " + scene("puddle_corrected"));
+  expect_success("views " + scene("windshield_corrected"));
+}
+TEST_F(CLibrary, JudgesOutputsInMemory) {
+  expect_success("judging " + scene("edge_splash_corrected"));
+  expect_success("judging " + scene("puddle_corrected"));
+}
+
+}  // namespace
+}  // namespace rainref

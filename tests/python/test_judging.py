@@ -1,0 +1,146 @@
+"""Ports judged in memory, on simulations and on packs."""
+
+import numpy as np
+import numpy_ports as ports
+import pytest
+from conftest import PUDDLE, ROOT
+
+import rainref as rr
+
+def test_a_right_port_passes(puddle):
+    verdict = rr.judge(puddle, ports.right, frames=(0, 3))
+    assert verdict.status == "PASS" and verdict.ok and verdict.profile == "vulkan" and verdict.first_bad_pass == ""
+    judged = verdict["wave_step"]
+    # Four steps a frame, two levels of each cell.
+    assert judged.cases == 8 and judged.elements == 8 * 96 * 64 * 2 and judged.outside == 0 and not judged.worst
+    assert puddle.frame == 4
+    assert "wave_step" in str(verdict) and "PASS" in str(verdict)
+
+
+def test_a_wrong_port_is_told_why(puddle, tmp_path):
+    verdict = rr.judge(puddle, [ports.levels_exchanged], frames=[4, 6], profile="vulkan")
+    judged = verdict["wave_step"]
+    assert verdict.status == judged.status == "FAIL" and verdict.first_bad_pass == "wave_step" and not verdict.ok
+    assert judged.outside > 0 and "first two channels swapped" in judged.causes[0].name
+    assert judged.causes[0].is_likely and judged.causes[0].inside > 0.9 * judged.causes[0].of > 0
+    worst = judged.worst[0]
+    assert not worst.low <= worst.got <= worst.high and worst.low <= worst.expected <= worst.high
+    assert worst.case.startswith("puddle.wave_step/000") and worst.output == "wave" and "accepted" in worst.text
+    # The element is where it says.
+    assert 0 <= worst.x < 96 and 0 <= worst.y < 64 and worst.channel in (0, 1)
+    assert verdict.json()["status"] == "FAIL"
+    verdict.html(tmp_path / "r.html")
+    assert "<html" in (tmp_path / "r.html").read_text() and repr(verdict) == "<verdict FAIL in wave_step>"
+    with pytest.raises(ValueError, match="did you mean 'wave_step'"):
+        verdict["wavestep"]
+
+
+def test_a_port_that_does_nothing_fails(puddle):
+    assert rr.judge(puddle, ports.zeros, frames=[3]).status == "FAIL"
+
+
+def test_a_port_of_a_pack():
+    pack = ROOT / "tests/packs/puddle-corrected"
+    assert rr.judge(pack, ports.right).status == "PASS"
+    assert rr.judge(str(pack), ports.levels_exchanged).status == "FAIL"
+    with pytest.raises(ValueError, match="ports of puddle, found one of edge_splash.display"):
+        rr.judge(pack, rr.Port("edge_splash", "display", lambda i, u: 0))
+    with pytest.raises(OSError, match="there is no such folder"):
+        rr.judge(ROOT / "tests/no_pack", ports.right)
+
+
+def test_what_the_reference_gives_passes_for_every_pass(puddle):
+    """Images, lists and several outputs, each given back as an array by name."""
+    passes = [p["name"] for p in rr.describe("puddle")["passes"] if p["name"] != "ground_noise"]
+    puddle.step()
+    back = [rr.port(f"puddle.{name}")(lambda i, u, case: case.expected) for name in passes]
+    verdict = rr.judge(puddle, back, frames=[1, 2])
+    assert {p.name for p in verdict.passes} == set(passes)
+    for p in verdict.passes:
+        assert p.status in ("PASS", "WARN", "DATA", "UNTESTED") and p.outside == 0, p
+
+
+def test_lists_are_matched_by_id():
+    """Their order is free; a drop that is missing is named."""
+    drops = rr.open("windshield", {"run.size": (32, 18), "scene.size": (32, 18), "windshield.height_size": (64, 36), "rain.rate": 200,
+                                   "windshield.capacity": 60, "wipers.count": 0})  # each drop costs the diagnosis
+    kept = {}
+
+    def given(change):
+        @rr.port("windshield.integrate")
+        def integrate(i, u, case):
+            kept["drops"] = case.expected["drops"]
+            return {"drops": change(kept["drops"])}
+
+        return integrate
+
+    for _ in range(4):
+        drops.step()
+    assert rr.judge(drops, given(lambda d: d[::-1]), frames=[4]).ok
+    verdict = rr.judge(drops, given(lambda d: d[1:]), frames=[5])["integrate"]
+    assert len(kept["drops"]) > 3 and verdict.status == "FAIL" and verdict.outside > 0
+    assert verdict.reason == f"drops, missing: {kept['drops']['id'][0]}" and verdict.causes[0].explained == 1
+
+    def heavier(list_of_drops):
+        list_of_drops["mass"][7] *= 2
+        return list_of_drops
+
+    worst = rr.judge(drops, given(heavier), frames=[6])["integrate"].worst
+    assert [(w.output, w.field, w.x) for w in worst] == [("drops", "mass", kept["drops"]["id"][7])]
+
+
+def test_what_a_port_sees(puddle):
+    puddle.step()
+    cases = rr.Cases.of_simulation(puddle)
+    cases.add_next_frame(puddle, ["wave_step", "shade"])
+    assert [c.name for c in cases] == ["wave_step"] * 4 + ["shade"] and cases[-1].id == "puddle.shade/0001.0"
+    first, shade = cases[0], cases[-1]
+    assert (first.frame, first.step, first.level) == (1, 0, -1) and first.formula == "puddle.wave_step.corrected/1"
+    assert first.dt == pytest.approx(1 / 240) and first.judged == {"wave": "envelope"}
+    assert 0 < first.uniforms.courant_sq <= 0.5 and first.uniforms["rest"] == 0
+    assert set(first.inputs.drops.dtype.names) == {"x", "y", "amplitude", "radius"}
+    # A step's input is what the step before gave.
+    np.testing.assert_array_equal(cases[1].inputs.wave, first.expected["wave"])
+    levels = shade.levels("environment")
+    assert len(levels) > 2 and levels[1].shape[0] == max(1, levels[0].shape[0] // 2)
+    assert shade.sampling("environment").filter == "linear" and shade.sampling("environment").address == ("repeat", "clamp")
+    with pytest.raises(ValueError, match="'waves' is not an input of this pass; did you mean 'wave'"):
+        first.inputs.waves
+    with pytest.raises(ValueError, match="did you mean 'environment'"):
+        shade.levels("enviroment")
+
+
+def give(puddle, output):
+    return rr.judge(puddle, rr.port("puddle.wave_step")(lambda i, u: output), frames=[puddle.frame])
+
+
+@pytest.mark.parametrize("output, text", [
+    (np.zeros((64, 96), np.float16), r"0000.0/out.wave: expected the shape \(64, 96, 2\), found \(64, 96\)"),
+    (np.zeros((64, 96, 2), np.uint8), "expected float16, found uint8"),
+    ({"waves": np.zeros((64, 96, 2))}, "'waves' is not an output of wave_step; did you mean 'wave'"),
+    (None, "expected the shape"),
+])
+def test_outputs_that_cannot_be_stored(puddle, output, text):
+    with pytest.raises(ValueError, match=text):
+        give(puddle, output)
+
+
+def test_what_cannot_be_judged(puddle):
+    puddle.step()
+    with pytest.raises(ValueError, match="frames: expected frames from 1 on, found 0"):
+        rr.judge(puddle, ports.right, frames=[0, 4])
+    with pytest.raises(ValueError, match="frames: .*found none"):
+        rr.judge(puddle, ports.right, frames=[])
+    with pytest.raises(ValueError, match="did you mean 'vulkan'"):
+        rr.judge(puddle, ports.right, frames=[1], profile="vulcan")
+    with pytest.raises(ValueError, match="one for each pass, found wave_step, wave_step"):
+        rr.judge(puddle, [ports.right, ports.zeros])
+    with pytest.raises(ValueError, match="with @rainref.port"):
+        rr.judge(puddle, [lambda i, u: 0])
+    with pytest.raises(ValueError, match="ports of puddle, found one of rainy_glass.display"):
+        rr.judge(puddle, rr.Port("rainy_glass", "display", lambda i, u: 0), frames=[5])
+    with pytest.raises(ValueError, match="'wavestep' is not a pass of puddle; did you mean 'wave_step'"):
+        rr.port("puddle.wavestep")
+    with pytest.raises(ValueError, match="did you mean 'puddle'"):
+        rr.port("pudle.wave_step")
+    assert rr.open("puddle", PUDDLE).frame == 0

@@ -1,0 +1,134 @@
+"""Scenes, buffers and views."""
+
+import concurrent.futures
+
+import numpy as np
+import pytest
+from conftest import PUDDLE, ROOT
+
+import rainref as rr
+
+
+def test_golden_hashes():
+    scene = ROOT / "tests/c_library/scenes/edge_splash_published.toml"
+    name = scene.read_text().split("\n")[0].removeprefix("# ")
+    recorded = set((ROOT / "tests/golden/hashes.txt").read_text().splitlines())
+    sim = rr.open(scene)
+    for frame in range(3):
+        hashes = sim.step_hashes()
+        assert len(hashes) == 5
+        for (which, buffer), value in hashes.items():
+            assert f"{name} {frame} {which} {buffer} {value}" in recorded
+
+
+def test_scenes_may_be_given_in_every_form(tmp_path):
+    text = "effect = 'edge_splash'\n[run]\nsize = [16, 9]\nframes = 7\n"
+    (tmp_path / "a.toml").write_text(text)
+    forms = [text, tmp_path / "a.toml", str(tmp_path / "a.toml"), {"effect": "edge_splash", "run": {"size": (16, 9), "frames": 7}}]
+    hashes = [rr.open(form).step_hashes() for form in forms]
+    hashes.append(rr.open("edge_splash", {"run.size": np.array([16, 9]), "run.frames": 7}, threads=2).step_hashes())
+    assert all(h == hashes[0] for h in hashes)
+    assert [len(rr.open(form)) for form in forms] == [7, 7, 7, 7]
+
+
+def test_frames_and_buffers(puddle):
+    assert puddle.effect == "puddle" and puddle.variant == "corrected" and puddle.buffers[0] == "wave"
+    seen = [frame["wave"] for frame in puddle.frames(3)]
+    assert puddle.frame == 3 and seen[0].shape == (64, 96, 2) and seen[0].dtype == np.float16
+    assert not np.array_equal(seen[1], seen[2])
+    assert puddle.picture.shape == (36, 64, 4) and puddle.picture.dtype == np.uint8
+    # What was the newest level is the previous one a step later, but for the drops that fell.
+    one = rr.open("puddle", PUDDLE | {"run.fps": 240.0, "rain.rate": 0})
+    levels = [one.step()["wave"] for _ in range(2)]
+    np.testing.assert_array_equal(levels[0][..., 0], levels[1][..., 1])
+    assert len(list(rr.open("edge_splash", {"run.size": (9, 9), "run.frames": 4}))) == 4
+
+
+def test_records_have_the_names_of_their_members():
+    sim = rr.open("windshield", {"run.size": (32, 18), "scene.size": (32, 18), "windshield.height_size": (64, 36), "rain.rate": 100,
+                                 "windshield.capacity": 3000})
+    for _ in range(3):
+        sim.step()
+    drops = sim["drops"]
+    assert len(drops) > 0 and set(drops.dtype.names) >= {"position", "velocity", "mass", "id"}
+    assert drops["position"].shape == (len(drops), 2) and len(np.unique(drops["id"])) == len(drops)
+    with pytest.raises(rr.Error, match="records have no view"):
+        sim.view("drops")
+
+
+def test_a_view_is_no_copy_and_ends_with_its_frame(puddle):
+    frame = puddle.step()
+    view = frame.view("wave", channel=0)
+    np.testing.assert_array_equal(view, puddle["wave"][..., 0])
+    assert not view.flags.writeable and view.strides[0] > 96 * 2  # rows of the library's own, with margins
+    part, kept = view[3:9, ::2], view.copy()
+    assert float(view.max()) == float(kept.max()) and (view + 1).dtype == np.float16
+    puddle.step()
+    uses = [lambda: view[0, 0], lambda: view + 1, lambda: 1 - view, lambda: view.max(), lambda: np.sum(view), lambda: np.stack([view, view]),
+            lambda: list(view), lambda: view.shape, lambda: repr(view), lambda: part + 1, lambda: part[0], lambda: view.copy(),
+            lambda: frame["wave"], lambda: frame.view("wave", 0), lambda: frame.picture]
+    for use in uses:
+        with pytest.raises(rr.StaleViewError):
+            use()
+    assert kept.sum() == kept[:].sum()  # a copy is never stale
+    with pytest.raises(rr.Error, match="its 2 channels lie apart"):
+        puddle.view("wave")
+    with pytest.raises(rr.Error, match="channel from 0 to 1, found 2"):
+        puddle.view("wave", 2)
+
+
+def test_memory_lives_as_long_as_an_array_looks_into_it(puddle):
+    puddle.step()
+    colour = np.asarray(puddle.view("colour"))
+    before = colour.copy()
+    del puddle
+    np.testing.assert_array_equal(colour, before)
+
+
+def test_parameters_by_key(puddle):
+    rate = puddle.parameters["rain.rate"]
+    assert (rate.value, rate.unit, rate.minimum, rate.maximum) == (60, "mm/h", 0, 200)
+    assert puddle.parameters["puddle.grid"].value == [96, 64] and "puddle.shape" in puddle.parameters
+    assert "rain.rate = 60.0 mm/h" in repr(puddle.parameters)
+    with pytest.raises(ValueError, match="'rain.rte' is not a key of this scene; did you mean 'rain.rate'"):
+        puddle.parameters["rain.rte"]
+
+
+@pytest.mark.parametrize("scene, set, text", [
+    ("puddle", {"rain.rate": 900}, "rain.rate"),
+    ("puddle", {"rain.rte": 9}, "did you mean 'rain.rate'"),
+    ("puddle", {"run.size": (0, 4)}, "run.size"),
+    ({"effect": "pudle"}, None, "did you mean 'puddle'"),
+    ("effect = 'puddle'\n[wave]\nspeeed = 1\n", None, "scene:3:1: wave.speeed"),
+])
+def test_bad_scenes_are_value_errors(scene, set, text):
+    with pytest.raises(ValueError, match=text):
+        rr.open(scene, set)
+
+
+def test_files_that_are_not_there(puddle, tmp_path):
+    with pytest.raises(OSError, match="none.toml") as caught:
+        rr.open(tmp_path / "none.toml")
+    assert isinstance(caught.value, rr.Error) and caught.value.code == 4
+    puddle.step()
+    with pytest.raises(rr.FileError, match="nowhere"):
+        puddle.write_png(tmp_path / "nowhere/a.png")
+    puddle.write_png(tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes()[1:4] == b"PNG"
+
+
+def test_simulations_run_in_threads_at_once():
+    def run(_):
+        sim = rr.open("puddle", PUDDLE, threads=1)
+        return [sim.step_hashes() for _ in range(3)]
+
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        all_of_them = list(pool.map(run, range(4)))
+    assert all(one == all_of_them[0] for one in all_of_them)
+
+
+def test_shown_pictures_have_their_top_row_first(puddle):
+    puddle.step()
+    np.testing.assert_array_equal(rr.shown(puddle.picture), puddle.picture[::-1, :, :3])
+    heights = rr.shown(puddle["wave"])
+    assert heights.dtype == np.uint8 and heights.min() == 0 and heights.max() == 255
