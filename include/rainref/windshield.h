@@ -15,6 +15,9 @@ namespace rainref {
 namespace scene {
 class Config;
 }
+namespace state {
+class Items;  // src/state/items.h
+}
 
 namespace windshield {
 
@@ -56,6 +59,9 @@ class Windshield {
   void simulate(Recorder* recorder = nullptr);
   /// splat to display of the frame that was simulated last. Once for each frame: the wiped textures have a past.
   void render(Recorder* recorder = nullptr);
+  /// In place of render, where the picture of the frame is not wanted: the passes that leave something for later frames, splat to
+  /// wipe_texture. Later pictures are the same.
+  void skip(Recorder* recorder = nullptr);
   /// Both: one call for each frame of a film.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
@@ -80,6 +86,9 @@ class Windshield {
   const std::vector<FallingDrop>& falling() const;  ///< the rain behind the glass of the frame that was rendered last
   const Image& colour() const;                      ///< rgba16f: linear radiance
   const Image& picture() const;                     ///< rgba8: display code values; row 0 = bottom
+
+  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  void list_state(state::Items& items);
 
  private:
   struct State;

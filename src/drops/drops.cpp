@@ -105,6 +105,23 @@ void DropArrays::gather(std::vector<Drop>& out, const parallel::Executor& execut
   });
 }
 
+void DropArrays::empty(std::int64_t extent) {
+  std::memset(memory_.get(), 0, memory_bytes(capacity_));
+  extent_ = extent;
+}
+
+void DropArrays::list_state(state::Items& items, bool corrected) {
+  const auto slots =
+      std::make_shared<state::Length>(state::Length{static_cast<std::uint64_t>(extent_), static_cast<std::uint64_t>(capacity_),
+                                                    [this](std::uint64_t extent) { empty(static_cast<std::int64_t>(extent)); }});
+  const state::Range of_mass = corrected ? state::Range{0, most_mass} : state::finite();
+  constexpr const char* names[] = {"u", "v", "velocity_u", "velocity_v", "mass", "life", "id"};
+  for (int field = 0; field < fields; ++field)
+    items.array(names[field], field == 6 ? state::Type::u32 : state::Type::f32, field == 4 ? of_mass : state::finite(), slots,
+                [this, field] { return array(field); });
+  items.number("next_id", next_id_);
+}
+
 void DropArrays::assign(std::span<const Drop> records) {
   if (records.size() > static_cast<std::size_t>(capacity_)) {
     throw Error(ExitCode::port_files, fmt::format("drops: expected at most {} records, found {}", capacity_, records.size()));

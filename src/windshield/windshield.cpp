@@ -11,6 +11,7 @@
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "state/items.h"
 #include "windshield/falling_rain.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/memory.h"
@@ -111,11 +112,31 @@ struct Windshield::State {
     return {recorder, frame, step, frame / settings.fps, dt, settings.surface.rounding};
   }
 
+  void list(state::Items& items);
   void step(Recorder* recorder, int substep);
   bool look();
   void rain_behind(const pass::Moment& now);
   void look_through(const pass::Moment& now);
 };
+
+void Windshield::State::list(state::Items& items) {
+  items.number("frame", frame, state::frames);
+  items.numbers("air_moved", air_moved);
+  items.numbers("air_of_frame", air_of_frame);
+  for (std::size_t k = 0; k < panes.size(); ++k) {
+    items.begin_names_with(k == 0 ? "windshield." : fmt::format("pane_{}.", k));
+    panes[k]->list_state(items);
+  }
+  items.begin_names_with("");
+  items.then([this] {
+    steps = static_cast<std::int64_t>(frame) * settings.substeps;
+    for (const auto& pane : panes) {
+      pane->begin_frame();
+      for (std::int64_t n = std::max<std::int64_t>(0, steps - settings.substeps); n < steps; ++n)
+        pane->sweep(n, static_cast<double>(n) * step_time(), step_time());
+    }
+  });
+}
 
 // The passes of pane k are the steps behind those of the panes before it.
 void Windshield::State::step(Recorder* recorder, int substep) {
@@ -236,6 +257,16 @@ void Windshield::simulate(Recorder* recorder) {
   ++s.frame;
 }
 
+void Windshield::skip(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  const int recorded_frame = s.frame;
+  s.frame = std::max(0, recorded_frame - 1);  // the frame whose water this is
+  for (std::size_t k = 0; k < s.panes.size(); ++k)
+    s.panes[k]->leave_traces(s.moment(recorder, static_cast<int>(k), s.frame_time()), s.frame);
+  s.frame = recorded_frame;
+}
+
 void Windshield::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
@@ -251,6 +282,11 @@ void Windshield::render(Recorder* recorder) {
                        [&](const parallel::Tile& tile) { display.tile([&] { s.display.rows(s.colour, s.picture, tile.y0, tile.y1); }); });
   display.finish(now, s.executor.threads());
   s.frame = recorded_frame;
+}
+
+void Windshield::list_state(state::Items& items) {
+  const FloatingPointGuard guard;
+  state_->list(items);
 }
 
 int Windshield::frame() const { return state_->frame; }
