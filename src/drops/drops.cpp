@@ -110,15 +110,19 @@ void DropArrays::empty(std::int64_t extent) {
   extent_ = extent;
 }
 
-void DropArrays::list_state(state::Items& items, bool corrected) {
+void DropArrays::list_state(state::Items& items) {
   const auto slots =
       std::make_shared<state::Length>(state::Length{static_cast<std::uint64_t>(extent_), static_cast<std::uint64_t>(capacity_),
                                                     [this](std::uint64_t extent) { empty(static_cast<std::int64_t>(extent)); }});
-  const state::Range of_mass = corrected ? state::Range{0, most_mass} : state::finite();
+  // Wider than any drop comes to, and so that the next steps stay finite.
+  constexpr state::Range motion{-1e6, 1e6}, mass{0, most_mass}, life{-1e9, 1e9};
   constexpr const char* names[] = {"u", "v", "velocity_u", "velocity_v", "mass", "life", "id"};
   for (int field = 0; field < fields; ++field)
-    items.array(names[field], field == 6 ? state::Type::u32 : state::Type::f32, field == 4 ? of_mass : state::finite(), slots,
-                [this, field] { return array(field); });
+    items.array(names[field], field == 6 ? state::Type::u32 : state::Type::f32,
+                field < 4    ? motion
+                : field == 4 ? mass
+                             : life,
+                slots, [this, field] { return array(field); });
   items.number("next_id", next_id_);
 }
 

@@ -83,7 +83,7 @@ class DropArrays {
   /// Every slot free, ids from 0.
   void clear() { extent_ = 0, next_id_ = 0; }
   /// The slots up to extent(), dead ones too, and next_id().
-  void list_state(state::Items& items, bool corrected);
+  void list_state(state::Items& items);
 
  private:
   struct Free {

@@ -31,7 +31,7 @@ std::int64_t WetGlass::residual() const {
 }
 
 void WetGlass::list_state(state::Items& items) {
-  drops.list_state(items, settings_.corrected);
+  drops.list_state(items);
   if (settings_.corrected) items.image("film", film, {0, most_mass});
   items.number("spawned", mass_balance.spawned, state::sums);
   items.number("evaporated", mass_balance.evaporated, state::sums);

@@ -188,8 +188,9 @@ struct Puddle::State {
   }
   void list(state::Items& items) {
     items.number("frame", frame, state::frames);
-    items.image("newest", newest);
-    items.image("previous", previous);
+    constexpr state::Range levels{-1e4, 1e4};  // no wave is as high, and steps from there stay finite
+    items.image("newest", newest, levels);
+    items.image("previous", previous, levels);
     items.then([this] {
       steps = steps_until(settings, frame);
       fill_ghosts();

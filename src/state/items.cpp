@@ -56,8 +56,8 @@ void Items::flag(std::string name, bool& value) {
   static_assert(sizeof(bool) == 1);
   add(std::move(name), Type::u8, {}, {0, 1}, &value);
 }
-void Items::numbers(std::string name, std::span<double> values) {
-  add(std::move(name), Type::f64, {values.size()}, finite(), values.data());
+void Items::numbers(std::string name, std::span<double> values, Range range) {
+  add(std::move(name), Type::f64, {values.size()}, range, values.data());
 }
 
 void Items::image(std::string name, Image& image, Range range) {

@@ -53,7 +53,7 @@ class Items {
   void number(std::string name, std::int64_t& value, Range range);
   void number(std::string name, std::uint32_t& value);
   void flag(std::string name, bool& value);
-  void numbers(std::string name, std::span<double> values);
+  void numbers(std::string name, std::span<double> values, Range range);
   /// Its texels, without margins.
   void image(std::string name, Image& image, Range range = finite());
   /// One of several arrays of 4-byte numbers (f32, u32) of the same length; `data`: where it begins.
@@ -74,8 +74,8 @@ class Items {
   std::vector<std::function<void()>> after_;
 };
 
-/// Frames that a state may have behind it: a million times what a scene may ask for would overflow nothing.
-inline constexpr Range frames{0, 1e9};
+/// Frames that a state may have behind it: ten times what a scene may ask for. Times and ways of so long a film are still exact enough for its counters.
+inline constexpr Range frames{0, 1e7};
 /// Sums of whole mass units: another frame overflows nothing.
 inline constexpr Range sums{-0x1p62, 0x1p62};
 

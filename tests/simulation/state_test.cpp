@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "simulation/every_state.h"
 #include "state/load.h"
@@ -202,6 +203,30 @@ INSTANTIATE_TEST_SUITE_P(Effects, EveryItem,
                                          "screen_drops_published", "screen_drops_corrected", "rainy_glass_published",
                                          "rainy_glass_corrected", "windshield_published", "windshield_corrected"),
                          [](const auto& p) { return p.param; });
+
+// What passes declare to read of a run before is among the items, under its own name or as what it is made of.
+TEST(StateItems, HoldWhatPassesReadOfBefore) {
+  const parallel::Executor executor(1);
+  const std::map<std::string, std::string> made_of{{"wave", "previous"}, {"drops", "life"}, {"previous_height", "height"}};
+  std::map<std::string, std::set<std::string>> listed, wanted;  // by effect and variant
+  for (const StateScene& scene : state_scenes()) {
+    const scene::Config config = scene::parse(scene.text, simulation::effect_table());
+    const std::string which = config.effect() + " " + config.variant();
+    const Reached run(scene, executor);
+    const state::Items items = run.items();
+    for (const state::Item& item : items.all()) listed[which].insert(item.name.substr(item.name.rfind('.') + 1));
+    for (const capture::PassInfo& pass : registry::find(config.effect())->info->passes) {
+      for (const capture::ReadInfo& read : pass.reads) {
+        if (!read.previous || !pass.variant(config.variant()) || (!read.variant.empty() && read.variant != config.variant())) continue;
+        wanted[which].insert(made_of.contains(read.buffer) ? made_of.at(read.buffer) : read.buffer);
+      }
+    }
+  }
+  EXPECT_EQ(wanted["windshield corrected"], (std::set<std::string>{"film", "life", "wiped"}));
+  for (const auto& [which, names] : wanted) {
+    for (const std::string& name : names) EXPECT_TRUE(listed[which].contains(name)) << which << ": " << name;
+  }
+}
 
 // What the sums of water say goes on.
 TEST(WindshieldState, BalancesItsWater) {
