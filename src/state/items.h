@@ -74,7 +74,7 @@ class Items {
   std::vector<std::function<void()>> after_;
 };
 
-/// Frames that a state may have behind it: ten times what a scene may ask for. Times and ways of so long a film are still exact enough for its counters.
+/// Frames that a state may have behind it: ten times what a scene may ask for, so that no counter overflows.
 inline constexpr Range frames{0, 1e7};
 /// Sums of whole mass units: another frame overflows nothing.
 inline constexpr Range sums{-0x1p62, 0x1p62};
