@@ -14,6 +14,10 @@
 #include "rainref/recorder.h"
 #include "rainref/variant.h"
 
+namespace rainref::state {
+class Items;  // src/state/items.h
+}
+
 namespace rainref::edge_splash {
 
 /// What a stored depth d in [0, 1] means: 1 / z is affine in d, with z along the view axis.
@@ -108,6 +112,9 @@ class EdgeSplash {
 
   /// What is doubtful about the inputs, a sentence each: a noise map that does not tile.
   const std::vector<std::string>& warnings() const;
+
+  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  void list_state(state::Items& items);
 
  private:
   struct State;

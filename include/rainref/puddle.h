@@ -13,6 +13,10 @@
 #include "rainref/recorder.h"
 #include "rainref/variant.h"
 
+namespace rainref::state {
+class Items;  // src/state/items.h
+}
+
 namespace rainref::puddle {
 
 enum class Boundary : std::uint8_t {
@@ -112,6 +116,9 @@ class Puddle {
   const Image& normal() const;   ///< rgba16f: normal, hit flag
   const Image& colour() const;   ///< rgba16f: linear radiance
   const Image& picture() const;  ///< rgba8: display code values; row 0 = bottom
+
+  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  void list_state(state::Items& items);
 
  private:
   struct State;

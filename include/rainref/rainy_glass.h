@@ -12,6 +12,10 @@
 #include "rainref/recorder.h"
 #include "rainref/variant.h"
 
+namespace rainref::state {
+class Items;  // src/state/items.h
+}
+
 namespace rainref::rainy_glass {
 
 enum class Shape : std::uint8_t {
@@ -109,6 +113,9 @@ class RainyGlass {
   const Image& orientation() const;  ///< rgba16f: world normal toward the rain, coverage
   const Image& colour() const;       ///< rgba16f: linear radiance
   const Image& picture() const;      ///< rgba8: display code; row 0 = bottom
+
+  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  void list_state(state::Items& items);
 
  private:
   struct State;

@@ -12,6 +12,10 @@
 #include "rainref/scene_text.h"
 #include "rainref/variant.h"
 
+namespace rainref::state {
+class Items;  // src/state/items.h
+}
+
 namespace rainref::screen_drops {
 
 /// Everything that the effect depends on besides its images. Names, units and ranges: `rainref describe screen_drops`.
@@ -91,6 +95,9 @@ class ScreenDrops {
 
   /// From the next render on, another scene behind the glass: width x height, four channels. Throws Error(usage) for another shape.
   void show(const Image& colour);
+  /// The same of the scene that was behind the glass when a state was saved that is loaded now: its background, if it was recorded then, is
+  /// not recorded once more.
+  void show_again(const Image& colour);
 
   /// Frames simulated so far.
   int frame() const;
@@ -101,6 +108,9 @@ class ScreenDrops {
   const Image& water() const;       ///< r8: as-published layer / 4 of the drop that the pixel shows, corrected its coverage
   const Image& colour() const;      ///< rgba16f: linear radiance
   const Image& picture() const;     ///< rgba8: display code; row 0 = bottom
+
+  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  void list_state(state::Items& items);
 
  private:
   struct State;

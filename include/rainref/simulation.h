@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -53,8 +54,23 @@ class Simulation {
     simulate(recorder);
     render(recorder);
   }
+  /// In place of render, once for a frame, where its picture is not wanted: what render would leave for later frames, whose pictures are
+  /// the same. To come to frame n quickly: simulate and skip the frames before it.
+  void skip(Recorder* recorder = nullptr);
   /// Frames simulated so far.
   int frame() const;
+
+  /// What is held between frames: load() into a simulation of the same scene goes on with the same bits, whatever it did before. Without
+  /// pictures: these come with the next render.
+  std::vector<std::byte> save() const;
+  /// Throws Error(usage) for bytes that are no state, damaged, of another golden generation, of another scene (run.frames may differ),
+  /// of other pictures, or with numbers that cannot be; the simulation then is as it was.
+  void load(std::span<const std::byte> state);
+  /// Gives a key of the scene another value, as TOML writes it ("rain.rate", "30"), from the next frame on: save, rebuild, load. Each
+  /// texel and each drop keeps its numbers, the frame its number. Throws Error as the constructor does, and Error(usage) naming the key
+  /// where the state does not fit the new scene: effect, variant, sizes, storage, fewer drops than there are; the simulation then is
+  /// as it was.
+  void set(const std::string& key, const std::string& value);
 
   /// The picture that was rendered last: rgba8 display code, row 0 = bottom.
   const Image& picture() const;

@@ -16,6 +16,9 @@ namespace rainref {
 namespace scene {
 class Config;
 }
+namespace state {
+class Items;  // src/state/items.h
+}
 
 namespace windshield {
 
@@ -63,6 +66,9 @@ class Windshield {
   void simulate(Recorder* recorder = nullptr);
   /// splat to display of the frame that was simulated last. Once for each frame: the wiped textures have a past.
   void render(Recorder* recorder = nullptr);
+  /// In place of render, where the picture of the frame is not wanted: the passes that leave something for later frames, splat to
+  /// wipe_texture. Later pictures are the same.
+  void skip(Recorder* recorder = nullptr);
   /// Both: one call for each frame of a film.
   void next_frame(Recorder* recorder = nullptr) {
     simulate(recorder);
@@ -88,6 +94,9 @@ class Windshield {
   const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
   const Image& colour() const;       ///< rgba16f: linear radiance
   const Image& picture() const;      ///< rgba8: display code values; row 0 = bottom
+
+  /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
+  void list_state(state::Items& items);
 
  private:
   struct State;

@@ -48,6 +48,8 @@ class HashRecorder : public Recorder {
     int calls = 0;
   };
   const std::vector<Time>& times() const { return times_; }
+  /// Those of the part of a run before, to which these are added.
+  void begin_with(std::vector<Time> times) { times_ = std::move(times); }
 
  private:
   struct Open {

@@ -21,7 +21,10 @@ struct SceneOptions {
 struct RunOptions {
   SceneOptions scene;
   std::filesystem::path output;  ///< empty: out/<name of the scene>
+  int first = 0;                 ///< frames before it are simulated and not rendered
   int every = 0;                 ///< 0: the last frame only
+  int checkpoint_every = 0;      ///< frames between states that a killed run can go on from; 0: none
+  bool resume = false;           ///< from such a state, where there is one
   bool png = true, exr = false;
   bool json = false;
   bool keep_images = true;     ///< what default scenes begin with, in the user's cache folder

@@ -18,6 +18,7 @@
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
 #include "capture/pack_write.h"
+#include "cli/checkpoint.h"
 #include "cli/commands.h"
 #include "cli/json_text.h"
 #include "cli/progress.h"
@@ -57,9 +58,11 @@ class OutputFolder {
   }
   void keep() { made_->keep(); }
   const std::filesystem::path& summary() const { return summary_; }
-  /// To be called before each result is written: the summary of an older run must not stand beside it.
-  void forget_older_run() {
+  /// To be called before each result is written: the summary of an older run must not stand beside it, nor its checkpoint where this run
+  /// does not go on from it.
+  void forget_older_run(const Checkpoint& checkpoint, bool goes_on) {
     if (std::exchange(is_new_, true)) return;
+    if (!goes_on) checkpoint.remove();
     try {
       const std::filesystem::path older = followed(summary_);
       if (std::filesystem::is_regular_file(older)) std::filesystem::remove(older);
@@ -100,6 +103,15 @@ std::size_t most_memory() {
   return 0;
 }
 
+/// Combinations of options that cannot be.
+void check(const RunOptions& options, int frames) {
+  if (options.first >= frames)
+    throw Error(ExitCode::usage, fmt::format("--first {}: expected a frame before run.frames {}", options.first, frames));
+  if (options.capture != RunOptions::none && (options.checkpoint_every > 0 || options.resume))
+    throw Error(ExitCode::usage,
+                "--capture: expected neither --checkpoint-every nor --resume beside it: its folder appears whole, at the end");
+}
+
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<effect::InputFile>& inputs,
                                const parallel::Executor& executor, const capture::HashRecorder& recorder,
                                const std::vector<capture::HashLine>& last, double seconds, int frames) {
@@ -134,12 +146,17 @@ int run(const RunOptions& options) {
   const parallel::Executor executor(options.scene.threads);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
+  const int frames = static_cast<int>(config.integer("run.frames"));
+  check(options, frames);
   OutputFolder made(folder);
+  const Checkpoint checkpoint(folder, options);
+  const std::optional<std::uintmax_t> left = options.resume ? checkpoint.bytes() : std::nullopt;
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
   effect::RunMemory memory = simulation::memory_of(config);
   add_pictures(memory, options.png, options.exr);
   if (options.capture != RunOptions::none) add_captures(memory);
+  if (left) memory.peak.pass(*left);
   require_memory(memory);
   const std::size_t stated = memory.peak.peak() + resident_memory();
   if (options.keep_images) cache::keep_in(cache::folder_of_user());
@@ -149,8 +166,9 @@ int run(const RunOptions& options) {
                                              "and screen_drops have one, and with the street windshield and corrected panes of rainy_glass",
                                              config.effect(), config.variant()));
   }
-  const int frames = static_cast<int>(config.integer("run.frames"));
-  const auto written = [&](int frame) { return options.every > 0 ? frame % options.every == 0 : frame == frames - 1; };
+  const auto written = [&](int frame) {
+    return frame >= options.first && (options.every > 0 ? frame % options.every == 0 : frame == frames - 1);
+  };
   capture::HashRecorder recorder;
   std::optional<Capture> capture;
   if (options.capture != RunOptions::none) capture.emplace(*opened.effect().info, options, config, folder / "capture", written);
@@ -158,16 +176,33 @@ int run(const RunOptions& options) {
   std::vector<capture::HashLine> last;
   int pictures = 0;
   nlohmann::ordered_json truth = nlohmann::ordered_json::array();
+  RunSoFar before;
+  if (left) {
+    before = checkpoint.resume(opened, truth);
+    if (opened.frame() >= frames)
+      throw Error(ExitCode::usage,
+                  fmt::format("run.frames {}: expected more than the {} frames that the interrupted run came to", frames, opened.frame()));
+    recorder.begin_with(before.times);
+  }
+  const int begin = opened.frame();
   const auto start = std::chrono::steady_clock::now();
+  const auto seconds_so_far = [&] {
+    return before.seconds + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const auto forget_older_run = [&] { made.forget_older_run(checkpoint, left.has_value()); };
   {
-    Progress progress(config.effect(), frames);
-    for (int frame = 0; frame < frames; ++frame) {
+    Progress progress(config.effect(), frames - begin);
+    for (int frame = begin; frame < frames; ++frame) {
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
       opened.show(written(frame) || frame == frames - 1);
-      opened.next_frame(&recorders);
+      opened.simulate(&recorders);
+      if (frame < options.first)
+        opened.skip(&recorders);
+      else
+        opened.render(&recorders);
       last = recorder.take_lines();
       if (written(frame)) {
-        if (options.png || options.exr || options.compare_truth) made.forget_older_run();
+        if (options.png || options.exr || options.compare_truth) forget_older_run();
         const std::string stem = fmt::format("{}.{:04}", config.effect(), frame);
         if (options.png) opened.write_png(folder / (stem + ".png"));
         if (options.exr) opened.write_exr(folder / (stem + ".exr"), true);
@@ -178,22 +213,29 @@ int run(const RunOptions& options) {
           truth.push_back(of_frame);
         }
       }
+      const int done = frame + 1;
+      if (options.checkpoint_every > 0 && done % options.checkpoint_every == 0 && done < frames) {
+        forget_older_run();
+        checkpoint.write(opened, {seconds_so_far(), recorder.times()}, truth);
+      }
       progress.advance();
     }
   }
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = seconds_so_far();
   nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, frames);
   report["memory"] = {{"stated", stated}, {"taken", most_memory()}};
   if (options.compare_truth) report["truth"] = truth;
-  made.forget_older_run();
+  forget_older_run();
   if (capture) capture->writer.finish();
   write_file(made.summary(), json_text(report) + "\n");
+  checkpoint.remove();
   made.keep();
   if (options.json)
     say("{}\n", json_text(report));
   else
-    say("{} in {}, {}{} and summary.json in {}\n", counted(frames, "frame"), duration_text(seconds), counted(pictures, "picture"),
-        capture ? ", capture/" : "", folder.string());
+    say("{} in {}{}, {}{} and summary.json in {}\n", counted(frames, "frame"), duration_text(seconds),
+        left ? fmt::format(", the first {} of them before", begin) : "", counted(pictures, "picture"), capture ? ", capture/" : "",
+        folder.string());
   return 0;
 }
 

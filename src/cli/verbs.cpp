@@ -44,7 +44,7 @@ Verb run_verb(CLI::App& app) {
     SceneFlags scene;
     RunOptions options;
     std::string image = "png";
-    std::optional<std::string> output, every, captured;
+    std::optional<std::string> output, first, every, captured, checkpoint_every;
   };
   CLI::App& verb = *app.add_subcommand("run", "Simulate and render a scene");
   const auto f = std::make_shared<Flags>();
@@ -52,6 +52,12 @@ Verb run_verb(CLI::App& app) {
   verb.add_option("-o,--output", f->output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)")->type_name("DIR");
   verb.add_option("--image", f->image, "Pictures to write: exr, png, both or none")->type_name("KIND");
   verb.add_option("--every", f->every, "Write every K-th frame (default: the last frame only)")->type_name("K");
+  verb.add_option("--first", f->first, "First frame of interest: those before it are simulated, and not rendered")->type_name("A");
+  verb.add_option("--checkpoint-every", f->checkpoint_every,
+                  "Keep the state in DIR/checkpoint.state, anew after every K-th frame, until the run is whole")
+      ->type_name("K");
+  verb.add_flag("--resume", f->options.resume,
+                "Go on from DIR/checkpoint.state, where a killed run left one; from the beginning otherwise. Pictures are the same");
   verb.add_option("--capture", f->captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")
       ->type_name("WHAT");
   verb.add_flag("--compare-truth", f->options.compare_truth,
@@ -59,7 +65,10 @@ Verb run_verb(CLI::App& app) {
   verb.add_flag("!--no-cache", f->options.keep_images,
                 "Neither read nor keep the made street and other pictures that a scene begins with ($XDG_CACHE_HOME/rainref)");
   verb.add_flag("--json", f->options.json, "Print the summary as JSON");
-  verb.footer("Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy");
+  verb.footer(
+      "Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy\n"
+      "A long film, the same command until it ends:\n"
+      "         rainref run scenes/windshield/drive.toml --frames 9000 --every 1 -o out/film --checkpoint-every 300 --resume");
   return {&verb, [f] {
             require_word(f->image, "--image", "exr, png, both or none", {"exr", "png", "both", "none"});
             RunOptions options = f->options;
@@ -68,6 +77,8 @@ Verb run_verb(CLI::App& app) {
             if (f->output) require_text(*f->output, "--output", "a folder");
             options.output = f->output.value_or("");
             if (f->every) options.every = whole_number(*f->every, "--every", 1, 1000000);
+            if (f->first) options.first = whole_number(*f->first, "--first", 0, 999999);
+            if (f->checkpoint_every) options.checkpoint_every = whole_number(*f->checkpoint_every, "--checkpoint-every", 1, 1000000);
             if (f->captured) {
               require_word(*f->captured, "--capture", "passes or all", {"passes", "all"});
               options.capture = *f->captured == "all" ? RunOptions::all : RunOptions::passes;

@@ -105,6 +105,27 @@ void DropArrays::gather(std::vector<Drop>& out, const parallel::Executor& execut
   });
 }
 
+void DropArrays::empty(std::int64_t extent) {
+  std::memset(memory_.get(), 0, memory_bytes(capacity_));
+  extent_ = extent;
+}
+
+void DropArrays::list_state(state::Items& items) {
+  const auto slots =
+      std::make_shared<state::Length>(state::Length{static_cast<std::uint64_t>(extent_), static_cast<std::uint64_t>(capacity_),
+                                                    [this](std::uint64_t extent) { empty(static_cast<std::int64_t>(extent)); }});
+  // Wider than any drop comes to, and so that the next steps stay finite.
+  constexpr state::Range motion{-1e6, 1e6}, mass{0, most_mass}, life{-1e9, 1e9};
+  constexpr const char* names[] = {"u", "v", "velocity_u", "velocity_v", "mass", "life", "id"};
+  for (int field = 0; field < fields; ++field)
+    items.array(names[field], field == 6 ? state::Type::u32 : state::Type::f32,
+                field < 4    ? motion
+                : field == 4 ? mass
+                             : life,
+                slots, [this, field] { return array(field); });
+  items.number("next_id", next_id_);
+}
+
 void DropArrays::assign(std::span<const Drop> records) {
   if (records.size() > static_cast<std::size_t>(capacity_)) {
     throw Error(ExitCode::port_files, fmt::format("drops: expected at most {} records, found {}", capacity_, records.size()));

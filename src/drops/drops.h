@@ -9,6 +9,7 @@
 
 #include "drops/records.h"
 #include "rainref/executor.h"
+#include "state/items.h"
 
 namespace rainref::drops {
 
@@ -81,11 +82,15 @@ class DropArrays {
   void assign(std::span<const Drop> records);
   /// Every slot free, ids from 0.
   void clear() { extent_ = 0, next_id_ = 0; }
+  /// The slots up to extent(), dead ones too, and next_id().
+  void list_state(state::Items& items);
 
  private:
   struct Free {
     void operator()(std::byte* p) const;
   };
+  /// So many slots, all of them free, and nothing beyond.
+  void empty(std::int64_t extent);
   float* array(int field) const { return reinterpret_cast<float*>(memory_.get() + static_cast<std::size_t>(field) * stride_); }
   std::span<float> floats(int field) { return {array(field), static_cast<std::size_t>(extent_)}; }
   std::span<const float> floats(int field) const { return {array(field), static_cast<std::size_t>(extent_)}; }

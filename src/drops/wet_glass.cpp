@@ -30,6 +30,15 @@ std::int64_t WetGlass::residual() const {
          (settings_.corrected ? film_water(film) + drops.water() : drops.live());
 }
 
+void WetGlass::list_state(state::Items& items) {
+  drops.list_state(items);
+  if (settings_.corrected) items.image("film", film, {0, most_mass});
+  items.number("spawned", mass_balance.spawned, state::sums);
+  items.number("evaporated", mass_balance.evaporated, state::sums);
+  items.number("removed", mass_balance.removed, state::sums);
+  items.number("to_film", mass_balance.to_film, state::sums);
+}
+
 template <class P>
 void WetGlass::run(const pass::Moment& now, const typename P::Uniforms& uniforms, pass::HostIo<P> io,
                    const std::function<MassBalance()>& body) {

@@ -35,6 +35,7 @@ class WetGlass {
   RecordView list();
   /// Mass units (as-published: drops) that arrived and are neither on the glass nor said to be gone: exactly 0.
   std::int64_t residual() const;
+  void list_state(state::Items& items);
 
   DropArrays drops;
   Image film;                ///< corrected: r32f, whole mass units in a texel

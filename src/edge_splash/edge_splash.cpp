@@ -12,6 +12,7 @@
 #include "edge_splash/splash.pass.h"
 #include "pass/display.h"
 #include "rainref/error.h"
+#include "state/items.h"
 
 namespace rainref::edge_splash {
 namespace {
@@ -117,6 +118,11 @@ void EdgeSplash::show(const Inputs& inputs) {
   s.depth_image = std::move(depth);
   s.layer = std::move(layer);
   s.decode_depth();
+}
+
+void EdgeSplash::list_state(state::Items& items) {
+  const FloatingPointGuard guard;
+  items.number("frame", state_->frame, state::frames);
 }
 
 int EdgeSplash::frame() const { return state_->frame; }

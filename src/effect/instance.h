@@ -8,6 +8,7 @@
 
 #include "image_io/write.h"
 #include "rainref/recorder.h"
+#include "state/items.h"
 
 namespace rainref::effect {
 
@@ -24,6 +25,10 @@ class Instance {
   virtual void simulate(Recorder* recorder) = 0;
   /// The frame that was simulated last.
   virtual void render(Recorder* recorder) = 0;
+  /// In place of render, where the picture is not wanted: what it leaves for later frames, whose pictures are the same.
+  virtual void skip(Recorder* /*recorder*/) {}
+  /// Lists what is held between frames. Loading it gives a simulation that goes on with the same bits; pictures come with the next render.
+  virtual void list_state(state::Items& items) = 0;
   /// Frames simulated so far.
   virtual int frame() const = 0;
   /// The picture as display code, row 0 = bottom.
@@ -48,6 +53,7 @@ class InstanceOf : public Instance {
     show_pictures_of(std::max(0, effect_.frame() - 1));
     effect_.render(recorder);
   }
+  void list_state(state::Items& items) override { effect_.list_state(items); }
   int frame() const final { return effect_.frame(); }
   const Image& picture() const final { return effect_.picture(); }
   const T& running() const { return effect_; }

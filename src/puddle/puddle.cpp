@@ -7,6 +7,7 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
+#include "pass/planes.h"
 #include "pass/run.h"
 #include "puddle/display.pass.h"
 #include "puddle/shade.pass.h"
@@ -23,6 +24,7 @@
 #include "puddle/wave_step.pass.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
+#include "state/items.h"
 
 namespace rainref::puddle {
 namespace {
@@ -189,11 +191,32 @@ struct Puddle::State {
       run.finish(now, 1, seconds / static_cast<double>(jobs.size()));
     }
   }
-  /// The wave as wave_step loads it: the boundary rule is an address rule, the border the stored rest value.
-  PassInput loaded_wave(BufferView wave) const {
+  /// The boundary rule is an address rule, the border the stored rest value.
+  Address address() const {
     constexpr Address rules[] = {Address::clamp, Address::repeat, Address::border};
-    return {
-        "wave", std::move(wave), Filter::none, Filter::none, rules[static_cast<int>(settings.boundary)], {stored_rest, stored_rest, 0, 0}};
+    return rules[static_cast<int>(settings.boundary)];
+  }
+  /// The wave as wave_step loads it.
+  PassInput loaded_wave(BufferView wave) const {
+    return {"wave", std::move(wave), Filter::none, Filter::none, address(), {stored_rest, stored_rest, 0, 0}};
+  }
+  void fill_ghosts() {
+    for (Image* plane : {&newest, &previous}) {
+      pass::in_storage(plane->format(), [&]<class Storage>(Storage) {
+        for (int y = 0; y < plane->height(); ++y)
+          pass::fill_margins(plane->row<Storage>(y), plane->width(), address(), rest_row.row<Storage>(0)[0]);
+      });
+    }
+  }
+  void list(state::Items& items) {
+    items.number("frame", frame, state::frames);
+    constexpr state::Range levels{-1e4, 1e4};  // no wave is as high, and steps from there stay finite
+    items.image("newest", newest, levels);
+    items.image("previous", previous, levels);
+    items.then([this] {
+      steps = steps_until(settings, frame);
+      fill_ghosts();
+    });
   }
 };
 
@@ -311,6 +334,11 @@ void Puddle::set_water(const std::vector<float>& newest, const std::vector<float
   };
   put(newest, s.newest);
   put(previous, s.previous);
+}
+
+void Puddle::list_state(state::Items& items) {
+  const FloatingPointGuard guard;
+  state_->list(items);
 }
 
 int Puddle::frame() const { return state_->frame; }

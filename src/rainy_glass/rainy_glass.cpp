@@ -15,6 +15,7 @@
 #include "rainy_glass/memory.h"
 #include "rainy_glass/rain_on_glass.pass.h"
 #include "rainy_glass/storage.h"
+#include "state/items.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -29,6 +30,7 @@ struct RainyGlass::State {
   bool corrected, bakes_raindrops, bakes_rivulets;
   int frame = 0;
   bool is_baked = false;
+  bool bakes_are_recorded = false;  ///< in a run that was saved, they are not recorded once more
   Code drop_code, rivulet_code;
   std::vector<Droplet> droplets;
   std::vector<Trail> trails;
@@ -137,7 +139,8 @@ void RainyGlass::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const pass::Moment now = s.moment(recorder);
-  if (!std::exchange(s.is_baked, true)) s.bake(now);
+  if (!std::exchange(s.is_baked, true)) s.bake(s.bakes_are_recorded ? s.moment(nullptr) : now);
+  s.bakes_are_recorded = true;
   const Rounding rounding = s.settings.rounding;
   const BufferView raindrops(s.raindrops), rivulets(s.rivulets);
   pass::HostIo<RainOnGlassPass> io;
@@ -159,6 +162,14 @@ void RainyGlass::render(Recorder* recorder) {
   io.colour = s.colour;
   pass::Run<RainOnGlassPass> rain(rain_on_glass_uniforms(s.settings, s.shown(), s.drop_code, s.rivulet_code), s.corrected, rounding, io);
   pass::run_and_display(rain, s.display, s.settings.exposure, s.colour, s.picture, s.executor, picture_tile_rows, now);
+}
+
+void RainyGlass::list_state(state::Items& items) {
+  const FloatingPointGuard guard;
+  items.number("frame", state_->frame, state::frames);
+  items.flag("bakes_are_recorded", state_->bakes_are_recorded);
+  // Maps that were baked here and told nobody of would be told of now.
+  items.then([s = state_.get()] { s->is_baked = s->is_baked && s->bakes_are_recorded; });
 }
 
 int RainyGlass::frame() const { return state_->frame; }

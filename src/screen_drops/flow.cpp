@@ -32,11 +32,24 @@ struct Flow::State {
         height(Format::r16f, s.splat.width, s.splat.height) {
     // Where the wind meets the pane it stands still: nothing blows along it.
     forces.gravity[1] = static_cast<float>(-s.gravity / s.pane[1]);
-    const auto warm_up = static_cast<std::int64_t>(s.warm_up * s.fps * s.substeps + 0.5);
-    while (steps < warm_up) step(moment(nullptr, 0, 0));
+    while (steps < warm_up_steps()) step(moment(nullptr, 0, 0));
   }
   pass::Moment moment(Recorder* recorder, int step, double dt) const {
     return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding};
+  }
+  std::int64_t warm_up_steps() const { return static_cast<std::int64_t>(settings.warm_up * settings.fps * settings.substeps + 0.5); }
+  void list(state::Items& items, const int& frames) {
+    items.begin_names_with("flow.");
+    water.list_state(items);
+    items.begin_names_with("");
+    items.then([this, &frames] {
+      frame = frames;
+      steps = warm_up_steps() + static_cast<std::int64_t>(frame) * settings.substeps;
+      if (frame > 0)
+        water.splat(moment(nullptr, 0, 1 / settings.fps), splat, height);
+      else
+        height = Image(height.format(), height.width(), height.height());
+    });
   }
   void step(const pass::Moment& now) {
     water.spawn(now, exposure, steps);
@@ -58,6 +71,8 @@ void Flow::simulate(Recorder* recorder) {
   s.water.splat(s.moment(recorder, 0, 1 / fps), s.splat, s.height);
   ++s.frame;
 }
+
+void Flow::list_state(state::Items& items, const int& frames) { state_->list(items, frames); }
 
 int Flow::frame() const { return state_->frame; }
 const Image& Flow::height() const { return state_->height; }

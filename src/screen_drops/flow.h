@@ -45,6 +45,8 @@ class Flow {
   void simulate(Recorder* recorder = nullptr);
   /// Frames simulated so far.
   int frame() const;
+  /// The water, under names that begin with "flow."; `frames` are behind it once that is loaded.
+  void list_state(state::Items& items, const int& frames);
 
   const Image& height() const;  ///< r16f, of splat's size: height of the water over the whole pane, row 0 = bottom [mm]
   const Image& film() const;    ///< r32f of the same size: whole mass units in a texel

@@ -62,10 +62,19 @@ Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effe
 
 // Each frame's background is a run of its own, so that what a frame records does not depend on the frames before it.
 void Instance::show_pictures_of(int frame) {
-  if (!sequence_ || frame == shown_) return;
+  if (!sequence_ || (frame == shown_ && frame == held_)) return;
   effect::Inputs none;
-  changed().show(effect::linear_of(sequence_->read(sequence_->shown_in(frame), none)));
-  shown_ = frame;
+  const Image colour = effect::linear_of(sequence_->read(sequence_->shown_in(frame), none));
+  if (frame == shown_)
+    changed().show_again(colour);
+  else
+    changed().show(colour);
+  shown_ = held_ = frame;
+}
+
+void Instance::list_state(state::Items& items) {
+  InstanceOf::list_state(items);
+  if (sequence_) items.number("shown", shown_, state::frames);
 }
 
 std::vector<PassOutput> Instance::buffers() {

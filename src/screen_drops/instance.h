@@ -20,6 +20,7 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
   const Settings& settings() const { return settings_; }
   /// The scene's picture; of a sequence that of frame 0.
   const Image& scene_colour() const { return pictures_.colour; }
+  void list_state(state::Items& items) override;
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
   bool has_sequence() const override { return sequence_.has_value(); }
@@ -28,7 +29,8 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
   void show_pictures_of(int frame) override;
 
   std::optional<effect::PictureSource> sequence_;
-  int shown_ = 0;  ///< frame
+  int shown_ = 0;  ///< frame whose picture is behind the glass
+  int held_ = 0;   ///< frame whose picture is here; another one after a load
   Settings settings_;
   Inputs pictures_;
 };

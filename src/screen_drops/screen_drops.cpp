@@ -21,6 +21,7 @@
 #include "screen_drops/host.h"
 #include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
+#include "state/items.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -40,6 +41,7 @@ struct ScreenDrops::State {
   bool corrected;
   int frame = 0;
   bool has_background = false;
+  bool background_is_recorded = false;  ///< in a run that was saved, it is not recorded once more
   std::vector<Image> levels;
   blur_pyramid::LevelTexture scene;
   std::vector<Tap> taps;
@@ -134,6 +136,12 @@ void ScreenDrops::simulate(Recorder* recorder) {
 
 void ScreenDrops::show(const Image& colour) {
   const FloatingPointGuard guard;
+  show_again(colour);
+  state_->background_is_recorded = false;
+}
+
+void ScreenDrops::show_again(const Image& colour) {
+  const FloatingPointGuard guard;
   State& s = *state_;
   check_scene(s.settings, colour);
   s.levels = scene_levels(colour);
@@ -145,7 +153,8 @@ void ScreenDrops::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   State& s = *state_;
   const pass::Moment now = s.moment(recorder);
-  if (!std::exchange(s.has_background, true)) s.blur(now);
+  if (!std::exchange(s.has_background, true)) s.blur(s.background_is_recorded ? s.moment(nullptr) : now);
+  s.background_is_recorded = true;
   if (s.corrected) s.fill_cells(now);
   const Rounding rounding = s.settings.rounding;
   const auto bound = [&](auto io) {
@@ -171,6 +180,15 @@ void ScreenDrops::render(Recorder* recorder) {
     io.noise.recorded = &noise;
     run(pass::Run<PublishedDropsPass>(published_drops_uniforms(s.settings, s.shown()), false, rounding, io));
   }
+}
+
+void ScreenDrops::list_state(state::Items& items) {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  items.number("frame", s.frame, state::frames);
+  items.flag("background_is_recorded", s.background_is_recorded);
+  if (s.flow) s.flow->list_state(items, s.frame);
+  items.then([&s] { s.has_background = s.has_background && s.background_is_recorded; });
 }
 
 int ScreenDrops::frame() const { return state_->frame; }

@@ -88,6 +88,11 @@ void Opened::render(Recorder* recorder) {
   if (is_traced_ && is_shown_) tracing_->trace(instance_->frame() - 1, recorder);
 }
 
+void Opened::skip(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  instance_->skip(recorder);
+}
+
 std::vector<PassOutput> Opened::buffers() const {
   const FloatingPointGuard guard;
   return instance_->buffers();

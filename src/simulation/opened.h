@@ -6,6 +6,7 @@
 #include "effect/effect.h"
 #include "scene/config.h"
 #include "scene/effect_table.h"
+#include "state/file.h"
 #include "truth/tracing.h"
 
 namespace rainref::simulation {
@@ -30,6 +31,8 @@ class Opened {
   void simulate(Recorder* recorder);
   /// Traces too, where the scene wants it.
   void render(Recorder* recorder);
+  /// In place of render: effect::Instance::skip.
+  void skip(Recorder* recorder);
   void next_frame(Recorder* recorder) {
     simulate(recorder);
     render(recorder);
@@ -37,6 +40,15 @@ class Opened {
   /// Whether the pictures of the frames to come are wanted; tracing is left out of those that are not. True at first.
   void show(bool is_shown) { is_shown_ = is_shown; }
   int frame() const { return instance_->frame(); }
+
+  /// What is held between frames, of this scene, with whatever the caller adds.
+  void save(const std::string& note, const state::Sink& sink) const;
+  /// Throws Error(usage) where the state is of another scene than this, run.frames aside, of other pictures, or does not fit; then nothing
+  /// has changed.
+  void load(const state::Saved& saved);
+  /// The same of a scene that differs in `key`, which is named where its state does not fit.
+  void carry_over(const state::Saved& saved, const std::string& key);
+
   const Image& picture() const { return is_traced_ ? tracing_->shown() : instance_->picture(); }
   std::vector<PassOutput> buffers() const;
   /// Throws Error(io); the second one also writes, once, the maps beside the picture.

@@ -1,8 +1,8 @@
 #include "rainref/simulation.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,18 @@
 namespace rainref {
 
 struct Simulation::State {
+  SceneText scene;
+  const parallel::Executor& executor;
   simulation::Opened opened;
+
+  State(SceneText text, const parallel::Executor& e)
+      : scene(std::move(text)), executor(e), opened(scene::parse(scene, simulation::effect_table()), e) {}
+
+  std::vector<std::byte> save() const {
+    std::vector<std::byte> bytes;
+    opened.save("", [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
+    return bytes;
+  }
 };
 
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set) {
@@ -28,7 +39,7 @@ SceneText read_scene(const std::filesystem::path& file, std::vector<std::string>
 
 Simulation::Simulation(const SceneText& scene, const parallel::Executor& executor) {
   const FloatingPointGuard guard;
-  state_ = std::make_unique<State>(State{simulation::Opened(scene::parse(scene, simulation::effect_table()), executor)});
+  state_ = std::make_unique<State>(scene, executor);
 }
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -56,6 +67,36 @@ void Simulation::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   state_->opened.render(recorder);
 }
+void Simulation::skip(Recorder* recorder) {
+  const FloatingPointGuard guard;
+  state_->opened.skip(recorder);
+}
+
+std::vector<std::byte> Simulation::save() const {
+  const FloatingPointGuard guard;
+  return state_->save();
+}
+void Simulation::load(std::span<const std::byte> state) {
+  const FloatingPointGuard guard;
+  state_->opened.load(state::Saved(state, "state"));
+}
+void Simulation::set(const std::string& key, const std::string& value) {
+  const FloatingPointGuard guard;
+  SceneText changed = state_->scene;
+  std::erase_if(changed.set, [&](const std::string& s) { return s.starts_with(key + "="); });
+  changed.set.push_back(key + "=" + value);
+  auto next = std::make_unique<State>(std::move(changed), state_->executor);
+  for (const std::string& kept : {std::string("effect"), std::string("variant")}) {
+    const std::string &before = state_->opened.config().text(kept), &after = next->opened.config().text(kept);
+    if (before != after)
+      throw Error(ExitCode::usage,
+                  fmt::format("{}: cannot change while the simulation runs: expected \"{}\", found \"{}\"", key, before, after));
+  }
+  const std::vector<std::byte> bytes = state_->save();
+  next->opened.carry_over(state::Saved(bytes, "state"), key);
+  state_ = std::move(next);
+}
+
 int Simulation::frame() const { return state_->opened.frame(); }
 
 const Image& Simulation::picture() const { return state_->opened.picture(); }

@@ -17,6 +17,11 @@ class Instance final : public effect::InstanceOf<Windshield> {
   Instance(const scene::Config& config, Surroundings surroundings, bool has_street, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
   bool has_street() const { return has_street_; }
+  void skip(Recorder* recorder) override { changed().skip(recorder); }
+  void list_state(state::Items& items) override {
+    InstanceOf::list_state(items);
+    items.then([this] { drops_frame_ = -1; });
+  }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
 

@@ -92,10 +92,19 @@ void WetPane::step(const pass::Moment& now, std::int64_t n, double t, const Vehi
   if (corrected_) water_.merge(now, n);
 }
 
+// As published the first frame has no frame before it: the blades stand.
+std::vector<Wiper> WetPane::swept(std::int64_t n, double t, double dt) const {
+  return n == 0 && !corrected_ ? wipers_at(settings_.wipers, plane_, t) : wipers_between(settings_.wipers, plane_, t, t + dt, corrected_);
+}
+
+void WetPane::sweep(std::int64_t n, double t, double dt) {
+  if (!has_blades_) return;
+  const std::vector<Wiper> more = swept(n, t, dt);
+  wipers_.insert(wipers_.end(), more.begin(), more.end());
+}
+
 void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
-  // As published the first frame has no frame before it: the blades stand.
-  const std::vector<Wiper> swept =
-      n == 0 && !corrected_ ? wipers_at(settings_.wipers, plane_, t) : wipers_between(settings_.wipers, plane_, t, t + now.dt, corrected_);
+  const std::vector<Wiper> swept = this->swept(n, t, now.dt);
   wipers_.insert(wipers_.end(), swept.begin(), swept.end());
   const WipeDropsUniforms wipe = wipe_drops_uniforms(glass_, corrected_, static_cast<int>(swept.size()), settings_.capture,
                                                      drops::radius_of_mass_unit(settings_.drops), corrected_ ? water_.film.width() : 0,
@@ -119,7 +128,17 @@ void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
   });
 }
 
-void WetPane::draw(const pass::Moment& now, int frame) {
+void WetPane::list_state(state::Items& items) {
+  water_.list_state(items);
+  if (settings_.surface.height_tau > 0) items.image("height", height_);
+  if (!has_blades_) return;
+  if (corrected_)
+    items.image("wiped", wiped_);
+  else
+    items.image("mask", mask_);
+}
+
+void WetPane::leave_traces(const pass::Moment& now, int frame) {
   const Rounding rounding = settings_.surface.rounding;
   const bool persists = settings_.surface.height_tau > 0;
   if (persists) std::swap(height_, previous_height_);
@@ -133,12 +152,15 @@ void WetPane::draw(const pass::Moment& now, int frame) {
   }
 
   if (has_blades_) wipe_texture(now, frame);
+}
 
+void WetPane::draw(const pass::Moment& now, int frame) {
+  leave_traces(now, frame);
   pass::HostIo<NormalsPass> io;
   io.height = height_;
   io.mask = mask_;
   io.normal = normal_;
-  draw_all(pass::Run<NormalsPass>(normals_uniforms(settings_.surface), corrected_, rounding, io), now, executor_);
+  draw_all(pass::Run<NormalsPass>(normals_uniforms(settings_.surface), corrected_, settings_.surface.rounding, io), now, executor_);
 }
 
 void WetPane::wipe_texture(const pass::Moment& now, int frame) {

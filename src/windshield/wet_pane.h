@@ -22,9 +22,17 @@ class WetPane {
   void step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather);
   /// splat to normals of frame number `frame`.
   void draw(const pass::Moment& now, int frame);
+  /// Of these the ones that leave something for later frames: splat to wipe_texture.
+  void leave_traces(const pass::Moment& now, int frame);
   /// composite: the scene through it, into a picture of the camera's size. `before`: seconds that the host spent on it already.
   void composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
                  const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before);
+
+  /// What it holds between frames; the blades of a frame are given anew by the steps of it.
+  void list_state(state::Items& items);
+  /// Of a step like step(): the blades alone, whose way of a frame the passes on its textures take. For a frame that was simulated
+  /// elsewhere.
+  void sweep(std::int64_t n, double t, double dt);
 
   const Settings& settings() const { return settings_; }
   const CompositeUniforms& view() const { return view_; }
@@ -39,6 +47,7 @@ class WetPane {
  private:
   template <class P, class Body>
   void run(const pass::Moment& now, const typename P::Uniforms& uniforms, const pass::HostIo<P>& io, const Body& body) const;
+  std::vector<Wiper> swept(std::int64_t n, double t, double dt) const;
   void wipe(const pass::Moment& now, std::int64_t n, double t);
   void wipe_texture(const pass::Moment& now, int frame);
   drops::Exposure exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const;

@@ -79,6 +79,10 @@ class Breath {
     run<VeilPass>(VeilUniforms{{0.8f, 0.85f, 0.9f}, static_cast<float>(settings_.opacity)}, io, recorder);
     ++frame_;
   }
+  void list_state(state::Items& items) {
+    items.number("frame", frame_, state::frames);
+    items.image("film", film_);
+  }
   int frame() const { return frame_; }
   const Image& film() const { return film_; }
   const Image& picture() const { return picture_; }

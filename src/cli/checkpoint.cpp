@@ -1,0 +1,73 @@
+#include "cli/checkpoint.h"
+
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/read_file.h"
+#include "rainref/error.h"
+#include "state/file.h"
+
+namespace rainref::cli {
+
+Checkpoint::Checkpoint(const std::filesystem::path& folder, const RunOptions& options)
+    : path_(folder / "checkpoint.state"), options_(options) {}
+
+/// The options that say which files there are: a run that goes on must ask for the same.
+nlohmann::ordered_json Checkpoint::asked() const {
+  return {{"--first", options_.first},
+          {"--every", options_.every},
+          {"--image", options_.png ? (options_.exr ? "both" : "png") : (options_.exr ? "exr" : "none")},
+          {"--compare-truth", options_.compare_truth}};
+}
+
+std::optional<std::uintmax_t> Checkpoint::bytes() const {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path_, error);
+  if (error == std::errc::no_such_file_or_directory) return std::nullopt;
+  return error ? 0 : size;  // reading it says why
+}
+
+RunSoFar Checkpoint::resume(simulation::Opened& opened, nlohmann::ordered_json& truth) const {
+  const std::vector<std::byte> bytes = read_file(path_);
+  const state::Saved saved(bytes, path_.string());
+  const auto fail = [&](const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", path_.string(), why)); };
+  RunSoFar so_far;
+  const nlohmann::ordered_json wanted = asked();
+  nlohmann::ordered_json note, so_compared;
+  try {
+    note = nlohmann::ordered_json::parse(saved.note());
+    so_far.seconds = note.at("seconds").get<double>();
+    for (const auto& t : note.at("passes"))
+      so_far.times.push_back({t.at("name").get<std::string>(), t.at("seconds").get<double>(), t.at("calls").get<int>()});
+    so_compared = note.at("truth");
+    for (const auto& [option, value] : wanted.items()) {
+      const auto& before = note.at("asked").at(option);
+      if (before != value) fail(fmt::format("of a run with {} {}: expected the same, found {}", option, before.dump(), value.dump()));
+    }
+  } catch (const nlohmann::json::exception&) {
+    fail("expected the state of an interrupted run, found one that another program saved");
+  }
+  opened.load(saved);
+  truth = std::move(so_compared);
+  return so_far;
+}
+
+void Checkpoint::write(const simulation::Opened& opened, const RunSoFar& so_far, const nlohmann::ordered_json& truth) const {
+  nlohmann::ordered_json note{
+      {"asked", asked()}, {"seconds", so_far.seconds}, {"passes", nlohmann::ordered_json::array()}, {"truth", truth}};
+  for (const auto& t : so_far.times) note["passes"].push_back({{"name", t.pass}, {"seconds", t.seconds}, {"calls", t.calls}});
+  AtomicFile file(path_);
+  opened.save(note.dump(), [&](std::span<const std::byte> bytes) { file.write(bytes); });
+  file.commit();
+}
+
+void Checkpoint::remove() const {
+  std::error_code error;
+  std::filesystem::remove(path_, error);
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be removed: {}", path_.string(), error.message()));
+}
+
+}  // namespace rainref::cli

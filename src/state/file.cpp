@@ -1,0 +1,160 @@
+#include "state/file.h"
+
+#include <array>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "base/printable.h"
+#include "rainref/error.h"
+#include "rainref/version.h"
+
+namespace rainref::state {
+namespace {
+
+// The end of line and the control character show a transfer as text, as in PNG.
+constexpr std::string_view magic = "rainref-state\r\n\x1a";
+constexpr std::size_t most_dimensions = 3, checksum_bytes = 16;
+
+/// Whole numbers of the file, lowest byte first.
+class Writer {
+ public:
+  explicit Writer(const Sink* sink) : sink_(sink) {}
+  template <class T>
+  void put(T value) {
+    std::array<std::byte, sizeof(T)> bytes;
+    for (std::size_t i = 0; i < sizeof(T); ++i) bytes[i] = static_cast<std::byte>(value >> 8 * i & 0xff);
+    put(std::span<const std::byte>(bytes));
+  }
+  void put(std::string_view text) {
+    put(static_cast<std::uint64_t>(text.size()));
+    put(std::as_bytes(std::span(text)));
+  }
+  void put(std::span<const std::byte> bytes) {
+    count_ += bytes.size();
+    if (!sink_) return;
+    hasher_.add(bytes);
+    (*sink_)(bytes);
+  }
+  std::uint64_t count() const { return count_; }
+  Hash128 hash() const { return hasher_.finish(); }
+
+ private:
+  const Sink* sink_;  // null: only counted
+  std::uint64_t count_ = 0;
+  Hasher hasher_{0};
+};
+
+void put_all(Writer& out, const Texts& texts, const Items& items, std::uint64_t file_bytes) {
+  out.put(std::as_bytes(std::span(magic)));
+  out.put(format_version);
+  out.put(static_cast<std::uint32_t>(golden_generation));
+  out.put(file_bytes);
+  for (const std::string* text : {&texts.scene, &texts.inputs, &texts.note}) out.put(std::string_view(*text));
+  out.put(static_cast<std::uint32_t>(items.all().size()));
+  for (const Item& item : items.all()) {
+    out.put(std::string_view(item.name));
+    out.put(static_cast<std::uint8_t>(item.type));
+    out.put(static_cast<std::uint8_t>(item.shape.size()));
+    for (const std::uint64_t n : item.shape) out.put(n);
+    const std::size_t bytes = item.row_bytes();
+    for (std::uint64_t row = 0; row < item.rows; ++row) out.put(std::span<const std::byte>(item.row(row), bytes));
+  }
+}
+
+/// The same, read back; never beyond the end.
+class Reader {
+ public:
+  Reader(std::span<const std::byte> bytes, const std::string& origin) : bytes_(bytes), origin_(origin) {}
+  template <class T>
+  T take() {
+    const std::span<const std::byte> from = take(sizeof(T));
+    T value = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i) value = static_cast<T>(value | static_cast<T>(std::to_integer<T>(from[i]) << 8 * i));
+    return value;
+  }
+  std::string_view take_text() {
+    const std::span<const std::byte> text = take(take<std::uint64_t>());
+    return {reinterpret_cast<const char*>(text.data()), text.size()};
+  }
+  std::span<const std::byte> take(std::uint64_t count) {
+    if (count > bytes_.size() - at_) fail("a count in it reaches beyond its end");
+    at_ += count;
+    return bytes_.subspan(at_ - count, count);
+  }
+  bool at_end() const { return at_ == bytes_.size(); }
+  [[noreturn]] void fail(const std::string& why) const { throw Error(ExitCode::usage, fmt::format("{}: {}", origin_, why)); }
+
+ private:
+  std::span<const std::byte> bytes_;
+  const std::string& origin_;
+  std::size_t at_ = 0;
+};
+
+/// What the shape asks for, or more than any file has.
+std::uint64_t wanted_bytes(const Saved::Stored& item) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 62;
+  std::uint64_t bytes = bytes_of(item.type);
+  for (const std::uint64_t n : item.shape) {
+    if (n != 0 && bytes > most / n) return most;
+    bytes *= n;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void write(const Texts& texts, const Items& items, const Sink& sink) {
+  Writer counted(nullptr);
+  put_all(counted, texts, items, 0);
+  Writer out(&sink);
+  put_all(out, texts, items, counted.count() + checksum_bytes);
+  const Hash128 hash = out.hash();
+  out.put(hash.low);
+  out.put(hash.high);
+}
+
+Saved::Saved(std::span<const std::byte> bytes, std::string origin) : origin_(std::move(origin)) {
+  Reader in(bytes, origin_);
+  if (bytes.size() < magic.size() || std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
+    in.fail("expected a state that rainref saved, found other bytes");
+  in.take(magic.size());
+  const auto short_file = [&](std::uint64_t expected) {
+    in.fail(fmt::format("cut short or lengthened: expected {} bytes, found {}", expected, bytes.size()));
+  };
+  constexpr std::size_t head = magic.size() + 4 + 4 + 8;
+  if (bytes.size() < head + checksum_bytes) short_file(head + checksum_bytes);
+  const auto version = in.take<std::uint32_t>(), generation = in.take<std::uint32_t>();
+  if (version != format_version) in.fail(fmt::format("expected a state of format {}, found {}", format_version, version));
+  const auto size = in.take<std::uint64_t>();
+  if (size != bytes.size()) short_file(size);
+  Hasher hasher(0);
+  hasher.add(bytes.first(bytes.size() - checksum_bytes));
+  const Hash128 hash = hasher.finish();
+  Reader end(bytes.last(checksum_bytes), origin_);
+  if (end.take<std::uint64_t>() != hash.low || end.take<std::uint64_t>() != hash.high)
+    in.fail("damaged: its checksum is not that of its bytes");
+  if (generation != golden_generation) {
+    in.fail(fmt::format("expected a state of golden generation {}, found {}: another version of rainref saved it, with other bits",
+                        golden_generation, generation));
+  }
+
+  Reader body(bytes.first(bytes.size() - checksum_bytes), origin_);
+  body.take(head);
+  for (std::string_view* text : {&scene_, &inputs_, &note_}) *text = body.take_text();
+  const auto count = body.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Stored item{body.take_text(), Type::u8, {}, {}};
+    const auto type = body.take<std::uint8_t>(), dimensions = body.take<std::uint8_t>();
+    if (type > static_cast<std::uint8_t>(Type::f64) || dimensions > most_dimensions)
+      body.fail(fmt::format("item {} has type {} and {} dimensions", printable(item.name), type, dimensions));
+    item.type = static_cast<Type>(type);
+    for (std::uint8_t d = 0; d < dimensions; ++d) item.shape.push_back(body.take<std::uint64_t>());
+    item.bytes = body.take(wanted_bytes(item));
+    items_.push_back(std::move(item));
+  }
+  if (!body.at_end()) body.fail("bytes follow the last item");
+}
+
+}  // namespace rainref::state
