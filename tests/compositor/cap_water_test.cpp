@@ -1,4 +1,5 @@
 // Caps of water on a pane, alone and in crowds, against the laws of optics in closed form.
+#include "compositor/embree_isas.h"
 #include "compositor/cap_water.h"
 
 #include <gtest/gtest.h>
@@ -129,7 +130,9 @@ TEST(CapWater, HitsHaveTheSameBitsForEveryEmbreeAndEqualTheOracles) {
   }
   const auto water = crowd(true);
   std::vector<Hit> expected;
-  for (const char* config : {"", "isa=sse2", "isa=sse4.2", "isa=avx", "isa=avx2", "isa=avx512"}) {
+  std::vector<std::string> configs{""};
+  for (const std::string& isa : test::embree_isas()) configs.push_back(test::embree_config(isa));
+  for (const std::string& config : configs) {
     const auto scene = scene_of(water, {0, 0, 0}, {0, 0, 0}, config);
     std::vector<Hit> hits(rays.size());
     scene->tracer().first_hits(rays, hits);

@@ -1,4 +1,5 @@
 // Panes of glass and the water on them, against geometry and the laws of optics in closed form.
+#include "compositor/embree_isas.h"
 #include "compositor/pane.h"
 
 #include <gtest/gtest.h>
@@ -344,7 +345,9 @@ TEST(Pane, HitsHaveTheSameBitsForEveryEmbree) {
     }
     const auto shape_of_water = pane.is_flat() ? WaterShape::displaced : WaterShape::sloped;
     std::vector<Hit> expected;
-    for (const char* config : {"", "isa=sse2", "isa=sse4.2", "isa=avx", "isa=avx2", "isa=avx512", "isa=sse2,threads=1"}) {
+    std::vector<std::string> configs{"", "threads=1"};
+    for (const std::string& isa : test::embree_isas()) configs.push_back(test::embree_config(isa));
+    for (const std::string& config : configs) {
       const auto scene = scene_of(pane, water, shape_of_water, config);
       std::vector<Hit> hits(rays.size());
       scene->tracer().first_hits(rays, hits);

@@ -1,4 +1,5 @@
 // The tracer: against the oracle that asks everything, and whether anything but the rays and the surfaces decides.
+#include "compositor/embree_isas.h"
 #include "compositor/tracer.h"
 
 #include <gtest/gtest.h>
@@ -77,20 +78,8 @@ std::string hash_of(const Tracer& tracer, const std::vector<Ray>& rays, int thre
   return hasher.finish().text();
 }
 
-/// Every instruction set that this machine's Embree can use.
-std::vector<std::string> embree_isas() {
-#if defined(__x86_64__)
-  std::vector<std::string> isas{"sse2", "sse4.2"};
-  if (__builtin_cpu_supports("avx")) isas.push_back("avx");
-  if (__builtin_cpu_supports("avx2")) isas.push_back("avx2");
-  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-    isas.push_back("avx512");
-  return isas;
-#else
-  return {""};
-#endif
-}
-std::string config(const std::string& isa) { return isa.empty() ? "" : "isa=" + isa; }
+using test::embree_config;
+using test::embree_isas;
 
 TEST(Tracer, FindsWhatAskingEverySurfaceFinds) {
   const test::World world;
@@ -145,7 +134,7 @@ TEST(Tracer, BoxesCoverWhatFloatRaysStray) {
   }
   for (const std::string& isa : embree_isas()) {
     for (const bool robust : {true, false}) {
-      Tracer tracer({config(isa), 16, robust});
+      Tracer tracer({embree_config(isa), 16, robust});
       for (const auto& surface : surfaces) tracer.add(surface);
       tracer.commit();
       const std::vector<Hit> hits = test::first_hits(tracer, rays);
@@ -170,7 +159,7 @@ TEST(Tracer, OneHashForEveryIsaWidthTraversalTileAndNumberOfThreads) {
     for (const std::string& isa : embree_isas()) {
       for (const bool robust : {true, false}) {
         for (const int width : {1, 4, 8, 16}) {
-          Tracer tracer({config(isa), width, robust});
+          Tracer tracer({embree_config(isa), width, robust});
           world.add_to(tracer);
           hashes.insert(hash_of(tracer, rays, 1 + runs % 8));
           ASSERT_EQ(hashes.size(), 1u) << isa << ", width " << width << ", tiles of " << tile << (robust ? ", robust" : "");
@@ -187,7 +176,7 @@ TEST(Tracer, OneHashForEverySimdTarget) {
   std::set<std::string> hashes;
   test::for_every_target([&] {
     for (const std::string& isa : {embree_isas().front(), embree_isas().back()}) {
-      Tracer tracer({config(isa)});
+      Tracer tracer({embree_config(isa)});
       world.add_to(tracer);
       hashes.insert(hash_of(tracer, every_kind_of_ray(), 2));
       ASSERT_EQ(hashes.size(), 1u);
@@ -239,7 +228,7 @@ TEST(Tracer, WritesOnlyTheHitsThatItIsAskedFor) {
   const std::vector<Ray> rays(every_kind_of_ray().end() - 40, every_kind_of_ray().end());
   for (const std::string& isa : embree_isas()) {
     for (const int width : {1, 4, 8, 16}) {
-      Tracer tracer({config(isa), width});
+      Tracer tracer({embree_config(isa), width});
       world.add_to(tracer);
       for (std::size_t count = 0; count <= 33; ++count) {
         std::vector<Hit> hits(40);

@@ -20,14 +20,17 @@ inline void add_image(Hasher& hasher, const Image& image) {
   }
 }
 
+/// Seeded as in the first golden generation, of which these hashes are: no pass makes the street.
+inline constexpr std::uint64_t seed_of_hashes = 1;
+
 inline std::string hash_of(const Image& image) {
-  Hasher hasher;
+  Hasher hasher(seed_of_hashes);
   add_image(hasher, image);
   return hasher.finish().text();
 }
 
 inline std::string hash_of(const Street::View& view) {
-  Hasher hasher;
+  Hasher hasher(seed_of_hashes);
   add_image(hasher, view.colour);
   add_image(hasher, view.depth);
   add_image(hasher, view.normal);

@@ -6,8 +6,11 @@
 #include <functional>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
 #include "rainref/error.h"
+#include "rainref/version.h"
 #include "state/load.h"
 
 namespace rainref::state {
@@ -128,9 +131,9 @@ TEST(StateFile, HasTheDocumentedLayout) {
   write({"s", "", ""}, items,
         [&](std::span<const std::byte> more) { bytes.append(reinterpret_cast<const char*>(more.data()), more.size()); });
   using namespace std::string_literals;
-  const std::string body = "rainref-state\r\n\x1a"s + "\1\0\0\0"s + "\1\0\0\0"s + std::string(1, static_cast<char>(bytes.size())) +
-                           "\0\0\0\0\0\0\0"s + "\1\0\0\0\0\0\0\0s"s + "\0\0\0\0\0\0\0\0"s + "\0\0\0\0\0\0\0\0"s + "\1\0\0\0"s +
-                           "\1\0\0\0\0\0\0\0f"s + "\2\0"s + "\4\3\2\1"s;
+  const std::string body = "rainref-state\r\n\x1a"s + "\1\0\0\0"s + std::string(1, golden_generation) + "\0\0\0"s +
+                           std::string(1, static_cast<char>(bytes.size())) + "\0\0\0\0\0\0\0"s + "\1\0\0\0\0\0\0\0s"s +
+                           "\0\0\0\0\0\0\0\0"s + "\0\0\0\0\0\0\0\0"s + "\1\0\0\0"s + "\1\0\0\0\0\0\0\0f"s + "\2\0"s + "\4\3\2\1"s;
   ASSERT_EQ(bytes.size(), body.size() + 16);
   EXPECT_EQ(bytes.substr(0, body.size()), body);
 }
@@ -157,7 +160,8 @@ TEST(StateFile, OtherVersionsAreNamed) {
   Held held;
   const Bytes bytes = held.save();
   EXPECT_THAT(refusal(changed(bytes, 16, raw(std::uint32_t{2})), held), HasSubstr("expected a state of format 1, found 2"));
-  EXPECT_THAT(refusal(changed(bytes, 20, raw(std::uint32_t{77})), held), HasSubstr("golden generation 1, found 77"));
+  EXPECT_THAT(refusal(changed(bytes, 20, raw(std::uint32_t{77})), held),
+              HasSubstr(fmt::format("golden generation {}, found 77", golden_generation)));
 }
 
 // Counts of a file that somebody made are not believed.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compositor/embree_isas.h"
 #include "truth/golden_scenes.h"
 #include "truth/puddle_truth.h"
 #include "golden/golden_check.h"
@@ -22,15 +23,15 @@ TEST_P(Golden, HashesAreAsRecorded) { golden::expect_as_recorded(GetParam()); }
 TEST_P(Golden, TheSameBitsForEveryIsaTargetAndThread) {
   // Each choice once, several of them in one picture: whichever changes a bit, one of the pictures differs.
   const std::vector<std::string> expected = golden_lines(GetParam(), parallel::Executor(1)), targets = simd_targets();
-  const std::vector<std::string> isas{"sse2", "sse4.2", "avx", "avx2", "avx512"};
+  const std::vector<std::string> isas = rainref::test::embree_isas();
   const std::vector<int> threads{2, 3, 8};
   const std::string before = selected_simd_target();
   for (std::size_t k = 0; k < std::max(isas.size(), targets.size()); ++k) {
     const std::string &isa = isas[k % isas.size()], &target = targets[k % targets.size()];
     parallel::Executor executor(threads[k % threads.size()]);
     executor.shuffle_tiles(k);
-    TracerOptions tracer{"isa=" + isa};
-    if (k % 2 == 0) tracer = {"isa=" + isa, 4, false};
+    TracerOptions tracer{rainref::test::embree_config(isa)};
+    if (k % 2 == 0) tracer = {rainref::test::embree_config(isa), 4, false};
     select_simd_target(target);
     EXPECT_EQ(golden_lines(GetParam(), executor, tracer), expected)
         << "Embree " << isa << ", " << target << ", " << executor.threads() << " threads";
