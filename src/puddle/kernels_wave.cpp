@@ -14,13 +14,6 @@ RAINREF_TARGET_BEGIN(puddle)
 #include "puddle/wave_step.pass.h"
 #undef RAINREF_FN
 
-template <class Storage>
-Storage encode_one(float x, Rounding rounding) {
-  Storage s;
-  store(&s, Lanes(x), rounding, 1);
-  return s;
-}
-
 // ---- the drops of a place ------------------------------------------------------------------------------------------
 // A drop adds exactly nothing beyond its radius, so that any choice which holds those that reach into a place gives its bits.
 void drops_in_rows(std::span<const Drop> drops, int y0, int y1, std::vector<Drop>& out) {
@@ -154,8 +147,8 @@ HWY_ATTR void step_rows(const WaveJob& job, const parallel::Tile& tile) {
           });
     }
   }
-  const Storage rest = encode_one<Storage>(u.rest, rounding);
-  for (int y = tile.y0; y < tile.y1; ++y) pass::fill_margins(job.previous->row<Storage>(y), width, address_of(job.boundary), rest);
+  for (int y = tile.y0; y < tile.y1; ++y)
+    pass::fill_margins(job.previous->row<Storage>(y), width, address_of(job.boundary), *job.rest_row->row<Storage>(0));
 }
 // f with the variant and the rounding as constants.
 template <class F>
@@ -180,7 +173,6 @@ HWY_ATTR void previous_rows(const WaveJob& job, const parallel::Tile& tile) {
   const int width = job.newest->width();
   std::vector<Drop> in_tile, in_row;
   drops_in_rows(job.drops, tile.y0, tile.y1, in_tile);
-  const Storage rest = encode_one<Storage>(job.uniforms.rest, job.rounding);
   for (int y = tile.y0; y < tile.y1; ++y) {
     drops_in_rows(in_tile, y, y + 1, in_row);
     if (in_row.empty()) continue;
@@ -191,7 +183,7 @@ HWY_ATTR void previous_rows(const WaveJob& job, const parallel::Tile& tile) {
         [&](int x, std::span<const Drop> drops) HWY_ATTR {
           store(row + x, wave_previous_corrected<Lanes>(row, shore, drops, x, y), job.rounding, std::min(Lanes::size(), width - x));
         });
-    pass::fill_margins(row, width, address_of(job.boundary), rest);
+    pass::fill_margins(row, width, address_of(job.boundary), *job.rest_row->row<Storage>(0));
   }
 }
 void PreviousRows(const WaveJob& job, const parallel::Tile& tile) {
