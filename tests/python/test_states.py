@@ -14,7 +14,7 @@ SCENES = {
     "puddle": PUDDLE,
     "windshield": {"run.size": (32, 18), "scene.size": (32, 18), "windshield.height_size": (64, 36), "rain.rate": 100},
     "edge_splash": {"run.size": (32, 18)},
-    "screen_drops": {"run.size": (32, 18)},
+    "screen_drops": {"run.size": (32, 18), "flow.on": True, "flow.height_size": (37, 29), "flow.warm_up": 0.5},
     "rainy_glass": {"run.size": (32, 18), "maps.size": 16},
 }
 
@@ -118,6 +118,23 @@ def test_memory_that_an_array_looks_into_outlives_a_set(puddle):
     second = puddle._handle
     puddle.set("rain.rate", 80)
     assert puddle._handle is second  # where nothing looks, nothing is opened twice
+
+
+@pytest.mark.parametrize("effect", rr.effects())
+def test_memory_that_an_array_looks_into_outlives_a_load(effect):
+    sim = rr.open(effect, SCENES[effect])
+    first = sim.save()
+    later = advance(sim, 2).save()
+
+    def addresses():
+        images = [name for name in sim.buffers if sim[name].dtype.names is None]
+        return {sim.view(name, channel=0).__array_interface__["data"][0] for name in images}
+
+    before = addresses()
+    assert len(before) >= 3
+    for state in first, later, first:
+        assert addresses() == before and sim.load(state).save() == state
+    assert addresses() == before
 
 
 def test_relative_files_of_a_scene_are_found_after_a_change_of_folder(tmp_path, monkeypatch):

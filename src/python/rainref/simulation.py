@@ -165,7 +165,7 @@ class Simulation:
         rainref.errors.Error: --set display.exposur: unknown key; did you mean 'display.exposure'?
         """
         text = toml(value)
-        # The library frees what it builds anew. Where an array still looks into it, that stays, and a copy changes.
+        # The library builds anew and frees the old. Where an array still looks into that, it stays, and a copy goes on.
         handle = copy.copy(self)._handle if self._handle.looked_into else self._handle
         call("set", handle, encoded(key), encoded(text))
         self._handle = handle
