@@ -76,12 +76,13 @@ typedef struct rr_simulation_info {
   size_t warnings;         ///< for rr_warning
   const char* scene_json;  ///< every key with its value: {"key": value, ...}
 } rr_simulation_info;
-/// Its texts are valid until the next call of this function.
+/// Its texts are valid until the next call of this function or of rr_set.
 RR_API int rr_get_info(rr_simulation* simulation, rr_simulation_info* info);
-/// What is doubtful about the scene's files, a sentence; NULL past the last.
+/// What is doubtful about the scene's files, a sentence, valid until rr_set; NULL past the last.
 RR_API const char* rr_warning(const rr_simulation* simulation, size_t index);
 
-/// To the next frame: 0, 1, 2 ... Nothing is rendered. It ends the validity of every array of the simulation, as the next four do.
+/// To the next frame: 0, 1, 2 ... Nothing is rendered. It ends the validity of every array of the simulation, as do the next three,
+/// rr_next_frame_cases, rr_load and rr_set.
 RR_API int rr_simulate(rr_simulation* simulation);
 /// The frame that was simulated last; once for each frame at most where textures have a past (windshield).
 RR_API int rr_render(rr_simulation* simulation);
@@ -93,6 +94,25 @@ RR_API int rr_next_frame_hashes(rr_simulation* simulation, const char** lines);
 /// The picture that was rendered last: PNG 8 bits RGB, or radiance and what belongs to it as EXR.
 RR_API int rr_write_png(rr_simulation* simulation, const char* path);
 RR_API int rr_write_exr(rr_simulation* simulation, const char* path);
+
+// ---- what a simulation holds between frames ----
+
+/// Takes the next bytes of a state. Returns 0; anything else: they could not be written, and no more are offered.
+typedef int (*rr_write)(void* user, const void* bytes, size_t count);
+/// Gives the next bytes of a state, at most `count`, which is not 0. Returns how many it gave; 0: there are no more; negative: they could
+/// not be read.
+typedef int64_t (*rr_read)(void* user, void* bytes, size_t count);
+
+/// Hands the state to `write`, with `user`, as bytes (docs/notes/state.md). Arrays stay valid: nothing changes. RR_IO where `write` fails.
+RR_API int rr_save(rr_simulation* simulation, rr_write write, void* user);
+/// Takes all that `read` gives as the state of this scene (run.frames may differ); the simulation goes on with the bits of the one that was
+/// saved. Pictures come with the next frame or rr_render. RR_IO where `read` fails; RR_USAGE for bytes that are no state, cut short,
+/// damaged, of another golden generation, scene or pictures. The simulation then is as it was.
+RR_API int rr_load(rr_simulation* simulation, rr_read read, void* user);
+/// Gives a key another value, as TOML writes it ("rain.rate", "30"), from the next frame on. RR_USAGE, naming the key, where the scene may
+/// not say that or what is held does not fit it (effect, variant, sizes, storage); the simulation then is as it was. Files that the scene
+/// names are read again.
+RR_API int rr_set(rr_simulation* simulation, const char* key, const char* value);
 
 // ---- arrays ----
 
@@ -147,9 +167,9 @@ typedef struct rr_member {
 RR_API int rr_get_layout(const rr_layout* layout, rr_layout_info* info);
 RR_API int rr_get_member(const rr_layout* layout, size_t index, rr_member* member);
 
-/// Names of what the simulation holds between frames; NULL past the last.
+/// Names of what the simulation holds between frames, valid until rr_set; NULL past the last.
 RR_API const char* rr_buffer_name(rr_simulation* simulation, size_t index);
-/// One of them, without a copy, valid until the simulation's next frame.
+/// One of them, without a copy, valid until the simulation changes.
 RR_API int rr_get_buffer(rr_simulation* simulation, const char* name, rr_array* buffer);
 /// The picture that was rendered last: rgba8 display code.
 RR_API int rr_get_picture(rr_simulation* simulation, rr_array* picture);

@@ -1,5 +1,9 @@
-#include "math/constants.h"
 #include "screen_drops/flow.h"
+
+#include <cstring>
+
+#include "math/constants.h"
+#include "math/half.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -48,8 +52,12 @@ struct Flow::State {
       if (frame > 0)
         water.splat(moment(nullptr, 0, 1 / settings.fps), splat, height);
       else
-        height = Image(height.format(), height.width(), height.height());
+        clear_height();
     });
+  }
+  /// In place: arrays of Python may still look into its memory.
+  void clear_height() {
+    for (int y = 0; y < height.height(); ++y) std::memset(height.row_bytes(y), 0, static_cast<std::size_t>(height.width()) * sizeof(Half));
   }
   void step(const pass::Moment& now) {
     water.spawn(now, exposure, steps);

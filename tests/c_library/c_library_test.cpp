@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <dlfcn.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +19,7 @@
 #include "capture/npy_write.h"
 #include "capture/capture_recorder.h"
 #include "night_street/night_street.h"
+#include "rainref.h"
 #include "rainref/executor.h"
 #include "source_folder.h"
 #include "windshield/golden_scenes.h"
@@ -136,6 +139,32 @@ TEST_F(CLibrary, RefusesBadArgumentsWithACodeAndASentence) {
 TEST_F(CLibrary, ShowsBuffersWithoutCopies) {
   expect_success("views " + scene("puddle_corrected"));
   expect_success("views " + scene("windshield_corrected"));
+}
+TEST_F(CLibrary, SavesLoadsAndSets) {
+  for (const char* name :
+       {"puddle_corrected", "windshield_corrected", "edge_splash_corrected", "screen_drops_corrected", "rainy_glass_corrected"})
+    expect_success(fmt::format("saved {}", scene(name)));
+}
+
+// A callback of C++ may throw; the library, which is not written in its caller's C++, lets nothing of it through.
+TEST_F(CLibrary, LetsNothingThroughThatACallbackThrows) {
+  void* const library = ::dlopen(RAINREF_C_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  ASSERT_TRUE(library) << ::dlerror();
+  const auto find = [&](auto* declared, const char* name) { return reinterpret_cast<decltype(declared)>(::dlsym(library, name)); };
+  const auto open = find(&rr_open, "rr_open");
+  const auto save = find(&rr_save, "rr_save");
+  const auto load = find(&rr_load, "rr_load");
+  const auto close = find(&rr_close, "rr_close");
+  const auto error = find(&rr_error, "rr_error");
+  rr_simulation* simulation = nullptr;
+  ASSERT_EQ(open("effect = 'edge_splash'\nrun.size = [9, 9]\n", nullptr, &simulation), RR_OK) << error();
+  const auto write = [](void*, const void*, size_t) -> int { throw 1; };
+  const auto read = [](void*, void*, size_t) -> int64_t { throw std::bad_alloc(); };
+  EXPECT_EQ(save(simulation, write, nullptr), RR_IO);
+  EXPECT_STREQ(error(), "state: the callback that writes it threw an exception");
+  EXPECT_EQ(load(simulation, read, nullptr), RR_IO);
+  EXPECT_STREQ(error(), "state: the callback that reads it threw an exception");
+  close(simulation);
 }
 TEST_F(CLibrary, JudgesOutputsInMemory) {
   expect_success("judging " + scene("edge_splash_corrected"));

@@ -37,5 +37,6 @@ int main(int argc, char** argv) {
   if (strcmp(what, "refusals") == 0) return refusals(argv[3]), 0;
   if (strcmp(what, "judging") == 0) return judging(argv[3]), 0;
   if (strcmp(what, "views") == 0) return views(argv[3]), 0;
+  if (strcmp(what, "saved") == 0) return states_saved(argv[3]), 0;
   return 2;
 }

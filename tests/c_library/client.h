@@ -25,6 +25,9 @@
   X(rr_next_frame_hashes)   \
   X(rr_write_png)           \
   X(rr_write_exr)           \
+  X(rr_save)                \
+  X(rr_load)                \
+  X(rr_set)                 \
   X(rr_get_layout)          \
   X(rr_get_member)          \
   X(rr_buffer_name)         \
@@ -78,5 +81,6 @@ void in_other_states(const char* scene, const char* hashes);
 void refusals(const char* scene);
 void judging(const char* scene);
 void views(const char* scene);
+void states_saved(const char* scene);
 
 #endif  // C_LIBRARY_CLIENT_H_

@@ -59,6 +59,11 @@ static void running(rr_simulation* s) {
   REFUSED(rr.rr_next_frame(NULL), "simulation: ");
   REFUSED(rr.rr_next_frame_hashes(s, NULL), "lines: ");
   REFUSED(rr.rr_write_png(s, NULL), "path: ");
+  REFUSED(rr.rr_save(s, NULL, NULL), "write: ");
+  REFUSED(rr.rr_load(s, NULL, NULL), "read: ");
+  REFUSED(rr.rr_set(s, NULL, "1"), "key: ");
+  REFUSED(rr.rr_set(s, "seed", NULL), "value: ");
+  REFUSED(rr.rr_set(NULL, "seed", "1"), "simulation: ");
   rr_array a = {.struct_bytes = sizeof a};
   REFUSED(rr.rr_get_buffer(s, "no_such", &a), "has no buffer 'no_such'");
   REFUSED(rr.rr_get_buffer(s, NULL, &a), "name: ");

@@ -37,6 +37,8 @@ def _load() -> c.CDLL:
 
 
 _handle, _result, _index, _text, _out = c.c_void_p, c.c_int, c.c_size_t, c.c_char_p, c.POINTER(c.c_void_p)
+#: Callbacks: rr_write and rr_read.
+WRITE, READ = (c.CFUNCTYPE(result, c.c_void_p, c.c_void_p, c.c_size_t) for result in (c.c_int, c.c_int64))
 _texts, _text_out = c.POINTER(c.c_char_p), c.POINTER(c.c_char_p)
 _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "error": (_text, []),
@@ -56,6 +58,9 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "next_frame_hashes": (_result, [_handle, _text_out]),
     "write_png": (_result, [_handle, _text]),
     "write_exr": (_result, [_handle, _text]),
+    "save": (_result, [_handle, WRITE, c.c_void_p]),
+    "load": (_result, [_handle, READ, c.c_void_p]),
+    "set": (_result, [_handle, _text, _text]),
     "get_layout": (_result, [_handle, c.POINTER(s.LayoutInfo)]),
     "get_member": (_result, [_handle, _index, c.POINTER(s.Member)]),
     "buffer_name": (_text, [_handle, _index]),
@@ -136,6 +141,8 @@ class Handle:
         made = c.c_void_p()
         call(make, *arguments, c.byref(made))
         self._as_parameter_ = made
+        #: The memory of the library's that arrays look into, by the id of what owns it in Python.
+        self.looked_into: weakref.WeakValueDictionary[int, object] = weakref.WeakValueDictionary()
         # Not at the end of the program, when arrays may still look into it.
         weakref.finalize(self, _functions[free], made).atexit = False
 

@@ -11,7 +11,7 @@ import ctypes as c
 import numpy as np
 
 from . import _structs as s
-from ._library import call, decoded, encoded, filled
+from ._library import Handle, call, decoded, encoded, filled
 from .errors import Error, StaleViewError
 
 _CHANNEL = {1: np.uint8, 2: np.uint8, 3: np.float16, 4: np.float32, 5: np.uint32, 6: np.int32}
@@ -30,13 +30,14 @@ def dtype_of(layout: int) -> np.dtype:
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": about.bytes})
 
 
-def _at(address: int, length: int, owner: object) -> c.Array[c.c_char]:
+def _at(address: int, length: int, owner: Handle) -> c.Array[c.c_char]:
     memory = (c.c_char * length).from_address(address)
     memory._owner = owner  # alive as long as an array looks into it
+    owner.looked_into[id(memory)] = memory
     return memory
 
 
-def plane_of(raw: s.Array, plane: int, owner: object) -> np.ndarray:
+def plane_of(raw: s.Array, plane: int, owner: Handle) -> np.ndarray:
     """A plane without a copy: (height, width, channels of it), not writeable."""
     channels = raw.channels // raw.planes
     scalar = np.dtype(_CHANNEL[raw.type])
@@ -47,7 +48,7 @@ def plane_of(raw: s.Array, plane: int, owner: object) -> np.ndarray:
     return array
 
 
-def copy_of(raw: s.Array, owner: object) -> np.ndarray:
+def copy_of(raw: s.Array, owner: Handle) -> np.ndarray:
     """An array of its own."""
     if raw.type == _RECORDS:
         dtype = dtype_of(raw.layout)
@@ -120,7 +121,7 @@ def _plain(values: tuple | list) -> tuple:
     return tuple(one(v) for v in values)
 
 
-def view_of(raw: s.Array, channel: int | None, handle: object, now: object) -> View:
+def view_of(raw: s.Array, channel: int | None, handle: Handle, now: object) -> View:
     """A view that `now.changes` ends. Of an image whose channels lie apart one channel must be named."""
     name = decoded(raw.name)
     if raw.type == _RECORDS:

@@ -92,16 +92,16 @@ class Parameters(Mapping[str, Parameter]):
         return "\n".join(f"{p.name} = {p.value!r}{' ' + p.unit if p.unit not in ('', '1') else ''}" for p in self.values())
 
 
-def _toml(value: object) -> str:
+def toml(value: object) -> str:
     """A value as a scene file has it.
 
-    >>> [_toml(v) for v in (True, 2, 0.5, (640, 480), "street")]
+    >>> [toml(v) for v in (True, 2, 0.5, (640, 480), "street")]
     ['true', '2', '0.5', '[640, 480]', '"street"']
     """
     if hasattr(value, "tolist"):
         value = value.tolist()  # of NumPy
     if isinstance(value, (tuple, list)):
-        return "[" + ", ".join(_toml(v) for v in value) + "]"
+        return "[" + ", ".join(toml(v) for v in value) + "]"
     if isinstance(value, bool):
         return "true" if value else "false"
     return repr(value) if isinstance(value, (int, float)) else json.dumps(str(value), ensure_ascii=False)
@@ -118,5 +118,5 @@ def changes(values: Mapping[str, object] | None) -> list[str]:
         if isinstance(value, Mapping):
             out += changes({f"{key}.{inner}": v for inner, v in value.items()})
         else:
-            out.append(f"{key}={_toml(value)}")
+            out.append(f"{key}={toml(value)}")
     return out

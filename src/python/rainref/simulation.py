@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes as c
 import json
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
 from . import _structs as s
+from . import states
 from ._library import Handle, call, decoded, encoded, filled, text_of, texts
 from .buffers import View, buffer_of, copy_of, view_of
 from .errors import StaleViewError
-from .parameters import Parameters, changes, effects
+from .parameters import Parameters, changes, effects, toml
 
 
 def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
@@ -55,7 +58,12 @@ class Simulation:
             self._handle = Handle("close", "open_file", encoded(scene), c.byref(options))
         else:
             self._handle = Handle("close", "open", encoded(scene), c.byref(options))
+        # To open it again: for copies, here and in other processes.
+        self._scene, self._set, self._threads = scene.absolute() if isinstance(scene, Path) else scene, set, threads
         self.changes = 0  #: counts what ends the validity of views
+        self._look_up()
+
+    def _look_up(self) -> None:
         about = self._about()
         self.effect: str = decoded(about.effect)
         self.variant: str = decoded(about.variant)
@@ -116,6 +124,60 @@ class Simulation:
     def __iter__(self) -> Iterator[Frame]:
         return self.frames()
 
+    def save(self, to: str | os.PathLike[str] | BinaryIO | None = None) -> bytes:
+        """What is held between frames, as bytes; written to a path, or to a file that is open for bytes, where `to` is one. It changes nothing.
+
+        >>> sim = open("edge_splash", {"run.size": (16, 9)})
+        >>> for frame in sim.frames(2):
+        ...     pass
+        >>> other = open("edge_splash", {"run.size": (16, 9)}).load(sim.save())
+        >>> other.frame, other.step_hashes() == sim.step_hashes()
+        (2, True)
+        """
+        state = states.saved(self._handle)
+        if to is not None:
+            states.write_to(to, state)
+        return state
+
+    def load(self, state: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> Simulation:
+        """Goes on from what `save` gave, or from a path or file that has it, with the same bits, and returns itself. Pictures come with the
+        next frame. Error for bytes that are no state, damaged, or of another scene (run.frames may differ); it then is as it was.
+
+        >>> open("edge_splash", {"run.size": (16, 9)}).load(b"no state")
+        Traceback (most recent call last):
+        ...
+        rainref.errors.Error: state: expected a state that rainref saved, found other bytes
+        """
+        states.load(self._handle, states.read_from(state))
+        self.changes += 1
+        return self
+
+    def set(self, key: str, value: object) -> Simulation:
+        """Gives a key of the scene another value, from the next frame on, and returns itself. Error, naming the key, for what the scene may
+        not say and for what the state does not fit: effect, variant, sizes, storage; it then is as it was.
+
+        >>> sim = open("edge_splash", {"run.size": (16, 9)})
+        >>> sim.set("display.exposure", -1).parameters["display.exposure"].value
+        -1.0
+        >>> sim.set("display.exposur", -1)
+        Traceback (most recent call last):
+        ...
+        rainref.errors.Error: --set display.exposur: unknown key; did you mean 'display.exposure'?
+        """
+        text = toml(value)
+        # The library builds anew and frees the old. Where an array still looks into that, it stays, and a copy goes on.
+        handle = copy.copy(self)._handle if self._handle.looked_into else self._handle
+        call("set", handle, encoded(key), encoded(text))
+        self._handle = handle
+        self._set = [kept for kept in self._set if not kept.startswith(f"{key}=")] + [f"{key}={text}"]
+        self.changes += 1
+        self._look_up()
+        return self
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Copies and pickles open the scene anew, files with it, and load the state."""
+        return _opened_again, (self._scene, self._set, self._threads, self.save())
+
     def __getitem__(self, name: str) -> np.ndarray:
         """A copy of a buffer; a structured array of a list of records. Error with the nearest name.
 
@@ -143,6 +205,10 @@ class Simulation:
     def write_exr(self, path: str | os.PathLike[str]) -> None:
         """Radiance and what belongs to it, as named channels."""
         call("write_exr", self._handle, encoded(path))
+
+
+def _opened_again(scene: str | Path, set: list[str], threads: int, state: bytes) -> Simulation:
+    return Simulation(scene, set, threads).load(state)
 
 
 class Frame:

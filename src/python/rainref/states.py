@@ -1,0 +1,63 @@
+"""What a simulation holds between frames, as bytes: docs/notes/state.md. The callbacks of the C library work on memory only: an exception
+would not pass through them."""
+
+from __future__ import annotations
+
+import ctypes as c
+import os
+from pathlib import Path
+from typing import BinaryIO
+
+from ._library import READ, WRITE, Handle, call
+from .errors import FileError
+
+
+def saved(simulation: Handle) -> bytes:
+    """The state of a simulation."""
+    pieces: list[bytes] = []
+
+    def write(_: object, data: int, count: int) -> int:
+        pieces.append(c.string_at(data, count))
+        return 0
+
+    call("save", simulation, WRITE(write), None)
+    return b"".join(pieces)
+
+
+def load(simulation: Handle, state: bytes) -> None:
+    """Gives a simulation a state."""
+    at = 0
+
+    def read(_: object, to: int, count: int) -> int:
+        nonlocal at
+        piece = state[at:at + count]
+        c.memmove(to, piece, len(piece))
+        at += len(piece)
+        return len(piece)
+
+    call("load", simulation, READ(read), None)
+
+
+def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> bytes:
+    """The bytes of a state; of a file all that it still has."""
+    if isinstance(source, (str, os.PathLike)):
+        try:
+            return Path(source).read_bytes()
+        except OSError as error:
+            raise FileError(f"cannot read '{os.fspath(source)}': {error.strerror}", 4) from None
+    found = source.read() if hasattr(source, "read") else source
+    return bytes(memoryview(found))
+
+
+def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
+    """To a file that is open for bytes, or to a path, where nothing half-written ever lies."""
+    if not isinstance(place, (str, os.PathLike)):
+        place.write(state)
+        return
+    part = Path(f"{os.fspath(place)}.part")
+    try:
+        part.write_bytes(state)
+        part.replace(place)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise FileError(f"cannot write '{os.fspath(place)}': {error.strerror}", 4) from None
