@@ -82,6 +82,9 @@ void Simulation::load(std::span<const std::byte> state) {
 }
 void Simulation::set(const std::string& key, const std::string& value) {
   const FloatingPointGuard guard;
+  // "key=value" would be cut at its first =.
+  if (const std::size_t at = key.find('='); at != std::string::npos)
+    throw Error(ExitCode::usage, fmt::format("'{}': expected a key such as {}, found one with =", key, key.substr(0, at)));
   SceneText changed = state_->scene;
   std::erase_if(changed.set, [&](const std::string& s) { return s.starts_with(key + "="); });
   changed.set.push_back(key + "=" + value);

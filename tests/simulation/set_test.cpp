@@ -93,6 +93,7 @@ TEST(Set, WhatCannotBeCarriedIsNamed) {
   EXPECT_THAT(refused(pane, "variant", "as-published"), HasSubstr("rain.rate"));
   EXPECT_THAT(refused(pane, "rain.rte", "1"), HasSubstr("did you mean 'rain.rate'?"));
   EXPECT_THAT(refused(pane, "rain.rate", "a lot"), HasSubstr("rain.rate"));
+  EXPECT_THAT(refused(pane, "seed=5 #", "1"), HasSubstr("'seed=5 #': expected a key such as seed"));
   pane.set("windshield.capacity", "4000");  // more room is no matter
   Simulation splash(small("edge_splash", "corrected"), executor);
   EXPECT_THAT(refused(splash, "variant", "as-published"),
