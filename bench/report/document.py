@@ -2,8 +2,10 @@
 import json
 import os
 
+import growth
 import plots
 import rows
+from rows import table
 
 BEGIN, END = "<!-- made by scripts/bench --document: do not edit below -->", "<!-- end of what is made -->"
 FORMAT = "rainref.bench"
@@ -38,10 +40,6 @@ def rate_text(rate, unit):
 def spread_text(row):
     """Half the distance of the quartiles in percent of the median."""
     return f"{50 * (row['q3_ms'] - row['q1_ms']) / row['median_ms']:.0f} %"
-
-
-def table(heads, lines):
-    return "\n".join(["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)] + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
 
 
 def idle_text(result):
@@ -91,11 +89,16 @@ def made(folder):
     """What scripts/bench --document makes of docs/notes/performance/*.json: {path: text}, the made part of the document under None."""
     files, parts = {}, []
     for name in sorted(os.listdir(folder)):
-        if not name.endswith(".json"):
+        if not name.endswith(".json") or name.startswith("growth"):
             continue
         result, stem = read(os.path.join(folder, name)), name[: -len(".json")]
         files.update({os.path.join(folder, path): text for path, text in write_plots(result, stem + ".").items()})
         parts.append(f"## {result.get('title', stem)}\n\n{markdown(result, 'performance/' + stem + '.')}")
+    for name in sorted(os.listdir(folder)):
+        if name.startswith("growth") and name.endswith(".json"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                result = json.load(file)
+            parts.append(f"## Growth, {result['machine']['cores']} cores\n\n{growth.markdown(result)}")
     files[None] = "\n".join(parts)
     return files
 

@@ -121,6 +121,8 @@ def scaling(result):
         of = {r["threads"]: r["rate"] for r in result["rows"] if r["row"] == name}
         if 1 in of and len(of) > 1:
             series.append((name.replace("/corrected", ""), [(n, rate / of[1]) for n, rate in of.items()], {}))
+    if not series:
+        return ('<svg xmlns="http://www.w3.org/2000/svg" width="400" height="40"><text x="10" y="25">no rows on several threads</text></svg>\n')
     threads = sorted({x for _, points, _ in series for x, _ in points})
     return svg("Rate over the rate on one thread (medians, corrected)", "threads", "times one thread", series, x_ticks=threads,
                roof=[("each thread as fast as one alone", 1.0)])

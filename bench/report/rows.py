@@ -110,3 +110,8 @@ def goal(peer):
     if peer["peer"] == "lavapipe":
         return 3.5 if name.startswith("composite") else 6.0 if name.startswith("edge_splash.splash") else 3.0
     return None
+
+
+def table(heads, lines):
+    """A table in Markdown."""
+    return "\n".join(["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)] + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
