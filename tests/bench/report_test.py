@@ -151,6 +151,11 @@ class Documents(unittest.TestCase):
             self.assertEqual(sorted(os.listdir(folder)), ["bench.md", "roofline.svg", "scaling.svg", "size.svg"])
 
 
+    def test_rates_are_said_as_people_say_them(self):
+        self.assertEqual([document.rate_text(rate, unit) for rate, unit in ((71.34, "pixel"), (3600.0, "drop"), (120.0, "cell"), (999.4, "ray"))],
+                         ["71.3 Mpix/s", "3.6 Gdrop/s", "0.12 Gcell/s", "999 Mray/s"])
+
+
 class Plots(unittest.TestCase):
     def points(self, text):
         return xml.fromstring(text).findall("{http://www.w3.org/2000/svg}circle")
