@@ -29,7 +29,7 @@ def arguments():
         "2 a wrong option; 3 a file is malformed, or the document is not what --document makes; 4 memory grew beyond what is stated (--growth).")
     parser.add_argument("--out", default="build/bench", metavar="DIR", help="where bench.json, bench.md and plots go (default: build/bench)")
     parser.add_argument("--only", default="", metavar="REGEX", help="rows whose name this matches, and their peers")
-    parser.add_argument("--row-seconds", type=float, default=0.15, metavar="S", help="least time of a row (default: 0.15)")
+    parser.add_argument("--row-seconds", type=float, default=0.25, metavar="S", help="least time of a row (default: 0.25)")
     parser.add_argument("--peer-seconds", type=int, default=1, metavar="S", help="time of a peer's row, at least 1 (default: 1)")
     parser.add_argument("--wait", type=float, default=60, metavar="S", help="longest wait for an idle machine (default: 60)")
     parser.add_argument("--title", default="", metavar="TEXT", help="heading of this run in the document")
