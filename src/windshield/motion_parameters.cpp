@@ -98,7 +98,7 @@ MotionSettings motion_settings_from(const scene::Config& config) {
             ? PaneWipers()
             : wipers_from(config, number, make_glass(s.panes[static_cast<std::size_t>(number) - 1], pane_name(number))));
   for (int number = panes + 1; number <= most_wiped_panes; ++number)
-    refuse_wipers(config, number, fmt::format("expected none, for windshield.panes has {} of {} panes", panes, number));
+    refuse_wipers(config, number, fmt::format("expected none, for windshield.panes has {} {}", panes, panes == 1 ? "pane" : "panes"));
   return s;
 }
 

@@ -16,7 +16,7 @@ struct PaneWipers {
 };
 
 /// So many of the panes behind the windshield may have wipers: the first ones of windshield.panes.
-constexpr int most_wiped_panes = 3;
+constexpr int most_wiped_panes = 2;
 
 /// The table that speaks of pane `number`: "wipers" of the windshield, number 0, "pane_1_wipers" of the first of the others.
 std::string wiper_table(int number);
