@@ -105,9 +105,9 @@ class EveryTracedSequence : public Sequences, public testing::WithParamInterface
 
 // Rays see the picture of their frame: traced, frame k is the traced scene with picture k.
 TEST_P(EveryTracedSequence, FrameKIsTheSceneWithPictureK) {
-  expect_shown(GetParam(), {0, 1, 2, 3}, {"--set", "compositor.picture=traced"});
-  const std::vector<std::string> traced{GetParam(), "--set", "compositor.picture=traced"};
-  const auto lines = hash(traced);
+  put(folder / GetParam(), contents(folder / GetParam()) + "[compositor]\npicture = 'traced'\n");
+  expect_shown(GetParam(), {0, 1, 2, 3}, {});
+  const auto lines = hash({GetParam()});
   EXPECT_THAT(lines, Contains(HasSubstr("compositor")));
   EXPECT_NE(of_frame(lines, 1).back(), of_frame(lines, 2).back());
 }
