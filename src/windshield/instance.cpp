@@ -10,6 +10,7 @@
 #include "windshield/evaluations.h"
 #include "windshield/info.h"
 #include "windshield/memory.h"
+#include "windshield/street.h"
 
 namespace rainref::windshield {
 namespace {
@@ -73,7 +74,13 @@ effect::Effect entry() {
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
             ScenePictures named(config, inputs);
             Surroundings first = named.read(0, inputs);
-            return std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
+            auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
+            const double fog = instance->settings().blur.fog_density;
+            if (effect::is_named(config, "scene.image") && !effect::is_named(config, "scene.depth_image") && fog * street_far > 1)
+              inputs.warnings.push_back(fmt::format(
+                  "scene.image: without scene.depth_image it lies {:g} m away, behind the fog of blur.fog_density {:g} (0: none)",
+                  street_far, fog));
+            return instance;
           }};
 }
 
