@@ -50,7 +50,14 @@ EffectTracing windshield_tracing() {
       [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
         return std::make_unique<WindshieldTracing>(config, static_cast<const windshield::Instance&>(instance), executor);
       },
-      hold_traced};
+      [](effect::RunMemory& m, const scene::Config& config) {
+        // The pictures as rays look them up: floats, and their depths. Their size is not known yet; as the effect does, the street's
+        // counts.
+        const auto [width, height] = config.integer2("scene.size");
+        if (choice_from(config).is_traced && effect::is_named(config, "scene.image"))
+          m.peak.hold(static_cast<std::size_t>(width * height) * (4 + 1) * sizeof(float));
+        hold_traced(m, config);
+      }};
 }
 
 }  // namespace rainref::truth
