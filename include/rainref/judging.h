@@ -106,7 +106,7 @@ struct PassVerdict {
 
 /// What is said of a port.
 struct Verdict {
-  std::string status;          ///< "PASS", "WARN", "FAIL", "UNTESTED", "DATA", "NOT JUDGED"
+  std::string status;          ///< "PASS", "WARN", "FAIL", "UNTESTED"; of a pass also "DATA", "NOT JUDGED"
   std::string reason;          ///< "" where the status says all
   std::string first_bad_pass;  ///< in the order of dataflow; ""
   std::string profile;
