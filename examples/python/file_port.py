@@ -21,4 +21,4 @@ for case in json.loads((pack / "manifest.json").read_text())["cases"]:
     wave = next(i for i in case["inputs"] if i["name"] == "wave")
     file = out / case["outputs"][0]["file"]
     file.parent.mkdir(parents=True, exist_ok=True)
-    np.save(file, wave_step(inputs, uniforms, (wave["address_u"], wave["border"][0])))
+    np.save(file, wave_step(inputs, uniforms, (wave["address_u"], (wave["border"] or [0])[0])))

@@ -71,7 +71,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/python/rainref DESTINATION lib/pytho
 # Of the packaging, not of rainref: that has CHANGELOG.md.
 file(CONFIGURE OUTPUT package/changelog.Debian CONTENT "rainref (${full_version}) stable; urgency=medium
 
-  * Packages made by scripts/packages; what is new: /usr/share/doc/rainref/CHANGELOG.md.
+  * Made by scripts/packages; what is new is in rainref-data: CHANGELOG.md.
 
  -- ${CPACK_PACKAGE_CONTACT}  Mon, 23 Nov 2026 00:00:00 +0000
 ")
