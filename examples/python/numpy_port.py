@@ -18,13 +18,14 @@ def my_port(inputs, uniforms, case):
     return wave_step(inputs, uniforms, (sampling.address[0], sampling.border[0]))
 
 
-sim = rr.open("puddle/default.toml", {"run.size": (320, 180), "rain.rate": 20})
+KEYS = {"run.size": (320, 180), "rain.rate": 20, "puddle.grid": (384, 256)}
+sim = rr.open("puddle/default.toml", KEYS)
 verdict = rr.judge(sim, ports=[my_port], frames=(0, 1, 12), profile="vulkan")
 print(verdict)
 verdict.html(Path(sys.argv[1] if len(sys.argv) > 1 else ".") / "verdict.html")
 print("status:", verdict.status, "causes:", [cause.name for cause in verdict["wave_step"].causes])
 
 state = sim.save()  # the same bits from here on, in another process too
-again = rr.open("puddle/default.toml", {"run.size": (320, 180), "rain.rate": 20}).load(state)
+again = rr.open("puddle/default.toml", KEYS).load(state)
 assert again.frame == sim.frame and (again["wave"] == sim["wave"]).all()
 sys.exit(0 if verdict.ok else 1)

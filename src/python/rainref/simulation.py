@@ -149,7 +149,7 @@ class Simulation:
         ...
         rainref.errors.Error: state: expected a state that rainref saved, found other bytes
         """
-        states.load(self._handle, states.read_from(state))
+        states.load(self._handle, states.read_from(state), str(os.fspath(state)) if isinstance(state, (str, os.PathLike)) else "")
         self.changes += 1
         return self
 
