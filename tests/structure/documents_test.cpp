@@ -274,7 +274,7 @@ TEST(Documents, TheChecksRefuse) {
 
 // README.md's program is one that an installation's tests compile and run.
 TEST(Documents, TheReadmesProgramIsCompiled) {
-  const std::string readme = text_of(root / "README.md"), program = text_of(root / "tests/outside/simulate.cpp");
+  const std::string readme = text_of(root / "README.md"), program = text_of(root / "examples/cpp/film.cpp");
   const std::size_t begin = readme.find("```cpp\n");
   ASSERT_NE(begin, std::string::npos);
   std::istringstream lines(readme.substr(begin + 7, readme.find("```\n", begin + 7) - begin - 7));
