@@ -70,7 +70,7 @@ std::vector<const char*> without_help_verb(int argc, const char* const* argv) {
 
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app{"rainref: the deterministic CPU reference for real-time rain"};
-  app.set_version_flag("--version", std::string("rainref ") + version());
+  app.set_version_flag("--version", fmt::format("rainref {}, golden {} {}", version(), golden_generation, golden_hash()));
   app.require_subcommand(1);
   app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
 
