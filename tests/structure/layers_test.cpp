@@ -14,13 +14,12 @@ namespace fs = std::filesystem;
 const fs::path root = RAINREF_SOURCE_DIR;
 
 // Rooms and their floors; ARCHITECTURE.md has the same table.
-const std::map<std::string, int> floors{{"base", 0},         {"math", 1},       {"image", 2},      {"parallel", 3},    {"random", 3},
-                                        {"cache", 3},        {"state", 3},      {"scene", 4},      {"capture", 4},     {"pass", 4},
-                                        {"image_io", 4},     {"effect", 4},     {"rain", 4},       {"drops", 4},       {"blur_pyramid", 4},
-                                        {"night_street", 4}, {"puddle", 5},     {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5},
-                                        {"rainy_glass", 5},  {"compositor", 5}, {"registry", 6},   {"truth", 6},       {"port_dump", 6},
-                                        {"simulation", 7},   {"judge", 7},      {"faults", 7},     {"reports", 7},     {"cli", 8},
-                                        {"c_library", 8}};
+const std::map<std::string, int> floors{
+    {"base", 0},         {"math", 1},         {"image", 2},  {"parallel", 3},   {"random", 3},      {"cache", 3},        {"state", 3},
+    {"scene", 4},        {"capture", 4},      {"pass", 4},   {"image_io", 4},   {"effect", 4},      {"rain", 4},         {"drops", 4},
+    {"blur_pyramid", 4}, {"night_street", 4}, {"puddle", 5}, {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5},
+    {"compositor", 5},   {"registry", 6},     {"truth", 6},  {"port_dump", 6},  {"simulation", 7},  {"judge", 7},        {"faults", 7},
+    {"reports", 7},      {"sweep", 8},        {"cli", 8},    {"c_library", 8}};
 // Public headers, by the floor that implements them.
 const std::map<std::string, int> public_floors{{"version", 0},      {"error", 0},       {"variant", 0},    {"storage", 1},
                                                {"image", 2},        {"texture", 2},     {"recorder", 2},   {"executor", 3},
@@ -34,7 +33,8 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"blur_pyramid", {"capture", "pass", "scene"}},
                                                                  {"effect", {"capture", "image_io", "scene"}},
                                                                  {"faults", {"judge"}},
-                                                                 {"reports", {"faults", "judge"}}};
+                                                                 {"reports", {"faults", "judge"}},
+                                                                 {"cli", {"sweep"}}};
 
 struct Library {
   const char* pattern;
@@ -46,7 +46,8 @@ const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"},
                                      {"^embree", "compositor"},
                                      {"^toml", "scene"},
                                      {"^CLI/", "cli"},
-                                     {"^xxhash", "base"}};
+                                     {"^xxhash", "base"},
+                                     {"^sqlite3", "sweep"}};
 
 struct Include {
   fs::path file;
