@@ -171,7 +171,8 @@ Made make_frames(const Cells& cells, const Cell& cell, const Store& store, const
   for (std::int64_t frame = made.begun_at; frame < cell.end; ++frame) {
     keeping.before(frame);
     opened.simulate(keeping.recorder());
-    if (frame < cell.first)
+    // Passes that bake something once run with the first picture, and are of frame 0.
+    if (frame < cell.first && frame > 0)
       opened.skip(keeping.recorder());
     else
       opened.render(keeping.recorder());

@@ -58,7 +58,7 @@ class Shift {
       return fail(cell, died, sentence);
     }
     Failure last;
-    for (std::int64_t t = 0; t < cells_.plan().tries; ++t) {
+    for (std::int64_t t = 0; t < cells_.plan().tries && last.code != 2; ++t) {
       const std::unique_ptr<Hidden> being_made = store_.begin(cell.id);
       const auto start = std::chrono::steady_clock::now();
       try {
@@ -68,12 +68,12 @@ class Shift {
         return made.was_first ? Outcome::made : Outcome::lost;
       } catch (const Error& e) {
         last = failure_of(e);
-        if (e.code() == ExitCode::usage) break;
       } catch (const std::bad_alloc&) {
         last = {5, "needs more memory than could be had"};
       } catch (const std::exception& e) {
         last = {5, e.what()};
       }
+      if (store_.has(cell.id)) return Outcome::lost;  // it is there: another process made it meanwhile
     }
     return fail(cell, last, sentence);
   }
