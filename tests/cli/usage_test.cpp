@@ -74,8 +74,9 @@ TEST_F(Usage, VersionNamesTheGoldenFile) {
 
 TEST_F(Usage, AVerbIsNeeded) {
   expect_refusal({}, 2, HasSubstr("required"));
-  expect_refusal({"lst"}, 2,
-                 "expected one of list, describe, run, hash, pack, diff, validate, mutate, sweep, selftest, found 'lst'; did you mean 'list'?");
+  expect_refusal(
+      {"lst"}, 2,
+      "expected one of list, describe, run, hash, pack, diff, validate, mutate, sweep, selftest, found 'lst'; did you mean 'list'?");
   expect_refusal({"Run", "corrected.toml"}, 2, EndsWith("found 'Run'; did you mean 'run'?"));
   expect_refusal({"zebra"}, 2, EndsWith("found 'zebra'"));
 }
