@@ -63,7 +63,7 @@ std::size_t all_deaths(const fs::path& out) {
   std::set<std::string> ids;
   for (fs::directory_iterator i(out / "tries", error), end; !error && i != end; i.increment(error))
     ids.insert(i->path().filename().string().substr(0, 32));
-  for (const std::string& id : ids) count += static_cast<std::size_t>(store.deaths(id));
+  for (const std::string& id : ids) count += static_cast<std::size_t>(store.tries(id).dead);
   return count;
 }
 

@@ -56,7 +56,7 @@ std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& pl
   for (const fs::path& film : entries(store.root() / "states"))
     if (!unfinished.contains(film.filename().string())) add(film, "states that no cell waits for");
   for (const fs::path& left : entries(store.root() / "tries"))
-    if (const std::string id = left.filename().string().substr(0, 32); !ids.contains(id) && store.deaths(id) > 0)
+    if (const std::string id = left.filename().string().substr(0, 32); !ids.contains(id) && store.tries(id).dead > 0)
       add(left, "left by a killed process");
   return found;
 }

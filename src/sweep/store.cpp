@@ -28,13 +28,16 @@ std::vector<fs::path> beginning_with(const fs::path& folder, const std::string& 
   return found;
 }
 
-/// Nobody holds its lock. Where the file system has no locks nobody is ever taken for dead.
-bool is_left(const fs::path& path) {
+/// Of a cell that is, or was, being made. Where the file system has no locks nobody knows.
+enum class Maker : std::uint8_t { dead, alive, unknown };
+Maker maker_of(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return false;
-  const bool is_free = lock_file(descriptor) == FileLock::mine && is_still(descriptor, path);
+  if (descriptor < 0) return Maker::unknown;  // it is done
+  const FileLock lock = lock_file(descriptor);
+  const bool is_there = is_still(descriptor, path);
   ::close(descriptor);
-  return is_free;
+  if (!is_there || lock == FileLock::impossible) return Maker::unknown;
+  return lock == FileLock::mine ? Maker::dead : Maker::alive;
 }
 
 }  // namespace
@@ -67,12 +70,16 @@ void Store::forget(const std::string& id) const {
   std::error_code ignored;
   fs::remove(root_ / "failed" / (id + ".json"), ignored);
   for (const fs::path& path : beginning_with(root_ / "tries", id))
-    if (is_left(path)) fs::remove(path, ignored);
+    if (maker_of(path) == Maker::dead) fs::remove(path, ignored);
 }
 
-int Store::deaths(const std::string& id) const {
-  int count = 0;
-  for (const fs::path& path : beginning_with(root_ / "tries", id)) count += is_left(path);
+Store::Tries Store::tries(const std::string& id) const {
+  Tries count;
+  for (const fs::path& path : beginning_with(root_ / "tries", id)) {
+    const Maker maker = maker_of(path);
+    count.dead += maker == Maker::dead;
+    count.alive += maker == Maker::alive;
+  }
   return count;
 }
 

@@ -38,8 +38,11 @@ class Store {
   /// Failure and deaths.
   void forget(const std::string& id) const;
 
-  /// The processes that died while they made the cell.
-  int deaths(const std::string& id) const;
+  /// The processes that died while they made the cell, and those that are making it now.
+  struct Tries {
+    int dead = 0, alive = 0;
+  };
+  Tries tries(const std::string& id) const;
   /// While it lives, the cell is being made; what is left of it after a kill is a death.
   std::unique_ptr<Hidden> begin(const std::string& id) const;
 

@@ -44,6 +44,9 @@ class Shift {
   Shift(const Cells& cells, const Store& store, const WorkOptions& options, const Maker& make)
       : cells_(cells), store_(store), options_(options), make_(make), log_(store.root() / "log") {}
 
+  /// Whether another process makes it just now, which may have begun with the same shard before.
+  bool is_elsewhere(const Cell& cell) const { return !store_.has(cell.id) && store_.tries(cell.id).alive > 0; }
+
   Outcome take(const Cell& cell, std::string& sentence) {
     if (store_.has(cell.id)) return Outcome::had;
     if (options_.again) store_.forget(cell.id);
@@ -52,7 +55,7 @@ class Shift {
       sentence = known->sentence;
       return known->code == 2 ? Outcome::refused : Outcome::failed;
     }
-    const int deaths = store_.deaths(cell.id);
+    const int deaths = store_.tries(cell.id).dead;
     if (deaths >= cells_.plan().tries) {
       const Failure died{0, fmt::format("{} processes died while they made this cell", deaths)};
       return fail(cell, died, sentence);
@@ -112,14 +115,19 @@ Counts work(const Cells& cells, const Store& store, const WorkOptions& options, 
   store.make();
   Shift shift(cells, store, options, make);
   Counts counts;
-  for (std::size_t i = 0; i < cells.all().size(); ++i) {
-    if (!options.shard.takes(static_cast<std::int64_t>(i))) continue;
-    const Cell& cell = cells.all()[i];
+  const auto take = [&](const Cell& cell) {
     std::string sentence;
     const Outcome outcome = shift.take(cell, sentence);
     ++counts.of[static_cast<int>(outcome)];
     tell(cell, outcome, sentence);
+  };
+  std::vector<const Cell*> later;
+  for (std::size_t i = 0; i < cells.all().size(); ++i) {
+    if (!options.shard.takes(static_cast<std::int64_t>(i))) continue;
+    const Cell& cell = cells.all()[i];
+    shift.is_elsewhere(cell) ? later.push_back(&cell) : take(cell);
   }
+  for (const Cell* cell : later) take(*cell);
   shift.sync_names();
   return counts;
 }

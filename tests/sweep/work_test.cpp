@@ -112,7 +112,7 @@ TEST_F(Work, ACellThatKillsItsProcessIsGivenUp) {
   std::string sentence;
   for (const int seed : {0, 1, 2, 4, 5}) EXPECT_EQ(state_of(cell(seed), store, sentence), State::done);
   EXPECT_TRUE(go([](int) {}, {{}, true}).is_whole());
-  EXPECT_EQ(store.deaths(cell(3).id), 0);
+  EXPECT_EQ(store.tries(cell(3).id).dead, 0);
 }
 
 // Another process may be first at any moment, also before this one has begun to write.
@@ -129,8 +129,12 @@ TEST_F(Work, WhatAnotherMadeMeanwhileIsNoFailure) {
 TEST_F(Work, WhoLivesHasNotDied) {
   store.make();
   const auto being_made = store.begin(cell(0).id);
-  EXPECT_EQ(store.deaths(cell(0).id), 0);
+  EXPECT_EQ(store.tries(cell(0).id).dead, 0);
+  EXPECT_EQ(store.tries(cell(0).id).alive, 1);
   EXPECT_TRUE(rubbish_of(store, {}, false).empty());
+  // Nor is there haste to make it here too.
+  go([](int) {});
+  EXPECT_THAT(calls, ElementsAre(1, 2, 3, 4, 5, 0));
 }
 
 TEST_F(Work, OfProcessesThatRaceOneGetsTheNameAndTheResultIsWhole) {
