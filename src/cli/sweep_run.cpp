@@ -35,7 +35,8 @@ int work(const SweepOptions& options) {
   cache::remember(remembered_bytes);
   image_io::codec();  // once, and before the first cell
   std::int64_t cells = 0;
-  for (std::size_t i = 0; i < open.cells.all().size(); ++i) cells += shard.takes(static_cast<std::int64_t>(i));
+  const auto all = static_cast<std::int64_t>(open.cells.all().size());
+  for (std::int64_t i = 0; i < all; ++i) cells += shard.takes(i, all);
   const auto start = std::chrono::steady_clock::now();
   sweep::Counts counts;
   {

@@ -8,10 +8,11 @@
 
 namespace rainref::sweep {
 
-/// Of `count` processes the one of this number, counted from 0: it takes each cell whose number leaves it as the remainder.
+/// Of `count` processes the one of this number, counted from 0. It takes neighbours, which have most in common: a street, a film's state.
 struct Shard {
   std::int64_t number = 0, count = 1;
-  bool takes(std::int64_t cell) const { return cell % count == number; }
+  /// Of so many cells; each is taken by one shard.
+  bool takes(std::int64_t cell, std::int64_t cells) const { return cell * count / cells == number; }
 };
 
 /// A variable of the environment; nothing where it is not set or empty.

@@ -123,7 +123,7 @@ Counts work(const Cells& cells, const Store& store, const WorkOptions& options, 
   };
   std::vector<const Cell*> later;
   for (std::size_t i = 0; i < cells.all().size(); ++i) {
-    if (!options.shard.takes(static_cast<std::int64_t>(i))) continue;
+    if (!options.shard.takes(static_cast<std::int64_t>(i), static_cast<std::int64_t>(cells.all().size()))) continue;
     const Cell& cell = cells.all()[i];
     shift.is_elsewhere(cell) ? later.push_back(&cell) : take(cell);
   }

@@ -24,10 +24,21 @@ std::string error(const std::string& t, const Variables& v = {}) {
 }
 
 TEST(Shard, TogetherTheyTakeEachCellOnce) {
-  for (std::int64_t cell = 0; cell < 20; ++cell) {
-    int taken = 0;
-    for (int k = 0; k < 7; ++k) taken += shard(std::to_string(k) + "/7").takes(cell);
-    EXPECT_EQ(taken, 1) << cell;
+  for (const std::int64_t cells : {1, 3, 7, 20, 1000000}) {
+    std::map<int, std::int64_t> sizes;
+    std::int64_t before = 0;
+    for (std::int64_t cell = 0; cell < cells; ++cell) {
+      int taken = 0;
+      for (int k = 0; k < 7; ++k) {
+        if (!Shard{k, 7}.takes(cell, cells)) continue;
+        ++taken;
+        ++sizes[k];
+        EXPECT_GE(k, before);  // neighbours stay together
+        before = k;
+      }
+      ASSERT_EQ(taken, 1) << cell << " of " << cells;
+    }
+    for (const auto& [k, size] : sizes) EXPECT_LE(std::abs(size - cells / 7.0), 1) << k;
   }
 }
 

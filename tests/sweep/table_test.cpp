@@ -59,7 +59,7 @@ TEST_F(Tables, AreTheSameWhoeverMadeTheCells) {
 }
 
 TEST_F(Tables, SayWhatIsNotDone) {
-  make(opened, store, {{0, 2}, false});
+  for (const std::int64_t k : {0, 2}) make(opened, store, {{k, 4}, false});
   store.record(opened.cells.all()[1].id, "x", {2, "a comma, a \"quote\""});
   put(store.cell(opened.cells.all()[2].id) / "hashes.txt", "changed");
   const Table table = read_table(opened.cells, store);
