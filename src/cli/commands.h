@@ -47,6 +47,7 @@ struct ValidateRequest {
   std::string profile = "vulkan";
   std::vector<std::string> only;  ///< these passes alone; empty: all
   bool partial = false;           ///< a pass without files of the port is not judged, and nothing of it is missing
+  bool no_causes = false;         ///< what went wrong is not looked for
   std::string exec;               ///< the port's own command, run first; "": `port` holds its outputs
   double timeout_s = 600;         ///< of each run of it
   int repeat = 1;                 ///< runs of it

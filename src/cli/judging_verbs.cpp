@@ -70,6 +70,7 @@ void add_validate_options(CLI::App& verb, ValidateFlags& f) {
   add_profile(verb, f.request.profile);
   add_only(verb, f.request.only, "Judge these passes alone");
   verb.add_flag("--partial", f.request.partial, "A port in progress: passes that it has no files of are NOT JUDGED, and not missing");
+  verb.add_flag("--no-causes", f.request.no_causes, "Do not look for what went wrong, which may take longer than judging");
   verb.add_flag("--allow-untested", f.request.allow_untested, "Forgive UNTESTED and NOT JUDGED, beside at least one PASS");
   add_threads(verb, f.threads);
   add_report_options(verb, f.request.reports);

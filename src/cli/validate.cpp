@@ -112,7 +112,7 @@ Judged judge_pack(const ValidateRequest& request, const Reports& reports, const 
     if (runs.empty()) return {judgement, {}};
   }
   options.executor = &executor;
-  options.explain = faults::diagnose;
+  if (!request.no_causes) options.explain = faults::diagnose;
   try {
     Progress progress("judging", static_cast<int>(std::count_if(pack.cases.begin(), pack.cases.end(),
                                                                 [&](const capture::PackCase& c) { return options.wants(c.pass); })));
@@ -211,7 +211,7 @@ Judged judge_shadow(const ValidateRequest& request, const Reports& reports, cons
   options.profile = request.profile;
   options.only = request.only;
   options.executor = &executor;
-  options.explain = faults::diagnose;
+  if (!request.no_causes) options.explain = faults::diagnose;
   Progress progress("judging", static_cast<int>(dumped.size()));
   options.progress = [&](int, int) { progress.advance(); };
   judge::PortJudgement judgement = judge::shadow(plan, request.shadow, dumped, options);
@@ -224,6 +224,7 @@ judge::PortJudgement validate(const ValidateRequest& request, Reports& reports) 
   const parallel::Executor executor(request.threads);
   Judged judged = request.shadow.empty() ? judge_pack(request, reports, executor) : judge_shadow(request, reports, executor);
   judged.judgement.command = request.command;
+  if (request.no_causes) judged.judgement.notes.push_back("causes of failures were not looked for (--no-causes)");
   reports.apply_baseline(judged.judgement);
   const std::string text = reports::report_text(judged.judgement);
   if (reports.has_standard_output())

@@ -153,6 +153,7 @@ std::vector<PassJudgement> judge_passes(const std::vector<PassTask>& tasks, cons
     PassJudgement& judged = all.emplace_back();
     judged.pass = task.pass->name;
     judged.formula = task.pass->formula;
+    judged.causes_sought = static_cast<bool>(task.runs.explain);
     judged.coverage = summary(coverage[k], task.pass->unexercised);
     choose_mode(judged, cases[k], votes[k], votes, options);
     conclude(judged);

@@ -146,6 +146,7 @@ struct PassJudgement {
   bool half_mode_voted = false;
   std::vector<CaseJudgement> cases;
   std::vector<Cause> causes;  ///< best first; empty: unknown
+  bool causes_sought = true;  ///< false: nobody asked for causes
   std::string null_port;      ///< a port that does nothing and passes, which makes the pass UNTESTED: "zeros"; "": none
   std::string where = "";     ///< Explanation::where
   PassCoverage coverage;

@@ -207,7 +207,7 @@ class Perturbed {
   /// The result of an operation of the pass text: as it is, or as the mistake at this place has it.
   template <class... Operands>
   static Perturbed met(Op op, const Perturbed& result, const Operands&... of) {
-    return behaviour().follows() ? follow(op, result, {of...}) : result;
+    return behaviour().follows() ? follow(op, result, {&of...}) : result;
   }
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
 
@@ -226,9 +226,9 @@ class Perturbed {
   static Perturbed loaded(Perturbed texel);
   static Perturbed fetched(float texel);
   void leaf(Op op, std::uint32_t shape);
-  static Perturbed follow(Op op, Perturbed result, std::initializer_list<Perturbed> of);
+  static Perturbed follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of);
   static bool follow(bool result, const Perturbed& a, const Perturbed& b);
-  static Perturbed with_fault(Op op, const Perturbed& result, const Perturbed* of, std::size_t count, PlaceFault fault);
+  static Perturbed with_fault(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of, PlaceFault fault);
   Perturbed opposite() const;
 
   // A product that the next addition may fuse: v = factor_ times other_, rounded.

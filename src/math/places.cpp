@@ -133,44 +133,46 @@ void Perturbed::leaf(Op op, std::uint32_t shape) {
   b.trace->nodes.push_back({op, v, shape_[0], b.trace->met[shape_[0]]++});
 }
 
-Perturbed Perturbed::follow(Op op, Perturbed r, std::initializer_list<Perturbed> of) {
+Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_list<const Perturbed*> of) {
+  Perturbed r = result;
   if (unseen > 0) return r;
   Behaviour& b = behaviour();
   // depth[k] sees k operations below this one.
   std::array<std::uint32_t, 4> depth;
   depth.fill(hashed(0, static_cast<std::uint32_t>(op) + 1));
-  for (const Perturbed& operand : of)
-    for (std::size_t k = 1; k < depth.size(); ++k) depth[k] = hashed(depth[k], operand.shape_[k - 1]);
+  for (const Perturbed* operand : of)
+    for (std::size_t k = 1; k < depth.size(); ++k) depth[k] = hashed(depth[k], operand->shape_[k - 1]);
   const std::uint32_t shape = depth.back();
   for (Place& place : b.places) {
     if (place.fault == PlaceFault::none || place.shape != shape) continue;
     const std::int32_t occurrence = place.seen++;
-    if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of.begin(), of.size(), place.fault);
+    if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of, place.fault);
   }
   if (b.trace && rewriting.kind != RewriteKind::none && rewriting.shape == shape &&
       (rewriting.occurrence < 0 || rewriting.occurrence == b.trace->met[shape])) {
     std::array<Perturbed, 4> operands;
     std::array<std::int32_t, 4> nodes{-1, -1, -1, -1};
-    std::copy_n(of.begin(), of.size(), operands.begin());
-    std::transform(of.begin(), of.end(), nodes.begin(), [](const Perturbed& operand) { return operand.node_; });
+    std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
+    std::transform(of.begin(), of.end(), nodes.begin(), [](const Perturbed* operand) { return operand->node_; });
     r = rewritten(op, r, operands, nodes, *b.trace);
   }
   std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
   if (!b.trace) return r;
   Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
-  std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed& operand) { return operand.node_; });
+  std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
   r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());
   b.trace->nodes.push_back(node);
   return r;
 }
 bool Perturbed::follow(bool result, const Perturbed& a, const Perturbed& b) {
-  return follow(Op::comparison, of(result ? 1.0f : 0.0f), {a, b}).v != 0;
+  return follow(Op::comparison, of(result ? 1.0f : 0.0f), {&a, &b}).v != 0;
 }
 
-Perturbed Perturbed::with_fault(Op op, const Perturbed& r, const Perturbed* of_, std::size_t count, PlaceFault fault) {
+Perturbed Perturbed::with_fault(Op op, const Perturbed& r, std::initializer_list<const Perturbed*> operands, PlaceFault fault) {
   const Unseen parts;
   const Perturbed zero = of(0.0f), one = of(1.0f), half = of(0.5f);
-  const Perturbed a = of_[0], b = count > 1 ? of_[1] : a, c = count > 2 ? of_[2] : a;
+  const auto operand = [&](std::size_t k) { return *operands.begin()[operands.size() > k ? k : 0]; };
+  const Perturbed a = operand(0), b = operand(1), c = operand(2);
   const bool minus = op == Op::difference;
   switch (fault) {
     case PlaceFault::none:

@@ -211,7 +211,7 @@ std::string cause_text(const Cause& c) {
 bool is_broken(const PassJudgement& p) {
   return std::any_of(p.cases.begin(), p.cases.end(), [](const CaseJudgement& c) { return c.broken; });
 }
-bool has_unknown_cause(const PassJudgement& p) { return p.causes.empty() && figures_of(p).outside > 0 && !is_broken(p); }
+bool has_unknown_cause(const PassJudgement& p) { return p.causes_sought && p.causes.empty() && figures_of(p).outside > 0 && !is_broken(p); }
 
 std::string half_text(const PassJudgement& p) {
   if (!p.half_mode_voted) return "";

@@ -44,7 +44,7 @@ std::string takes_html(const PassJudgement& p, const PortJudgement& j, const Pag
 std::string causes_html(const PassJudgement& p) {
   if (figures_of(p).outside == 0) return "";
   std::string out = p.where.empty() ? "" : fmt::format("<p class=\"cause\"><b>Where:</b> {}.</p>\n", marked_up(p.where));
-  if (p.causes.empty() && is_broken(p)) return out;
+  if (p.causes.empty() && (is_broken(p) || !p.causes_sought)) return out;
   if (p.causes.empty()) return out + "<p class=\"cause\"><b>Cause unknown:</b> no single mistake that was tried gives these bits.</p>\n";
   out += fmt::format("<h3>{}</h3>\n<ol class=\"causes\">\n", p.causes[0].is_likely ? "Likely cause" : "What the cause may be");
   for (const Cause& c : p.causes) {

@@ -49,6 +49,17 @@ TEST_F(ValidateReports, AllReportsOfAFailingPort) {
   EXPECT_EQ(folder.names().size(), before.size() + 3);  // no temporary stays
 }
 
+// Nobody looked for a cause: nothing says that it is unknown.
+TEST_F(ValidateReports, WithoutCausesTheVerdictIsTheSame) {
+  const Outcome o = validate("bad", {"--no-causes", "--json", "r.json", "--junit", "r.xml", "--html", "r.html"});
+  EXPECT_EQ(o.code, 1) << o.err;
+  EXPECT_THAT(o.out, AllOf(HasSubstr("FAIL  shade"), HasSubstr("note: causes of failures were not looked for (--no-causes)"),
+                           HasSubstr("FAIL: bad against pack, profile vulkan")));
+  EXPECT_EQ(nlohmann::json::parse(contents(folder / "r.json"))["first_bad_pass"], "shade");
+  for (const std::string& text : {o.out, contents(folder / "r.xml"), contents(folder / "r.html")})
+    EXPECT_THAT(text, AllOf(Not(HasSubstr("likely cause")), Not(HasSubstr("ause unknown")), Not(HasSubstr("cause is unknown"))));
+}
+
 // As users of such tools expect: a program reads the report from a pipe, and people see the text beside it.
 TEST_F(ValidateReports, AHyphenIsStandardOutput) {
   const Outcome o = validate("bad", {"--json", "-", "--junit", "r.xml"});
