@@ -30,6 +30,11 @@ struct Described {
   }
 };
 
+/// What a verb such as `sweep` does: verbs of its own.
+std::vector<const CLI::App*> actions_of(const CLI::App& verb) {
+  return verb.get_subcommands([](const CLI::App*) { return true; });
+}
+
 std::vector<Described> options_of(const CLI::App& verb) {
   std::vector<Described> all;
   for (const CLI::Option* o : verb.get_options()) {
@@ -43,6 +48,24 @@ std::vector<Described> options_of(const CLI::App& verb) {
     d.may_repeat = !d.is_positional && o->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw && o->get_items_expected_max() > 1;
     all.push_back(std::move(d));
   }
+  std::stable_partition(all.begin(), all.end(), [](const Described& d) { return d.is_positional; });
+  return all;
+}
+
+/// With those of its actions, each name once, and the actions as words.
+std::vector<Described> options_and_actions_of(const CLI::App& verb) {
+  std::vector<Described> all = options_of(verb);
+  std::vector<std::string> names;
+  std::vector<Described> more;
+  for (const CLI::App* action : actions_of(verb)) {
+    names.push_back(action->get_name());
+    for (Described& d : options_of(*action))
+      if (const auto is_it = [&](const Described& known) { return known.names == d.names; };
+          std::none_of(all.begin(), all.end(), is_it) && std::none_of(more.begin(), more.end(), is_it))
+        more.push_back(std::move(d));
+  }
+  if (!names.empty()) all.insert(all.begin(), {{"ACTION"}, fmt::format("{}", fmt::join(names, "|")), "What to do", true, false});
+  all.insert(all.end(), more.begin(), more.end());
   std::stable_partition(all.begin(), all.end(), [](const Described& d) { return d.is_positional; });
   return all;
 }
@@ -104,6 +127,9 @@ std::string man_page() {
     const CLI::App& v = *verb.parser;
     out += fmt::format(".SS {}\n{}.\n{}{}", roff(v.get_name()), roff(v.get_description()), man_options(options_of(v)),
                        man_examples(v.get_footer()));
+    for (const CLI::App* action : actions_of(v))
+      out += fmt::format(".PP\n\\fB{} {}\\fR: {}.\n{}{}", roff(v.get_name()), roff(action->get_name()), roff(action->get_description()),
+                         man_options(options_of(*action)), man_examples(action->get_footer()));
   }
   out +=
       ".SH \"EXIT STATUS\"\n0: passed. 1: a check failed, or something was not judged. 2: command line, scene, or an image that cannot be "
@@ -127,7 +153,7 @@ std::string bash_completion() {
     std::vector<std::string> names, positional;
     bool has_files = false;
     const std::string v = verb.parser->get_name();
-    for (const Described& d : options_of(*verb.parser)) {
+    for (const Described& d : options_and_actions_of(*verb.parser)) {
       if (d.is_positional) {
         const auto words = d.words();
         positional.insert(positional.end(), words.begin(), words.end());
@@ -182,7 +208,7 @@ std::string zsh_completion() {
     const CLI::App& v = *verb.parser;
     names += fmt::format("    {}\n", quoted(v.get_name() + ":" + inside(v.get_description())));
     cases += fmt::format("    ({})\n      _arguments", v.get_name());
-    for (const Described& d : options_of(v)) {
+    for (const Described& d : options_and_actions_of(v)) {
       if (d.is_positional) {
         cases += " \\\n        " + quoted(fmt::format(":{}:{}", d.names[0], action(d)));
         continue;

@@ -11,13 +11,16 @@ namespace {
 using testing::HasSubstr;
 using testing::UnorderedElementsAreArray;
 
-constexpr std::array verbs{"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "selftest"};
+constexpr std::array verbs{"list", "describe", "run", "hash", "pack", "diff", "validate", "mutate", "sweep", "selftest"};
+constexpr std::array sweep_actions{"plan", "run", "status", "collect", "gc", "script"};
 
 class Manual : public CommandLine {
  protected:
   /// The options in a verb's help, "-o" and "--output".
   std::set<std::string> options(const std::string& verb) const {
-    const std::string help = rainref({verb, "--help"}).out;
+    std::string help = rainref({verb, "--help"}).out;
+    if (verb == "sweep")
+      for (const char* action : sweep_actions) help += rainref({verb, action, "--help"}).out;
     std::set<std::string> found;
     std::istringstream lines(help);
     const std::regex names("^  (-[^ ]+)"), one("-{1,2}[A-Za-z][a-z-]*");
@@ -72,6 +75,7 @@ TEST_F(Manual, HasEveryOptionOfEveryVerb) {
 TEST_F(Manual, ShellsCompleteVerbsWordsScenesAndFiles) {
   EXPECT_EQ(completed({"va"}), std::vector<std::string>{"validate"});
   EXPECT_EQ(completed({"help", "mu"}), std::vector<std::string>{"mutate"});
+  EXPECT_EQ(completed({"sweep", "pl"}), std::vector<std::string>{"plan"});
   EXPECT_EQ(completed({"describe", "rain"}), std::vector<std::string>{"rainy_glass"});
   EXPECT_EQ(completed({"run", "x.toml", "--image", "p"}), std::vector<std::string>{"png"});
   EXPECT_EQ(completed({"validate", "--profile", "w"}), std::vector<std::string>{"webgpu"});
