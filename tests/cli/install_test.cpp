@@ -93,7 +93,7 @@ int main() try {
 )");
     put(folder / "broken.exr", std::string("\x76\x2f\x31\x01\2\0\0\0channels", 16));
     output(fmt::format(RAINREF_CMAKE " -S consumer -B built -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                                     " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
+                                     " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
                        where));
     output(RAINREF_CMAKE " --build built");
     EXPECT_THAT(output("built/consumer"), AllOf(HasSubstr("3 x 2\n2 'broken.exr': "), Not(HasSubstr("cannot load"))));
@@ -154,7 +154,7 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   installed();
   const std::string by_cmake =
       fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/examples -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                                " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' '-DCMAKE_PREFIX_PATH={}'",
+                                " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' '-DCMAKE_PREFIX_PATH={}'",
                   (folder / "moved").string());
   output(by_cmake);
   output(RAINREF_CMAKE " --build outside");
