@@ -121,14 +121,14 @@ struct Lanes {
   /// Of whole numbers and what lies between, cut; |a| < 2^31, which every caller sees to. Beyond it targets differ.
   friend HWY_INLINE HWY_ATTR Int to_int(Lanes a) {
     // hn::ConvertTo saturates, which costs four more instructions than the conversion.
-#if HWY_TARGET == HWY_SCALAR || !HWY_ARCH_X86
-    return {hn::ConvertTo(DI(), a.v)};
-#elif HWY_TARGET <= HWY_AVX3
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     return {hn::Vec<DI>{_mm512_cvttps_epi32(a.v.raw)}};
-#elif HWY_TARGET <= HWY_AVX2
+#elif HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
     return {hn::Vec<DI>{_mm256_cvttps_epi32(a.v.raw)}};
-#else
+#elif HWY_ARCH_X86 && HWY_TARGET <= HWY_SSSE3
     return {hn::Vec<DI>{_mm_cvttps_epi32(a.v.raw)}};
+#else
+    return {hn::ConvertTo(DI(), a.v)};
 #endif
   }
   friend HWY_INLINE HWY_ATTR Lanes to_number(Int a) { return hn::ConvertTo(D(), a.i); }
