@@ -36,9 +36,9 @@ using Maker = std::function<Made(const Cell&, Names&)>;
 /// Hears of each cell of the shard: what became of it, and a sentence where it has none.
 using Listener = std::function<void(const Cell&, Outcome, const std::string& sentence)>;
 
-/// Takes the shard's cells in order, last those that another process is making meanwhile. What a scene refuses is recorded at once and never tried again; what ends with 4 or 5 is tried
-/// `plan.tries` times, a cell that killed so many processes no more. Throws Error(io) where the store itself cannot be written: nothing
-/// is lost, and the next run goes on there.
+/// Takes the shard's cells in order, last those that another process is making meanwhile. What a scene refuses is recorded at once and
+/// never tried again; what ends with 4 or 5 is tried `plan.tries` times, a cell that killed so many processes no more. Throws Error(io)
+/// where the store itself cannot be written: nothing is lost, and the next run goes on there.
 Counts work(const Cells& cells, const Store& store, const WorkOptions& options, const Maker& make, const Listener& tell);
 
 }  // namespace rainref::sweep
