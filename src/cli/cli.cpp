@@ -73,21 +73,8 @@ std::vector<const char*> without_help_verb(int argc, const char* const* argv) {
 }
 
 int parse_and_run(int argc, const char* const* argv) {
-  CLI::App app{"rainref: the deterministic CPU reference for real-time rain"};
-  app.set_version_flag("--version", fmt::format("rainref {}, golden {} {}", version(), golden_generation, golden_hash()));
-  app.require_subcommand(1);
-  app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
-
-  const Verb verbs[] = {list_verb(app),
-                        describe_verb(app),
-                        run_verb(app),
-                        hash_verb(app),
-                        pack_verb(app),
-                        diff_verb(app),
-                        validate_verb(app, command_text(argc, argv)),
-                        mutate_verb(app),
-                        sweep_verb(app),
-                        selftest_verb(app)};
+  CLI::App app;
+  const std::vector<Verb> verbs = add_verbs(app, command_text(argc, argv));
   const std::vector<const char*> words = without_help_verb(argc, argv);
   refuse_unknown(app, static_cast<int>(words.size()), words.data());
   try {
@@ -102,6 +89,17 @@ int parse_and_run(int argc, const char* const* argv) {
 }
 
 }  // namespace
+
+std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
+  app.name("rainref");
+  app.description("rainref: the deterministic CPU reference for real-time rain");
+  app.set_version_flag("--version", fmt::format("rainref {}, golden {} {}", version(), golden_generation, golden_hash()),
+                       "Print the version, and which bits this build gives");
+  app.require_subcommand(1);
+  app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
+  return {list_verb(app), describe_verb(app),          run_verb(app),    hash_verb(app),  pack_verb(app),
+          diff_verb(app), validate_verb(app, command), mutate_verb(app), sweep_verb(app), selftest_verb(app)};
+}
 
 int main(int argc, const char* const* argv) {
   undo_when_interrupted();  // first: threads that come later must leave signals to it

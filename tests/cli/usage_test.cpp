@@ -54,7 +54,7 @@ TEST_F(Usage, HelpSaysWhatAValueIs) {
 
 TEST_F(Usage, HelpNamesTheProfilesThatJudge) {
   for (const char* verb : {"validate", "mutate"})
-    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda, d3d, ieee, metal, vulkan, webgpu (default: vulkan)"));
+    EXPECT_THAT(rainref({verb, "--help"}).out, HasSubstr("cuda|d3d|ieee|metal|vulkan|webgpu"));
 }
 
 TEST_F(Usage, VersionIsOneLine) {

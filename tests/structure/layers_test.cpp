@@ -14,17 +14,18 @@ namespace fs = std::filesystem;
 const fs::path root = RAINREF_SOURCE_DIR;
 
 // Rooms and their floors; ARCHITECTURE.md has the same table.
-const std::map<std::string, int> floors{
-    {"base", 0},         {"math", 1},         {"image", 2},  {"parallel", 3},   {"random", 3},      {"cache", 3},        {"state", 3},
-    {"scene", 4},        {"capture", 4},      {"pass", 4},   {"image_io", 4},   {"effect", 4},      {"rain", 4},         {"drops", 4},
-    {"blur_pyramid", 4}, {"night_street", 4}, {"puddle", 5}, {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5}, {"rainy_glass", 5},
-    {"compositor", 5},   {"registry", 6},     {"truth", 6},  {"port_dump", 6},  {"simulation", 7},  {"judge", 7},        {"faults", 7},
-    {"reports", 7},      {"sweep", 8},        {"cli", 8},    {"c_library", 8}};
+const std::map<std::string, int> floors{{"base", 0},         {"math", 1},       {"image", 2},      {"parallel", 3},    {"random", 3},
+                                        {"cache", 3},        {"state", 3},      {"scene", 4},      {"capture", 4},     {"pass", 4},
+                                        {"image_io", 4},     {"effect", 4},     {"rain", 4},       {"drops", 4},       {"blur_pyramid", 4},
+                                        {"night_street", 4}, {"puddle", 5},     {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5},
+                                        {"rainy_glass", 5},  {"compositor", 5}, {"registry", 6},   {"truth", 6},       {"port_dump", 6},
+                                        {"simulation", 7},   {"judge", 7},      {"faults", 7},     {"reports", 7},     {"cli", 8},
+                                        {"c_library", 8},    {"judging", 7},    {"sweep", 8}};
 // Public headers, by the floor that implements them.
 const std::map<std::string, int> public_floors{{"version", 0},      {"error", 0},       {"variant", 0},    {"storage", 1},
                                                {"image", 2},        {"texture", 2},     {"recorder", 2},   {"executor", 3},
                                                {"scene_text", 4},   {"puddle", 5},      {"windshield", 5}, {"edge_splash", 5},
-                                               {"screen_drops", 5}, {"rainy_glass", 5}, {"simulation", 7}};
+                                               {"screen_drops", 5}, {"rainy_glass", 5}, {"simulation", 7}, {"judging", 7}};
 // A room may include these of its own floor; every other pair of rooms on one floor keeps apart.
 const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"scene"}},
                                                                  {"night_street", {"scene"}},
@@ -34,6 +35,7 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"effect", {"capture", "image_io", "scene"}},
                                                                  {"faults", {"judge"}},
                                                                  {"reports", {"faults", "judge"}},
+                                                                 {"judging", {"faults", "judge", "reports", "simulation"}},
                                                                  {"cli", {"sweep"}}};
 
 struct Library {

@@ -10,7 +10,7 @@
 namespace rainref::sweep {
 namespace {
 
-constexpr int frames = 14;
+constexpr int frames = 8;
 
 /// Pictures by name, and all hash lines.
 struct Results {
@@ -79,23 +79,23 @@ TEST_P(Film, OfChunksIsThatOfOneRun) {
   EXPECT_EQ(expected.scene_hash, hashes.scene_hash().text());
 
   // In order: each chunk begins with the state that the one before it left.
-  const OpenedPlan chunks = plan("chunk=5\n");
+  const OpenedPlan chunks = plan("chunk=3\n");
   ASSERT_EQ(chunks.cells.all().size(), 3u);
   const Store in_order(folder / "in_order");
   for (const Cell& cell : chunks.cells.all()) EXPECT_EQ(make(chunks, in_order, cell).begun_at, cell.first);
   EXPECT_EQ(results(chunks, in_order), expected);
   // Backwards: from the beginning, but for what states lie there.
   const Store backwards(folder / "backwards");
-  const OpenedPlan with_states = plan("chunk=5\nstate_every=3\n");
+  const OpenedPlan with_states = plan("chunk=3\nstate_every=2\n");
   std::vector<std::int64_t> begun;
   for (auto cell = with_states.cells.all().rbegin(); cell != with_states.cells.all().rend(); ++cell)
     begun.push_back(make(with_states, backwards, *cell).begun_at);
-  EXPECT_EQ(begun, (std::vector<std::int64_t>{0, 3, 0}));
+  EXPECT_EQ(begun, (std::vector<std::int64_t>{0, 2, 0}));
   EXPECT_EQ(results(with_states, backwards), expected);
   // A state that is damaged is passed over.
   const Store damaged(folder / "damaged");
   make(chunks, damaged, chunks.cells.all()[0]);
-  put(damaged.state(chunks.cells.all()[0].film, 5), "rainref-state");
+  put(damaged.state(chunks.cells.all()[0].film, 3), "rainref-state");
   EXPECT_EQ(make(chunks, damaged, chunks.cells.all()[1]).begun_at, 0);
   make(chunks, damaged, chunks.cells.all()[2]);
   EXPECT_EQ(results(chunks, damaged), expected);
