@@ -57,7 +57,7 @@ std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs
     if (i == 0) fps = open.cells.config(cells[0]).real("run.fps");
     for (const sweep::KeptFile& f : table.rows[i].files) {
       if (!f.path.starts_with("picture.") || !f.path.ends_with(".png")) continue;
-      list += fmt::format("file '{}'\nduration {:.9f}\n", (open.store.cell(cells[i].id) / f.path).string(), 1 / fps);
+      list += (open.store.cell(cells[i].id) / f.path).string() + "\n";
       ++pictures;
     }
   }
@@ -66,8 +66,9 @@ std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs
   const fs::path made = folder / ".film.mp4";
   const CommandEnd end = run_command(
       fmt::format(
-          "command -v ffmpeg >/dev/null || {{ echo ffmpeg is not installed; exit 1; }}; ffmpeg -loglevel error -y -f concat -safe 0 -i {} "
-          "-vf fps={},pad='ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p -threads 1 -fflags +bitexact -flags:v +bitexact {}",
+          "command -v ffmpeg >/dev/null || {{ echo ffmpeg is not installed; exit 1; }}; xargs -d '\\n' cat <{} | ffmpeg -loglevel error -y "
+          "-f image2pipe -c:v png -framerate {} -i - -vf pad='ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p -threads 1 -fflags +bitexact "
+          "-flags:v +bitexact {}",
           quoted(folder / "film.txt"), fps, quoted(made)),
       std::chrono::hours(24));
   if (!end.failure.empty()) return fmt::format("no film: {}", end.last_lines.empty() ? end.failure : end.last_lines.back());

@@ -192,6 +192,25 @@ TEST_F(Sweep, PacksAreMadeAndJudged) {
   EXPECT_THAT(o.out, HasSubstr("1 made"));
 }
 
+// An ffmpeg that keeps what it is given: the pictures of all chunks, in order.
+TEST_F(Sweep, AFilmIsMadeOfAllPicturesInOrder) {
+  put(folder / "plan.toml", "verb='run'\nscene='published.toml'\nframes=7\nchunk=3\nkeep=['picture@all']\n");
+  ASSERT_EQ(sweep({"run", "plan.toml"}).code, 0);
+  ASSERT_EQ(rainref({"run", "published.toml", "--frames", "7", "--every", "1", "-o", "one"}).code, 0);
+  fs::create_directory(folder / "bin");
+  put(folder / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\ncat >\"$last\"\n");
+  fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
+  const Outcome o = sweep({"collect", "plan.toml", "--film"});
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(o.code, 0);
+  EXPECT_THAT(o.out, HasSubstr(", film.mp4 of 7 pictures in "));
+  std::string all;
+  for (int frame = 0; frame < 7; ++frame) all += contents(folder / fmt::format("one/puddle.{:04}.png", frame));
+  EXPECT_TRUE(contents(folder / "out/plans/plan/film.mp4") == all);
+}
+
 TEST_F(Sweep, ScriptsAndShards) {
   EXPECT_THAT(sweep({"script", "plan.toml", "--engine", "slurm", "--shards", "4"}).out,
               AllOf(HasSubstr("--array=0-3"), HasSubstr(RAINREF_PROGRAM)));
