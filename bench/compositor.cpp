@@ -13,6 +13,7 @@
 #include "base/hash.h"
 #include "compositor/native.h"
 #include "compositor/world.h"
+#include "goes.h"
 #include "stream.h"
 #include "thread_counts.h"
 
@@ -143,6 +144,13 @@ void compare(benchmark::State& state, const std::string& set, int threads, bool 
   state.counters["native_Mray/s"] = n / median(theirs);
   state.counters["update_ms"] = 1e3 * median(our_update);
   state.counters["native_update_ms"] = 1e3 * median(their_update);
+  const std::pair<const char*, const std::vector<double>&> times[]{{"", ours}, {"native_", theirs}};
+  for (const auto& [whose, seconds] : times) {
+    state.counters[fmt::format("{}q1_ms", whose)] = 1e3 * bench::quantile(seconds, 0.25);
+    state.counters[fmt::format("{}median_ms", whose)] = 1e3 * bench::quantile(seconds, 0.5);
+    state.counters[fmt::format("{}q3_ms", whose)] = 1e3 * bench::quantile(seconds, 0.75);
+  }
+  state.counters["goes"] = static_cast<double>(ours.size());
   state.counters["ratio"] = median(ratio);
   state.counters["ratio_with_update"] = median(ratio_with_update);
   Hasher hasher;

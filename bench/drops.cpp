@@ -12,6 +12,7 @@
 #include "base/hash.h"
 #include "drops/host.h"
 #include "drops/passes.h"
+#include "goes.h"
 #include "random/counter.h"
 #include "stream.h"
 #include "thread_counts.h"
@@ -87,12 +88,11 @@ void integrate(benchmark::State& state, bool corrected, std::int64_t count, int 
   const double bound = stream_seconds(executor, drops);
   for (int n = 0; n < 8; ++n) step();
   const std::string hash = hash_of(drops, executor);
-  double best = 1e9;
+  bench::Goes goes(state);
   for (auto _ : state) {
-    const double seconds = bench::seconds_of(step);
-    best = std::min(best, seconds);
-    state.SetIterationTime(seconds);
+    goes.add(bench::seconds_of(step));
   }
+  const double best = goes.best();
   state.counters["Mdrop/s"] = static_cast<double>(count) * 1e-6 / best;
   state.counters["stream_%"] = 100 * bound / best;
   state.SetLabel(hash);
@@ -111,13 +111,12 @@ void merge(benchmark::State& state, bool settled, std::int64_t count, int thread
   drops.gather(start, executor);
   merger.merge(executor, drops, uniforms);
   const std::string hash = hash_of(drops, executor);
-  double best = 1e9;
+  bench::Goes goes(state);
   for (auto _ : state) {
     drops.assign(start);
-    const double seconds = bench::seconds_of([&] { merger.merge(executor, drops, uniforms); });
-    best = std::min(best, seconds);
-    state.SetIterationTime(seconds);
+    goes.add(bench::seconds_of([&] { merger.merge(executor, drops, uniforms); }));
   }
+  const double best = goes.best();
   state.counters["Mdrop/s"] = static_cast<double>(start.size()) * 1e-6 / best;
   state.SetLabel(hash);
 }

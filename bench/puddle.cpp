@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "capture/hashing.h"
+#include "goes.h"
 #include "pass_row.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
@@ -29,7 +30,7 @@ Settings settings(const std::string& variant, const std::vector<std::string>& va
   return settings_from(scene::parse(fmt::format("effect = 'puddle'\nvariant = '{}'\nseed = 7\n", variant), "bench", values, table));
 }
 
-// Rate and share of the bound from the fastest go, because other work on the machine only ever slows a go down.
+// Rate and share of the bound from the fastest go.
 void report(benchmark::State& state, double best, double bound, double items, const char* unit, const std::string& hashes) {
   state.counters[unit] = items * 1e-9 / best;
   state.counters["stream_%"] = 100 * bound / best;
@@ -96,16 +97,14 @@ void wave_step(benchmark::State& state, const std::string& variant, const std::s
   const std::string hash = water.hash();
   const int bytes = storage == "rg16f" ? 2 : 4;
   const double bound = bench::stream_seconds(executor, side, side, wave_tile_rows, {bytes, bytes});
-  double best = 1e9;
+  bench::Goes goes(state);
   int made = 8;
   for (auto _ : state) {
     if (made % 64 < steps) water.reset();
     made += steps;
-    const double seconds = bench::seconds_of([&] { water.step(executor, steps); });
-    best = std::min(best, seconds);
-    state.SetIterationTime(seconds);
+    goes.add(bench::seconds_of([&] { water.step(executor, steps); }));
   }
-  report(state, best, steps * bound, static_cast<double>(side) * side * steps, "Gcell/s", hash);
+  report(state, goes.best(), steps * bound, static_cast<double>(side) * side * steps, "Gcell/s", hash);
 }
 
 void picture(benchmark::State& state, const std::string& variant, const std::string& pass, bench::Traffic traffic, int threads) {

@@ -11,6 +11,7 @@
 #include "capture/hashing.h"
 #include "drops/splat.h"
 #include "drops/splat_scalar.h"
+#include "goes.h"
 #include "math/half.h"
 #include "pass/run.h"
 #include "stream.h"
@@ -102,12 +103,9 @@ void splat(benchmark::State& state, bool corrected, std::int64_t count, int thre
   const double one_thread = std::min(one_thread_in({side, 1}), one_thread_in(drops::splat_bands(side)));
   // The scalar evaluation is the definition, and what a straightforward program does.
   const double plain = half ? best_of(count > 100000 ? 1 : 3, [&] { naive(u, all, other); }) : 0;
-  double best = 1e9;
-  for (auto _ : state) {
-    const double seconds = bench::seconds_of(run);
-    best = std::min(best, seconds);
-    state.SetIterationTime(seconds);
-  }
+  bench::Goes timed(state);
+  for (auto _ : state) timed.add(bench::seconds_of(run));
+  const double best = timed.best();
   state.counters["Mdrop/s"] = static_cast<double>(count) * 1e-6 / best;
   state.counters["x_serial"] = one_thread / best;
   if (half) state.counters["x_naive"] = plain / best;
@@ -135,12 +133,9 @@ Image filled(Format format, double scale) {
 void timed(benchmark::State& state, const parallel::Executor& executor, bench::Traffic traffic, const Image& out, const auto& run) {
   run();
   const double bound = bench::stream_seconds(executor, out.width(), out.height(), tile_rows, traffic);
-  double best = 1e9;
-  for (auto _ : state) {
-    const double seconds = bench::seconds_of(run);
-    best = std::min(best, seconds);
-    state.SetIterationTime(seconds);
-  }
+  bench::Goes timed(state);
+  for (auto _ : state) timed.add(bench::seconds_of(run));
+  const double best = timed.best();
   state.counters["Mpix/s"] = 1e-6 * out.width() * out.height() / best;
   state.counters["stream_%"] = 100 * bound / best;
   state.SetLabel(hash(out));

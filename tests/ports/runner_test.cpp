@@ -39,19 +39,42 @@ TEST(PortRunner, HelpSaysEveryOptionAndExitCode) {
   for (const char* option : {"--help", "-h", "--pack x --help"}) {
     const Outcome help = call(RAINREF_PORT_RUNNER " " + std::string(option));
     EXPECT_EQ(help.code, 0) << help.text;
-    for (const char* word : {"usage: port_runner", "--pack", "--spirv", "--out", "--only", "--device", "--spec", "--repeat", "--list",
-                             "Exit codes: 0 every case ran"})
+    for (const char* word : {"usage: port_runner", "--pack", "--spirv", "--out", "--only", "--device", "--spec", "--repeat", "--time",
+                             "--list", "Exit codes: 0 every case ran"})
       EXPECT_THAT(help.text, HasSubstr(word));
   }
 }
 TEST(PortRunner, WrongOptionsExitWithTheCodeOfUsage) {
   const TemporaryFolder folder;
   const std::string pack = pack_of("corrected");
-  for (const char* wrong : {"--repeat 0", "--repeat x", "--spec 0", "--device 99", "--only sheen", "--sped 0=1", "--spec"})
+  for (const char* wrong :
+       {"--time 0", "--time x", "--repeat 0", "--repeat x", "--spec 0", "--device 99", "--only sheen", "--sped 0=1", "--spec"})
     EXPECT_EQ(run_port(pack, folder.path(), wrong).code, 2) << wrong;
   EXPECT_EQ(call(RAINREF_PORT_RUNNER).code, 2);
   EXPECT_THAT(run_port(pack, folder.path(), "--repaet 3").text, HasSubstr("--repaet: unknown; did you mean '--repeat'?\nusage: "));
   EXPECT_THAT(run_port(pack, folder.path(), "--only shad").text, HasSubstr("; did you mean 'shade'?"));
+}
+
+TEST(PortRunner, TimesCasesOfImagesAndLeavesTheirOutputsAlone) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_port(pack_of("corrected"), folder / "plain", "--only display").code, 0);
+  const Outcome o = run_port(pack_of("corrected"), folder / "timed", "--only display --time 1");
+  ASSERT_EQ(o.code, 0) << o.text;
+  EXPECT_FALSE(fs::exists(folder / "plain/times.json"));
+  const json times = json::parse(contents(folder / "timed/times.json"));
+  ASSERT_FALSE(times.empty());
+  for (const json& t : times) {
+    EXPECT_EQ(t.at("formula"), "puddle.display.corrected/1");
+    EXPECT_EQ(t.at("width"), 35);
+    EXPECT_EQ(t.at("height"), 21);
+    EXPECT_GE(t.at("seconds").size(), 3u);
+    for (const json& s : t.at("seconds")) EXPECT_GT(s.get<double>(), 0);
+    const std::string out = t.at("case").get<std::string>() + "/out.picture.npy";
+    EXPECT_EQ(contents(folder / "timed" / out), contents(folder / "plain" / out)) << out;
+  }
+  // A list would grow from one dispatch to the next.
+  ASSERT_EQ(run_port(pack_of("corrected"), folder / "list", "--only raindrops --time 1").code, 0);
+  EXPECT_EQ(json::parse(contents(folder / "list/times.json")), json::array());
 }
 
 // ---- bindings.json -------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #include "ports/runner/dispatch.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 
 namespace port_runner {
@@ -42,6 +43,7 @@ class Run {
       : device_(device), pack_(pack), case_(of), program_(program) {
     VkCommandPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = device.queue_family();
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
     cleanup_.add([this] { vkDestroyCommandPool(device_.handle(), pool_, nullptr); });
@@ -51,20 +53,46 @@ class Run {
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
+    begin_commands();
+  }
+  std::vector<Array> run(const Constants& constants) {
+    prepare(constants);
+    record_dispatch();
+    record_read_back();
+    submit();
+    return read_outputs();
+  }
+  std::vector<double> time(const Constants& constants, double seconds) {
+    prepare(constants);
+    submit();
+    std::vector<double> goes;
+    const auto begin = std::chrono::steady_clock::now();
+    // The first goes are not counted: a software device compiles the shader in them.
+    for (int go = 0; go < 5 || std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < seconds; ++go) {
+      begin_commands();
+      record_dispatch();
+      const auto start = std::chrono::steady_clock::now();
+      submit();
+      if (go >= 2) goes.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return goes;
+  }
+
+ private:
+  void begin_commands() {
     VkCommandBufferBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
   }
-  std::vector<Array> run(const Constants& constants) {
+  // Records the uploads, and makes what a dispatch takes.
+  void prepare(const Constants& constants) {
     bind_uniforms();
     for (const std::string& name : program_.inputs) bind_input(name);
     for (const std::string& name : program_.outputs) bind_output(name);
-    dispatch(constants);
-    return read_outputs();
+    layout_ = make_descriptors(set_);
+    pipeline_ = make_pipeline(layout_, constants);
   }
-
- private:
   struct Binding {
     VkDescriptorType type;
     VkDescriptorBufferInfo buffer{};
@@ -282,11 +310,9 @@ class Run {
     cleanup_.add([this, made] { vkDestroyPipeline(device_.handle(), made, nullptr); });
     return made;
   }
-  void dispatch(const Constants& constants) {
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    const VkPipelineLayout layout = make_descriptors(set);
-    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, make_pipeline(layout, constants));
-    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+  void record_dispatch() {
+    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+    vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set_, 0, nullptr);
     std::uint32_t columns = 1, rows = 1;
     const Buffer& first = *outputs_.at(0).buffer;
     if (!program_.one_group) {
@@ -294,6 +320,8 @@ class Run {
       rows = (first.levels[0].height + program_.group[1] - 1) / program_.group[1];
     }
     vkCmdDispatch(commands_, columns, rows, 1);
+  }
+  void record_read_back() {
     for (const Output& out : outputs_) {
       if (out.buffer->is_records) continue;
       transition(out.image, 1, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
@@ -307,6 +335,9 @@ class Run {
     to_host.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
     to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
     vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, nullptr, 0, nullptr);
+  }
+  // And waits until the device has done it.
+  void submit() {
     check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
     VkSubmitInfo submit{};
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
@@ -343,6 +374,9 @@ class Run {
   Cleanup cleanup_;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
   std::vector<Binding> bindings_;
   std::vector<Output> outputs_;
 };
@@ -352,6 +386,12 @@ class Run {
 std::vector<Array> run_case(const Device& device, const Pack& pack, const Case& of, const Program& program, const Constants& extra) {
   Run run(device, pack, of, program);
   return run.run(extra);
+}
+
+std::vector<double> time_case(const Device& device, const Pack& pack, const Case& of, const Program& program, const Constants& extra,
+                              double seconds) {
+  Run run(device, pack, of, program);
+  return run.time(extra, seconds);
 }
 
 }  // namespace port_runner

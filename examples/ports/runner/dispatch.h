@@ -16,4 +16,9 @@ using Constants = std::map<std::uint32_t, std::int32_t>;
 /// key or device limit.
 std::vector<Array> run_case(const Device& device, const Pack& pack, const Case& of, const Program& program, const Constants& extra);
 
+/// Seconds of dispatches of the program on the case's inputs, one after another for `seconds`, at least three: from submitting one to
+/// its end. Uploads, read-backs and compilation do not count. Outputs that are images alone: a list would grow from one to the next.
+std::vector<double> time_case(const Device& device, const Pack& pack, const Case& of, const Program& program, const Constants& extra,
+                              double seconds);
+
 }  // namespace port_runner

@@ -12,7 +12,8 @@ namespace port_runner {
 namespace {
 
 constexpr const char* usage =
-    "usage: port_runner --pack DIR --spirv DIR --out DIR [--only PASS] [--device N|cpu] [--spec ID=VALUE]... [--repeat N]\n"
+    "usage: port_runner --pack DIR --spirv DIR --out DIR [--only PASS] [--device N|cpu] [--spec ID=VALUE]... [--repeat N] [--time "
+    "SECONDS]\n"
     "       port_runner --list\n";
 constexpr const char* help =
     "Runs a port's compute shaders on the cases of a pack, and leaves the outputs where `rainref validate` looks for them.\n"
@@ -24,6 +25,7 @@ constexpr const char* help =
     "  --device N|cpu   a number of --list, or the software device (default: the first GPU, else the software device)\n"
     "  --spec ID=VALUE  sets a specialization constant\n"
     "  --repeat N       runs each case N times and fails when two runs differ\n"
+    "  --time SECONDS   also runs each case that gives images for so long, and leaves the seconds of each dispatch in times.json\n"
     "  --list           the devices that can compute\n"
     "  --help           this text\n"
     "\n"
@@ -35,6 +37,7 @@ struct Options {
   std::string only, device;
   Constants constants;
   int repeat = 1;
+  double time = 0;
   bool list = false, help = false;
 };
 std::int32_t number(const std::string& option, const std::string& text) {
@@ -59,7 +62,8 @@ Options parse(int argc, char** argv) {
       o.help = true;
       return o;
     }
-    const std::vector<std::string> known{"--pack", "--spirv", "--out", "--only", "--device", "--spec", "--repeat", "--list", "--help"};
+    const std::vector<std::string> known{"--pack", "--spirv",  "--out",  "--only", "--device",
+                                         "--spec", "--repeat", "--time", "--list", "--help"};
     if (std::find(known.begin(), known.end(), option) == known.end())
       throw UsageError(option + ": unknown" + did_you_mean(option, known) + "\n" + usage);
     if (i + 1 == argc) throw UsageError(option + ": expected a value\n" + usage);
@@ -76,6 +80,9 @@ Options parse(int argc, char** argv) {
       o.device = text;
     } else if (option == "--repeat") {
       o.repeat = number(option, text);
+    } else if (option == "--time") {
+      o.time = number(option, text);
+      if (o.time < 1) throw UsageError("--time: expected at least 1 second, found '" + text + "'");
     } else {
       const std::size_t equals = text.find('=');
       if (equals == std::string::npos) throw UsageError("--spec: expected ID=VALUE, found '" + text + "'");
@@ -104,6 +111,7 @@ int run(const Options& o) {
   const Pack pack = read_pack(o.pack);
   const auto programs = read_programs(o.spirv);
   const Device device(o.device);
+  nlohmann::ordered_json times = nlohmann::ordered_json::array();
   int ran = 0;
   std::string without;
   for (const Case& c : pack.cases) {
@@ -128,6 +136,15 @@ int run(const Options& o) {
         if (b.name == name) write_npy(o.out / b.file, outputs[i]);
       }
     }
+    const bool gives_images = std::none_of(c.outputs.begin(), c.outputs.end(), [](const Buffer& b) { return b.is_records; });
+    if (o.time > 0 && gives_images) {
+      const Level& size = c.outputs.at(0).levels.at(0);
+      times.push_back({{"case", c.id},
+                       {"formula", c.formula},
+                       {"width", size.width},
+                       {"height", size.height},
+                       {"seconds", time_case(device, pack, c, program->second, o.constants, o.time)}});
+    }
     ++ran;
   }
   if (!without.empty()) std::fprintf(stderr, "no program for%s\n", without.c_str());
@@ -138,6 +155,7 @@ int run(const Options& o) {
     throw UsageError("--only " + o.only + ": no case of this pass has a program" + did_you_mean(o.only, passes));
   }
   write_port_json(device, o.out);
+  if (o.time > 0) write_file(o.out / "times.json", times.dump(2) + "\n");
   std::printf("%d cases on %s, in %s\n", ran, device.name().c_str(), o.out.c_str());
   return 0;
 }

@@ -1,0 +1,115 @@
+"""Markdown and plots from the JSON of a run; the part of docs/notes/performance.md that is made of committed ones."""
+import json
+import os
+
+import growth
+import plots
+import rows
+from rows import table
+
+BEGIN, END = "<!-- made by scripts/bench --document: do not edit below -->", "<!-- end of what is made -->"
+FORMAT = "rainref.bench"
+
+
+def read(path):
+    """A run's JSON. Raises rows.Malformed naming file, key, expected and found."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            result = json.load(file)
+    except (OSError, ValueError) as problem:
+        raise rows.Malformed(f"{path}: {problem}") from problem
+    if not isinstance(result, dict) or result.get("format") != FORMAT:
+        raise rows.Malformed(f"{path}: format: expected {FORMAT}, found {result.get('format') if isinstance(result, dict) else type(result).__name__}")
+    for key, kind in (("machine", dict), ("idle", dict), ("rows", list), ("peers", list), ("skipped", list)):
+        if not isinstance(result.get(key), kind):
+            raise rows.Malformed(f"{path}: {key}: expected {'a list' if kind is list else 'an object'}, found {type(result.get(key)).__name__}")
+    for at, row in enumerate(result["rows"] + result["peers"]):
+        for key in ("row", "threads", "unit", "rate", "median_ms", "q1_ms", "q3_ms"):
+            if key not in row:
+                raise rows.Malformed(f"{path}: row {at}: expected the key {key}, found {', '.join(sorted(row))}")
+    return result
+
+
+def rate_text(rate, unit):
+    """Millions of items a second: 2.15 Gcell/s, 71.3 Mpix/s."""
+    if unit == "cell":
+        return f"{rate / 1e3:.3g} Gcell/s"
+    return f"{rate:.3g} M{'pix' if unit == 'pixel' else unit}/s"
+
+
+def spread_text(row):
+    """Half the distance of the quartiles in percent of the median."""
+    return f"{50 * (row['q3_ms'] - row['q1_ms']) / row['median_ms']:.0f} %"
+
+
+def idle_text(result):
+    idle, others = result["idle"], result["idle"].get("others_during_percent")
+    text = "The machine was idle before" if idle["idle"] else \
+        f"**The machine was not idle**: others took {idle['others_percent']} % of it after {idle['waited_s']} s of waiting"
+    return text + (f"; others took {others} % of it during the run." if others is not None else ".")
+
+
+def peers_table(result):
+    lines = []
+    for c in rows.comparisons(result):
+        verdict = "" if c["goal"] is None else f"{c['goal']:g} {'met' if c['ratio'] >= c['goal'] else '**not met**'}"
+        lines.append([f"`{c['row']}`", str(c["threads"]), c["peer"], rate_text(c["ours"], c["unit"]), rate_text(c["theirs"], c["unit"]),
+                      f"{c['ratio']:.2f}", "" if c["ratio_best"] is None else f"{c['ratio_best']:.2f}", verdict])
+    return table(["row", "threads", "peer", "ours", "peer's", "ratio", "of the fastest", "goal"], lines)
+
+
+def rows_table(result):
+    lines = [[f"`{r['row']}`", str(r["threads"]), rate_text(r["rate"], r["unit"]), f"{r['median_ms']:.3g}", spread_text(r),
+              f"{r['stream_percent']:.0f}" if "stream_percent" in r else "", r["hash"].replace(" ", "<br>")] for r in result["rows"]]
+    return table(["row", "threads", "rate", "ms", "±", "stream %", "hash"], lines)
+
+
+def markdown(result, pictures):
+    """The tables of a run. pictures: folder and stem of its plots, as a link goes there."""
+    m = result["machine"]
+    out = [f"{m['processor']}, {m['cores']} cores, {m['simd']}, {m['caches']}, {m['memory_gib']} GiB. {idle_text(result)} "
+           f"{len(result['rows'])} rows in {result.get('seconds', 0)} s.", ""]
+    for s in result["skipped"]:
+        out.append(f"- Skipped: {s['peer']}{', ' + s['row'] if 'row' in s else ''}: {s['reason']}")
+    if result["skipped"]:
+        out.append("")
+    out += ["Beside peers, in the same run; the ratio is of medians (Embree: the median of pairs):", "", peers_table(result)]
+    for name in plots.PLOTS:
+        out += [f"![{name}]({pictures}{name}.svg)", ""]
+    out += ["Medians; ± is half the distance of the quartiles, in percent of the median:", "", rows_table(result)]
+    return "\n".join(out)
+
+
+def write_plots(result, stem):
+    """Writes STEMsize.svg and the others: the text of each by its path. A run on one thread has no scaling to show."""
+    return {f"{stem}{name}.svg": plot(result) for name, plot in plots.PLOTS.items()}
+
+
+def made(folder):
+    """What scripts/bench --document makes of docs/notes/performance/*.json: {path: text}, the made part of the document under None."""
+    files, parts = {}, []
+    for name in sorted(os.listdir(folder)):
+        if not name.endswith(".json") or name.startswith("growth"):
+            continue
+        result, stem = read(os.path.join(folder, name)), name[: -len(".json")]
+        files.update({os.path.join(folder, path): text for path, text in write_plots(result, stem + ".").items()})
+        parts.append(f"## {result.get('title', stem)}\n\n{markdown(result, 'performance/' + stem + '.')}")
+    for name in sorted(os.listdir(folder)):
+        if name.startswith("growth") and name.endswith(".json"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                result = json.load(file)
+            parts.append(f"## Growth, {result['machine']['cores']} cores\n\n{growth.markdown(result)}")
+    files[None] = "\n".join(parts)
+    return files
+
+
+def renew(document, folder):
+    """{path: text} of the document and its plots, renewed."""
+    with open(document, encoding="utf-8") as file:
+        text = file.read()
+    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
+        raise rows.Malformed(f"{document}: expected the lines '{BEGIN}' and '{END}' once each, in this order")
+    files = made(folder)
+    part = files.pop(None)
+    files[document] = text[: text.index(BEGIN)] + BEGIN + "\n\n" + part + "\n" + text[text.index(END):]
+    return files
