@@ -90,7 +90,7 @@ void integrate(benchmark::State& state, bool corrected, std::int64_t count, int 
   const std::string hash = hash_of(drops, executor);
   bench::Goes goes(state);
   for (auto _ : state) {
-    goes.add(bench::seconds_of(step));
+    goes.add([&] { return bench::seconds_of(step); });
   }
   const double best = goes.best();
   state.counters["Mdrop/s"] = static_cast<double>(count) * 1e-6 / best;
@@ -113,8 +113,10 @@ void merge(benchmark::State& state, bool settled, std::int64_t count, int thread
   const std::string hash = hash_of(drops, executor);
   bench::Goes goes(state);
   for (auto _ : state) {
-    drops.assign(start);
-    goes.add(bench::seconds_of([&] { merger.merge(executor, drops, uniforms); }));
+    goes.add([&] {
+      drops.assign(start);
+      return bench::seconds_of([&] { merger.merge(executor, drops, uniforms); });
+    });
   }
   const double best = goes.best();
   state.counters["Mdrop/s"] = static_cast<double>(start.size()) * 1e-6 / best;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 namespace rainref::bench {
@@ -22,9 +23,19 @@ inline double quantile(std::vector<double> values, double p) {
 class Goes {
  public:
   explicit Goes(benchmark::State& state) : state_(state) {}
-  void add(double seconds) {
-    seconds_.push_back(seconds);
-    state_.SetIterationTime(seconds);
+  /// go() gives the seconds of one go. Google Benchmark finds out by whole runs of a row, with all that it is made of, how many goes fill
+  /// its least time; scripts/bench asks for one and has it made of several here instead, by RAINREF_BENCH_SECONDS.
+  template <class Go>
+  void add(const Go& go) {
+    static const double least = std::getenv("RAINREF_BENCH_SECONDS") == nullptr ? 0 : std::atof(std::getenv("RAINREF_BENCH_SECONDS"));
+    double total = 0;
+    int made = 0;
+    do {
+      seconds_.push_back(go());
+      total += seconds_.back();
+      ++made;
+    } while (least > 0 && (made < 5 || total < least));
+    state_.SetIterationTime(total / made);
   }
   /// Seconds of the fastest, because other work on the machine only ever slows a go down. Leaves the quartiles in the row.
   double best() {

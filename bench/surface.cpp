@@ -104,7 +104,7 @@ void splat(benchmark::State& state, bool corrected, std::int64_t count, int thre
   // The scalar evaluation is the definition, and what a straightforward program does.
   const double plain = half ? best_of(count > 100000 ? 1 : 3, [&] { naive(u, all, other); }) : 0;
   bench::Goes timed(state);
-  for (auto _ : state) timed.add(bench::seconds_of(run));
+  for (auto _ : state) timed.add([&] { return bench::seconds_of(run); });
   const double best = timed.best();
   state.counters["Mdrop/s"] = static_cast<double>(count) * 1e-6 / best;
   state.counters["x_serial"] = one_thread / best;
@@ -134,7 +134,7 @@ void timed(benchmark::State& state, const parallel::Executor& executor, bench::T
   run();
   const double bound = bench::stream_seconds(executor, out.width(), out.height(), tile_rows, traffic);
   bench::Goes timed(state);
-  for (auto _ : state) timed.add(bench::seconds_of(run));
+  for (auto _ : state) timed.add([&] { return bench::seconds_of(run); });
   const double best = timed.best();
   state.counters["Mpix/s"] = 1e-6 * out.width() * out.height() / best;
   state.counters["stream_%"] = 100 * bound / best;

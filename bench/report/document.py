@@ -32,9 +32,8 @@ def read(path):
 
 def rate_text(rate, unit):
     """Millions of items a second: 2.15 Gcell/s, 71.3 Mpix/s."""
-    if unit == "cell":
-        return f"{rate / 1e3:.3g} Gcell/s"
-    return f"{rate:.3g} M{'pix' if unit == 'pixel' else unit}/s"
+    short = "pix" if unit == "pixel" else unit
+    return f"{rate / 1e3:.3g} G{short}/s" if unit == "cell" or rate >= 999.5 else f"{rate:.3g} M{short}/s"
 
 
 def spread_text(row):

@@ -62,7 +62,9 @@ def svg(title, x_label, y_label, series, x_ticks=None, roof=None, direct_labels=
             continue
         out.append(f'<line x1="{across(begin):.1f}" y1="{up(begin * factor):.1f}" x2="{across(end):.1f}" y2="{up(end * factor):.1f}" '
                    f'stroke="#999" stroke-dasharray="{"none" if factor == 1 else "3 4"}"/>')
-        out.append(f'<text x="{across(begin) + 6:.1f}" y="{up(begin * factor) - 6:.1f}" font-size="11" fill="#666">{escape(label)}</text>')
+        at_top = 12 if end * factor > 0.999 * y_high else -2
+        out.append(f'<text x="{across(end) - 14:.1f}" y="{up(end * factor) + at_top:.1f}" font-size="11" fill="#666" text-anchor="end">'
+                   f"{escape(label)}</text>")
     for index, (name, points, style) in enumerate(series):
         colour = COLOURS[index % len(COLOURS)]
         places = [(across(x), up(y)) for x, y in sorted(points)]
@@ -73,14 +75,14 @@ def svg(title, x_label, y_label, series, x_ticks=None, roof=None, direct_labels=
             out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{"#fff" if style.get("dashed") else colour}" stroke="{colour}" stroke-width="2"/>')
             if direct_labels:
                 out.append(f'<text x="{x:.1f}" y="{y - 8:.1f}" font-size="11" text-anchor="middle" fill="{colour}" font-weight="bold">{index + 1}</text>')
-        at = TOP + 12 + index * 21
+        at = round(TOP + 12 + index * min(21, plot_height / len(series)), 1)
         dash = ' stroke-dasharray="6 4"' if style.get("dashed") else ""
         beside = WIDTH - RIGHT + 16
         if direct_labels:
-            out.append(f'<text x="{beside + 14}" y="{at + 4.5}" text-anchor="middle" fill="{colour}" font-weight="bold">{index + 1}</text>')
+            out.append(f'<text x="{beside + 14}" y="{at + 4.5:.1f}" text-anchor="middle" fill="{colour}" font-weight="bold">{index + 1}</text>')
         else:
             out.append(f'<line x1="{beside}" y1="{at}" x2="{beside + 28}" y2="{at}" stroke="{colour}" stroke-width="2"{dash}/>')
-        out.append(f'<text x="{beside + 34}" y="{at + 4.5}">{escape(name)}</text>')
+        out.append(f'<text x="{beside + 34}" y="{at + 4.5:.1f}">{escape(name)}</text>')
     out.append("</svg>")
     return "\n".join(out) + "\n"
 

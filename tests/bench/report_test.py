@@ -3,6 +3,7 @@ import copy
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -112,6 +113,22 @@ class Documents(unittest.TestCase):
             with self.assertRaisesRegex(rows.Malformed, "once each"):
                 document.renew(copy_of, FOLDER)
 
+    def test_check_of_an_edited_document_fails_and_changes_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(os.path.join(ROOT, "docs/notes"), os.path.join(folder, "docs/notes"))
+            edited = os.path.join(folder, "docs/notes/performance", RUNS[0].replace(".json", ".size.svg"))
+            with open(edited, "a", encoding="utf-8") as file:
+                file.write("<!-- by hand -->")
+            command = [sys.executable, "-B", os.path.join(ROOT, "bench/report/main.py"), "--document"]
+            done = subprocess.run(command + ["--check"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn(os.path.basename(edited), done.stderr)
+            with open(edited, encoding="utf-8") as file:
+                self.assertIn("by hand", file.read())
+            self.assertEqual(subprocess.run(command, cwd=folder, capture_output=True).returncode, 0)
+            with open(edited, encoding="utf-8") as file:
+                self.assertNotIn("by hand", file.read())
+
     def test_a_goal_is_met_from_its_value_on(self):
         result = committed()
         result["rows"] = [dict(rows.of_benchmark(ENTRY), row="composite/corrected/1920x1080", unit="pixel", rate=rate, threads=n)
@@ -149,6 +166,11 @@ class Documents(unittest.TestCase):
             done = bench("--table", os.path.join(FOLDER, RUNS[0]), "--out", folder)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(sorted(os.listdir(folder)), ["bench.md", "roofline.svg", "scaling.svg", "size.svg"])
+
+
+    def test_rates_are_said_as_people_say_them(self):
+        self.assertEqual([document.rate_text(rate, unit) for rate, unit in ((71.34, "pixel"), (3600.0, "drop"), (120.0, "cell"), (999.4, "ray"))],
+                         ["71.3 Mpix/s", "3.6 Gdrop/s", "0.12 Gcell/s", "999 Mray/s"])
 
 
 class Plots(unittest.TestCase):
