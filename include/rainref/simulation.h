@@ -20,7 +20,8 @@ namespace rainref {
 /// What an effect holds under a name: an image, or records.
 using Buffer = std::variant<BufferView, RecordView>;
 
-/// The text of a scene file, with changes to it. Throws Error(io) when it cannot be read.
+/// The text of a scene file, with changes to it. Where there is no such file, of the scene of this name that came with rainref
+/// ("puddle/default.toml": `rainref list`). Throws Error(io) when it cannot be read.
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set = {});
 
 /// A scene that runs. Every buffer has the same bits whatever the executor's threads, the SIMD target and the caller's floating-point

@@ -14,4 +14,8 @@ const char* version();
 /// CHANGELOG.md says which and why. It seeds every hash, so hashes of two generations never compare equal by accident.
 inline constexpr unsigned golden_generation = 2;
 
+/// Which bits this build gives: the first 32 hexadecimal digits of the SHA-256 of tests/golden/hashes.txt, where each golden change
+/// shows, also one that leaves the generation as it is.
+const char* golden_hash();
+
 }  // namespace rainref

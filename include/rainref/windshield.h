@@ -62,6 +62,10 @@ class Windshield {
   ~Windshield();
   Windshield(Windshield&&) noexcept;
 
+  /// The pictures that later frames show, where the windshield was made with pictures. Throws Error(usage) for others than of that size and
+  /// format, and where it shows the street.
+  void show(Surroundings scene);
+
   /// windshield_frame to merge, from time frame / fps to (frame + 1) / fps. Frames are 0, 1, 2 ... in this order.
   void simulate(Recorder* recorder = nullptr);
   /// splat to display of the frame that was simulated last. Once for each frame: the wiped textures have a past.
@@ -83,17 +87,16 @@ class Windshield {
   std::vector<DropView> drops(int pane = 0) const;
   MassBalance mass_balance(int pane = 0) const;
   const Image& height(int pane = 0) const;  ///< r16f [mm]
-
-  // Of the windshield:
-  const Image& mask() const;    ///< r16f: 1 just wiped
-  const Image& film() const;    ///< corrected: r32f, whole mass units in a texel
-  const Image& normal() const;  ///< rgba16f: normal in the axes of the glass
+  const Image& mask(int pane = 0) const;    ///< r16f: 1 just wiped; 0 everywhere on a further pane without wipers
+  const Image& film(int pane = 0) const;    ///< corrected: r32f, whole mass units in a texel
+  const Image& normal(int pane = 0) const;  ///< rgba16f: normal in the axes of the glass
   // Of the picture:
   /// The rain behind the glass of the frame that was rendered last, far drops first; empty where falling_rain.on is false.
   std::vector<FallingDropView> falling() const;
-  const Image& scene_depth() const;  ///< r32f: along the view axis [m], in the widened view
-  const Image& colour() const;       ///< rgba16f: linear radiance
-  const Image& picture() const;      ///< rgba8: display code values; row 0 = bottom
+  const Image& scene_colour() const;  ///< rgba16f: linear radiance of what lies before the car, in the widened view, without fog
+  const Image& scene_depth() const;   ///< r32f: along the view axis [m], there
+  const Image& colour() const;        ///< rgba16f: linear radiance
+  const Image& picture() const;       ///< rgba8: display code values; row 0 = bottom
 
   /// Lists what it holds between frames, to be saved and loaded (Simulation::save); within rainref.
   void list_state(state::Items& items);

@@ -4,7 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <exception>
+#include <future>
 #include <system_error>
 
 namespace rainref {
@@ -73,6 +76,30 @@ void sync_to_disk(const fs::path& path) {
   const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
   ::close(descriptor);
   if (error != 0) fail(error);
+}
+
+void sync_to_disk(std::span<const fs::path> paths) {
+  constexpr std::size_t at_once = 16;
+  std::exception_ptr failure;
+  for (std::size_t first = 0; first < paths.size(); first += at_once) {
+    std::vector<std::future<void>> waiting;
+    for (const fs::path& path : paths.subspan(first, std::min(at_once, paths.size() - first))) {
+      const auto sync = [&path] { sync_to_disk(path); };
+      try {
+        waiting.push_back(std::async(std::launch::async, sync));
+      } catch (const std::system_error&) {  // no thread: one after the other
+        waiting.push_back(std::async(std::launch::deferred, sync));
+      }
+    }
+    for (std::future<void>& one : waiting) {
+      try {
+        one.get();
+      } catch (...) {
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace rainref

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/interruption.h"
@@ -35,5 +36,7 @@ class MadeFolders {
 /// Waits until a folder's entries are on the disk, or a file's bytes. Throws std::system_error, but not where the file
 /// system cannot say (EINVAL).
 void sync_to_disk(const std::filesystem::path& path);
+/// The same of all of them at once: a disk makes one wait of many. Throws the first one's error once all have ended.
+void sync_to_disk(std::span<const std::filesystem::path> paths);
 
 }  // namespace rainref

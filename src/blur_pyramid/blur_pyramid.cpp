@@ -89,7 +89,7 @@ LevelTexture::LevelTexture(const std::vector<Image>& levels) {
     count += static_cast<std::size_t>(levels[l].width()) * levels[l].height();
   }
   if (count > 0x7fffffffu / 8) throw Error(ExitCode::usage, "the blurred scene has more texels than a texture may have");
-  texels_.resize(4 * count + 2);
+  texels_.resize(4 * count + 4);
   view_.texels = texels_.data();
 }
 void LevelTexture::refresh(const parallel::Executor& executor, const std::vector<Image>& levels) {

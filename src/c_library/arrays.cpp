@@ -4,13 +4,14 @@
 
 #include "c_library/call.h"
 #include "c_library/handles.h"
+#include "judging/case_list.h"
 #include "registry/registry.h"
 
 using namespace rainref;
 using c_library::call;
-using c_library::require_index;
 using c_library::required;
 using c_library::sized;
+using judging::require_index;
 
 namespace rainref::c_library {
 namespace {

@@ -54,11 +54,6 @@ T& sized(T* from, const char* type) {
   return s;
 }
 
-/// Error(usage) unless the index is below the count: "case 7: expected one of 3, counted from 0".
-inline void require_index(std::size_t index, std::size_t count, const char* what) {
-  if (index >= count) throw Error(ExitCode::usage, fmt::format("{} {}: expected one of {}, counted from 0", what, index, count));
-}
-
 /// A list of texts of the caller's, none of them NULL.
 std::vector<std::string> texts(const char* const* first, std::size_t count, const char* name);
 

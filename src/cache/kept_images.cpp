@@ -13,6 +13,8 @@
 #include "base/hash.h"
 #include "base/hidden.h"
 #include "cache/program.h"
+#include "cache/remembered.h"
+#include "image/flipped.h"
 #include "rainref/error.h"
 
 namespace rainref::cache {
@@ -201,6 +203,15 @@ Recipe& Recipe::add(std::uint64_t number) {
   return *this;
 }
 
+Recipe& Recipe::add(const Image& image) {
+  Hasher hasher(0);
+  const ImageHead head = image.empty() ? ImageHead{} : head_of(image);
+  hasher.add(bytes_of(head));
+  for (int y = 0; y < image.height(); ++y) hasher.add(row(image, y));
+  text_ += hasher.finish().text();
+  return *this;
+}
+
 void keep_in(fs::path path, std::uintmax_t most_bytes) { folder() = {std::move(path), most_bytes}; }
 
 fs::path folder_of_user() {
@@ -214,7 +225,9 @@ fs::path folder_of_user() {
   return home.empty() ? home : home / ".cache" / "rainref";
 }
 
-std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make) {
+namespace {
+
+std::vector<Image> kept_or_made(const Recipe& recipe, const std::function<std::vector<Image>()>& make) {
   const Folder& in = folder();
   const std::optional<Hash128> program = in.path.empty() ? std::nullopt : program_hash();
   if (!program) return make();
@@ -224,6 +237,24 @@ std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<
   std::vector<Image> made = make();
   keep(in, path, whole, made);
   return made;
+}
+
+}  // namespace
+
+std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make) {
+  static Remembered<std::vector<Image>>& remembered = *new Remembered<std::vector<Image>>;
+  const auto copies = [](const std::vector<Image>& all) {
+    std::vector<Image> copied;
+    for (const Image& image : all) copied.push_back(copy_of(image));
+    return copied;
+  };
+  if (const auto known = remembered.find(recipe.text())) return copies(*known);
+  std::vector<Image> all = kept_or_made(recipe, make);
+  if (remembered_bytes() == 0) return all;
+  std::size_t bytes = 0;
+  for (const Image& image : all) bytes += Image::memory_bytes(image.format(), image.width(), image.height());
+  remembered.keep(recipe.text(), std::make_shared<std::vector<Image>>(copies(all)), bytes);
+  return all;
 }
 
 }  // namespace rainref::cache

@@ -21,6 +21,8 @@ class Recipe {
   explicit Recipe(std::string_view what) : text_(what) { text_.push_back('\0'); }
   Recipe& add(std::initializer_list<double> numbers);
   Recipe& add(std::uint64_t number);
+  /// An image, by the hash of its texels.
+  Recipe& add(const Image& image);
   const std::string& text() const { return text_; }
 
  private:
@@ -34,7 +36,7 @@ void keep_in(std::filesystem::path folder, std::uintmax_t most_bytes = std::uint
 std::filesystem::path folder_of_user();
 
 /// The images of make(). Read instead where they were kept by this very program (its file's bytes count) for this recipe, and their
-/// hash says that they are whole.
+/// hash says that they are whole; or a copy of what this process remembers (cache/remembered.h).
 std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make);
 
 }  // namespace rainref::cache

@@ -220,6 +220,7 @@ void read_manifest(const JsonField& manifest, Pack& pack) {
     manifest.refuse(fmt::format("version {} is newer than this rainref reads, which is {}", version, pack_version));
   pack.producer = manifest["rainref"]["version"].text();
   pack.golden_generation = static_cast<int>(manifest["rainref"]["golden_generation"].whole(0, INT32_MAX));
+  if (manifest["rainref"].has("golden_hash")) pack.golden_hash = manifest["rainref"]["golden_hash"].text();
   const std::vector<std::string> contents{"outputs", "all"};
   pack.with_inputs = manifest["contents"].one_of(contents) == 1;
   pack.effect = manifest["effect"].text();

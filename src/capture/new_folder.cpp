@@ -1,5 +1,6 @@
 #include "capture/new_folder.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,6 +23,13 @@ namespace {
   throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), why));
 }
 [[noreturn]] void fail(const fs::path& path, int error) { fail(path, std::generic_category().message(error)); }
+
+/// The file's bytes are on their way to the disk: when all files are waited for, later, that is one wait and not one for each.
+void begin_to_sync(int descriptor) {
+#ifdef SYNC_FILE_RANGE_WRITE
+  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);  // no matter where it fails: it is waited for all the same
+#endif
+}
 
 }  // namespace
 
@@ -68,26 +76,56 @@ void NewFolder::write(const std::string& path, std::span<const std::byte> bytes)
   for (fs::path p = file.parent_path(); folders_.insert(p).second; p = p.parent_path()) {
   }
   if (std::fwrite(bytes.data(), 1, bytes.size(), out.get()) != bytes.size()) fail(shown, errno);
-  if (std::fflush(out.get()) != 0 || ::fsync(::fileno(out.get())) != 0) fail(shown, errno);
+  if (std::fflush(out.get()) != 0) fail(shown, errno);
+  begin_to_sync(::fileno(out.get()));
+  files_.push_back(file);
   // A full disk may show only here.
   if (std::fclose(out.release()) != 0) fail(shown, errno);
 }
 
 void NewFolder::commit() {
   try {
-    for (const fs::path& folder : folders_) sync_to_disk(folder);
+    sync_contents();
     // Asked again: something else may have come to lie there since.
     if (has_older())
       hidden_->replace(target_);
     else
       hidden_->become(target_);
-    sync_to_disk(target_.parent_path());
-    for (const fs::path& made : parents_->made()) sync_to_disk(made.parent_path());
+    for (const fs::path& folder : folders_of_names()) sync_to_disk(folder);
   } catch (const std::system_error& e) {
     fail(shown_, e.code().message());
   }
   hidden_.reset();
   parents_->keep();
+}
+
+bool NewFolder::commit_if_first(const std::vector<fs::path>& also) {
+  try {
+    std::vector<fs::path> all(files_);
+    all.insert(all.end(), folders_.begin(), folders_.end());
+    all.insert(all.end(), also.begin(), also.end());
+    sync_to_disk(all);
+    hidden_->become(target_);  // which no folder gives way to that holds something
+    hidden_.reset();
+    parents_->keep();
+    return true;
+  } catch (const std::system_error& e) {
+    if (e.code() != std::errc::directory_not_empty && e.code() != std::errc::file_exists) fail(shown_, e.code().message());
+  }
+  hidden_.reset();
+  parents_->keep();
+  return false;
+}
+
+std::vector<fs::path> NewFolder::folders_of_names() const {
+  std::vector<fs::path> folders{target_.parent_path()};
+  for (const fs::path& made : parents_->made()) folders.push_back(made.parent_path());
+  return folders;
+}
+
+void NewFolder::sync_contents() const {
+  for (const fs::path& file : files_) sync_to_disk(file);
+  for (const fs::path& folder : folders_) sync_to_disk(folder);
 }
 
 }  // namespace rainref::capture

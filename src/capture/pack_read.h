@@ -70,6 +70,7 @@ class Pack {
   const std::filesystem::path& folder() const { return folder_; }
   std::string effect, variant, scene, producer;  ///< producer: the version that wrote it
   int golden_generation = 0;
+  std::string golden_hash;                                  ///< "" in a pack of an older version
   bool with_inputs = false;                                 ///< false: a capture of outputs only
   std::vector<std::pair<std::string, std::string>> config;  ///< every key with its value as JSON, in order
   std::vector<PackPass> passes;                             ///< in the order of execution

@@ -27,31 +27,34 @@ namespace {
 // The parser knows no nearest name, and speaks of what is missing before what is misspelt: so misspelt verbs and
 // options are looked for first.
 void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
-  const CLI::App* verb = nullptr;
+  const CLI::App* scope = &app;  // a verb, or an action of one, once it was named
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--") return;
     const bool is_long = word.starts_with("--");
     if (is_long || (word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])))) {
-      const CLI::App& scope = verb ? *verb : app;
       const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
-      const CLI::Option* option = scope.get_option_no_throw(name);
+      const CLI::Option* option = scope->get_option_no_throw(name);
       if (!option) {
         std::vector<std::string> names;
-        for (const CLI::Option* o : scope.get_options()) {
+        for (const CLI::Option* o : scope->get_options()) {
           for (const std::string& known : o->get_lnames()) names.push_back("--" + known);
         }
-        throw Error(ExitCode::usage, fmt::format("{}: unknown option{}{}", name, verb ? fmt::format(" of '{}'", verb->get_name()) : "",
-                                                 did_you_mean(name, names)));
+        throw Error(ExitCode::usage,
+                    fmt::format("{}: unknown option{}{}", name, scope != &app ? fmt::format(" of '{}'", scope->get_name()) : "",
+                                did_you_mean(name, names)));
       }
       if (option->get_items_expected_max() > 0 && word == name) ++i;  // its value
-    } else if (!verb) {
+    } else if (const auto all = scope->get_subcommands([](const CLI::App*) { return true; }); !all.empty()) {
       std::vector<std::string> names;
-      for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
+      const CLI::App* named = nullptr;
+      for (const CLI::App* known : all) {
         names.push_back(known->get_name());
-        if (word == known->get_name()) verb = known;
+        if (word == known->get_name()) named = known;
       }
-      if (!verb)
+      if (named)
+        scope = named;
+      else
         throw Error(ExitCode::usage,
                     fmt::format("expected one of {}, found '{}'{}", fmt::join(names, ", "), word, did_you_mean(word, names)));
     }
@@ -62,27 +65,16 @@ void refuse_unknown(const CLI::App& app, int argc, const char* const* argv) {
 std::vector<const char*> without_help_verb(int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   if (argc < 2 || std::string_view(argv[1]) != "help") return words;
-  if (argc > 3) throw Error(ExitCode::usage, fmt::format("help: expected one verb, found '{}' too", argv[3]));
+  if (argc > 3 && !(argc == 4 && std::string_view(argv[2]) == "sweep"))
+    throw Error(ExitCode::usage, fmt::format("help: expected one verb, found '{}' too", argv[3]));
   words.erase(words.begin() + 1);
   if (argc == 2 || argv[2][0] != '-') words.push_back("--help");
   return words;
 }
 
 int parse_and_run(int argc, const char* const* argv) {
-  CLI::App app{"rainref: the deterministic CPU reference for real-time rain"};
-  app.set_version_flag("--version", std::string("rainref ") + version());
-  app.require_subcommand(1);
-  app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
-
-  const Verb verbs[] = {list_verb(app),
-                        describe_verb(app),
-                        run_verb(app),
-                        hash_verb(app),
-                        pack_verb(app),
-                        diff_verb(app),
-                        validate_verb(app, command_text(argc, argv)),
-                        mutate_verb(app),
-                        selftest_verb(app)};
+  CLI::App app;
+  const std::vector<Verb> verbs = add_verbs(app, command_text(argc, argv));
   const std::vector<const char*> words = without_help_verb(argc, argv);
   refuse_unknown(app, static_cast<int>(words.size()), words.data());
   try {
@@ -97,6 +89,17 @@ int parse_and_run(int argc, const char* const* argv) {
 }
 
 }  // namespace
+
+std::vector<Verb> add_verbs(CLI::App& app, const std::string& command) {
+  app.name("rainref");
+  app.description("rainref: the deterministic CPU reference for real-time rain");
+  app.set_version_flag("--version", fmt::format("rainref {}, golden {} {}", version(), golden_generation, golden_hash()),
+                       "Print the version, and which bits this build gives");
+  app.require_subcommand(1);
+  app.footer("`rainref help VERB` or `rainref VERB --help` says what a verb takes.\nExample: rainref run scenes/puddle/default.toml");
+  return {list_verb(app), describe_verb(app),          run_verb(app),    hash_verb(app),  pack_verb(app),
+          diff_verb(app), validate_verb(app, command), mutate_verb(app), sweep_verb(app), selftest_verb(app)};
+}
 
 int main(int argc, const char* const* argv) {
   undo_when_interrupted();  // first: threads that come later must leave signals to it

@@ -151,6 +151,10 @@ void print_configurations(const Pack& a, const Pack& b) {
   }
   if (a.golden_generation != b.golden_generation)
     notes.add(fmt::format("golden generation: {} in A, {} in B", a.golden_generation, b.golden_generation));
+  if (a.golden_hash != b.golden_hash) {
+    const auto hash = [](const Pack& pack) { return pack.golden_hash.empty() ? "absent" : pack.golden_hash; };
+    notes.add(fmt::format("golden hash: {} in A, {} in B", hash(a), hash(b)));
+  }
   notes.print();
 }
 

@@ -22,9 +22,8 @@ namespace rainref::cli {
 namespace {
 
 void add_profile(CLI::App& verb, std::string& profile) {
-  verb.add_option("--profile", profile,
-                  fmt::format("What the port's API allows: {} (default: vulkan)", fmt::join(judge::profile_names(), ", ")))
-      ->type_name("NAME");
+  verb.add_option("--profile", profile, "What the port's API allows (default: vulkan)")
+      ->type_name(fmt::format("{}", fmt::join(judge::profile_names(), "|")));
 }
 void add_threads(CLI::App& verb, std::optional<std::string>& threads) {
   verb.add_option("--threads", threads, "Threads; the result does not depend on them")->type_name("N");

@@ -15,8 +15,8 @@ std::string duration_text(double seconds) {
 
 std::string counted(long long count, std::string_view what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
-Progress::Progress(std::string what, int total)
-    : what_(std::move(what)), total_(total), shown_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {
+Progress::Progress(std::string what, int total, const char* unit)
+    : what_(std::move(what)), unit_(unit), total_(total), shown_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), drawn_(start_) {
   if (shown_) draw();
 }
 
@@ -38,7 +38,7 @@ void Progress::draw() {
   const int filled = total_ > 0 ? width * done_ / total_ : width;
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   std::string line = fmt::format("\r{} [{}{}] {}/{}", what_, std::string(filled, '#'), std::string(width - filled, '.'), done_, total_);
-  if (done_ > 0) line += fmt::format("  {:.1f} frames/s  {} left", done_ / elapsed, duration_text(elapsed / done_ * (total_ - done_)));
+  if (done_ > 0) line += fmt::format("  {:.1f} {}/s  {} left", done_ / elapsed, unit_, duration_text(elapsed / done_ * (total_ - done_)));
   fmt::print(stderr, "{}\033[K", line);
   std::fflush(stderr);
 }

@@ -7,11 +7,11 @@
 
 namespace rainref::cli {
 
-/// Frames done, rate and time left, on one line of standard error that is redrawn ten times a second at most. Silent
+/// Frames (or another unit) done, rate and time left, on one line of standard error that is redrawn ten times a second at most. Silent
 /// when standard error is no terminal.
 class Progress {
  public:
-  Progress(std::string what, int total);
+  Progress(std::string what, int total, const char* unit = "frames");
   ~Progress();
   void advance();
 
@@ -19,6 +19,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void draw();
   std::string what_;
+  const char* unit_;
   int total_, done_ = 0;
   bool shown_;
   Clock::time_point start_, drawn_;

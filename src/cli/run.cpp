@@ -117,6 +117,7 @@ nlohmann::ordered_json summary(const scene::Config& config, const std::vector<ef
                                const std::vector<capture::HashLine>& last, double seconds, int frames) {
   nlohmann::ordered_json out{{"rainref", version()},
                              {"golden_generation", golden_generation},
+                             {"golden_hash", golden_hash()},
                              {"config", scene::config_json(config)},
                              {"origins", scene::origins_json(config)}};
   out["inputs"] = nlohmann::ordered_json::array();

@@ -9,6 +9,7 @@
 #include "cli/terminal.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
+#include "simulation/own_scenes.h"
 
 namespace rainref::cli {
 namespace {
@@ -23,18 +24,6 @@ std::vector<std::string> scenes_below(const fs::path& root) {
   }
   std::sort(found.begin(), found.end());
   return found;
-}
-
-/// The folders `scenes` that belong to this program, from where it lies: an installation may be moved. A build folder links the sources'.
-std::vector<fs::path> own_folders() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  std::vector<fs::path> folders;
-  for (const char* from_program : {RAINREF_SCENES_FROM_PROGRAM, "../share/rainref/scenes"}) {
-    const fs::path folder = fs::canonical(program.parent_path() / from_program, error);
-    if (!error) folders.push_back(folder);
-  }
-  return folders;
 }
 
 /// What a user may have meant by a file that is not there: "; did you mean 'x'?" or "".
@@ -68,12 +57,7 @@ std::string guess(const fs::path& wrong) {
 
 std::vector<std::string> known_scenes() {
   std::vector<std::string> found = scenes_below("scenes");
-  if (!found.empty()) return found;
-  for (const fs::path& folder : own_folders()) {
-    found = scenes_below(folder);
-    if (!found.empty()) break;
-  }
-  return found;
+  return found.empty() ? simulation::own_scenes() : found;
 }
 
 scene::Config load_scene(const SceneOptions& options) {

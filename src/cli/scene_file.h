@@ -10,7 +10,8 @@
 
 namespace rainref::cli {
 
-/// The scenes below ./scenes, or else those that came with the program: of its installation, or of the sources that it was built from.
+/// The scenes below ./scenes, or else the names of those that came with the program: of its installation, or of the sources that it was
+/// built from.
 std::vector<std::string> known_scenes();
 
 /// scene::load of the options' file and overrides. A file that is not there brings the nearest scene that is into the message.

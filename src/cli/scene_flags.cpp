@@ -8,11 +8,12 @@
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "rainref/executor.h"
+#include "simulation/own_scenes.h"
 
 namespace rainref::cli {
 
 void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
-  verb.add_option("SCENE", flags.scene, "Scene file (TOML)")->type_name("FILE")->required();
+  verb.add_option("SCENE", flags.scene, "Scene file (TOML), or a scene of `rainref list`")->type_name("FILE")->required();
   if (with_frames) verb.add_option("--frames", flags.frames, "Number of frames")->type_name("N");
   verb.add_option("--size", flags.size, "Picture size, WxH")->type_name("WxH");
   verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them")->type_name("N");
@@ -22,7 +23,7 @@ void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
 
 SceneOptions resolve(const SceneFlags& flags) {
   SceneOptions options;
-  options.scene = flags.scene;
+  options.scene = simulation::find_scene(flags.scene);
   options.overrides = flags.set;
   if (flags.frames) options.overrides.push_back(fmt::format("run.frames={}", whole_number(*flags.frames, "--frames", 1, 1000000)));
   if (flags.size) {

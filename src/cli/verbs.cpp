@@ -5,13 +5,26 @@
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/commands.h"
 #include "cli/option_values.h"
 #include "cli/scene_flags.h"
+#include "registry/registry.h"
 
 // What the parser writes to lives as long as what runs the verb.
 namespace rainref::cli {
+namespace {
+
+/// "puddle|windshield|...": a shell completes what stands between bars.
+std::string effect_words() {
+  std::vector<std::string> names;
+  for (const effect::Effect* e : registry::effects()) names.push_back(e->name);
+  return fmt::format("{}", fmt::join(names, "|"));
+}
+
+}  // namespace
 
 Verb list_verb(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand("list", "Effects, variants, passes, scenes and SIMD targets");
@@ -29,12 +42,11 @@ Verb describe_verb(CLI::App& app) {
   };
   CLI::App& verb = *app.add_subcommand("describe", "Parameters, passes and buffers of an effect; GPU layouts");
   const auto f = std::make_shared<Flags>();
-  verb.add_option("EFFECT", f->effect, "Effect")->type_name("NAME")->required();
+  verb.add_option("EFFECT", f->effect, "Effect")->type_name(effect_words())->required();
   verb.add_flag("--json", f->json, "As JSON");
-  verb.add_option("--layout", f->layout.language, "Uniform blocks, records and lists ready to paste: c, glsl, hlsl, wgsl or cuda")
-      ->type_name("LANGUAGE");
+  verb.add_option("--layout", f->layout.language, "Uniform blocks, records and lists ready to paste")->type_name("c|glsl|hlsl|wgsl|cuda");
   verb.add_option("--pass", f->layout.pass, "With --layout: what this pass needs alone")->type_name("NAME");
-  verb.add_option("--variant", f->layout.variant, "With --layout: in this variant alone")->type_name("NAME");
+  verb.add_option("--variant", f->layout.variant, "With --layout: in this variant alone")->type_name("as-published|corrected");
   verb.footer("Example: rainref describe puddle --layout glsl --pass wave_step --variant corrected");
   return {&verb, [f] { return describe(f->effect, f->json, f->layout); }};
 }
@@ -50,7 +62,7 @@ Verb run_verb(CLI::App& app) {
   const auto f = std::make_shared<Flags>();
   add_scene_flags(verb, f->scene);
   verb.add_option("-o,--output", f->output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)")->type_name("DIR");
-  verb.add_option("--image", f->image, "Pictures to write: exr, png, both or none")->type_name("KIND");
+  verb.add_option("--image", f->image, "Pictures to write")->type_name("exr|png|both|none");
   verb.add_option("--every", f->every, "Write every K-th frame (default: the last frame only)")->type_name("K");
   verb.add_option("--first", f->first, "First frame of interest: those before it are simulated, and not rendered")->type_name("A");
   verb.add_option("--checkpoint-every", f->checkpoint_every,
@@ -59,7 +71,7 @@ Verb run_verb(CLI::App& app) {
   verb.add_flag("--resume", f->options.resume,
                 "Go on from DIR/checkpoint.state, where a killed run left one; from the beginning otherwise. Pictures are the same");
   verb.add_option("--capture", f->captured, "Write the passes' buffers of these frames to capture/: passes (outputs), all (inputs too)")
-      ->type_name("WHAT");
+      ->type_name("passes|all");
   verb.add_flag("--compare-truth", f->options.compare_truth,
                 "Compare the passes of these frames with the traced truth: pictures of the differences, percentiles in summary.json");
   verb.add_flag("!--no-cache", f->options.keep_images,

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -25,6 +26,10 @@ Verb diff_verb(CLI::App& app);
 /// `command`: as typed, for the reports.
 Verb validate_verb(CLI::App& app, const std::string& command);
 Verb mutate_verb(CLI::App& app);
+Verb sweep_verb(CLI::App& app);
 Verb selftest_verb(CLI::App& app);
+
+/// What the program says of itself, and all of its verbs. `command`: as typed.
+std::vector<Verb> add_verbs(CLI::App& app, const std::string& command);
 
 }  // namespace rainref::cli

@@ -16,7 +16,6 @@ class Instance final : public effect::InstanceOf<EdgeSplash> {
   Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor);
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
-  bool has_sequence() const override { return named_.moves(); }
 
  private:
   void show_pictures_of(int frame) override;

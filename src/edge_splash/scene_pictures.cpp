@@ -34,12 +34,6 @@ ScenePictures::ScenePictures(const scene::Config& config, effect::Inputs& files)
     throw Error(ExitCode::usage, fmt::format("scene.layer_image: a sequence needs scene.source = \"files\", found \"{}\"", source));
 }
 
-bool ScenePictures::moves() const {
-  for (const auto* source : {&colour_, &depth_, &layer_})
-    if (*source && (*source)->is_sequence()) return true;
-  return false;
-}
-
 ScenePictures::Shown ScenePictures::shown_in(int frame) const {
   const auto of = [&](const std::optional<effect::PictureSource>& source) { return source ? source->shown_in(frame) : 0; };
   return {of(colour_), of(depth_), of(layer_)};

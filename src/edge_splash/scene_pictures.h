@@ -14,7 +14,6 @@ class ScenePictures {
  public:
   /// Looks at the files of sequences. Throws Error for pictures that scene.source wants and does not find, or does not use.
   ScenePictures(const scene::Config& config, effect::Inputs& files);
-  bool moves() const;
   /// Which picture of each key a frame shows: colour, depth, layer.
   using Shown = std::array<std::int64_t, 3>;
   Shown shown_in(int frame) const;

@@ -1,12 +1,24 @@
 #include "effect/inputs.h"
 
+#include <sys/stat.h>
+
+#include <memory>
+#include <utility>
+
 #include <fmt/format.h>
 
+#include "cache/remembered.h"
 #include "effect/npy_picture.h"
+#include "image/flipped.h"
 #include "rainref/error.h"
 #include "scene/check.h"
 
 namespace rainref::effect {
+
+bool names_files(std::string_view key) {
+  const std::string_view last = key.substr(key.rfind('.') + 1);
+  return last.ends_with("image") || last == "panorama" || last == "drive_cycle";
+}
 
 NamedFile::NamedFile(const scene::Config& config, const std::string& of)
     : key(of), name(config.text(of)), origin(config.entry(of).origin), directory(config.directory()) {}
@@ -16,14 +28,38 @@ std::filesystem::path NamedFile::path_of(const std::string& file) const {
   return path.is_relative() && origin.kind == scene::Origin::file ? directory / path : path;
 }
 Error NamedFile::placed(ExitCode code, const std::string& message) const {
-  if (origin.kind == scene::Origin::file) return Error(code, origin.at, fmt::format("{}: {}", key, message));
+  if (origin.kind == scene::Origin::file || !origin.at.file.empty()) return Error(code, origin.at, fmt::format("{}: {}", key, message));
   return Error(code, fmt::format("--set {}: {}", key, message));
 }
 
+namespace {
+
+/// Which file this is, as it stands there now; "" where nobody can say.
+std::string stand_of(const std::filesystem::path& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return {};
+  return fmt::format("{} {} {} {}.{}", found.st_dev, found.st_ino, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec);
+}
+
+image_io::Picture copy_of(const image_io::Picture& p) {
+  return {rainref::copy_of(p.image), p.channel_names, p.srgb_encoded, p.lossy, p.compression, p.decoded_hash, p.file_width, p.file_height};
+}
+
+}  // namespace
+
 image_io::Picture read_picture(const NamedFile& named, const std::string& file) {
+  static cache::Remembered<image_io::Picture>& remembered = *new cache::Remembered<image_io::Picture>;
   const std::filesystem::path path = named.path_of(file);
   try {
-    return is_npy(path) ? read_npy(path) : image_io::read(path);
+    const std::string stand = cache::remembered_bytes() > 0 ? stand_of(path) : "";
+    if (const auto known = remembered.find(stand)) return copy_of(*known);
+    image_io::Picture picture = is_npy(path) ? read_npy(path) : image_io::read(path);
+    const Image& image = picture.image;
+    if (!stand.empty()) {
+      remembered.keep(stand, std::make_shared<image_io::Picture>(copy_of(picture)),
+                      Image::memory_bytes(image.format(), image.width(), image.height()));
+    }
+    return picture;
   } catch (const Error& e) {
     throw named.placed(e.code(), e.what());
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "image_io/read.h"
@@ -23,6 +24,9 @@ struct Inputs {
   std::vector<InputFile> files;
   std::vector<std::string> warnings;
 };
+
+/// Whether the value of this key names files: its last part ends in "image", or is "panorama" or "drive_cycle".
+bool names_files(std::string_view key);
 
 /// A key whose value names files: what reading one of them takes of the scene.
 struct NamedFile {

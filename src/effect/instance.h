@@ -38,8 +38,6 @@ class Instance {
   virtual std::vector<PassOutput> buffers() = 0;
   /// What an EXR file of the frame holds, row 0 = bottom.
   virtual std::vector<image_io::Layer> layers() const = 0;
-  /// Whether the pictures that it takes change from frame to frame.
-  virtual bool has_sequence() const { return false; }
   /// What goes into files of its own beside the first EXR.
   virtual std::vector<Map> maps() const { return {}; }
 };

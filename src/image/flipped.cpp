@@ -11,4 +11,11 @@ Image flipped(const Image& image) {
   return out;
 }
 
+Image copy_of(const Image& image) {
+  Image out(image.format(), image.width(), image.height());
+  const std::size_t bytes = BufferView(image).row_bytes();
+  for (int y = 0; y < image.height(); ++y) std::memcpy(out.row_bytes(y), image.row_bytes(y), bytes);
+  return out;
+}
+
 }  // namespace rainref

@@ -7,5 +7,7 @@ namespace rainref {
 
 /// The same image with its rows in the other order.
 Image flipped(const Image& image);
+/// The same image.
+Image copy_of(const Image& image);
 
 }  // namespace rainref

@@ -71,6 +71,16 @@ Image::Image(Format format, int width, int height) : format_(format), width_(wid
   origin_ = memory_.get() + static_cast<std::size_t>(left_margin) * info(format).texel_bytes();
 }
 
+namespace {
+
+/// Channels of so many bytes into every texel of a row.
+template <std::size_t Bytes>
+void copy_channel(const std::byte* in, int count, std::size_t texel_bytes, std::byte* out) {
+  for (int x = 0; x < count; ++x) std::memcpy(out + x * texel_bytes, in + x * Bytes, Bytes);
+}
+
+}  // namespace
+
 void BufferView::copy_row(int y, std::byte* out) const {
   if (parts.size() == 1 && parts.front()->format() == format) {
     std::memcpy(out, parts.front()->row_bytes(y), row_bytes());
@@ -79,8 +89,8 @@ void BufferView::copy_row(int y, std::byte* out) const {
   const std::size_t channel_bytes = info(format).channel_bytes, texel_bytes = info(format).texel_bytes();
   std::memset(out, 0, row_bytes());
   for (std::size_t c = 0; c < parts.size(); ++c) {
-    const std::byte* in = parts[c]->row_bytes(y);
-    for (int x = 0; x < width(); ++x) std::memcpy(out + x * texel_bytes + c * channel_bytes, in + x * channel_bytes, channel_bytes);
+    const auto copy = channel_bytes == 1 ? copy_channel<1> : channel_bytes == 2 ? copy_channel<2> : copy_channel<4>;
+    copy(parts[c]->row_bytes(y), width(), texel_bytes, out + c * channel_bytes);
   }
 }
 

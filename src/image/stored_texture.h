@@ -9,7 +9,7 @@
 
 namespace rainref {
 
-/// As Texture. Level l has rows of pitch[l] texels; texels are followed by at least 4 bytes that may be read.
+/// As Texture. Level l has rows of pitch[l] texels; texels are followed by at least 8 bytes that may be read.
 template <class S>
 struct StoredTexture {
   const S* texels = nullptr;

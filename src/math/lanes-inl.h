@@ -50,7 +50,8 @@ struct Lanes {
       return {hn::IfThenElse(below, hn::Add(a.i, size.i), hn::IfThenElse(within, a.i, hn::Sub(a.i, size.i)))};
     }
     friend HWY_INLINE HWY_ATTR Mask inside(Int a, Int size) {
-      return {hn::RebindMask(D(), hn::And(hn::Not(hn::Lt(a.i, hn::Zero(DI()))), hn::Lt(a.i, size.i)))};
+      // Without its sign a negative one is above every size.
+      return {hn::RebindMask(D(), hn::Lt(hn::BitCast(DU(), a.i), hn::BitCast(DU(), size.i)))};
     }
     friend HWY_INLINE HWY_ATTR Int max_index(Int a, Int b) { return {hn::Max(a.i, b.i)}; }
     /// a / 2^b, rounded down; b in [0, 31].
@@ -117,7 +118,19 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Lanes floor(Lanes a) { return hn::Add(hn::Floor(a.v), hn::Zero(D())); }
   friend HWY_INLINE HWY_ATTR Lanes fract(Lanes a) { return a - floor(a); }
   friend HWY_INLINE HWY_ATTR Lanes mix(Lanes a, Lanes b, Lanes t) { return a * (Lanes(1.0f) - t) + b * t; }
-  friend HWY_INLINE HWY_ATTR Int to_int(Lanes a) { return {hn::ConvertTo(DI(), a.v)}; }
+  /// Of whole numbers and what lies between, cut; |a| < 2^31, which every caller sees to. Beyond it targets differ.
+  friend HWY_INLINE HWY_ATTR Int to_int(Lanes a) {
+    // hn::ConvertTo saturates, which costs four more instructions than the conversion.
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+    return {hn::Vec<DI>{_mm512_cvttps_epi32(a.v.raw)}};
+#elif HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    return {hn::Vec<DI>{_mm256_cvttps_epi32(a.v.raw)}};
+#elif HWY_ARCH_X86 && HWY_TARGET <= HWY_SSSE3
+    return {hn::Vec<DI>{_mm_cvttps_epi32(a.v.raw)}};
+#else
+    return {hn::ConvertTo(DI(), a.v)};
+#endif
+  }
   friend HWY_INLINE HWY_ATTR Lanes to_number(Int a) { return hn::ConvertTo(D(), a.i); }
   friend HWY_INLINE HWY_ATTR bool any(Mask m) { return !hn::AllFalse(D(), m.m); }
 
@@ -203,8 +216,10 @@ HWY_INLINE void store(Half* p, Lanes x, Rounding rounding, int count) {
   for (int k = 0; k < count; ++k) p[k].bits = lanes[k];
 }
 HWY_INLINE void store(Unorm8* p, Lanes x, Rounding rounding, int count) {
+  const auto codes = x.unorm8_codes(rounding);
+  if (HWY_LIKELY(count == Lanes::size())) return hn::StoreU(codes, Lanes::DB(), reinterpret_cast<std::uint8_t*>(p));
   HWY_ALIGN std::uint8_t lanes[HWY_MAX_BYTES];
-  hn::StoreU(x.unorm8_codes(rounding), Lanes::DB(), lanes);
+  hn::StoreU(codes, Lanes::DB(), lanes);
   for (int k = 0; k < count; ++k) p[k].code = lanes[k];
 }
 
@@ -214,11 +229,16 @@ HWY_INLINE void load4(const Half* p, Lanes (&c)[4]) {
   const Lanes::DH d;
   auto r = hn::Zero(d), g = r, b = r, a = r;
   hn::LoadInterleaved4(d, reinterpret_cast<const std::uint16_t*>(p), r, g, b, a);
+#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
+  const auto widen = [](auto v)
+                         HWY_ATTR { return Lanes(hn::PromoteTo(Lanes::D(), hn::BitCast(hn::Rebind<hwy::float16_t, Lanes::D>(), v))); };
+#else
   HWY_ALIGN std::uint16_t codes[HWY_MAX_BYTES / sizeof(std::uint16_t)];
   const auto widen = [&](auto v) HWY_ATTR {
     hn::StoreU(v, d, codes);
     return Lanes::load(reinterpret_cast<const Half*>(codes));
   };
+#endif
   c[0] = widen(r);
   c[1] = widen(g);
   c[2] = widen(b);

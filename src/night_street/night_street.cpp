@@ -1,18 +1,32 @@
 #include "night_street/night_street.h"
 
 #include <limits>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "base/floating_point.h"
+#include "cache/remembered.h"
 #include "night_street/city.h"
 #include "night_street/shade.h"
 
 namespace rainref::night_street {
+namespace {
+
+constexpr std::size_t city_bytes = std::size_t{16} << 20;  // about, light map included
+
+}  // namespace
 
 Street::Street(const Options& options) : options_(options) {
   FloatingPointGuard guard;  // the light map is computed here, outside the tiles that pin the state
-  auto city = std::make_unique<City>(options.seed, options.clear_lane);
-  lamps_ = city->lamps;
-  city_ = std::move(city);
+  static cache::Remembered<City>& remembered = *new cache::Remembered<City>;
+  const std::string name = fmt::format("{} {}", options.seed, options.clear_lane);
+  city_ = remembered.find(name);
+  if (!city_) {
+    city_ = std::make_shared<City>(options.seed, options.clear_lane);
+    remembered.keep(name, city_, city_bytes);
+  }
+  lamps_ = city_->lamps;
 }
 
 Street::~Street() = default;

@@ -75,7 +75,7 @@ class Street {
   View rendered(const scene::Camera& camera, int width, int height, double far, const parallel::Executor& executor, Parts parts) const;
   Image traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const;
   Options options_;
-  std::unique_ptr<const City> city_;
+  std::shared_ptr<const City> city_;  // which the streets of a process that remembers share
   std::vector<Lamp> lamps_;
 };
 

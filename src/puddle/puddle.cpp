@@ -13,13 +13,12 @@
 #include "puddle/shade.pass.h"
 #include "puddle/surface_hit.pass.h"
 #include "puddle/bounds.h"
-#include "puddle/environment.h"
-#include "puddle/ground.h"
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/memory.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/rainfall.h"
+#include "puddle/scenery.h"
 #include "puddle/wave_blocks.h"
 #include "puddle/wave_step.pass.h"
 #include "rainref/error.h"
@@ -55,13 +54,14 @@ struct Puddle::State {
   Encoding encoding;
   int frame = 0;
   std::int64_t steps = 0;
-  Image newest, previous, rest_row, shore;
+  Image newest, previous, rest_row;
   float stored_rest = 0;  // encoding.rest as the storage rounds it
   Rainfall rainfall;
 
-  TextureData environment, ground, relief, bed;
-  std::array<float, 3> ambient{};
-  TextureData water;  // one channel of the wave, decoded
+  std::shared_ptr<const Sky> sky;
+  std::shared_ptr<const Ground> ground;
+  std::shared_ptr<const Bed> bed;  // of the corrected variant
+  TextureData water;               // one channel of the wave, decoded
   Image hit, normal, noise, colour, picture;
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
@@ -76,17 +76,9 @@ struct Puddle::State {
     previous = Image(format, columns, rows);
     rest_row = Image(format, columns, 1);
     set_rest();
-    environment = prepare_environment(around, s.variant);
-    const bool own_ground = around.ground.empty();
-    // A checkerboard hides the ground image of as-published; the corrected ground has relief all the same.
-    const Image made = !own_ground ? Image() : !corrected && s.use_checkerboard ? Image(Format::rgba32f, 1, 1) : make_asphalt(s.seed);
-    ground = prepare_ground(own_ground ? made : around.ground, own_ground ? false : around.ground_is_encoded, s.variant);
-    if (corrected) {
-      relief = make_relief(ground, own_ground);
-      bed = make_bed(s);
-      if (s.shape == Shape::natural) shore = make_shore(s, bed.view());
-      ambient = ambient_radiance(environment.view(), around.environment_is_cube);
-    }
+    sky = sky_of(s, around);
+    ground = ground_of(s, around);
+    if (corrected) bed = bed_of(s);
     environment_is_cube = around.environment_is_cube;
     hit = Image(Format::rgba32f, s.width, s.height);
     normal = Image(Format::rgba16f, s.width, s.height);
@@ -99,6 +91,9 @@ struct Puddle::State {
   }
 
   bool environment_is_cube = false;
+
+  /// Where there is none: null.
+  const Image* shore() const { return bed && !bed->shore.empty() ? &bed->shore : nullptr; }
 
   static Settings no_rain(Settings s) {
     s.rain_rate = 0;
@@ -168,8 +163,7 @@ struct Puddle::State {
     for (const std::vector<Drop>& fallen : drops) {
       const bool even = jobs.size() % 2 == 0;
       WaveJob& job = jobs.emplace_back(WaveJob{wave_step_uniforms(settings), corrected, settings.rounding, settings.boundary,
-                                               even ? &newest : &previous, even ? &previous : &newest, &rest_row,
-                                               shore.empty() ? nullptr : &shore, fallen});
+                                               even ? &newest : &previous, even ? &previous : &newest, &rest_row, shore(), fallen});
       job.uniforms.drop_count = static_cast<std::int32_t>(fallen.size());
     }
     const PassInput loaded = loaded_wave(wave);
@@ -178,7 +172,7 @@ struct Puddle::State {
       pass::HostIo<WaveStepPass> io;
       io.wave.input = &loaded;
       io.drops = drops[k];
-      if (jobs[k].shore) io.shore = shore;
+      if (jobs[k].shore) io.shore = *jobs[k].shore;
       io.next.planes = &wave;
       pass::Run<WaveStepPass> run(jobs[k].uniforms, corrected, settings.rounding, io);
       run.start(now);
@@ -275,19 +269,19 @@ void Puddle::render(Recorder* recorder) {
 
   ShadeUniforms of_shade = shade_uniforms(s.settings);
   of_shade.environment_is_cube = s.environment_is_cube;
-  of_shade.ground_footprint = ground_footprint(s.settings, s.ground.view().width[0]);
-  for (int k = 0; k < 3; ++k) of_shade.ambient[k] = of_shade.fog_colour[k] = s.ambient[k];
+  of_shade.ground_footprint = ground_footprint(s.settings, s.ground->tile.view().width[0]);
+  for (int k = 0; k < 3; ++k) of_shade.ambient[k] = of_shade.fog_colour[k] = s.sky->ambient[k];
   pass::HostIo<ShadePass> at_shade;
   at_shade.hit = s.hit;
   at_shade.normal = s.normal;
-  at_shade.environment = s.environment.view();
-  at_shade.ground = s.ground.view();
+  at_shade.environment = s.sky->environment.view();
+  at_shade.ground = s.ground->tile.view();
   if (corrected) {
     // A cube's level is the nearest one.
     at_shade.environment.is.mip_filter = s.environment_is_cube ? Filter::nearest : Filter::linear;
     at_shade.ground.is.mip_filter = Filter::nearest;
-    at_shade.relief = s.relief.view();
-    at_shade.bed = s.bed.view();
+    at_shade.relief = s.ground->relief.view();
+    at_shade.bed = s.bed->depths.view();
   } else {
     at_shade.noise = s.noise;
   }

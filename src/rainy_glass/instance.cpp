@@ -105,8 +105,9 @@ Instance::Instance(const Settings& settings, Surroundings surroundings, std::opt
 void Instance::show_pictures_of(int frame) {
   if (!sequences_ || frame == shown_) return;
   effect::Inputs none;
-  const Image colour = colour_of(*sequences_, frame, none);
-  changed().show(colour, sequences_->depth ? depth_of(*sequences_, colour, frame, none) : Image());
+  surroundings_.colour = colour_of(*sequences_, frame, none);
+  if (sequences_->depth) surroundings_.depth = depth_of(*sequences_, surroundings_.colour, frame, none);
+  changed().show(surroundings_.colour, surroundings_.depth);
   shown_ = frame;
 }
 

@@ -23,13 +23,12 @@ class Instance final : public effect::InstanceOf<RainyGlass> {
   /// `sequences`: its pictures of frame 0 are in `surroundings`; or nothing.
   Instance(const Settings& settings, Surroundings surroundings, std::optional<Sequences> sequences, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// Of sequences those of frame 0.
+  /// Of sequences those of the frame rendered last.
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
   /// The maps have a size of their own.
   std::vector<effect::Map> maps() const override { return {{"raindrops", &running().raindrops()}, {"rivulets", &running().rivulets()}}; }
-  bool has_sequence() const override { return sequences_.has_value(); }
 
  private:
   void show_pictures_of(int frame) override;

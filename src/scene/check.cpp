@@ -80,7 +80,7 @@ Result convert(const RawValue& raw, const Parameter& p) {
 }  // namespace
 
 void refuse(const Origin& origin, const std::string& key, const std::string& message) {
-  if (origin.kind == Origin::override_option) {
+  if (origin.kind == Origin::override_option && origin.at.file.empty()) {
     throw Error(ExitCode::usage, fmt::format("--set {}: {}", key, message));
   }
   throw Error(ExitCode::usage, origin.at, fmt::format("{}: {}", key, message));
@@ -89,7 +89,7 @@ void refuse(const Origin& origin, const std::string& key, const std::string& mes
 Value checked(const RawValue& raw, const Parameter& p, Origin origin) {
   Result result = convert(raw, p);
   if (!result.wrong) return std::move(result.value);
-  if (origin.kind == Origin::file) origin.at = result.wrong->at;
+  if (origin.kind != Origin::by_default && !result.wrong->at.file.empty()) origin.at = result.wrong->at;
   std::string message = fmt::format("expected {}, found {}", expectation(p), raw.text());
   if (const auto* word = std::get_if<std::string>(&raw.data); word && p.type == Type::choice) {
     message += did_you_mean(*word, p.choices);

@@ -9,7 +9,7 @@
 
 namespace rainref::scene {
 
-/// Throws Error(usage): "<place>: <key>: <message>", the place being a file position or `--set`.
+/// Throws Error(usage): "<place>: <key>: <message>", the place being a file position, a plan's too, or `--set`.
 [[noreturn]] void refuse(const Origin& origin, const std::string& key, const std::string& message);
 
 /// The value as the parameter's type: an integer is taken where a real is expected, never the reverse, and -0.0 becomes

@@ -7,7 +7,7 @@
 namespace rainref::scene {
 
 std::string Origin::text() const {
-  if (kind == file) return at.text();
+  if (kind == file || !at.file.empty()) return at.text();
   return kind == override_option ? "--set" : "default";
 }
 

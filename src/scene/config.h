@@ -14,7 +14,7 @@ namespace rainref::scene {
 /// Where a value came from.
 struct Origin {
   enum Kind : std::uint8_t { by_default, file, override_option } kind = by_default;
-  SourceLocation at;  ///< of Kind file
+  SourceLocation at;  ///< of Kind file; of an override that a plan says
   /// "scenes/puddle/x.toml:12:3", "--set" or "default".
   std::string text() const;
 };

@@ -25,11 +25,6 @@ constexpr std::size_t longest_guess = 128;
 
 std::string shortened(const std::string& key) { return key.size() <= longest_guess ? key : key.substr(0, longest_guess) + "…"; }
 
-struct Override {
-  std::string key;
-  std::string text;
-};
-
 std::vector<Override> split(const std::vector<std::string>& overrides) {
   std::vector<Override> out;
   for (const std::string& o : overrides) {
@@ -38,19 +33,22 @@ std::vector<Override> split(const std::vector<std::string>& overrides) {
     if (equals == std::string::npos || begin == equals) {
       throw Error(ExitCode::usage, fmt::format("--set {}: expected key=value", shortened(o)));
     }
-    out.push_back({o.substr(begin, o.find_last_not_of(' ', equals - 1) + 1 - begin), o.substr(equals + 1)});
+    out.push_back({o.substr(begin, o.find_last_not_of(' ', equals - 1) + 1 - begin), o.substr(equals + 1), {}});
   }
   return out;
 }
 
-const Origin from_override{Origin::override_option, {}};
+Origin origin_of(const Override& o) { return {Origin::override_option, o.at}; }
 
 Value checked(const Override& o, const Parameter& p) {
+  if (const auto* value = std::get_if<RawValue>(&o.value)) return checked(*value, p, origin_of(o));
+  const std::string& text = std::get<std::string>(o.value);
   const bool wants_text = p.type == Type::text || p.type == Type::choice;
-  std::optional<RawValue> raw = read_toml_value(o.text);
-  if (!raw || (wants_text && !std::holds_alternative<std::string>(raw->data))) raw = read_bare_text(o.text);
-  if (!raw) refuse(from_override, o.key, fmt::format("expected {}, found bytes that are not UTF-8", expectation(p)));
-  return checked(*raw, p, from_override);
+  std::optional<RawValue> raw = read_toml_value(text);
+  if (!raw || (wants_text && !std::holds_alternative<std::string>(raw->data))) raw = read_bare_text(text);
+  if (!raw) refuse(origin_of(o), o.key, fmt::format("expected {}, found bytes that are not UTF-8", expectation(p)));
+  raw->at = {};
+  return checked(*raw, p, origin_of(o));
 }
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
@@ -99,9 +97,9 @@ class Assembly {
   }
 
   void take(const Override& o) {
-    Config::Entry& entry = find(o.key, from_override);
+    Config::Entry& entry = find(o.key, origin_of(o));
     entry.value = checked(o, entry.parameter);
-    entry.origin = from_override;
+    entry.origin = origin_of(o);
   }
 
   Config finish(const std::filesystem::path& file) {
@@ -205,7 +203,12 @@ Config parse(std::string_view toml, const std::filesystem::path& file, const std
              const EffectTable& effects) {
   const FloatingPointGuard guard;
   const std::vector<Override> given = split(overrides);
-  const std::vector<RawEntry> entries = read_toml(toml, file.string());
+  return parse(read_toml(toml, file.string()), file, given, effects);
+}
+
+Config parse(const std::vector<RawEntry>& entries, const std::filesystem::path& file, const std::vector<Override>& given,
+             const EffectTable& effects) {
+  const FloatingPointGuard guard;
   const Effect& effect = effects.find(deciding(effect_parameter(effects), entries, given, file));
   std::string variant = deciding(variant_parameter(effect), entries, given, file);
   Assembly assembly(effect, effects, std::move(variant));

@@ -5,11 +5,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "rainref/scene_text.h"
 #include "scene/config.h"
 #include "scene/effect_table.h"
+#include "scene/toml_reader.h"
 
 namespace rainref::scene {
 
@@ -27,6 +29,16 @@ std::string read_scene(const std::filesystem::path& file);
 
 /// The same for a text already in memory; `file` names it in messages and gives the directory.
 Config parse(std::string_view toml, const std::filesystem::path& file, const std::vector<std::string>& overrides,
+             const EffectTable& effects);
+
+/// A value that wins over the scene's, and where it was said: a plan's. Text is what --set takes: a TOML value or a bare text.
+struct Override {
+  std::string key;
+  std::variant<std::string, RawValue> value;
+  SourceLocation at;  ///< unknown: --set
+};
+/// The same for a scene that was read already, by read_toml, so that many of it cost less.
+Config parse(const std::vector<RawEntry>& scene, const std::filesystem::path& file, const std::vector<Override>& overrides,
              const EffectTable& effects);
 
 /// The same of a text that may leave out `effect` and `variant`, for a caller who hands in the pictures himself: the keys `pictures`,

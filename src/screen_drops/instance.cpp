@@ -64,11 +64,11 @@ Instance::Instance(const Settings& settings, Inputs pictures, std::optional<effe
 void Instance::show_pictures_of(int frame) {
   if (!sequence_ || (frame == shown_ && frame == held_)) return;
   effect::Inputs none;
-  const Image colour = effect::linear_of(sequence_->read(sequence_->shown_in(frame), none));
+  pictures_.colour = effect::linear_of(sequence_->read(sequence_->shown_in(frame), none));
   if (frame == shown_)
-    changed().show_again(colour);
+    changed().show_again(pictures_.colour);
   else
-    changed().show(colour);
+    changed().show(pictures_.colour);
   shown_ = held_ = frame;
 }
 

@@ -18,12 +18,12 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
   Instance(const Settings& settings, Inputs pictures, std::optional<effect::PictureSource> sequence, const FlowSettings* flow,
            const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  /// The scene's picture; of a sequence that of frame 0.
+  /// The scene's picture; of a sequence that of the frame rendered last.
   const Image& scene_colour() const { return pictures_.colour; }
   void list_state(state::Items& items) override;
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
-  bool has_sequence() const override { return sequence_.has_value(); }
+  bool has_sequence() const { return sequence_.has_value(); }
 
  private:
   void show_pictures_of(int frame) override;

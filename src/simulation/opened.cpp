@@ -72,8 +72,6 @@ Opened::Opened(scene::Config config, const parallel::Executor& executor)
   const FloatingPointGuard guard;
   instance_ = effect_.open(config_, executor_, inputs_);
   is_traced_ = truth::choice_from(config_).is_traced;
-  if (is_traced_ && instance_->has_sequence())
-    throw Error(ExitCode::usage, "compositor.picture: expected \"passes\" where a picture is a sequence, found \"traced\"");
   if (is_traced_) has_truth();
 }
 
@@ -110,7 +108,6 @@ void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
 bool Opened::has_truth() {
   const FloatingPointGuard guard;
   const truth::EffectTracing* how = truth::tracing_of(effect_.name);
-  if (instance_->has_sequence()) return false;
   if (!tracing_ && how) tracing_ = how->make(config_, *instance_, executor_);
   return tracing_ != nullptr;
 }

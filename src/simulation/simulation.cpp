@@ -13,6 +13,7 @@
 #include "scene/json.h"
 #include "scene/toml.h"
 #include "simulation/opened.h"
+#include "simulation/own_scenes.h"
 
 namespace rainref {
 
@@ -33,8 +34,9 @@ struct Simulation::State {
 
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set) {
   const FloatingPointGuard guard;
-  const std::vector<std::byte> bytes = read_file(file);
-  return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), file.string()};
+  const std::filesystem::path found = simulation::find_scene(file);
+  const std::vector<std::byte> bytes = read_file(found);
+  return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), found.string()};
 }
 
 Simulation::Simulation(const SceneText& scene, const parallel::Executor& executor) {

@@ -17,14 +17,22 @@ Comparison compare_pane(const Running& running, const View& view, const PictureO
 template <class View, class Instance>
 class PaneTracing : public Tracing {
  public:
-  Comparison compare() override { return compare_pane(instance_.running(), view_, choice().picture, executor()); }
+  Comparison compare() override {
+    look_outside();
+    return compare_pane(instance_.running(), view_, choice().picture, executor());
+  }
 
  protected:
   PaneTracing(const scene::Config& config, const Instance& instance, View view, const parallel::Executor& on)
       : Tracing(choice_from(config), on), instance_(instance), view_(std::move(view)) {}
+  /// Hands the view the pictures of the frame that was rendered last, where those change.
+  virtual void look_outside() {}
+  const Instance& instance() const { return instance_; }
+  View& view() { return view_; }
 
  private:
   Picture picture() override {
+    look_outside();
     return trace_picture(*view_.scene(instance_.running()), view_.camera(), view_.width(), view_.height(), choice().picture, executor());
   }
   Image display(const Image& radiance) const override { return view_.display(radiance, executor()); }

@@ -19,16 +19,20 @@ std::unique_ptr<const Surroundings> unbarred(const scene::Config& config, const 
 
 class RainyGlassTracing : public PaneTracing<RainyGlassView, Instance> {
  public:
-  RainyGlassTracing(const scene::Config& config, const Instance& glass, std::unique_ptr<const Surroundings> scene,
+  /// street: without anything before the glass; null where the scene comes in pictures.
+  RainyGlassTracing(const scene::Config& config, const Instance& glass, std::unique_ptr<const Surroundings> street,
                     const parallel::Executor& on)
       : PaneTracing(config, glass,
-                    RainyGlassView(glass.settings(), glass.surroundings(), *scene, config.real("compositor.glass_thickness"),
+                    RainyGlassView(glass.settings(), glass.surroundings(), street.get(), config.real("compositor.glass_thickness"),
                                    choice_from(config).tracer),
                     on),
-        scene_(std::move(scene)) {}
+        street_(std::move(street)) {}
 
  private:
-  std::unique_ptr<const Surroundings> scene_;  // which the view refers to
+  void look_outside() override {
+    if (!street_) view().show(instance().running().surface());
+  }
+  std::unique_ptr<const Surroundings> street_;  // which the view refers to
 };
 
 }  // namespace
@@ -39,13 +43,14 @@ EffectTracing rainy_glass_tracing() {
       [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
         const auto& glass = static_cast<const Instance&>(instance);
         const rainy_glass::Settings& s = glass.settings();
-        const bool can = s.variant == Variant::corrected && s.shape == rainy_glass::Shape::pane && !s.use_probe &&
-                         config.text("scene.image").empty() && config.text("scene.panorama").empty();
+        const bool can =
+            s.variant == Variant::corrected && s.shape == rainy_glass::Shape::pane && !s.use_probe && config.text("scene.panorama").empty();
+        if (can && effect::is_named(config, "scene.image")) return std::make_unique<RainyGlassTracing>(config, glass, nullptr, executor);
         if (can) return std::make_unique<RainyGlassTracing>(config, glass, unbarred(config, glass, executor), executor);
         if (!choice_from(config).is_traced) return nullptr;
         throw Error(ExitCode::usage,
-                    "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and the street made here "
-                    "instead of scene.image or scene.panorama");
+                    "compositor.picture: expected \"passes\", for rays need a pane, glass.background = \"grab\", and depths, which "
+                    "scene.panorama has not");
       },
       [](effect::RunMemory& m, const scene::Config& config) {
         // The scene without bars.

@@ -12,6 +12,7 @@
 #include "rainy_glass/host.h"
 #include "rainy_glass/storage.h"
 #include "pass/display.h"
+#include "truth/uncovered.h"
 
 namespace rainref::truth {
 namespace {
@@ -123,11 +124,11 @@ class Outside : public Environment {
 
 }  // namespace
 
-RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred,
+RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings* unbarred,
                                double thickness, const TracerOptions& tracer)
     : settings_(s),
       around_(&around),
-      unbarred_(&unbarred),
+      unbarred_(unbarred),
       tracer_(tracer),
       camera_(checked(s, thickness)),
       basis_(camera_.basis()),
@@ -135,10 +136,20 @@ RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surrounding
       half_height_(camera_.half_height()),
       extent_(extent_of(s, basis_, half_width_, half_height_)),
       pane_(shape_of(s, extent_, thickness)),
-      street_({s.seed}),
-      colour_(rainy_glass::as_half(unbarred.colour), Address::clamp, Address::clamp) {}
+      street_({s.seed}) {
+  if (unbarred_) colour_ = TextureData(rainy_glass::as_half(unbarred_->colour), Address::clamp, Address::clamp);
+}
+
+void RainyGlassView::show(const Image& surface) {
+  const Uncovered beyond = uncovered(around_->colour, around_->depth, surface);
+  pictures_.emplace(camera_, half_width_, half_height_, rainy_glass::as_half(beyond.colour), beyond.depth);
+}
 
 RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction) const {
+  if (pictures_) {
+    const PictureRelief::Sight seen = pictures_->look(origin, direction);
+    return {std::isinf(seen.distance) ? direction : origin + seen.distance * direction - camera_.position, seen.radiance};
+  }
   const night_street::Street::Sight seen = street_.look(origin, direction);
   const bool is_sky = std::isinf(seen.distance);
   const Vec from_eye = is_sky ? direction : origin + seen.distance * direction - camera_.position;

@@ -1,5 +1,5 @@
 // The pane of rainy_glass as rays see it: the eye, glass of real thickness, water whose slopes the maps give, the street at night
-// behind it, seen by a camera that focuses on the pane.
+// or a picture with depths behind it, seen by a camera that focuses on the pane.
 //
 // The effect knows no height of its water, and none can be had: a slope that is masked, or mixed of two phases, is the gradient of
 // no surface. So the truth here is a sheet too thin to matter, with these slopes: rays are met on the outer face and bent there,
@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "compositor/pane_scene.h"
 #include "compositor/picture.h"
@@ -14,17 +15,21 @@
 #include "night_street/night_street.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/shown.h"
+#include "truth/picture_relief.h"
 #include "truth/tracer_names.h"
 
 namespace rainref::truth {
 
 class RainyGlassView {
  public:
-  /// around: what the passes take; unbarred: the same street without anything before the glass. Both must outlive the view.
-  /// thickness [m]. Throws Error(usage) unless the settings are a corrected pane before the grabbed scene, and for glass that reaches
-  /// to the eye.
-  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings& unbarred,
+  /// around: what the passes take; unbarred: the same street without anything before the glass, or nothing where the scene comes in
+  /// pictures, which `show` hands over. Both must outlive the view. thickness [m]. Throws Error(usage) unless the settings are a corrected
+  /// pane before the grabbed scene, and for glass that reaches to the eye.
+  RainyGlassView(const rainy_glass::Settings& settings, const rainy_glass::Surroundings& around, const rainy_glass::Surroundings* unbarred,
                  double thickness, const TracerOptions& tracer);
+
+  /// The pictures that `around` has now, with what stands before the glass, where `surface` of the running effect says that it is, away.
+  void show(const Image& surface);
 
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene.
   std::unique_ptr<Scene> scene(const rainy_glass::RainyGlass& rendered) const;
@@ -47,8 +52,8 @@ class RainyGlassView {
     Spot low, size;
   };
 
-  /// What a ray that left the glass comes to: from the eye toward the place where it meets the street, and linear radiance.
-  /// Where the eye sees that place, radiance is its picture's, out of focus as that is; elsewhere the street's own, sharp.
+  /// What a ray that left the glass comes to: from the eye toward the place where it meets the scene, and linear radiance. Of the street:
+  /// where the eye sees that place, radiance is its picture's, out of focus as that is; elsewhere the street's own, sharp.
   struct Met {
     Vec from_eye, radiance;
   };
@@ -66,6 +71,7 @@ class RainyGlassView {
   Pane pane_;
   night_street::Street street_;
   TextureData colour_;
+  std::optional<PictureRelief> pictures_;
 };
 
 }  // namespace rainref::truth

@@ -14,6 +14,11 @@ class ScreenDropsTracing : public PaneTracing<ScreenDropsView, Instance> {
                     ScreenDropsView(drops.settings(), drops.scene_colour(), config.real("compositor.glass_thickness"),
                                     choice_from(config).tracer, on),
                     on) {}
+
+ private:
+  void look_outside() override {
+    if (instance().has_sequence()) view().show(instance().scene_colour());
+  }
 };
 
 }  // namespace

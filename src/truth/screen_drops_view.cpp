@@ -61,7 +61,11 @@ ScreenDropsView::ScreenDropsView(const screen_drops::Settings& s, const Image& c
   const double half_height = camera_.half_height(), half_width = half_height * s.width / s.height;
   scale_[0] = 0.5 / (half_width * s.scene_margin);
   scale_[1] = 0.5 / (half_height * s.scene_margin);
-  scene_ = TextureData(screen_drops::defocused_scene(s, colour, executor), Address::clamp, Address::clamp);
+  show(colour);
+}
+
+void ScreenDropsView::show(const Image& colour) {
+  scene_ = TextureData(screen_drops::defocused_scene(settings_, colour, executor_), Address::clamp, Address::clamp);
 }
 
 Vec ScreenDropsView::radiance(const Vec& direction) const {

@@ -19,6 +19,9 @@ class ScreenDropsView {
   ScreenDropsView(const screen_drops::Settings& settings, const Image& colour, double thickness, const TracerOptions& tracer,
                   const parallel::Executor& executor);
 
+  /// Another picture of the scene from now on.
+  void show(const Image& colour);
+
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene, and the
   /// executor the view.
   std::unique_ptr<Scene> scene(const screen_drops::ScreenDrops& rendered) const;

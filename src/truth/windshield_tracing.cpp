@@ -1,4 +1,3 @@
-#include "rainref/error.h"
 #include "truth/tracing.h"
 #include "truth/windshield_truth.h"
 #include "windshield/instance.h"
@@ -15,16 +14,22 @@ class WindshieldTracing : public Tracing {
               on) {}
 
   Comparison compare() override {
+    look_outside();
     WindshieldTruth t = truth::compare(windshield_.running(), view_, choice().picture, executor());
     return {{{"glass_pixels", t.glass}, {"drop_pixels", t.drops}, {"mirrored_pixels", t.mirrored}}, std::move(t.differences)};
   }
 
  private:
   Picture picture() override {
+    look_outside();
     const windshield::PictureSettings& p = view_.settings().picture;
     return trace_picture(*view_.scene(windshield_.running()), view_.camera(), p.width, p.height, choice().picture, executor());
   }
   Image display(const Image& radiance) const override { return truth::display(view_.settings(), radiance, executor()); }
+
+  void look_outside() {
+    if (!windshield_.has_street()) view_.show(windshield_.running().scene_colour(), windshield_.running().scene_depth());
+  }
 
   const windshield::Instance& windshield_;
   WindshieldView view_;
@@ -43,13 +48,16 @@ EffectTracing windshield_tracing() {
         return all;
       },
       [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
-        const auto& windshield = static_cast<const windshield::Instance&>(instance);
-        if (windshield.has_street()) return std::make_unique<WindshieldTracing>(config, windshield, executor);
-        if (!choice_from(config).is_traced) return nullptr;
-        throw Error(ExitCode::usage,
-                    "compositor.picture: expected \"passes\", for rays need the street made here and scene.image names a picture");
+        return std::make_unique<WindshieldTracing>(config, static_cast<const windshield::Instance&>(instance), executor);
       },
-      hold_traced};
+      [](effect::RunMemory& m, const scene::Config& config) {
+        // The pictures as rays look them up: floats, and their depths. Their size is not known yet; as the effect does, the street's
+        // counts.
+        const auto [width, height] = config.integer2("scene.size");
+        if (choice_from(config).is_traced && effect::is_named(config, "scene.image"))
+          m.peak.hold(static_cast<std::size_t>(width * height) * (4 + 1) * sizeof(float));
+        hold_traced(m, config);
+      }};
 }
 
 }  // namespace rainref::truth

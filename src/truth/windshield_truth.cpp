@@ -27,7 +27,7 @@ WindshieldTruth compare(const windshield::Windshield& rendered, const Windshield
   const windshield::ShownScene composite(settings, rendered);
   const PrimaryRays primary(camera, width, height);
   const scene::Camera::Basis basis = camera.basis();
-  const Vec place = windshield::place_in_street(view.settings().street_start, view.distance(rendered));
+  const double distance = view.distance(rendered);
 
   WindshieldTruth truth;
   truth.differences = {{"refraction", "deg", width, height},
@@ -58,8 +58,7 @@ WindshieldTruth compare(const windshield::Windshield& rendered, const Windshield
         const bool is_wet = path.interfaces > 2;
         if (is_drop && path.end == StraightPath::End::mirrored) ++mirrored;
         if (path.end != StraightPath::End::out || is_drop != is_wet || (!is_drop && pixel.visibility > 0)) continue;
-        const night_street::Street::Sight seen =
-            view.street().look(place + windshield::in_street(path.origin), windshield::in_street(path.direction));
+        const night_street::Street::Sight seen = view.look(distance, path.origin, path.direction);
         const bool is_sky = std::isinf(seen.distance);
         const Vec from_eye = is_sky ? path.direction : path.origin + seen.distance * path.direction - camera.position;
         const Vec from_trick = basis.forward + pixel.x * basis.right + pixel.y * basis.up;

@@ -18,11 +18,11 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
   return {vec(plane.origin), vec(plane.e_u), vec(plane.e_v), vec(plane.normal), glass.thickness, glass.radius};
 }
 
-/// The street outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
+/// The street or the pictures outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
 class Outside : public Environment {
  public:
   Outside(const WindshieldView& view, double distance, std::span<const windshield::FallingDropView> falling)
-      : view_(view), falling_(falling), place_(windshield::place_in_street(view.settings().street_start, distance)) {
+      : view_(view), falling_(falling), distance_(distance) {
     for (const Pane& pane : view.panes()) outward_.push_back(pane.normal(0.5));
   }
 
@@ -35,8 +35,7 @@ class Outside : public Environment {
         out[i] = cabin;
         continue;
       }
-      const night_street::Street::Sight seen =
-          view_.street().look(place_ + windshield::in_street(escaped_ray.origin), windshield::in_street(escaped_ray.direction));
+      const night_street::Street::Sight seen = view_.look(distance_, escaped_ray.origin, escaped_ray.direction);
       // The fog of level 0 of the blur pyramid, by the length of the ray; there the sky is as far as can be.
       const double far = std::min(seen.distance, windshield::street_far), clear = exp_real(Real64(-s.blur.fog_density * far)).v;
       out[i] = falling_.through(escaped_ray.origin, escaped_ray.direction, seen.distance, (1 - clear) * fog + clear * seen.radiance);
@@ -58,7 +57,7 @@ class Outside : public Environment {
 
   const WindshieldView& view_;
   FallingRainIndex falling_;
-  Vec place_;
+  double distance_;
   std::vector<Vec> outward_;
 };
 
@@ -73,6 +72,20 @@ WindshieldView::WindshieldView(const windshield::Settings& settings, const Winds
       vehicle_(settings.vehicle),
       street_({settings.seed, settings.clear_lane}) {
   for (const windshield::Corners& corners : settings.panes) panes_.emplace_back(shape_of(corners, {glass.thickness, 0}));
+}
+
+void WindshieldView::show(const Image& colour, const Image& depth) {
+  const double half_height = camera().half_height() * settings_.picture.scene_margin;
+  pictures_.emplace(camera(), half_height * settings_.picture.width / settings_.picture.height, half_height, colour, depth);
+}
+
+night_street::Street::Sight WindshieldView::look(double distance, const Vec& origin, const Vec& direction) const {
+  if (pictures_) {
+    const PictureRelief::Sight seen = pictures_->look(origin, direction);
+    return {seen.radiance, seen.distance};
+  }
+  const Vec place = windshield::place_in_street(settings_.street_start, distance);
+  return street_.look(place + windshield::in_street(origin), windshield::in_street(direction));
 }
 
 double WindshieldView::distance(const windshield::Windshield& rendered) const {

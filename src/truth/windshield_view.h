@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "compositor/picture.h"
 #include "night_street/night_street.h"
 #include "rainref/windshield.h"
+#include "truth/picture_relief.h"
 #include "windshield/scene_keys.h"
 #include "truth/tracer_names.h"
 
@@ -25,6 +27,9 @@ class WindshieldView {
   WindshieldView(const windshield::Settings& settings, const WindshieldGlass& glass, const TracerOptions& tracer,
                  const parallel::Executor& executor);
 
+  /// Pictures in the street's place from now on, as the windshield has them: scene_colour() and scene_depth().
+  void show(const Image& colour, const Image& depth);
+
   /// Surfaces and surroundings of the frame that was rendered last, committed. The view must outlive the scene,
   /// and the executor the view.
   std::unique_ptr<Scene> scene(const windshield::Windshield& rendered) const;
@@ -38,7 +43,9 @@ class WindshieldView {
 
   /// The windshield, and the car's further panes.
   const std::vector<Pane>& panes() const { return panes_; }
-  const night_street::Street& street() const { return street_; }
+  /// What lies outside in the direction of a ray, without fog: of the pictures, or of the street for a car `distance` metres on.
+  /// direction: unit. An infinite distance is the sky's.
+  night_street::Street::Sight look(double distance, const Vec& origin, const Vec& direction) const;
   scene::Camera camera() const { return windshield::camera(settings_.picture); }
   const windshield::Settings& settings() const { return settings_; }
 
@@ -49,6 +56,7 @@ class WindshieldView {
   std::vector<Pane> panes_;
   windshield::Vehicle vehicle_;
   night_street::Street street_;
+  std::optional<PictureRelief> pictures_;
 };
 
 }  // namespace rainref::truth

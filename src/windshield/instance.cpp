@@ -1,51 +1,51 @@
 #include "windshield/instance.h"
 
+#include <array>
 #include <initializer_list>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
-#include "rainref/error.h"
 #include "windshield/evaluations.h"
 #include "windshield/info.h"
 #include "windshield/memory.h"
-#include "windshield/scene_images.h"
+#include "windshield/street.h"
 
 namespace rainref::windshield {
 namespace {
 
-Surroundings surroundings(const scene::Config& config, effect::Inputs& inputs) {
-  Surroundings s;
-  const bool has_depth = effect::is_named(config, "scene.depth_image");
-  if (!effect::is_named(config, "scene.image")) {
-    if (has_depth)
-      throw Error(ExitCode::usage, config.entry("scene.depth_image").origin.at,
-                  "scene.depth_image: expected scene.image beside it, found none");
-    return s;
-  }
-  const Image colour = effect::read_linear(config, "scene.image", inputs);
-  s.colour = opaque_half(colour);
-  s.depth = has_depth ? effect::read_depth(config, colour, inputs) : far_depth(colour.width(), colour.height());
-  return s;
-}
-
 effect::RunMemory memory_of(const scene::Config& config) {
   const Settings s = settings_from(config);
-  return {
-      fmt::format("run.size {}x{} with scene.size {}x{} and windshield.height_size {}x{} for {} drops", s.picture.width, s.picture.height,
-                  s.scene_size[0], s.scene_size[1], s.surface.width, s.surface.height, s.drops.capacity),
-      memory(s, static_cast<int>(config.integer("run.frames")), effect::is_named(config, "scene.image") ? s.scene_size : std::array{0, 0}),
-      s.picture.width,
-      s.picture.height,
-      8,
-      6};
+  const std::array<int, 2> scene = effect::is_named(config, "scene.image") ? s.scene_size : std::array{0, 0};
+  effect::RunMemory m{fmt::format("run.size {}x{} with scene.size {}x{} and windshield.height_size {}x{} for {} drops", s.picture.width,
+                                  s.picture.height, s.scene_size[0], s.scene_size[1], s.surface.width, s.surface.height, s.drops.capacity),
+                      memory(s, static_cast<int>(config.integer("run.frames")), scene),
+                      s.picture.width,
+                      s.picture.height,
+                      8,
+                      6};
+  const std::size_t texels = static_cast<std::size_t>(scene[0]) * static_cast<std::size_t>(scene[1]);
+  if (effect::is_sequence(config.text("scene.image")) || effect::is_sequence(config.text("scene.depth_image")))
+    m.peak.pass(texels * (3 * 16 + 3 * 4 + 8));  // decoded, turned over, as they are taken
+  return m;
 }
 
 }  // namespace
 
-Instance::Instance(const scene::Config& config, Surroundings surroundings, bool has_street, const parallel::Executor& executor)
-    : InstanceOf(config, std::move(surroundings), executor), settings_(settings_from(config)), has_street_(has_street) {}
+Instance::Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor)
+    : InstanceOf(config, std::move(surroundings), executor),
+      settings_(settings_from(config)),
+      named_(std::move(named)),
+      shown_(named_.shown_in(0)) {}
+
+void Instance::show_pictures_of(int frame) {
+  const ScenePictures::Shown wanted = named_.shown_in(frame);
+  if (wanted == shown_) return;
+  effect::Inputs none;
+  changed().show(named_.read(frame, none));
+  shown_ = wanted;
+}
 
 std::vector<PassOutput> Instance::buffers() {
   const Windshield& w = running();
@@ -72,7 +72,15 @@ effect::Effect entry() {
           &evaluations(),
           memory_of,
           [](const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) -> std::unique_ptr<effect::Instance> {
-            return std::make_unique<Instance>(config, surroundings(config, inputs), !effect::is_named(config, "scene.image"), executor);
+            ScenePictures named(config, inputs);
+            Surroundings first = named.read(0, inputs);
+            auto instance = std::make_unique<Instance>(config, std::move(first), std::move(named), executor);
+            const double fog = instance->settings().blur.fog_density;
+            if (effect::is_named(config, "scene.image") && !effect::is_named(config, "scene.depth_image") && fog * street_far > 1)
+              inputs.warnings.push_back(fmt::format(
+                  "scene.image: without scene.depth_image it lies {:g} m away, behind the fog of blur.fog_density {:g} (0: none)",
+                  street_far, fog));
+            return instance;
           }};
 }
 

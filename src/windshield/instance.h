@@ -5,6 +5,7 @@
 #include "effect/effect.h"
 #include "rainref/windshield.h"
 #include "windshield/scene_keys.h"
+#include "windshield/scene_pictures.h"
 
 namespace rainref::windshield {
 
@@ -13,10 +14,10 @@ effect::Effect entry();
 
 class Instance final : public effect::InstanceOf<Windshield> {
  public:
-  /// has_street: its surroundings are the street made here.
-  Instance(const scene::Config& config, Surroundings surroundings, bool has_street, const parallel::Executor& executor);
+  /// `surroundings`: the pictures of frame 0, or none: the street made here.
+  Instance(const scene::Config& config, Surroundings surroundings, ScenePictures named, const parallel::Executor& executor);
   const Settings& settings() const { return settings_; }
-  bool has_street() const { return has_street_; }
+  bool has_street() const { return !named_.are_named(); }
   void skip(Recorder* recorder) override { changed().skip(recorder); }
   void list_state(state::Items& items) override {
     InstanceOf::list_state(items);
@@ -26,8 +27,11 @@ class Instance final : public effect::InstanceOf<Windshield> {
   std::vector<image_io::Layer> layers() const override;
 
  private:
+  void show_pictures_of(int frame) override;
+
   Settings settings_;
-  bool has_street_;
+  ScenePictures named_;
+  ScenePictures::Shown shown_;
   std::vector<drops::Drop> drops_;  // of frame drops_frame_, as buffers() gave them
   int drops_frame_ = -1;
 };

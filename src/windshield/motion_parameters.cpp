@@ -18,29 +18,6 @@ MemberParameter<MotionSettings> corner(std::size_t i, std::string sentence) {
           [i](MotionSettings& s, const Value& v) { s.corners[i] = std::get<Real3>(v); },
           [i](const MotionSettings& s) { return Value(s.corners[i]); }};
 }
-/// Of the custom arrangement.
-std::vector<MemberParameter<MotionSettings>> blade_members(std::size_t i) {
-  const auto member = [i](const char* key, const char* unit, double least, double most, double Blade::*of, const char* sentence,
-                          double in_unit = 1) {
-    return MemberParameter<MotionSettings>(
-        real(fmt::format("wipers.{}_{}", key, i), unit, least, most, 0, fmt::format("Custom arrangement, blade {}: {}", i, sentence)),
-        [=](MotionSettings& s, const Value& v) { s.custom[i].*of = std::get<double>(v) * in_unit; },
-        [=](const MotionSettings& s) { return Value(s.custom[i].*of / in_unit); });
-  };
-  return {
-      {real2(fmt::format("wipers.pivot_{}", i), "m", -100, 100, {},
-             fmt::format("Custom arrangement, blade {}: pivot, in metres in the glass from corner (0, 0), x along the edge to corner (1, "
-                         "0).",
-                         i)),
-       [i](MotionSettings& s, const Value& v) { s.custom[i].pivot = std::get<Real2>(v); },
-       [i](const MotionSettings& s) { return Value(s.custom[i].pivot); }},
-      member("inner_radius", "m", 0, 100, &Blade::inner_radius, "distance of its inner end from the pivot."),
-      member("outer_radius", "m", 0, 100, &Blade::outer_radius, "distance of its outer end from the pivot."),
-      member("start_angle", "deg", -360, 360, &Blade::start_angle, "angle at rest, from x toward y.", degree),
-      member("sweep", "deg", -360, 360, &Blade::sweep, "angle that it turns, positive from x toward y.", degree),
-      member("phase", "1", 0, 1, &Blade::phase, "share of its cycle that is over at time 0.")};
-}
-
 const std::vector<MemberParameter<MotionSettings>>& members() {
   using M = MotionSettings;
   using V = VehicleSettings;
@@ -53,7 +30,7 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
       corner(1, "Corner (1, 0) of the glass; lower right."),
       corner(2, "Corner (0, 1) of the glass; upper left: this order says which side is outside."),
       {text("windshield.panes", "",
-            "Further panes of the car, without wipers: their corners in the same order, \"x y z, x y z, x y z; ...\" in m; empty: none."),
+            "Further panes of the car: their corners in the same order, \"x y z, x y z, x y z; ...\" in m; empty: none."),
        [](M& s, const Value& v) { s.panes = parse_panes(std::get<std::string>(v)); }, [](const M&) { return Value(std::string()); }},
       real<&M::gravity>("world.gravity", "m/s^2", 0, 100, "Acceleration of gravity."),
       real<&M::weather, &WeatherSettings::wind>("world.wind", "m/s", -100, 100,
@@ -80,26 +57,6 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
        [](M& s, const Value& v) { s.vehicle.key_frames = std::get<std::string>(v); },
        [](const M& s) { return Value(s.vehicle.key_frames); }},
       text("vehicle.drive_cycle", "", "CSV file with the columns time_s, speed_mps and, optionally, yaw_rad_s; empty: none."),
-      integer("wipers.count", "1", 0, most_wipers, most_wipers, "Blades."),
-      choice("wipers.arrangement", {"tandem", "opposed", "custom"}, "tandem",
-             "Blades that turn the same way, or toward each other, fitted to the glass; custom: as the keys ending in _0 and _1 say."),
-      real<&M::wipers, &WiperSettings::cycles_per_minute>(
-          "wipers.cycles_per_minute", "1/min", 0, 600,
-          "Strokes forth and back in a minute; EU 1008/2010 asks for at least 45 at the highest speed; 0: at rest."),
-      text("wipers.key_frames", "",
-           "Wipers by key frames, each until the next: \"time off; time intermittent PERIOD; time slow; time fast\" in s, slow as "
-           "cycles_per_minute says; empty: slow."),
-      real<&M::fast_cycles_per_minute>("wipers.fast_cycles_per_minute", "1/min", 0, 600, "Strokes in a minute where key frames say fast."),
-      // As published a texture is wiped by the blade's present outline alone: 25 mm leave no gap at 60 frames and 45 cycles.
-      real<&M::wipers, &WiperSettings::half_width>("wipers.half_width", "m", 1e-4, 0.2, "Half the width that a blade wipes.")
-          .published(0.025),
-      real<&M::capture, &Capture::follow>("wipers.follow", "1", 0, 1,
-                                          "Share of the way to the blade's leading edge that a captured drop makes in a frame.")
-          .only(published),
-      real<&M::capture, &Capture::inherit>("wipers.inherit", "1", 0, 1,
-                                           "Share of the blade's velocity that a captured drop takes over in a frame.")
-          .only(published),
-      real<&M::capture, &Capture::gain>("wipers.gain", "1", 0, 100, "Mass that a captured drop gains in a frame.").only(published),
   };
   return table;
 }
@@ -108,15 +65,14 @@ const std::vector<MemberParameter<MotionSettings>>& members() {
 
 std::vector<scene::Parameter> motion_parameters() {
   std::vector<scene::Parameter> all = parameters_of(members());
-  for (std::size_t i = 0; i < most_wipers; ++i)
-    for (const scene::Parameter& p : parameters_of(blade_members(i))) all.push_back(p);
+  for (int number = 0; number <= most_wiped_panes; ++number)
+    for (const scene::Parameter& p : wiper_parameters(number)) all.push_back(p);
   return all;
 }
 
 MotionSettings motion_settings_from(const scene::Config& config) {
   MotionSettings s{};
   apply(members(), config, s);
-  for (std::size_t i = 0; i < most_wipers; ++i) apply(blade_members(i), config, s);
   s.glass = make_glass(s.corners);
   const auto refuse_beside = [&](const char* key, const std::string& table) {
     if (!config.given(key)) return;
@@ -134,16 +90,15 @@ MotionSettings motion_settings_from(const scene::Config& config) {
   if (!s.vehicle.drive_cycle.empty() && s.vehicle.drive_cycle.is_relative() && in_file)
     s.vehicle.drive_cycle = config.directory() / s.vehicle.drive_cycle;
 
-  const int count = static_cast<int>(config.integer("wipers.count"));
-  if (config.text("wipers.arrangement") != "custom")
-    s.wipers.blades = arranged_blades(config.text("wipers.arrangement"), count, s.glass);
-  else
-    s.wipers.blades.assign(s.custom.begin(), s.custom.begin() + count);
-  check(s.wipers, s.glass);
-  if (const std::string& keyed = config.text("wipers.key_frames"); !keyed.empty())
-    s.wipers.keyed.emplace(keyed, s.wipers.cycles_per_minute, s.fast_cycles_per_minute);
-  else if (config.given("wipers.fast_cycles_per_minute"))
-    refuse_beside("wipers.fast_cycles_per_minute", "wipers that no wipers.key_frames drive");
+  static_cast<PaneWipers&>(s) = wipers_from(config, 0, s.glass);
+  const int panes = static_cast<int>(s.panes.size());
+  for (int number = 1; number <= panes; ++number)
+    s.pane_wipers.push_back(
+        number > most_wiped_panes
+            ? PaneWipers()
+            : wipers_from(config, number, make_glass(s.panes[static_cast<std::size_t>(number) - 1], pane_name(number))));
+  for (int number = panes + 1; number <= most_wiped_panes; ++number)
+    refuse_wipers(config, number, fmt::format("expected none, for windshield.panes has {} {}", panes, panes == 1 ? "pane" : "panes"));
   return s;
 }
 

@@ -54,7 +54,10 @@ Settings settings_of_pane(const Settings& car, int number) {
   if (number == 0) return s;
   s.corners = car.panes[static_cast<std::size_t>(number) - 1];
   const Glass glass = make_glass(s.corners, pane_name(number)), windshield = make_glass(car.corners);
-  s.wipers.blades.clear();
+  const PaneWipers& own = car.pane_wipers[static_cast<std::size_t>(number) - 1];
+  s.wipers = own.wipers;
+  s.capture = own.capture;
+  s.surface.half_width = own.wipers.half_width;
   s.drops.seed += static_cast<std::uint64_t>(number) * next_seed;
   s.drops_share = glass.area / windshield.area;
   s.drops.spawn_rate *= s.drops_share;

@@ -17,7 +17,7 @@ std::vector<Corners> parse_panes(std::string_view text);
 std::string pane_name(int number);
 
 /// The settings of one pane. Number 0 is the windshield: all as they are. The others have their own corners, textures with texels of the
-/// windshield's size, no wipers, drops of their own, and as published the windshield's new drops by area.
+/// windshield's size, wipers and drops of their own, and as published the windshield's new drops by area.
 Settings settings_of_pane(const Settings& car, int number);
 
 }  // namespace rainref::windshield

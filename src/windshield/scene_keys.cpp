@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "effect/picture_sequence.h"
 #include "math/constants.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
@@ -61,6 +62,7 @@ std::vector<Parameter> make() {
   append(all, surface_parameters("windshield"));
   append(all, blur_pyramid::blur_parameters("blur"));
   append(all, parameters_of(scene_members()));
+  append(all, effect::sequence_parameters());
   append(all, parameters_of(falling_members()));
   append(all, parameters_of(picture_parameters()));
   return all;
@@ -87,6 +89,7 @@ Settings settings_from(const Config& config) {
   s.vehicle = motion.vehicle;
   s.wipers = motion.wipers;
   s.capture = motion.capture;
+  s.pane_wipers = motion.pane_wipers;
   s.drops = drops::settings_from(config, "windshield");
   const char* rate = s.corrected ? "rain.rate" : "windshield.spawn_rate";
   s.weather.rain = config.real(rate);

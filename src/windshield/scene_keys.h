@@ -15,7 +15,7 @@
 #include "windshield/surface.h"
 #include "windshield/vehicle.h"
 #include "windshield/weather.h"
-#include "windshield/wipers.h"
+#include "windshield/wiper_parameters.h"
 
 namespace rainref::windshield {
 
@@ -32,6 +32,7 @@ struct Settings {
   VehicleSettings vehicle;
   WiperSettings wipers;
   Capture capture;
+  std::vector<PaneWipers> pane_wipers;  ///< of each of `panes`
   drops::Settings drops;
   drops::SplatSettings splat;
   SurfaceSettings surface;

@@ -38,13 +38,13 @@ WetPane::WetPane(const Settings& settings, int number, const parallel::Executor&
     : settings_(settings),
       executor_(executor),
       corrected_(settings.corrected),
-      has_blades_(number == 0),
+      has_blades_(number == 0 || !settings.wipers.blades.empty()),
       glass_(make_glass(settings.corners, pane_name(number))),
       plane_(corrected_ ? glass_.plane() : glass_.axes()),
       view_(composite_uniforms(settings.picture, settings.corners, pane_name(number))),
       water_(settings.drops, plane_.frame, glass_.area, steps_per_second(settings), settings.surface.width, settings.surface.height,
              executor) {
-  check(settings_.wipers, glass_);
+  check(settings_.wipers, glass_, wiper_table(number));
   const int w = settings_.surface.width, h = settings_.surface.height;
   height_ = Image(Format::r16f, w, h);
   if (settings_.surface.height_tau > 0) previous_height_ = Image(Format::r16f, w, h);

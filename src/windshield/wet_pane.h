@@ -54,7 +54,7 @@ class WetPane {
 
   Settings settings_;
   const parallel::Executor& executor_;
-  bool corrected_, has_blades_;  ///< of further panes none: the blades' passes do not run there
+  bool corrected_, has_blades_;  ///< where a further pane has none the blades' passes do not run on it
   Glass glass_;
   PlaneFrame plane_;
   CompositeUniforms view_;

@@ -2,11 +2,13 @@
 #include "rainref/windshield.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
+#include "effect/picture_sequence.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/falling_rain.pass.h"
@@ -55,7 +57,7 @@ void Windshield::State::step(Recorder* recorder, int substep) {
 
 /// The scene as the camera sees it in this frame; whether it is another one than before.
 bool Windshield::State::look() {
-  if (!own_scene) return levels.empty();
+  if (!own_scene) return std::exchange(scene_is_new, false) || levels.empty();
   const bool moves = settings.scene_moves;
   return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
 }
@@ -143,6 +145,7 @@ Windshield::Windshield(const SceneText& scene, Surroundings surroundings, const 
   const FloatingPointGuard guard;
   constexpr const char* pictures[] = {"scene.image", "scene.depth_image"};
   const scene::Config config = scene::parse(scene, {"windshield", {"as-published", "corrected"}, parameters()}, pictures);
+  effect::refuse_unused_sequence(config, {"scene.image", "scene.depth_image"});
   state_ = std::make_unique<State>(config, std::move(surroundings), executor);
 }
 Windshield::Windshield(const scene::Config& config, Surroundings surroundings, const parallel::Executor& executor) {
@@ -151,6 +154,19 @@ Windshield::Windshield(const scene::Config& config, Surroundings surroundings, c
 }
 Windshield::~Windshield() = default;
 Windshield::Windshield(Windshield&&) noexcept = default;
+
+void Windshield::show(Surroundings scene) {
+  const FloatingPointGuard guard;
+  State& s = *state_;
+  if (s.own_scene) throw Error(ExitCode::usage, "scene.image: expected pictures from the start, found the street made here");
+  if (scene.colour.width() != s.scene.colour.width() || scene.colour.height() != s.scene.colour.height())
+    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} texels as before, found {}x{}", s.scene.colour.width(),
+                                             s.scene.colour.height(), scene.colour.width(), scene.colour.height()));
+  State::check_pictures(scene);
+  s.scene.colour = std::move(scene.colour);
+  s.scene.depth = std::move(scene.depth);
+  s.scene_is_new = true;
+}
 
 void Windshield::simulate(Recorder* recorder) {
   const FloatingPointGuard guard;
@@ -210,18 +226,19 @@ const Image& Windshield::height(int pane) const {
   const FloatingPointGuard guard;
   return state_->pane(pane).height();
 }
-const Image& Windshield::mask() const {
+const Image& Windshield::mask(int pane) const {
   const FloatingPointGuard guard;
-  return state_->panes[0]->mask();
+  return state_->pane(pane).mask();
 }
-const Image& Windshield::film() const {
+const Image& Windshield::film(int pane) const {
   const FloatingPointGuard guard;
-  return state_->panes[0]->film();
+  return state_->pane(pane).film();
 }
-const Image& Windshield::normal() const {
+const Image& Windshield::normal(int pane) const {
   const FloatingPointGuard guard;
-  return state_->panes[0]->normal();
+  return state_->pane(pane).normal();
 }
+const Image& Windshield::scene_colour() const { return state_->scene.colour; }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }
 std::vector<FallingDropView> Windshield::falling() const {
   const FloatingPointGuard guard;

@@ -56,7 +56,7 @@ struct Windshield::State {
   Image colour, pane_colour, picture;
   CodeTable display;
   SceneView scene;
-  bool own_scene;
+  bool own_scene, scene_is_new = false;
   std::optional<StreetDrive> street;
   std::vector<Image> levels;
   std::optional<blur_pyramid::LevelTexture> pyramid;

@@ -18,11 +18,11 @@ struct Key {
   std::string_view mode;
   double period;
 };
-std::vector<Key> parse(std::string_view text) {
+std::vector<Key> parse(std::string_view text, std::string_view table) {
   std::vector<Key> keys;
   int row = 0;
   const auto fail = [&](const std::string& what) {
-    throw Error(ExitCode::usage, fmt::format("wipers.key_frames, key frame {}: {}", row, what));
+    throw Error(ExitCode::usage, fmt::format("{}.key_frames, key frame {}: {}", table, row, what));
   };
   for (const std::string_view frame : split(text, ';')) {
     if (frame.empty()) continue;
@@ -46,8 +46,8 @@ std::vector<Key> parse(std::string_view text) {
 
 }  // namespace
 
-WiperMotion::WiperMotion(std::string_view key_frames, double slow, double fast) {
-  const std::vector<Key> keys = parse(key_frames);
+WiperMotion::WiperMotion(std::string_view key_frames, double slow, double fast, std::string_view table) {
+  const std::vector<Key> keys = parse(key_frames, table);
   parts_.push_back({0, 0, 0, 0});
   const auto from = [&](double time, double cycles, double rate, double period) {
     if (parts_.back().from == time) parts_.pop_back();

@@ -14,9 +14,9 @@ namespace rainref::windshield {
 /// seconds from there, and a period shorter than a stroke is slow.
 class WiperMotion {
  public:
-  /// slow, fast: cycles in a minute. Throws Error(usage) naming wipers.key_frames and the row: none, another word, a period that is not
-  /// above 0 and at most 3600 s, times below 0 or that do not ascend.
-  WiperMotion(std::string_view key_frames, double slow, double fast);
+  /// slow, fast: cycles in a minute. Throws Error(usage) naming the key ("wipers.key_frames" of the table "wipers") and the row: none,
+  /// another word, a period that is not above 0 and at most 3600 s, times below 0 or that do not ascend.
+  WiperMotion(std::string_view key_frames, double slow, double fast, std::string_view table = "wipers");
 
   double cycles(double t) const;
   /// The times in (from, to) at which they begin, stop or run at another rate, ascending.

@@ -66,19 +66,19 @@ std::vector<Blade> arranged_blades(std::string_view arrangement, int count, cons
   return out;
 }
 
-void check(const WiperSettings& s, const Glass& glass) {
+void check(const WiperSettings& s, const Glass& glass, std::string_view table) {
   const double diagonal_sq = glass.metric[0] + glass.metric[2] + 2 * std::abs(glass.metric[1]), diagonal = __builtin_sqrt(diagonal_sq);
   for (std::size_t i = 0; i < s.blades.size(); ++i) {
     const Blade& b = s.blades[i];
     const auto refuse = [&](const char* key, const std::string& expected, double found, const char* unit) {
-      throw Error(ExitCode::usage, fmt::format("wipers.{}_{}: expected {}, found {:g}{}", key, i, expected, found, unit));
+      throw Error(ExitCode::usage, fmt::format("{}.{}_{}: expected {}, found {:g}{}", table, key, i, expected, found, unit));
     };
     const double sweep = b.sweep / degree, length = b.outer_radius - b.inner_radius, innermost = 2 * s.half_width + largest_drop;
     if (!(sweep != 0 && std::abs(sweep) <= largest_sweep * (1 + 1e-9))) {
       refuse("sweep", fmt::format("a turn of at most {:g} deg to either side, not 0", largest_sweep), sweep, " deg");
     }
     if (!(length > 0))
-      refuse("outer_radius", fmt::format("more than wipers.inner_radius_{} = {:g} m", i, b.inner_radius), b.outer_radius, " m");
+      refuse("outer_radius", fmt::format("more than {}.inner_radius_{} = {:g} m", table, i, b.inner_radius), b.outer_radius, " m");
     if (!(length <= diagonal))
       refuse("outer_radius", fmt::format("a blade of at most {:.4g} m, the diagonal of the glass", diagonal), length, " m");
     if (!(b.inner_radius >= innermost)) {

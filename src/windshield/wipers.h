@@ -40,10 +40,10 @@ struct WiperSettings {
 /// area B. On another glass the pivots move with its sides and the radii follow the smaller ratio.
 std::vector<Blade> arranged_blades(std::string_view arrangement, int count, const Glass& glass);
 
-/// Throws Error(usage) naming the key ("wipers.sweep_0" for the first blade), what is expected and what was found: a
+/// Throws Error(usage) naming the key ("wipers.sweep_0" for the first blade of the table "wipers"), what is expected and what was found: a
 /// sweep of 0 or beyond 170 degrees, a blade without length or longer than the glass, an inner end nearer to the pivot
 /// than two half widths and 10 mm of drop.
-void check(const WiperSettings& settings, const Glass& glass);
+void check(const WiperSettings& settings, const Glass& glass, std::string_view table = "wipers");
 
 double wiper_angle(const Blade& blade, double cycles_per_minute, double t);
 

@@ -91,6 +91,26 @@ TEST(NewFolder, WhatCameToLieThereMeanwhileIsNotReplaced) {
   EXPECT_EQ(contents(at / "pack/mine"), "mine");
 }
 
+TEST(NewFolder, WhoIsFirstGetsTheName) {
+  TemporaryFolder at;
+  {
+    NewFolder first(at / "deep/pack", never), second(at / "deep/pack", never);
+    first.write("a/b", bytes("first"));
+    second.write("c", bytes("second"));
+    put(second.path() / "d", "by another");
+    EXPECT_TRUE(second.commit_if_first({at.path()}));
+    EXPECT_FALSE(first.commit_if_first());
+  }
+  EXPECT_EQ(contents(at / "deep/pack/c"), "second");
+  EXPECT_EQ(contents(at / "deep/pack/d"), "by another");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at / "deep"), {}), 1);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(at / "deep/pack"), {}), 2);
+  put(at / "file", "text");
+  NewFolder third(at / "other", never);
+  put(at / "other", "a file came");
+  EXPECT_THAT(error_of([&] { third.commit_if_first(); }), testing::StartsWith("4 cannot write '" + (at / "other").string()));
+}
+
 TEST(NewFolder, RefusesAFile) {
   TemporaryFolder at;
   put(at / "file", "text");

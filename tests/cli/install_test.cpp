@@ -93,7 +93,7 @@ int main() try {
 )");
     put(folder / "broken.exr", std::string("\x76\x2f\x31\x01\2\0\0\0channels", 16));
     output(fmt::format(RAINREF_CMAKE " -S consumer -B built -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                                     " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
+                                     " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' {} -DRAINREF_SOURCE=" RAINREF_SOURCE_DIR,
                        where));
     output(RAINREF_CMAKE " --build built");
     EXPECT_THAT(output("built/consumer"), AllOf(HasSubstr("3 x 2\n2 'broken.exr': "), Not(HasSubstr("cannot load"))));
@@ -153,8 +153,8 @@ TEST_F(Installation, EachHeaderStandsAlone) {
 TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   installed();
   const std::string by_cmake =
-      fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/tests/outside -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
-                                " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS "' '-DCMAKE_PREFIX_PATH={}'",
+      fmt::format(RAINREF_CMAKE " -S " RAINREF_SOURCE_DIR "/examples -B outside -DCMAKE_CXX_COMPILER=" RAINREF_CXX_COMPILER
+                                " '-DCMAKE_CXX_FLAGS=" RAINREF_CXX_FLAGS " -O0' '-DCMAKE_PREFIX_PATH={}'",
                   (folder / "moved").string());
   output(by_cmake);
   output(RAINREF_CMAKE " --build outside");
@@ -168,10 +168,12 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
               testing::ElementsAre(HasSubstr("puddle 2: wave=768x512 "), HasSubstr("windshield 2: drops=records "),
                                    HasSubstr("edge_splash 2: edge=32x18 "), HasSubstr("screen_drops 2: background=32x18 "),
                                    HasSubstr("rainy_glass 2: raindrops=512x512 "), HasSubstr("did you mean 'puddle'?")));
-  const std::string in_c = output("outside/simulate_c");
-  EXPECT_EQ(in_c, "rg16f 768x512 in 2 planes\n");
-  for (const char* picture : {"rainy_glass.png", "splashes.png", "puddle.png"})
-    EXPECT_TRUE(std::filesystem::exists(folder / picture)) << picture;
+  const std::string in_c = output("outside/water");
+  EXPECT_EQ(in_c, "rg16f 768x512 in 2 planes\nFAIL in display: upside down\n");
+  EXPECT_EQ(output("outside/judge_a_port"), "FAIL in display: upside down\n");
+  EXPECT_EQ(output("outside/film"), "");
+  for (const char* written : {"rainy_glass.png", "splashes.png", "puddle.png", "puddle.state"})
+    EXPECT_TRUE(std::filesystem::exists(folder / written)) << written;
 
   std::string pc;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "moved")) {
@@ -186,11 +188,11 @@ TEST_F(Installation, HasEveryEffectForProgramsOfOtherProjects) {
   EXPECT_EQ(path_of("prefix"), folder / "moved");
   EXPECT_EQ(path_of("includedir"), folder / "moved/include");
   output(fmt::format("{} -std=c++20 " RAINREF_CXX_FLAGS " " RAINREF_SOURCE_DIR
-                     "/tests/outside/simulate.cpp -o by_pkg_config $({} --cflags --libs rainref)",
+                     "/examples/cpp/simulate.cpp -o by_pkg_config $({} --cflags --libs rainref)",
                      RAINREF_CXX_COMPILER, config));
   EXPECT_EQ(output("./by_pkg_config"), simulated);
   output(fmt::format("cc -std=c11 -pedantic -Werror " RAINREF_SOURCE_DIR
-                     "/tests/outside/simulate.c -o c_by_pkg_config $(PKG_CONFIG_PATH='{}' pkg-config --cflags --libs rainref-c)",
+                     "/examples/c/water.c -o c_by_pkg_config $(PKG_CONFIG_PATH='{}' pkg-config --cflags --libs rainref-c)",
                      pc));
   EXPECT_EQ(output("LD_LIBRARY_PATH=moved/" +
                    std::filesystem::relative(std::filesystem::path(pc).parent_path(), folder / "moved").string() + " ./c_by_pkg_config"),
@@ -206,8 +208,21 @@ TEST_F(Installation, MayBeStagedForAPrefixOfItsOwn) {
   c.program = folder / "moved/bin/rainref";
   const Outcome o = rainref({"list"}, c);
   EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_THAT(o.out, HasSubstr("\n  " + (folder / "moved/share/rainref/scenes/puddle/default.toml").string() + "\n"));
+  EXPECT_THAT(o.out, HasSubstr("\n  puddle/default.toml\n"));
   EXPECT_THAT(o.out, Not(HasSubstr(RAINREF_SOURCE_DIR)));
+  // Names that it takes, its own scenes' and no others': also without ".toml", and as the documents write them.
+  put(folder / "moved/share/rainref/scenes/puddle/default.toml",
+      "effect = 'edge_splash'\nvariant = 'corrected'\n[run]\nsize = [16, 9]\nframes = 1\n");
+  const Outcome named = rainref({"hash", "puddle/default.toml"}, c);
+  const std::size_t lines = lines_of(named.out).size();  // of one frame, and the scene's
+  EXPECT_GE(lines, 3u) << named.err;
+  EXPECT_EQ(rainref({"hash", "puddle/default"}, c).out, named.out);
+  EXPECT_EQ(rainref({"hash", "scenes/puddle/default.toml"}, c).out, named.out);
+  EXPECT_EQ(rainref({"hash", "../scenes/puddle/default.toml"}, c).code, 4);
+  // A file of the user's wins.
+  std::filesystem::create_directories(folder / "puddle");
+  put(folder / "puddle/default.toml", "effect = 'edge_splash'\nvariant = 'corrected'\n[run]\nsize = [16, 9]\nframes = 2\n");
+  EXPECT_EQ(lines_of(rainref({"hash", "puddle/default.toml"}, c).out).size(), 2 * lines - 1);
   EXPECT_EQ(contents(c.program).find(RAINREF_SOURCE_DIR "/scenes"), std::string::npos);  // what a machine that builds is called stays there
 }
 

@@ -55,6 +55,8 @@ TEST_F(PaneTruth, PassesAreComparedWithIt) {
 }
 
 TEST_F(PaneTruth, WhatCannotBeTracedIsRefused) {
+  expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "scene.panorama=sky.png", "--set", "compositor.picture=traced"}, 2,
+                 HasSubstr("and depths, which scene.panorama has not"));
   expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--compare-truth"}, 2,
                  HasSubstr("has no traced truth"));
   expect_refusal({"run", "rainy_glass.toml", "-o", "o", "--set", "glass.shape=sphere", "--set", "compositor.picture=traced"}, 2,

@@ -40,10 +40,14 @@ class Sequences : public SceneFiles {
     text("screen_drops", "corrected", false, "[drops]\nlargest_radius = 12\n[flow]\non = false\n");
     text("rainy_glass", "as-published", false, "[maps]\nsize = 16\ndroplets = 20\ntrails = 2\n");
     text("rainy_glass", "corrected", true, "[maps]\nsize = 16\ndroplets = 20\ntrails = 2\n");
+    const std::string pane = "panes = '1.0 0.75 0.95, 1.9 0.8 1.0, 1.1 0.7 1.4'\nheight_size = [24, 14]\n";
+    text("windshield", "as-published", true, "[windshield]\nspawn_rate = 3000\n" + pane);
+    text("windshield", "corrected", true,
+         "[rain]\nrate = 90\nsmallest_drop = 1\n[falling_rain]\non = true\nsmallest_drop = 3\nfar = 4\n[windshield]\n" + pane);
     before = folder.names();
   }
   std::filesystem::path file(const std::string& letter, int k) const { return folder / fmt::format("film/{}{:02}.npy", letter, k); }
-  static bool has_depth(const std::string& scene) { return scene.starts_with("edge_splash") || scene == "rainy_glass-corrected.toml"; }
+  static bool has_depth(const std::string& scene) { return !scene.starts_with("screen_drops") && scene != "rainy_glass-as-published.toml"; }
   /// The scene with picture k alone.
   std::vector<std::string> hash_of_picture(const std::string& scene, int k, std::vector<std::string> more = {}) const {
     std::vector<std::string> all{scene, "--set", fmt::format("scene.image=film/c{:02}.npy", k)};
@@ -88,13 +92,46 @@ TEST_P(EverySequence, FrameKIsTheSceneWithPictureK) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySequence,
                          testing::Values("edge_splash-as-published.toml", "edge_splash-corrected.toml", "screen_drops-as-published.toml",
-                                         "screen_drops-corrected.toml", "rainy_glass-as-published.toml", "rainy_glass-corrected.toml"),
+                                         "screen_drops-corrected.toml", "rainy_glass-as-published.toml", "rainy_glass-corrected.toml",
+                                         "windshield-as-published.toml", "windshield-corrected.toml"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            name.resize(name.size() - 5);
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+class EveryTracedSequence : public Sequences, public testing::WithParamInterface<const char*> {};
+
+// Rays see the picture of their frame: traced, frame k is the traced scene with picture k.
+TEST_P(EveryTracedSequence, FrameKIsTheSceneWithPictureK) {
+  put(folder / GetParam(), contents(folder / GetParam()) + "[compositor]\npicture = 'traced'\n");
+  expect_shown(GetParam(), {0, 1, 2, 3}, {});
+  const auto lines = hash({GetParam()});
+  EXPECT_THAT(lines, Contains(HasSubstr("compositor")));
+  EXPECT_NE(of_frame(lines, 1).back(), of_frame(lines, 2).back());
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryTracedSequence,
+                         testing::Values("screen_drops-corrected.toml", "rainy_glass-corrected.toml", "windshield-corrected.toml"),
+                         [](const auto& tested) { return std::string(tested.param).substr(0, std::string(tested.param).find('-')); });
+
+// The passes are compared with the truth of the same picture in each frame, here of one that stays black until frame 2.
+TEST_F(Sequences, EachFrameIsComparedWithItsOwnTruth) {
+  for (int k = 0; k < pictures; ++k)
+    put_npy(folder / fmt::format("film/v{}.npy", k), width, height, 3, [&](int, int, int) { return k < 2 ? 0.0f : 0.25f; });
+  const Outcome o = rainref({"run", "windshield-corrected.toml", "-o", "out", "--every", "1", "--image", "none", "--compare-truth", "--set",
+                             "scene.image=film/v%d.npy", "--set", "falling_rain.on=false", "--set", "rain.rate=0", "--set",
+                             "composite.glint_strength=0", "--set", "compositor.glass_thickness=1e-5"});
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto truth = nlohmann::json::parse(contents(folder / "out/summary.json"))["truth"];
+  ASSERT_EQ(truth.size(), static_cast<std::size_t>(pictures));
+  for (int k = 0; k < pictures; ++k) {
+    const auto& film = truth.at(static_cast<std::size_t>(k))["differences"]["colour_film"];
+    EXPECT_GT(film["pixels"], 0) << k;
+    // At some 63 degrees to its normal the glass mirrors up to a quarter of the light away, which composite leaves out.
+    EXPECT_LT(film["p50"], 0.3 * 0.25) << k;
+  }
+}
 
 TEST_F(Sequences, FirstCountRateAndEndChooseThePicture) {
   const std::string scene = "edge_splash-corrected.toml";
@@ -173,11 +210,15 @@ TEST_F(Sequences, WhatCannotBeShownIsRefusedAtTheStart) {
   expect_refused(scene, {"scene.image=film/%s%02d.npy"}, HasSubstr("expected one number"));
   expect_refused(scene, {"scene.image=film/c00.npy", "scene.depth_image=film/d00.npy", "sequence.end=loop"},
                  HasSubstr("--set sequence.end: expected none where no picture's name holds a number"));
-  expect_refused("screen_drops-corrected.toml", {"compositor.picture=traced"},
-                 HasSubstr("compositor.picture: expected \"passes\" where a picture is a sequence"));
+  expect_refused("windshield-corrected.toml", {"run.frames=5"}, HasSubstr("run.frames 5: frame 4 needs 'film/c04.npy', found 4 pictures"));
+  expect_refused("windshield-corrected.toml", {"scene.image="}, HasSubstr("scene.depth_image: expected scene.image beside it, found none"));
+  expect_refused("windshield-corrected.toml", {"scene.image=", "scene.depth_image=", "sequence.end=loop"},
+                 HasSubstr("--set sequence.end: expected none where no picture's name holds a number, as \"%04d.png\" in scene.image or "
+                           "scene.depth_image"));
 
   std::filesystem::remove(file("d", 3));
-  expect_refused(scene, {"run.frames=2"}, HasSubstr("scene.depth_image: expected 4 pictures as scene.image has, found 3"));
+  for (const std::string& with_depth : {scene, std::string("windshield-corrected.toml")})
+    expect_refused(with_depth, {"run.frames=2"}, HasSubstr("scene.depth_image: expected 4 pictures as scene.image has, found 3"));
   put_npy(file("d", 3), width, height - 1, 1, metres);
   expect_refused(scene, {"run.frames=2"},
                  HasSubstr("scene.depth_image: 'film/d03.npy': expected 24x16 texels as 'film/d00.npy' has, found 24x15"));
@@ -194,7 +235,7 @@ TEST_F(Sequences, ABadTexelNamesItsFile) {
   expect_refused("edge_splash-corrected.toml", {},
                  AllOf(HasSubstr("scene.depth_image: "), HasSubstr("film/d02.npy': NaN at x 3, y 0 (from the top)")));
   put_npy(file("d", 2), width, height, 1, [](int x, int y, int c) { return x == 3 && y == 0 ? -1.0f : metres(x, y, c); });
-  for (const char* scene : {"edge_splash-corrected.toml", "rainy_glass-corrected.toml"})
+  for (const char* scene : {"edge_splash-corrected.toml", "rainy_glass-corrected.toml", "windshield-corrected.toml"})
     expect_refused(scene, {},
                    AllOf(HasSubstr("scene.depth_image: expected depths of 0 m or more, found -1"), HasSubstr("(in 'film/d02.npy')")));
 }

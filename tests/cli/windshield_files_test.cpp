@@ -23,7 +23,16 @@ TEST_F(WindshieldFiles, EveryKindOfFileIsTheSameScene) {
 }
 TEST_F(WindshieldFiles, WithoutADepthAllIsFar) {
   put_npy(folder / "far.npy", width, height, 1, [](int, int, int) { return 1000.0f; });
-  EXPECT_EQ(hash({"drive.toml", "--set", "scene.depth_image="}), hash({"drive.toml", "--set", "scene.depth_image=far.npy"}));
+  const auto with = [&](const std::string& depth) {
+    return hash({"drive.toml", "--set", "blur.fog_density=0.001", "--set", "scene.depth_image=" + depth});
+  };
+  EXPECT_EQ(with(""), with("far.npy"));
+  EXPECT_NE(with(""), with("depth.exr"));
+  // Where fog hides all of it, a warning says so.
+  const Outcome foggy = rainref({"hash", "drive.toml", "--set", "scene.depth_image="});
+  EXPECT_EQ(foggy.code, 0);
+  EXPECT_THAT(foggy.err,
+              HasSubstr("warning: scene.image: without scene.depth_image it lies 1000 m away, behind the fog of blur.fog_density"));
   expect_refused("drive.toml", {"scene.image="}, HasSubstr("scene.depth_image: expected scene.image beside it, found none"));
 }
 

@@ -1,5 +1,6 @@
 """The examples run and hold what they say; they measure by themselves."""
 
+import os
 import subprocess
 import sys
 
@@ -11,6 +12,30 @@ def test_waves(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stderr == "" and "the literal 4 is about 3.9 in the port" in done.stdout
     assert {"puddle.png", "verdict.html"} <= {p.name for p in tmp_path.iterdir()}
+
+
+def run(name, folder):
+    done = subprocess.run([sys.executable, "-B", ROOT / "examples/python" / name, *folder], capture_output=True, text=True, cwd=ROOT)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_water(tmp_path):
+    assert "(512, 768, 2) float16, " in run("water.py", [tmp_path])
+    assert {"height.npy", "puddle.png"} <= {p.name for p in tmp_path.iterdir()}
+
+
+def test_a_port_in_process(tmp_path):
+    assert "status: PASS causes: []" in run("numpy_port.py", [tmp_path])
+    assert (tmp_path / "verdict.html").stat().st_size > 10000
+
+
+def test_a_port_in_files(tmp_path):
+    pack = ROOT / "tests/packs/puddle-corrected"
+    run("file_port.py", [pack, tmp_path])
+    done = subprocess.run([os.environ["RAINREF_PROGRAM"], "validate", pack, "--port", tmp_path, "--only", "wave_step"], capture_output=True,
+                          text=True)
+    assert done.returncode == 0 and "PASS  wave_step" in done.stdout, done.stdout + done.stderr
 
 
 def test_the_readmes_program(monkeypatch, capsys):

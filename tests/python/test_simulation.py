@@ -132,3 +132,17 @@ def test_shown_pictures_have_their_top_row_first(puddle):
     np.testing.assert_array_equal(rr.shown(puddle.picture), puddle.picture[::-1, :, :3])
     heights = rr.shown(puddle["wave"])
     assert heights.dtype == np.uint8 and heights.min() == 0 and heights.max() == 255
+
+
+def test_a_film_behind_a_windshield_and_a_wiper_on_its_side_window(tmp_path):
+    for k in range(3):
+        np.save(tmp_path / f"{k}.npy", np.full((9, 16, 3), 40 * k, np.uint8))
+    scene = {"run.size": (16, 9), "run.frames": 3, "windshield.height_size": (24, 14), "scene.image": str(tmp_path / "%d.npy"),
+             "windshield.panes": "1.0 0.75 0.95, 1.9 0.8 1.0, 1.1 0.7 1.4", "pane_1_wipers.count": 1}
+    film = rr.open("windshield", scene)
+    hashes = [film.step_hashes() for _ in range(3)]
+    for k in range(3):
+        still = rr.open("windshield", scene | {"scene.image": str(tmp_path / f"{k}.npy")})
+        assert [still.step_hashes() for _ in range(k + 1)][k] == hashes[k]
+    with pytest.raises(rr.Error, match="frame 3 needs .*3.npy'"):
+        film.step()

@@ -143,3 +143,13 @@ def test_relative_files_of_a_scene_are_found_after_a_change_of_folder(tmp_path, 
     sim = advance(rr.open("a.toml"), 1)
     monkeypatch.chdir(ROOT)
     assert copy.copy(sim).step_hashes() == sim.step_hashes()
+
+
+def test_an_error_names_the_file_that_the_state_comes_from(puddle, tmp_path):
+    path = tmp_path / "saved: twice.state"
+    path.write_bytes(puddle.save()[:-20])
+    with pytest.raises(rr.Error) as error:
+        puddle.load(path)
+    assert str(error.value).startswith(f"{path}: ") and "state: " not in str(error.value)[len(str(path)):]
+    with pytest.raises(rr.Error, match="^state: "):
+        puddle.load(path.read_bytes())

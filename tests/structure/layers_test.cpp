@@ -20,12 +20,12 @@ const std::map<std::string, int> floors{{"base", 0},         {"math", 1},       
                                         {"night_street", 4}, {"puddle", 5},     {"windshield", 5}, {"edge_splash", 5}, {"screen_drops", 5},
                                         {"rainy_glass", 5},  {"compositor", 5}, {"registry", 6},   {"truth", 6},       {"port_dump", 6},
                                         {"simulation", 7},   {"judge", 7},      {"faults", 7},     {"reports", 7},     {"cli", 8},
-                                        {"c_library", 8}};
+                                        {"c_library", 8},    {"judging", 7},    {"sweep", 8}};
 // Public headers, by the floor that implements them.
 const std::map<std::string, int> public_floors{{"version", 0},      {"error", 0},       {"variant", 0},    {"storage", 1},
                                                {"image", 2},        {"texture", 2},     {"recorder", 2},   {"executor", 3},
                                                {"scene_text", 4},   {"puddle", 5},      {"windshield", 5}, {"edge_splash", 5},
-                                               {"screen_drops", 5}, {"rainy_glass", 5}, {"simulation", 7}};
+                                               {"screen_drops", 5}, {"rainy_glass", 5}, {"simulation", 7}, {"judging", 7}};
 // A room may include these of its own floor; every other pair of rooms on one floor keeps apart.
 const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"scene"}},
                                                                  {"night_street", {"scene"}},
@@ -34,7 +34,9 @@ const std::map<std::string, std::vector<std::string>> neighbours{{"capture", {"s
                                                                  {"blur_pyramid", {"capture", "pass", "scene"}},
                                                                  {"effect", {"capture", "image_io", "scene"}},
                                                                  {"faults", {"judge"}},
-                                                                 {"reports", {"faults", "judge"}}};
+                                                                 {"reports", {"faults", "judge"}},
+                                                                 {"judging", {"faults", "judge", "reports", "simulation"}},
+                                                                 {"cli", {"sweep"}}};
 
 struct Library {
   const char* pattern;
@@ -46,7 +48,8 @@ const std::vector<Library> libraries{{"^(oneapi/)?tbb/", "parallel"},
                                      {"^embree", "compositor"},
                                      {"^toml", "scene"},
                                      {"^CLI/", "cli"},
-                                     {"^xxhash", "base"}};
+                                     {"^xxhash", "base"},
+                                     {"^sqlite3", "sweep"}};
 
 struct Include {
   fs::path file;

@@ -99,7 +99,7 @@ inline GoldenScene golden_glass() {
                                               unbarred = rainy_glass::make_backdrop(s, {0.02, 0, 0.03}, executor);
               rainy_glass::RainyGlass glass(s, around, executor);
               for (int frame = 0; frame < 3; ++frame) glass.next_frame();
-              const RainyGlassView view(s, around, unbarred, 4e-3, tracer);
+              const RainyGlassView view(s, around, &unbarred, 4e-3, tracer);
               return trace_picture(*view.scene(glass), view.camera(), s.width, s.height, {{}, 4}, executor);
             }
             return Picture{};

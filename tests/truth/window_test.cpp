@@ -137,7 +137,7 @@ struct Conservatory {
     glass.emplace(s, around, executor());
     for (int frame = 0; frame < 20; ++frame) glass->next_frame();
   }
-  RainyGlassView view(double thickness) const { return {s, around, unbarred, thickness, {}}; }
+  RainyGlassView view(double thickness) const { return {s, around, &unbarred, thickness, {}}; }
 };
 
 TEST(TracedGlass, DryPaneShowsTheScene) {

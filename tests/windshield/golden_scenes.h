@@ -74,6 +74,13 @@ inline std::vector<GoldenScene> golden_scenes() {
        std::string(wet_drive) +
            "panes = '0.2 0.8 0.9, 1.2 0.8 0.9, 0.2 0.7 1.5; -1 -0.6 1, -1 0.6 1, -0.6 -0.6 1.4'\n[rain]\nkey_frames = '0 20; 1 120'\n"
            "[world]\nwind_key_frames = '0 0 0 0; 1 3 -6 0'\n"});
+  // A wiper on a side window.
+  for (const std::string variant : {"as-published", "corrected"})
+    scenes.push_back({fmt::format("windshield/{}/pane_wiper", variant), variant,
+                      std::string(wet_drive) + "panes = '0.2 0.8 0.9, 1.2 0.8 0.9, 0.2 0.7 1.5'\n" +
+                          (variant == "corrected" ? "[rain]\nrate = 120\nsmallest_drop = 0.8\n" : "spawn_rate = 3000\n") +
+                          "[pane_1_wipers]\ncount = 2\narrangement = 'opposed'\nkey_frames = '0.01 intermittent 0.5; 0.8 fast'\n"
+                          "cycles_per_minute = 150\n"});
   return scenes;
 }
 

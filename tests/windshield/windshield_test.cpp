@@ -1,10 +1,14 @@
 // The windshield as a whole: recorded hashes, the same bits everywhere, and its water.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "math/simd_target.h"
 #include "rainref/error.h"
 #include "golden/golden_check.h"
 #include "windshield/golden_scenes.h"
+#include "windshield/support.h"
 
 namespace rainref::windshield {
 namespace {
@@ -106,6 +110,69 @@ vertical_fov_deg = 10
     }
   }
   EXPECT_EQ(different, 0);
+}
+
+/// small_surroundings mirrored.
+Surroundings other_surroundings() {
+  const Surroundings from = small_surroundings();
+  Surroundings to = small_surroundings();
+  for (int y = 0; y < 23; ++y) {
+    for (int x = 0; x < 37; ++x) {
+      std::copy_n(from.colour.row<Half>(y) + 4 * (36 - x), 4, to.colour.row<Half>(y) + 4 * x);
+      to.depth.row<float>(y)[x] = from.depth.row<float>(y)[36 - x];
+    }
+  }
+  return to;
+}
+bool same(const Image& a, const Image& b) {
+  const std::size_t bytes = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(info(a.format()).texel_bytes());
+  for (int y = 0; y < a.height(); ++y)
+    if (std::memcmp(a.row_bytes(y), b.row_bytes(y), bytes) != 0) return false;
+  return true;
+}
+// From the next render on it is as if it had been made with these pictures, and nothing else changes.
+TEST(Show, OtherPicturesAreSeenFromTheNextRenderOn) {
+  const parallel::Executor executor(1);
+  for (const char* variant : {"as-published", "corrected"}) {
+    const scene::Config config = config_of(variant, wet_drive);
+    Windshield shown(config, small_surroundings(), executor), first(config, small_surroundings(), executor),
+        second(config, other_surroundings(), executor);
+    for (Windshield* w : {&shown, &first, &second}) w->next_frame();
+    EXPECT_TRUE(same(shown.picture(), first.picture()));
+    EXPECT_FALSE(same(first.picture(), second.picture()));
+    shown.show(other_surroundings());
+    for (Windshield* w : {&shown, &first, &second}) w->next_frame();
+    EXPECT_TRUE(same(shown.colour(), second.colour()));
+    EXPECT_TRUE(same(shown.scene_colour(), second.scene_colour()) && same(shown.scene_depth(), second.scene_depth()));
+    EXPECT_FALSE(same(shown.colour(), first.colour()));
+    EXPECT_TRUE(same(shown.height(), first.height()));
+  }
+}
+TEST(Show, RefusesWhatItCannotShow) {
+  using testing::HasSubstr;
+  const parallel::Executor executor(1);
+  Windshield windshield(config_of("corrected", ""), small_surroundings(), executor);
+  EXPECT_THAT(usage_error([&] {
+                windshield.show({Image(Format::rgba16f, 37, 24), Image(Format::r32f, 37, 24)});
+              }),
+              HasSubstr("scene.image: expected 37x23 texels as before, found 37x24"));
+  EXPECT_THAT(usage_error([&] {
+                windshield.show({Image(Format::rgba32f, 37, 23), Image(Format::r32f, 37, 23)});
+              }),
+              HasSubstr("scene.image: expected rgba16f of 37x23, found rgba32f"));
+  EXPECT_THAT(usage_error([&] {
+                windshield.show({Image(Format::rgba16f, 37, 23), Image(Format::r32f, 36, 23)});
+              }),
+              HasSubstr("scene.depth_image: expected r32f of 37x23, found r32f of 36x23"));
+  EXPECT_THAT(usage_error([&] { windshield.show({}); }), HasSubstr("found 0x0"));
+  Windshield street(SceneText{"", {"scene.size=[16, 9]"}}, {}, executor);
+  EXPECT_THAT(usage_error([&] { street.show(small_surroundings()); }),
+              HasSubstr("scene.image: expected pictures from the start, found the street made here"));
+  // Who hands in pictures shows others himself.
+  EXPECT_THAT(usage_error([&] {
+                Windshield(SceneText{"", {"sequence.end=loop"}}, small_surroundings(), executor);
+              }),
+              HasSubstr("--set sequence.end: expected none where no picture's name holds a number"));
 }
 
 std::string refusal(const std::string& variant, const std::string& toml) {

@@ -7,6 +7,7 @@ import os
 import weakref
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any, TypeVar
 
 from . import _structs as s
 from .errors import error_of
@@ -36,6 +37,7 @@ def _load() -> c.CDLL:
                       f"may name it; found: {'; '.join(why)}")
 
 
+_S = TypeVar("_S", bound=s.Struct)
 _handle, _result, _index, _text, _out = c.c_void_p, c.c_int, c.c_size_t, c.c_char_p, c.POINTER(c.c_void_p)
 #: Callbacks: rr_write and rr_read.
 WRITE, READ = (c.CFUNCTYPE(result, c.c_void_p, c.c_void_p, c.c_size_t) for result in (c.c_int, c.c_int64))
@@ -97,7 +99,7 @@ for _name, (_restype, _argtypes) in _PROTOTYPES.items():
     _functions[_name] = _function
 
 
-def call(name: str, *arguments: object) -> object:
+def call(name: str, *arguments: object) -> Any:
     """rr_NAME(arguments). A function that can fail raises the Error that it names. Other threads run meanwhile."""
     result = _functions[name](*arguments)
     if _PROTOTYPES[name][0] is _result and result != 0:
@@ -105,7 +107,7 @@ def call(name: str, *arguments: object) -> object:
     return result
 
 
-def filled(name: str, struct: type[s.Struct], *arguments: object) -> s.Struct:
+def filled(name: str, struct: type[_S], *arguments: object) -> _S:
     """The struct that rr_NAME fills, its last argument."""
     out = struct.new()
     call(name, *arguments, c.byref(out))

@@ -7,12 +7,17 @@ or uint8 codes. Records and uniform blocks are structured arrays with the names 
 from __future__ import annotations
 
 import ctypes as c
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _structs as s
 from ._library import Handle, call, decoded, encoded, filled
 from .errors import Error, StaleViewError
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
 
 _CHANNEL = {1: np.uint8, 2: np.uint8, 3: np.float16, 4: np.float32, 5: np.uint32, 6: np.int32}
 _RECORDS = 7
@@ -32,7 +37,7 @@ def dtype_of(layout: int) -> np.dtype:
 
 def _at(address: int, length: int, owner: Handle) -> c.Array[c.c_char]:
     memory = (c.c_char * length).from_address(address)
-    memory._owner = owner  # alive as long as an array looks into it
+    memory._owner = owner  # type: ignore[attr-defined]  # alive as long as an array looks into it
     owner.looked_into[id(memory)] = memory
     return memory
 
@@ -42,7 +47,7 @@ def plane_of(raw: s.Array, plane: int, owner: Handle) -> np.ndarray:
     channels = raw.channels // raw.planes
     scalar = np.dtype(_CHANNEL[raw.type])
     length = (raw.height - 1) * raw.row_bytes + raw.width * raw.texel_bytes
-    array = np.ndarray((raw.height, raw.width, channels), scalar, _at(raw.plane[plane], length, owner), 0,
+    array: np.ndarray = np.ndarray((raw.height, raw.width, channels), scalar, _at(raw.plane[plane], length, owner), 0,  # type: ignore[arg-type]
                        (raw.row_bytes, raw.texel_bytes, scalar.itemsize))
     array.flags.writeable = False
     return array
@@ -86,11 +91,11 @@ class View(np.ndarray):
             View._check(self)
         return object.__getattribute__(self, name)
 
-    def __getitem__(self, key: object) -> object:
+    def __getitem__(self, key: Any) -> Any:
         self._check()
         return super().__getitem__(key)
 
-    def __iter__(self) -> object:
+    def __iter__(self) -> Any:
         self._check()
         return super().__iter__()
 
@@ -105,14 +110,14 @@ class View(np.ndarray):
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: object, **others: object) -> object:
         return getattr(ufunc, method)(*_plain(inputs), **{k: _plain(v) if isinstance(v, tuple) else v for k, v in others.items()})
 
-    def __array_function__(self, function: object, types: object, arguments: tuple, others: dict) -> object:
-        return function(*_plain(arguments), **{k: _plain((v,))[0] for k, v in others.items()})
+    def __array_function__(self, function: Callable[..., Any], types: Iterable[type], arguments: Iterable[Any], others: Mapping[str, Any]) -> Any:
+        return function(*_plain(tuple(arguments)), **{k: _plain((v,))[0] for k, v in others.items()})
 
 
 def _plain(values: tuple | list) -> tuple:
     """The same with plain arrays in place of views, which are checked."""
 
-    def one(value: object) -> object:
+    def one(value: Any) -> Any:
         if isinstance(value, View):
             value._check()
             return value.view(np.ndarray)
@@ -121,7 +126,7 @@ def _plain(values: tuple | list) -> tuple:
     return tuple(one(v) for v in values)
 
 
-def view_of(raw: s.Array, channel: int | None, handle: Handle, now: object) -> View:
+def view_of(raw: s.Array, channel: int | None, handle: Handle, now: Simulation) -> View:
     """A view that `now.changes` ends. Of an image whose channels lie apart one channel must be named."""
     name = decoded(raw.name)
     if raw.type == _RECORDS:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +14,9 @@ from . import _structs as s
 from ._library import Handle, call, decoded, encoded, filled, texts
 from .buffers import copy_of, given
 from .errors import Error, unknown
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
 
 
 @dataclass(frozen=True)
@@ -81,7 +86,8 @@ class Case:
     def sampling(self, name: str) -> Sampling:
         """How the pass reads an input."""
         raw = filled("get_sampling", s.Sampling, self._handle, self._index, self._index_of(name))
-        return Sampling(decoded(raw.filter), decoded(raw.mip_filter), (decoded(raw.address_u), decoded(raw.address_v)), tuple(raw.border))
+        return Sampling(decoded(raw.filter), decoded(raw.mip_filter), (decoded(raw.address_u), decoded(raw.address_v)),
+                        (raw.border[0], raw.border[1], raw.border[2], raw.border[3]))
 
     @property
     def expected(self) -> dict[str, np.ndarray]:
@@ -116,17 +122,17 @@ class Cases(Sequence[Case]):
         self.handle = handle
 
     @classmethod
-    def of_simulation(cls, simulation: object) -> Cases:
+    def of_simulation(cls, simulation: Simulation) -> Cases:
         """None yet."""
         return cls(Handle("free_cases", "cases_of_simulation", simulation._handle))
 
     @classmethod
-    def of_pack(cls, folder: object, passes: Sequence[str] = ()) -> Cases:
+    def of_pack(cls, folder: str | os.PathLike[str], passes: Sequence[str] = ()) -> Cases:
         """Those of a pack, with all their values."""
         many, count = texts(passes)
         return cls(Handle("free_cases", "cases_of_pack", encoded(folder), many, count))
 
-    def add_next_frame(self, simulation: object, passes: Sequence[str] = ()) -> None:
+    def add_next_frame(self, simulation: Simulation, passes: Sequence[str] = ()) -> None:
         """The simulation's next frame; each run of these passes becomes a case, of every pass where none is named."""
         many, count = texts(passes)
         simulation.changes += 1
@@ -135,7 +141,7 @@ class Cases(Sequence[Case]):
     def __len__(self) -> int:
         return int(call("case_count", self.handle))
 
-    def __getitem__(self, index: int) -> Case:
+    def __getitem__(self, index: int) -> Case:  # type: ignore[override]  # no slices
         if not -len(self) <= index < len(self):
             raise IndexError(index)
         return Case(self.handle, index % len(self))

@@ -9,6 +9,7 @@ import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ class Port:
         case.give(self.function(case.inputs, case.uniforms, *((case,) if takes_case else ())))
 
 
-def port(what: str) -> Callable[[Callable[..., object]], Port]:
+def port(what: str) -> Callable[[Callable[..., Any]], Port]:
     """Says that a function is a port of a pass, "effect.pass". It takes the inputs and the uniform block, by name, and the Case if it has a
     third parameter; it returns the output, or a dict of outputs by name.
 

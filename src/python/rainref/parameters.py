@@ -7,6 +7,7 @@ import itertools
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from . import _library
 from ._library import decoded, encoded, text_of
@@ -55,7 +56,7 @@ def _described(effect: str) -> str:
     return text_of("describe", encoded(effect))
 
 
-def describe(effect: str) -> dict[str, object]:
+def describe(effect: str) -> dict[str, Any]:
     """What `rainref describe EFFECT --json` prints: parameters, passes, buffers, layouts.
 
     >>> [p["name"] for p in describe("edge_splash")["passes"]]

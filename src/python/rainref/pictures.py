@@ -26,7 +26,7 @@ def shown(array: np.ndarray) -> np.ndarray:
 
 def show(array: np.ndarray, title: str = "") -> object:
     """Shows an image in a notebook or a window; needs Matplotlib. Returns its axes."""
-    from matplotlib import pyplot
+    from matplotlib import pyplot  # type: ignore[import]
 
     axes = pyplot.subplots()[1]
     axes.imshow(shown(array), cmap="gray", vmin=0, vmax=255)

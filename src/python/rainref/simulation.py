@@ -21,7 +21,8 @@ from .parameters import Parameters, changes, effects, toml
 
 
 def open(scene: str | os.PathLike[str] | Mapping[str, object], set: Mapping[str, object] | None = None, *, threads: int = 0) -> Simulation:
-    """A scene that runs: a scene file's path, the name of an effect (all defaults), keys with values, or a scene's text (of several lines).
+    """A scene that runs: a scene file's path, the name of a scene of `rainref list` ("puddle/default.toml") or of an effect (all defaults),
+    keys with values, or a scene's text (of several lines).
 
     `set` wins over it: {"run.size": (320, 180), "rain.rate": 20}. `threads` 0 is one for each processor; no bit hangs on it. Raises Error
     for what no scene may say, FileError for files.
@@ -59,7 +60,7 @@ class Simulation:
         else:
             self._handle = Handle("close", "open", encoded(scene), c.byref(options))
         # To open it again: for copies, here and in other processes.
-        self._scene, self._set, self._threads = scene.absolute() if isinstance(scene, Path) else scene, set, threads
+        self._scene, self._set, self._threads = scene.absolute() if isinstance(scene, Path) and scene.exists() else scene, set, threads
         self.changes = 0  #: counts what ends the validity of views
         self._look_up()
 
@@ -148,7 +149,7 @@ class Simulation:
         ...
         rainref.errors.Error: state: expected a state that rainref saved, found other bytes
         """
-        states.load(self._handle, states.read_from(state))
+        states.load(self._handle, states.read_from(state), str(os.fspath(state)) if isinstance(state, (str, os.PathLike)) else "")
         self.changes += 1
         return self
 

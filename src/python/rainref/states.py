@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from ._library import READ, WRITE, Handle, call
-from .errors import FileError
+from .errors import Error, FileError, error_of
 
 
 def saved(simulation: Handle) -> bytes:
@@ -24,8 +24,8 @@ def saved(simulation: Handle) -> bytes:
     return b"".join(pieces)
 
 
-def load(simulation: Handle, state: bytes) -> None:
-    """Gives a simulation a state."""
+def load(simulation: Handle, state: bytes, file: str = "") -> None:
+    """Gives a simulation a state; errors name the file that it comes from."""
     at = 0
 
     def read(_: object, to: int, count: int) -> int:
@@ -35,7 +35,13 @@ def load(simulation: Handle, state: bytes) -> None:
         at += len(piece)
         return len(piece)
 
-    call("load", simulation, READ(read), None)
+    try:
+        call("load", simulation, READ(read), None)
+    except Error as error:
+        message = str(error)
+        if not file or not message.startswith("state: "):
+            raise
+        raise error_of(error.code, message.replace("state", file, 1)) from None
 
 
 def read_from(source: bytes | bytearray | memoryview | str | os.PathLike[str] | BinaryIO) -> bytes:
@@ -57,7 +63,7 @@ def write_to(place: str | os.PathLike[str] | BinaryIO, state: bytes) -> None:
     part = Path(f"{os.fspath(place)}.part")
     try:
         part.write_bytes(state)
-        part.replace(place)
+        part.replace(Path(place))
     except OSError as error:
         part.unlink(missing_ok=True)
         raise FileError(f"cannot write '{os.fspath(place)}': {error.strerror}", 4) from None

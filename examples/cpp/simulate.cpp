@@ -26,18 +26,9 @@ void tell(const std::string& effect, const parallel::Executor& executor) {
   scene.write_png(effect + ".png");
 }
 
-/// The program of README.md, word for word.
-void film() {
-  rainref::parallel::Executor threads;
-  rainref::Simulation rain({"", {"effect=edge_splash", "run.size=[640, 360]"}}, threads);  // or read_scene("x.toml")
-  for (int frame = 0; frame < 10; ++frame) rain.next_frame();
-  rain.write_png("splashes.png");
-}
-
 }  // namespace
 
 int main() try {
-  film();
   const parallel::Executor executor(2);
   for (const char* effect : {"puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"}) tell(effect, executor);
   Simulation({"", {"effect=pudle"}}, executor);

@@ -1,0 +1,85 @@
+#include "cli/own_program.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/signals.h"
+#include "rainref/error.h"
+
+extern char** environ;
+
+namespace rainref::cli {
+namespace {
+
+constexpr const char* program_link = "/proc/self/exe";
+
+// After fork(): nothing but what a signal handler may call.
+[[noreturn]] void become(const char* program, char** arguments, char** variables, int output, int error, pid_t parent) {
+  take_signals_again();
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM, 0, 0, 0);
+  if (::getppid() != parent) ::_exit(127);  // it died before
+  if (output >= 0) ::dup2(output, STDOUT_FILENO);
+  if (error >= 0) ::dup2(error, STDERR_FILENO);
+  ::execve(program, arguments, variables);
+  ::_exit(127);
+}
+
+int opened(const std::filesystem::path& path) {
+  if (path.empty()) return -1;
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+    throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(errno)));
+  return descriptor;
+}
+
+}  // namespace
+
+std::filesystem::path own_program() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink(program_link, error);
+  if (error) throw Error(ExitCode::io, fmt::format("{}: {}", program_link, error.message()));
+  return program;
+}
+
+std::vector<std::string> own_arguments() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> all;
+  for (std::string word; std::getline(in, word, '\0');) all.push_back(word);
+  if (!all.empty()) all.erase(all.begin());
+  return all;
+}
+
+int run_own_program(const std::vector<std::string>& arguments, const std::string& variable, const ChildOutput& to) {
+  const std::string program = own_program().string();
+  std::vector<std::string> words{program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv, variables;
+  for (std::string& word : words) argv.push_back(word.data());
+  std::string added = variable;
+  if (!added.empty()) variables.push_back(added.data());  // before one of the same name
+  for (char** v = environ; *v; ++v) variables.push_back(*v);
+  argv.push_back(nullptr);
+  variables.push_back(nullptr);
+  const int output = opened(to.standard_output), error = opened(to.standard_error);
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0) become(program_link, argv.data(), variables.data(), output, error, parent);
+  const int why = errno;
+  for (const int descriptor : {output, error})
+    if (descriptor >= 0) ::close(descriptor);
+  if (child < 0) throw Error(ExitCode::io, fmt::format("no process can be made: {}", std::generic_category().message(why)));
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace rainref::cli

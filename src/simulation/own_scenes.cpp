@@ -1,0 +1,64 @@
+#include "simulation/own_scenes.h"
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace rainref::simulation {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The program or shared library that this code is in.
+fs::path own_file() {
+  std::error_code error;
+  Dl_info symbol;
+  void* map = nullptr;
+  if (::dladdr1(reinterpret_cast<const void*>(&own_file), &symbol, &map, RTLD_DL_LINKMAP) != 0 && map) {
+    const char* const library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
+    if (library && *library) return fs::canonical(library, error);
+  }
+  return fs::read_symlink("/proc/self/exe", error);
+}
+
+/// The folders `scenes`, from where that file lies: an installation may be moved. A build folder links the sources'.
+std::vector<fs::path> own_folders() {
+  const fs::path here = own_file().parent_path();
+  std::vector<fs::path> folders;
+  for (const char* from_here : {RAINREF_SCENES_FROM_PROGRAM, RAINREF_SCENES_FROM_LIBRARY, "../share/rainref/scenes"}) {
+    std::error_code error;
+    const fs::path folder = fs::canonical(here / from_here, error);
+    if (!error && std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  }
+  return folders;
+}
+
+}  // namespace
+
+std::vector<std::string> own_scenes() {
+  std::vector<std::string> found;
+  for (const fs::path& folder : own_folders()) {
+    std::error_code none;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, none))
+      if (entry.path().extension() == ".toml") found.push_back(entry.path().lexically_relative(folder).string());
+    if (!found.empty()) break;
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+fs::path find_scene(const fs::path& named) {
+  std::error_code none;
+  if (named.empty() || named.is_absolute() || fs::exists(named, none)) return named;
+  fs::path name = named.lexically_normal();
+  if (*name.begin() == "scenes") name = name.lexically_relative("scenes");
+  if (*name.begin() == "..") return named;
+  if (name.extension() != ".toml") name += ".toml";
+  for (const fs::path& folder : own_folders())
+    if (fs::is_regular_file(folder / name, none)) return folder / name;
+  return named;
+}
+
+}  // namespace rainref::simulation

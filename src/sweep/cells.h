@@ -1,0 +1,54 @@
+// The cells of a plan: every point of its axes, checked and named before anything starts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/config.h"
+#include "sweep/identity.h"
+#include "sweep/plan.h"
+
+namespace rainref::sweep {
+
+struct Cell {
+  std::string id;
+  std::uint32_t scene = 0;          ///< of the plan's scenes, or packs
+  std::vector<std::uint32_t> rows;  ///< of each axis; of packs that of the profile
+  std::string film;                 ///< what all chunks of a run share; "" where nothing is simulated
+  std::int64_t first = 0, end = 0;  ///< frames that it holds, the last one excluded
+  std::int64_t frames = 0;          ///< of the whole run
+};
+
+class Cells {
+ public:
+  /// Parses the configuration of every cell. Throws Error(usage) for the first one that a scene refuses, for two that are the same, and for
+  /// more than most_cells; Error(io) where a file cannot be read. The plan must outlive it.
+  explicit Cells(const Plan& plan);
+
+  const Plan& plan() const { return plan_; }
+  const std::vector<Cell>& all() const { return cells_; }
+  /// Of a cell that simulates.
+  scene::Config config(const Cell& cell) const;
+  /// What the plan says of it: --set of a command line that gives the same.
+  std::vector<std::string> overrides(const Cell& cell) const;
+  /// Scene or pack, by name, and the values of the axes, by key.
+  std::vector<std::pair<std::string, std::string>> values(const Cell& cell) const;
+  /// "scene x.toml, rain.rate 3, seed 7".
+  std::string words(const Cell& cell) const;
+
+ private:
+  void add_simulated(Cell point);
+  void add_judged(Cell point);
+  void add(Cell cell);
+  std::vector<scene::Override> said(const Cell& cell) const;
+
+  const Plan& plan_;
+  std::vector<std::vector<scene::RawEntry>> scenes_;  ///< each read once
+  std::vector<Cell> cells_;
+  std::map<std::string, std::size_t> by_id_;
+  Inputs inputs_;
+};
+
+}  // namespace rainref::sweep

@@ -1,0 +1,82 @@
+#include "sweep/identity.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "base/read_file.h"
+#include "effect/inputs.h"
+#include "effect/picture_sequence.h"
+#include "rainref/error.h"
+#include "scene/value_text.h"
+
+namespace rainref::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has(const scene::Config& config, std::string_view key) {
+  const auto& all = config.entries();
+  return std::any_of(all.begin(), all.end(), [&](const scene::Config::Entry& e) { return e.parameter.key == key; });
+}
+
+}  // namespace
+
+std::string id_of(std::string_view text) { return file_hash(std::as_bytes(std::span(text))).text(); }
+
+std::string Inputs::hash_of(const scene::Config& config, const std::string& key) {
+  const effect::NamedFile named(config, key);
+  const fs::path path = named.path_of(named.name);
+  std::string name = fs::absolute(path).lexically_normal().string();
+  const bool is_sequence = effect::is_sequence(named.name) && has(config, "sequence.first");
+  if (is_sequence)
+    name += fmt::format(" {} {} {}", config.integer("sequence.first"), config.integer("sequence.count"), config.integer("run.frames"));
+  std::string& hash = known_[name];
+  if (!hash.empty()) return hash;
+  if (is_sequence) {
+    effect::Inputs found;
+    const effect::PictureSource source(config, key, found);
+    for (const effect::InputFile& f : found.files) hash += fmt::format("{} {} {} ", f.hash, f.first, f.count);
+  } else if (key.ends_with("drive_cycle")) {
+    try {
+      hash = file_hash(read_file(path)).text();
+    } catch (const Error& e) {
+      throw named.placed(e.code(), e.what());
+    }
+  } else {
+    hash = effect::read_picture(named, named.name).decoded_hash.text();
+  }
+  return hash;
+}
+
+std::string Inputs::text_of(const scene::Config& config) {
+  std::string out;
+  for (const scene::Config::Entry& e : config.entries()) {
+    const std::string& key = e.parameter.key;
+    if (key == "run.frames") continue;
+    const auto* text = std::get_if<std::string>(&e.value);
+    if (text && !text->empty() && e.parameter.type == scene::Type::text && effect::names_files(key))
+      out += fmt::format("{} holds {}\n", key, hash_of(config, key));
+    else
+      out += fmt::format("{} = {}\n", key, scene::value_text(e.value));
+  }
+  return out;
+}
+
+std::string Inputs::folder_hash(const fs::path& folder) {
+  std::string& hash = known_[folder.string() + "/"];
+  if (!hash.empty()) return hash;
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
+    if (i->is_regular_file()) files.push_back(i->path());
+  if (error) throw Error(ExitCode::io, fmt::format("{}: cannot be read: {}", folder.string(), error.message()));
+  std::sort(files.begin(), files.end());
+  std::string all;
+  for (const fs::path& file : files) all += fmt::format("{} {}\n", fs::relative(file, folder).string(), file_hash(read_file(file)).text());
+  return hash = id_of(all);
+}
+
+}  // namespace rainref::sweep

@@ -1,0 +1,23 @@
+// What a store holds that none of the given plans needs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "sweep/cells.h"
+#include "sweep/store.h"
+
+namespace rainref::sweep {
+
+struct Rubbish {
+  std::filesystem::path path;
+  const char* why;
+  std::uintmax_t bytes = 0;
+};
+
+/// Cells and failures of no plan, states of films that no plan has or whose cells are all there, leftovers of killed processes; with
+/// `damaged` also cells whose files are not what their records say. Cells that are being made are none of it.
+std::vector<Rubbish> rubbish_of(const Store& store, const std::vector<Cells>& plans, bool damaged);
+
+}  // namespace rainref::sweep

@@ -1,0 +1,23 @@
+// What to hand to an engine that runs a sweep.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rainref::sweep {
+
+struct ScriptAsked {
+  std::string engine;
+  std::filesystem::path program, plan, out;  ///< absolute
+  std::int64_t shards = 1;
+  int threads = 1;    ///< of a shard
+  std::string image;  ///< of a container, for kubernetes
+};
+std::vector<std::string> engines();
+
+/// A shell script, or the manifest of an indexed job; with collect after the last shard. Throws Error(usage) for another engine.
+std::string script(const ScriptAsked& asked);
+
+}  // namespace rainref::sweep

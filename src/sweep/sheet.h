@@ -1,0 +1,14 @@
+// A contact sheet: a picture of each cell, small, side by side.
+#pragma once
+
+#include "rainref/image.h"
+#include "sweep/table.h"
+
+namespace rainref::sweep {
+
+/// The last picture of each cell that has one, at most this many cells, row by row from the top; rgba8, row 0 on top. Each is shrunk by a
+/// whole number until it is at most `largest` texels wide, whole texels averaged in display code and rounded to nearest. Empty where no
+/// cell has a picture. Throws Error.
+Image contact_sheet(const Cells& cells, const Table& table, const Store& store, int most_cells = 400, int largest = 160);
+
+}  // namespace rainref::sweep

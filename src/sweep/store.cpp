@@ -1,0 +1,115 @@
+#include "sweep/store.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/file_lock.h"
+#include "base/read_file.h"
+#include "rainref/error.h"
+
+namespace rainref::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names in a folder that begin with this; none where there is no folder.
+std::vector<fs::path> beginning_with(const fs::path& folder, const std::string& begin) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
+    if (i->path().filename().string().starts_with(begin)) found.push_back(i->path());
+  return found;
+}
+
+/// Of a cell that is, or was, being made. Where the file system has no locks nobody knows.
+enum class Maker : std::uint8_t { dead, alive, unknown };
+Maker maker_of(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return Maker::unknown;  // it is done
+  const FileLock lock = lock_file(descriptor);
+  const bool is_there = is_still(descriptor, path);
+  ::close(descriptor);
+  if (!is_there || lock == FileLock::impossible) return Maker::unknown;
+  return lock == FileLock::mine ? Maker::dead : Maker::alive;
+}
+
+}  // namespace
+
+bool Store::has(const std::string& id) const {
+  std::error_code error;
+  return fs::exists(cell(id) / "cell.json", error);
+}
+
+std::optional<Failure> Store::failure(const std::string& id) const {
+  const fs::path path = root_ / "failed" / (id + ".json");
+  std::error_code error;
+  if (!fs::exists(path, error)) return {};
+  try {
+    const std::vector<std::byte> bytes = read_file(path);
+    const auto json =
+        nlohmann::json::parse(reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+    return Failure{json.at("code").get<int>(), json.at("sentence").get<std::string>()};
+  } catch (const nlohmann::json::exception&) {
+    return {};  // not ours: the cell is tried
+  }
+}
+
+void Store::record(const std::string& id, const std::string& words, const Failure& failure) const {
+  const nlohmann::ordered_json json{{"cell", id}, {"is", words}, {"code", failure.code}, {"sentence", failure.sentence}};
+  write_file(root_ / "failed" / (id + ".json"), json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+void Store::forget(const std::string& id) const {
+  std::error_code ignored;
+  fs::remove(root_ / "failed" / (id + ".json"), ignored);
+  for (const fs::path& path : beginning_with(root_ / "tries", id))
+    if (maker_of(path) == Maker::dead) fs::remove(path, ignored);
+}
+
+Store::Tries Store::tries(const std::string& id) const {
+  Tries count;
+  for (const fs::path& path : beginning_with(root_ / "tries", id)) {
+    const Maker maker = maker_of(path);
+    count.dead += maker == Maker::dead;
+    count.alive += maker == Maker::alive;
+  }
+  return count;
+}
+
+std::unique_ptr<Hidden> Store::begin(const std::string& id) const {
+  try {
+    return std::make_unique<Hidden>(root_ / "tries", Hidden::Kind::file, [&] { return id + Hidden::random_name(); });
+  } catch (const std::system_error& e) {
+    throw Error(ExitCode::io, fmt::format("{}: cannot write there: {}", (root_ / "tries").string(), e.code().message()));
+  }
+}
+
+fs::path Store::state(const std::string& film, std::int64_t frame) const { return states(film) / fmt::format("{}.state", frame); }
+
+std::int64_t Store::newest_state(const std::string& film, std::int64_t frame) const {
+  std::int64_t newest = 0;
+  for (const fs::path& path : beginning_with(states(film), "")) {
+    const std::string stem = path.stem().string();
+    std::int64_t of = 0;
+    const bool is_number = std::from_chars(stem.data(), stem.data() + stem.size(), of).ptr == stem.data() + stem.size();
+    if (path.extension() == ".state" && is_number && of <= frame && of > newest) newest = of;
+  }
+  return newest;
+}
+
+void Store::make() const {
+  for (const char* folder : {"cells", "failed", "states", "tries", "log"}) {
+    std::error_code error;
+    fs::create_directories(root_ / folder, error);
+    if (error) throw Error(ExitCode::io, fmt::format("{}: cannot make this folder: {}", (root_ / folder).string(), error.message()));
+  }
+}
+
+}  // namespace rainref::sweep

@@ -1,0 +1,61 @@
+// Where the results of sweeps lie: a folder that any number of plans and machines share.
+//
+//   cells/ab/ab12...      a cell's files, and cell.json, which says what they are; whole or not there
+//   failed/ab12....json   why a cell has none
+//   states/<film>/N.state what a run holds before frame N, so that a chunk may begin there
+//   tries/ab12... .x      a cell that is being made, locked; or that was when its process died
+//   log/x.csv             how long each cell took, and where
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/hidden.h"
+
+namespace rainref::sweep {
+
+/// Why a cell was not made.
+struct Failure {
+  int code = 0;  ///< 2: refused for good; 4, 5: tried again by the next run; 0: its process died again and again
+  std::string sentence;
+  bool is_final() const { return code == 0 || code == 2; }
+};
+
+class Store {
+ public:
+  explicit Store(std::filesystem::path root) : root_(std::move(root)) {}
+  const std::filesystem::path& root() const { return root_; }
+
+  std::filesystem::path cell(const std::string& id) const { return root_ / "cells" / id.substr(0, 2) / id; }
+  bool has(const std::string& id) const;
+
+  std::optional<Failure> failure(const std::string& id) const;
+  /// Throws Error(io).
+  void record(const std::string& id, const std::string& words, const Failure& failure) const;
+  /// Failure and deaths.
+  void forget(const std::string& id) const;
+
+  /// The processes that died while they made the cell, and those that are making it now.
+  struct Tries {
+    int dead = 0, alive = 0;
+  };
+  Tries tries(const std::string& id) const;
+  /// While it lives, the cell is being made; what is left of it after a kill is a death.
+  std::unique_ptr<Hidden> begin(const std::string& id) const;
+
+  std::filesystem::path states(const std::string& film) const { return root_ / "states" / film; }
+  std::filesystem::path state(const std::string& film, std::int64_t frame) const;
+  /// The last frame at or before this one that has a state; none: 0.
+  std::int64_t newest_state(const std::string& film, std::int64_t frame) const;
+
+  /// Makes the folders. Throws Error(io).
+  void make() const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+}  // namespace rainref::sweep

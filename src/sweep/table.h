@@ -1,0 +1,47 @@
+// What a plan's cells gave, as rows: the same bytes wherever and in whatever order they were made.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sweep/cell_record.h"
+#include "sweep/cells.h"
+#include "sweep/store.h"
+
+namespace rainref::sweep {
+
+enum class State : std::uint8_t { done, missing, refused, failed, damaged };
+const char* name(State state);
+
+struct Row {
+  State state = State::missing;
+  std::string sentence;                                     ///< why it is not done; of a judged cell its verdict
+  std::vector<std::pair<std::string, std::string>> values;  ///< of the axes
+  std::vector<std::pair<std::string, std::string>> hashes;  ///< "pass.buffer" of the last frame, and its hash
+  std::vector<KeptFile> files;
+};
+/// The run that chunks are parts of, where their hashes were kept: what `rainref hash` of it prints last.
+struct Film {
+  std::string words;
+  std::int64_t first = 0, end = 0;  ///< frames that are there without a gap
+  std::string scene_hash;           ///< of these
+};
+struct Table {
+  std::vector<Row> rows;    ///< of each cell
+  std::vector<Film> films;  ///< in the order of their first cells
+  std::int64_t count(State state) const;
+};
+
+/// Reads every record and checks the hash of every file.
+Table read_table(const Cells& cells, const Store& store);
+/// What state a cell is in, as far as its record's presence says it: nothing is read.
+State state_of(const Cell& cell, const Store& store, std::string& sentence);
+
+/// A line for each cell: number, id, state, sentence, frames, values, hashes. Fields with commas, quotes or line ends are quoted.
+std::string table_csv(const Cells& cells, const Table& table);
+std::string films_csv(const Table& table);
+
+}  // namespace rainref::sweep

@@ -1,0 +1,59 @@
+#include "truth/picture_relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "compositor/optics.h"
+
+namespace rainref::truth {
+
+PictureRelief::PictureRelief(const scene::Camera& camera, double half_width, double half_height, const Image& colour, const Image& depth)
+    : eye_(camera.position),
+      basis_(camera.basis()),
+      scale_{0.5 / half_width, 0.5 / half_height},
+      columns_(colour.width()),
+      rows_(colour.height()),
+      colour_(colour, Address::clamp, Address::clamp),
+      depth_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
+  for (int y = 0; y < rows_; ++y)
+    std::copy_n(depth.row<float>(y), columns_, depth_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_));
+}
+
+Vec PictureRelief::colour_at(const Place& at) const {
+  using compositor::scalar::Number;
+  const auto s = compositor::scalar::sample_bilinear<0, 3, Number>(fixed_texture<Address::clamp, Address::clamp, 4>(colour_.view()),
+                                                                   Number(at.x / columns_), Number(at.y / rows_));
+  return {s[0].v, s[1].v, s[2].v};
+}
+
+double PictureRelief::depth_at(const Place& at) const {
+  const int x = static_cast<int>(std::clamp(std::floor(at.x), 0.0, columns_ - 1.0)),
+            y = static_cast<int>(std::clamp(std::floor(at.y), 0.0, rows_ - 1.0));
+  return depth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)];
+}
+
+// In the picture the ray runs straight from the place of its origin to its vanishing point, and with w = (origin's depth) / (depth there)
+// from w = 1 to 0: end + w (begin - end). It has met a plate of depth D where w D is no more than the origin's depth.
+PictureRelief::Sight PictureRelief::look(const Vec& origin, const Vec& direction) const {
+  const Vec from_eye = origin - eye_;
+  const double depth = dot(from_eye, basis_.forward), ahead = dot(direction, basis_.forward), by = std::max(ahead, most_turn_cosine);
+  const Place end = place(dot(direction, basis_.right) / by, dot(direction, basis_.up) / by);
+  if (!(ahead >= most_turn_cosine && depth > 0)) return {std::numeric_limits<double>::infinity(), colour_at(end)};
+  const Place begin = place(dot(from_eye, basis_.right) / depth, dot(from_eye, basis_.up) / depth);
+  const Place way{begin.x - end.x, begin.y - end.y};
+  const int steps = 1 + static_cast<int>(std::max(std::abs(way.x), std::abs(way.y)));  // of less than a texel
+  const auto at = [&](double w) { return Place{end.x + w * way.x, end.y + w * way.y}; };
+  double before = 1, met = 1;
+  for (int k = 0; k <= steps; ++k) {
+    const double w = static_cast<double>(steps - k) / steps, plate = depth_at(at(w));
+    if (w * plate <= depth) {
+      met = plate > 0 ? std::min(depth / plate, before) : before;
+      break;
+    }
+    before = w;
+  }
+  return {(depth / met - depth) / ahead, colour_at(at(met))};
+}
+
+}  // namespace rainref::truth
