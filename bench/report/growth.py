@@ -81,7 +81,7 @@ def faults(measured):
 
 
 def measure(rainref, out, quick, say):
-    measured, skipped = [], []
+    measured, skipped, watch = [], [], machine.Watch()
     for series, size, items, scene, frames, overrides in cases(quick):
         say(f"{series}, {size}")
         try:
@@ -90,7 +90,7 @@ def measure(rainref, out, quick, say):
             skipped.append({"series": series, "size": size, "reason": str(refused)})
     # A refusal for want of memory is the machine's; another one would be ours.
     ours = [f"{s['series']}, {s['size']}: {s['reason']}" for s in skipped if " of memory" not in s["reason"]]
-    return {"format": "rainref.growth", "version": 1, "machine": machine.describe(), "rows": measured, "skipped": skipped,
+    return {"format": "rainref.growth", "version": 1, "machine": machine.describe(), "others_percent": watch.others_percent(), "rows": measured, "skipped": skipped,
             "faults": faults(measured) + ours}
 
 
@@ -110,7 +110,10 @@ def markdown(result):
             last = row is of[-1] and len(of) > 1 and not name.startswith("frames")
             lines.append([name, str(row["size"]), f"{row['seconds']:.2f}", f"{row['stated_mib']:.1f}", f"{row['taken_mib']:.1f}",
                           f"{stated:.1f}" if last else "", f"{taken:.1f}" if last else ""])
-    text = table(["series", "size", "s", "stated MiB", "taken MiB", "stated bytes an item", "taken"], lines)
+    others = result.get("others_percent")
+    said = "Others used the machine meanwhile: times here are no measure, memory is." if others is None else \
+        f"Others took {others} % of the machine meanwhile; memory does not depend on it."
+    text = said + "\n\n" + table(["series", "size", "s", "stated MiB", "taken MiB", "stated bytes an item", "taken"], lines)
     for s in result["skipped"]:
         text += f"\n- Skipped: {s['series']}, {s['size']}: {s['reason']}"
     text += "".join(f"\n- **Grew**: {fault}" for fault in result["faults"])

@@ -230,6 +230,11 @@ class Growth(unittest.TestCase):
         self.assertEqual(found, [f"{frames}: 5.0 MiB more after 10000 frames than after 10"])
         self.assertEqual(growth.faults([self.row(frames, 10, 20, 20), self.row(frames, 10000, 30, 30)]), [])
 
+    def test_a_busy_machine_is_said(self):
+        result = {"rows": [self.row("drops: x", 1, 20, 20)], "skipped": [], "faults": [], "others_percent": None}
+        self.assertIn("times here are no measure", growth.markdown(result))
+        self.assertIn("Others took 3.5 %", growth.markdown({**result, "others_percent": 3.5}))
+
     def test_bytes_of_an_item(self):
         self.assertEqual(growth.per_item([self.row("p", 0, 1, 2), self.row("p", 1 << 20, 9, 12)]), [8.0, 10.0])
 
