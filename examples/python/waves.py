@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import rainref as rr
+from wave_step import impulse
 
 OUT = Path(sys.argv[1]) if len(sys.argv) > 1 else None
 SKY = Path(__file__).resolve().parents[2] / "tests/packs/sky.png"
@@ -105,19 +106,10 @@ def wave_step(wave, impulse, shore, damping, courant_sq, rest, centre):
     return out
 
 
-def craters(drops, shape):
-    y, x = np.indices(shape, F) + F(0.5)
-    total = np.zeros(shape, F)
-    for d in drops:
-        s = ((x - d["x"]) / d["radius"]) ** 2 + ((y - d["y"]) / d["radius"]) ** 2
-        total += d["amplitude"] * np.maximum(1 - s, 0) ** 2 * (1 - 4 * s)
-    return total
-
-
 def computed(i, u, centre):
     shape = i.wave.shape[:2]
     shore = i.shore if "shore" in vars(i) else np.ones(shape, F)
-    return wave_step(i.wave.astype(F), craters(i.drops, shape), shore, u.damping, u.courant_sq, u.rest, F(centre))
+    return wave_step(i.wave.astype(F), impulse(i.drops, shape), shore, u.damping, u.courant_sq, u.rest, F(centre))
 
 
 @rr.port("puddle.wave_step")

@@ -25,7 +25,7 @@ RAINREF_FN Lanes widen_high(hn::Vec<Lanes::DI> words) {
   return widen_low(hn::BitCast(Lanes::DI(), hn::ShiftRight<16>(hn::BitCast(Lanes::DU(), words))));
 }
 
-/// Four words from each byte offset on, apart: 16 loads of 16 bytes, which take as long as one and a third gathers of 8 bytes.
+/// Four words from each byte offset on, apart: a load of 16 bytes for each lane, in place of two gathers or four.
 struct FourWords {
   hn::Vec<Lanes::DI> word[4];
   HWY_INLINE HWY_ATTR FourWords() {}
