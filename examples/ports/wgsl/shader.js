@@ -44,6 +44,10 @@ export function checkBindings(declared, bound, isRecords) {
     if (!meant.kinds.includes(kind))
       throw new Error(`${name}: binding ${number} is ${meant.name}: expected ${meant.kinds.map(k => words[k] ?? k).join(" or ")}, found ${words[kind] ?? kind}`);
   }
+  for (const {name, binding} of bound) {
+    const other = [...declared.bindings].find(([number, found]) => number !== binding && found.name === name);
+    if (other) throw new Error(`${name}: its binding is ${binding}, the shader declares it at ${other[0]}`);
+  }
   for (const {name, binding, isOutput} of bound)
     if (isOutput && expected.has(binding) && !declared.bindings.has(binding)) throw new Error(`output ${name}: the shader does not declare binding ${binding}`);
 }

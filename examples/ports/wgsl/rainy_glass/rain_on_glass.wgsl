@@ -38,11 +38,9 @@ struct RainOnGlassUniforms {
 @group(0) @binding(3) var raindrops: texture_2d<f32>;
 @group(0) @binding(4) var rivulets: texture_2d<f32>;
 @group(0) @binding(5) var scene: texture_2d<f32>;
-@group(0) @binding(6) var probe: texture_2d<f32>;
 @group(0) @binding(19) var raindrops_sampler: sampler;
 @group(0) @binding(20) var rivulets_sampler: sampler;
 @group(0) @binding(21) var scene_sampler: sampler;
-@group(0) @binding(22) var probe_sampler: sampler;
 
 fn probe_at(plane: vec2f) -> vec3f {
   let pi = 3.14159265358979;

@@ -1,4 +1,7 @@
 // rainy_glass.rain_on_glass, as-published. The scene seen through the wet glass: linear radiance.
+@group(0) @binding(6) var probe: texture_2d<f32>;
+@group(0) @binding(22) var probe_sampler: sampler;
+
 @fragment
 fn main(@builtin(position) place: vec4f) -> @location(0) vec4f {
   let pixel = vec2i(place.xy);

@@ -1,7 +1,9 @@
 // rainy_glass.rain_on_glass, corrected. The scene seen through the wet glass: linear radiance.
-@group(0) @binding(7) var scene_depth: texture_2d<f32>;
-@group(0) @binding(8) var near_depth: texture_2d<f32>;
-@group(0) @binding(24) var near_depth_sampler: sampler;
+@group(0) @binding(6) var scene_depth: texture_2d<f32>;
+@group(0) @binding(7) var near_depth: texture_2d<f32>;
+@group(0) @binding(8) var probe: texture_2d<f32>;
+@group(0) @binding(23) var near_depth_sampler: sampler;
+@group(0) @binding(24) var probe_sampler: sampler;
 
 fn slope_of(stored: vec2f, neutral: f32, scale: f32) -> vec2f {
   let n = (stored - neutral) * scale;
