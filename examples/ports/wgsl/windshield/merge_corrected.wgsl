@@ -66,7 +66,7 @@ fn gathered(i: u32, n: u32) -> Drop {
       if (next != none && drops[j].id > drops[next].id) { continue; }
       if (last_of_chain(j) == i32(i)) { next = i32(j); }
     }
-    if (next == none) { return sum; }
+    if (next == none) { break; }
     let d = drops[next];
     after = d.id + 1u;
     if (sum.mass + d.mass > most_mass) { continue; }
@@ -76,6 +76,7 @@ fn gathered(i: u32, n: u32) -> Drop {
     sum.velocity = mix(sum.velocity, d.velocity, share);
     drops_out.records[next].life = 0.0;
   }
+  return sum;
 }
 
 // Mass units that a drop leaves, and the texel where.
