@@ -1,0 +1,29 @@
+// Runs the ports of a pack's passes, wherever the files come from and go to.
+import {filesOf, requestDevice, runCase} from "./port.js";
+
+/// The shaders of a program: [{name, text}], by the names in an effect's programs.json.
+async function shaderOf(names, effect, readPort) {
+  const decoder = new TextDecoder();
+  return Promise.all(names.map(async name => ({name, text: decoder.decode(await readPort(name.startsWith("../") ? name.slice(3) : `${effect}/${name}`))})));
+}
+
+/// gpu: a GPU, such as navigator.gpu. readPack(path), readPort(path): bytes of a file of the pack, and of this folder.
+/// write(path, bytes) takes what the port's folder holds, port.json last. passes: names, or null for all. Gives {count, device}: the
+/// cases that were run, and the device's name. A pass without a program is left out.
+export async function runPack(gpu, {readPack, readPort, write, passes = null}) {
+  const json = bytes => JSON.parse(new TextDecoder().decode(bytes));
+  const manifest = json(await readPack("manifest.json"));
+  const {programs} = json(await readPort(`${manifest.effect}/programs.json`));
+  const {device, name} = await requestDevice(gpu);
+  let count = 0;
+  for (const oneCase of manifest.cases) {
+    const names = programs[manifest.passes.find(pass => pass.name === oneCase.pass).formula];
+    if (!names || (passes && !passes.includes(oneCase.pass))) continue;
+    const files = {}, shader = await shaderOf(names, manifest.effect, readPort);
+    for (const file of filesOf(oneCase)) files[file] = await readPack(file);
+    for (const {file, bytes} of await runCase(device, manifest, oneCase, files, shader)) await write(file, bytes);
+    ++count;
+  }
+  await write("port.json", new TextEncoder().encode(JSON.stringify({api: "WebGPU", device: name}) + "\n"));
+  return {count, device: name};
+}

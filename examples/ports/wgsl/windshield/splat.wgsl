@@ -1,0 +1,66 @@
+// What both splats share.
+struct SplatUniforms {
+  size : vec2<f32>,       //   0  [texel] Columns and rows of the height texture.
+  radius_scale : f32,     //   8  [m] Radius of a drop of mass 1.
+  height_scale : f32,     //  12  [mm] Height of a drop of mass 1.
+  frame : vec3<f32>,      //  16  [m/texel] Plane coordinates of a step: x of a column, x and y of a row.
+  smallest_radius : f32,  //  28  [m] A smaller drop is drawn this wide, and as much lower.
+  kernel : i32,           //  32  [1] 0: paraboloid, 1: quartic, 2: smoothstep, 3: hemisphere, 4: disc.
+  blend : i32,            //  36  [1] 0: add, 1: max, 2: add, rounded to half after each drop as a blending unit does.
+  drop_count : i32,       //  40  [1] Drops in the list.
+  film_scale : f32,       //  44  [mm] corrected: height of a mass unit in a texel.
+}
+@group(0) @binding(0) var<uniform> u: SplatUniforms;
+struct Drop {
+  position : vec2<f32>,  //   0  [1] Glass coordinates u, v.
+  velocity : vec2<f32>,  //   8  [1/s] Change of the position.
+  mass : f32,            //  16  [1] as-published: 1 is an ordinary drop; corrected: whole mass units of 2e-11 kg, at most 2^24.
+  life : f32,            //  20  [s] What remains; not above 0: no drop.
+  id : u32,              //  24  [1] Its own for ever, ascending in the order of birth.
+  padding_0 : f32,       //  28  padding
+}
+@group(0) @binding(1) var<storage, read> drops: array<Drop>;
+
+fn profile(q_sq: f32) -> f32 {
+  let inside = max(1.0 - q_sq, 0.0);
+  if (u.kernel == 0) { return inside; }
+  if (u.kernel == 1) { return inside * inside; }
+  if (u.kernel == 2) {
+    let q = clamp(sqrt(q_sq), 0.0, 1.0);
+    return 1.0 - q * q * (3.0 - 2.0 * q);
+  }
+  if (u.kernel == 3) { return sqrt(inside); }
+  return select(0.0, 1.0, q_sq <= 1.0);
+}
+
+// The height that a drop gives to a texel.
+fn contribution(drop: Drop, texel: vec2i) -> f32 {
+  let root = pow(max(drop.mass, 0.0), 1.0 / 3.0);
+  let own = u.radius_scale * root;
+  let radius = max(own, u.smallest_radius);
+  let share = own / radius;
+  if (drop.life <= 0.0) { return 0.0; }
+  let height = u.height_scale * root * (share * share);
+  let to = vec2f(texel) + 0.5 - drop.position * u.size;
+  let plane = vec2f(u.frame.x * to.x + u.frame.y * to.y, u.frame.z * to.y);
+  return height * profile((plane.x * plane.x + plane.y * plane.y) * (1.0 / (radius * radius)));
+}
+
+// The nearest half, ties to even, of x >= 0: what a blending unit leaves in its target.
+fn rounded(x: f32) -> f32 {
+  let exponent = max(bitcast<u32>(x) >> 23u, 113u);
+  let quantum = bitcast<f32>((exponent - 10u) << 23u);
+  let inverse = bitcast<f32>((264u - exponent) << 23u);
+  return round(x * inverse) * quantum;
+}
+
+// All drops in a texel, in the order of the list.
+fn blended(texel: vec2i) -> f32 {
+  var height = 0.0;
+  for (var i = 0; i < u.drop_count; i++) {
+    let drop = contribution(drops[i], texel);
+    height = select(height + drop, max(height, drop), u.blend == 1);
+    if (u.blend == 2) { height = rounded(height); }
+  }
+  return height;
+}

@@ -1,0 +1,5 @@
+// windshield.splat, as-published. The height of the water: every live drop, in slot order.
+@fragment
+fn main(@builtin(position) place: vec4f) -> @location(0) vec4f {
+  return vec4f(blended(vec2i(place.xy)), 0.0, 0.0, 0.0);
+}
