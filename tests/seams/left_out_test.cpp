@@ -1,0 +1,56 @@
+// A build without Embree, OpenImageIO and SQLite: this program is linked with the files that stand in their place. What needs them is
+// refused with a sentence; all else is as it always is.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "base/temporary_folder.h"
+#include "rainref/error.h"
+#include "rainref/simulation.h"
+
+namespace rainref {
+namespace {
+
+using testing::HasSubstr;
+
+Simulation opened(std::vector<std::string> set) {
+  static const parallel::Executor executor;
+  set.insert(set.end(), {"run.size=[32, 18]"});
+  return Simulation(SceneText{"", std::move(set)}, executor);
+}
+
+void expect_refused(const std::function<void()>& call, ExitCode code, const std::string& why) {
+  try {
+    call();
+    ADD_FAILURE() << why;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), code);
+    EXPECT_THAT(e.what(), HasSubstr(why));
+  }
+}
+
+TEST(LeftOut, ATracedPictureIsRefusedWithoutEmbree) {
+  for (const char* effect : {"puddle", "windshield", "screen_drops", "rainy_glass"}) {
+    Simulation untraced = opened({std::string("effect=\"") + effect + "\""});
+    EXPECT_THAT(untraced.scene_json(), HasSubstr("compositor.picture")) << "the scene has the same keys, and so the same hash";
+    expect_refused(
+        [&] {
+          opened({std::string("effect=\"") + effect + "\"", "compositor.picture=\"traced\""}).next_frame();
+        },
+        ExitCode::usage, "made without Embree");
+  }
+}
+
+TEST(LeftOut, PicturesInFilesAreRefusedWithoutOpenImageIO) {
+  const TemporaryFolder folder;
+  Simulation puddle = opened({"effect=\"puddle\""});
+  puddle.next_frame();
+  EXPECT_FALSE(puddle.picture().empty());
+  expect_refused([&] { puddle.write_png(folder.path() / "a.png"); }, ExitCode::io, "made without OpenImageIO");
+  expect_refused([&] { puddle.write_exr(folder.path() / "a.exr"); }, ExitCode::io, "made without OpenImageIO");
+}
+
+}  // namespace
+}  // namespace rainref
