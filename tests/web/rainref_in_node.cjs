@@ -5,7 +5,7 @@ const fs = require('fs'), path = require('path');
 const [program, ...args] = process.argv.slice(2);
 const collect = (descriptor) => {
   const bytes = [];
-  return {put: (byte) => bytes.push(byte ?? 10), flush: () => fs.writeSync(descriptor, Buffer.from(bytes))};
+  return {put: (byte) => bytes.push(byte), flush: () => fs.writeSync(descriptor, Buffer.from(bytes))};
 };
 const output = collect(1), error = collect(2);
 
