@@ -1,5 +1,5 @@
-// Prints every golden line; scripts/accept_golden writes them to tests/golden/hashes.txt. With arguments, those of these effects alone:
-// a build without Embree has no line of "compositor".
+// Prints every golden line; scripts/accept_golden writes them to tests/golden/hashes.txt. With arguments, those of these effects alone
+// ("compositor": traced pictures).
 #include <algorithm>
 #include <string>
 #include <vector>

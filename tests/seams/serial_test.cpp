@@ -12,6 +12,7 @@
 #include "rainref/executor.h"
 #include "rainy_glass/golden_scenes.h"
 #include "screen_drops/golden_scenes.h"
+#include "truth/golden_scenes.h"
 #include "windshield/golden_scenes.h"
 
 namespace rainref::parallel {
@@ -64,6 +65,8 @@ TEST(SerialExecutor, PuddleHasTheRecordedBits) { expect_the_recorded_bits(puddle
 TEST(SerialExecutor, WindshieldHasTheRecordedBits) { expect_the_recorded_bits(windshield::golden_scenes()); }
 TEST(SerialExecutor, EdgeSplashHasTheRecordedBits) { expect_the_recorded_bits(edge_splash::golden_scenes()); }
 TEST(SerialExecutor, ScreenDropsHasTheRecordedBits) { expect_the_recorded_bits(screen_drops::golden_scenes()); }
+// And without Embree: src/compositor/tracer_bvh.cpp is in its place.
+TEST(SerialExecutor, TracedPicturesHaveTheRecordedBits) { expect_the_recorded_bits(truth::golden_scenes()); }
 TEST(SerialExecutor, RainyGlassHasTheRecordedBits) { expect_the_recorded_bits(rainy_glass::golden_scenes()); }
 
 }  // namespace
