@@ -1,6 +1,7 @@
 #include <algorithm>
+#include <atomic>
+#include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "drops/kernels.h"
 #include "drops/merge_grid.h"
@@ -17,15 +18,25 @@ Drop drop_of(const scalar::DropState<F>& s, std::uint32_t id) {
   return {{s.u.v + 0.0f, s.v.v + 0.0f}, {s.velocity_u.v + 0.0f, s.velocity_v.v + 0.0f}, s.mass.v, s.life.v, id, 0};
 }
 
+/// A drop that ends, and the end of its chain: places in the grid, and its slot.
 struct Member {
-  std::uint32_t root_id, id, root_slot, slot;
+  std::uint32_t root, id, slot;
 };
+
+/// Asks for a drop that is soon read and written.
+void prefetch(DropArrays& drops, std::int64_t slot) {
+  for (float* field :
+       {drops.u().data(), drops.v().data(), drops.velocity_u().data(), drops.velocity_v().data(), drops.mass().data(), drops.life().data()})
+    __builtin_prefetch(field + slot, 1);
+  __builtin_prefetch(drops.id().data() + slot, 1);
+}
 
 }  // namespace
 
 struct Merger::Scratch {
   MergeGrid grid;
   std::vector<std::int32_t> larger;
+  BucketSort by_root;
 };
 
 Merger::Merger() : scratch_(std::make_unique<Scratch>()) {}
@@ -39,33 +50,48 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   constexpr std::int64_t chunk = 1024;
   executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
 
-  // Ends of chains. What is known of a chain shortens it for the others.
-  std::vector<Member> members;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(grid.count); ++i) {
-    if (larger[i] < 0) continue;
-    auto root = static_cast<std::size_t>(larger[i]);
-    while (larger[root] >= 0) root = static_cast<std::size_t>(larger[root]);
-    for (std::size_t k = i; k != root;) k = static_cast<std::size_t>(std::exchange(larger[k], static_cast<std::int32_t>(root)));
-    members.push_back({grid.id[root], grid.id[i], grid.slot[root], grid.slot[i]});
-  }
-  std::sort(members.begin(), members.end(),
-            [](const Member& a, const Member& b) { return std::tie(a.root_id, a.id) < std::tie(b.root_id, b.id); });
-
-  std::int64_t ended = 0;
-  for (std::size_t i = 0; i < members.size();) {
-    const Member first = members[i];
-    scalar::DropState<F> sum = state_of<F>(drops.get(first.root_slot));
-    for (; i < members.size() && members[i].root_id == first.root_id; ++i) {
-      const std::int64_t slot = members[i].slot;
-      const Drop d = drops.get(slot);
-      if (d.mass > most_mass - sum.mass.v) continue;  // exact, where the sum is not
-      sum = scalar::absorb(sum, state_of<F>(d));
-      drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
-      ++ended;
+  // Ends of chains. What is known of a chain shortens it for the others: whatever of it a thread meets leads to the same end.
+  const auto next = [&](std::int64_t i) { return std::atomic_ref(larger[static_cast<std::size_t>(i)]); };
+  executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      std::int32_t root = next(i).load(std::memory_order_relaxed);
+      if (root < 0) continue;
+      for (std::int32_t beyond; (beyond = next(root).load(std::memory_order_relaxed)) >= 0;) root = beyond;
+      for (std::int64_t k = i; k != root;) k = next(k).exchange(root, std::memory_order_relaxed);
     }
-    drops.set(first.root_slot, drop_of(sum, first.root_id));
-  }
-  return ended;
+  });
+  BucketSort& by_root = scratch_->by_root;
+  by_root.sort(executor, grid.count, 8 * chunk, static_cast<std::uint32_t>(grid.count), [&](std::int64_t i) {
+    return static_cast<std::uint32_t>(larger[static_cast<std::size_t>(i)]);  // -1: no key
+  });
+
+  std::vector<std::int64_t> ended_in(by_root.buckets(), 0);
+  executor.for_range(static_cast<std::int64_t>(by_root.buckets()), 1, [&](std::int64_t bucket, std::int64_t) {
+    std::vector<Member> members;
+    for (const BucketSort::Entry& e : by_root[static_cast<std::size_t>(bucket)])
+      members.push_back({e.key, grid.id[e.element], grid.slot[e.element]});
+    std::sort(members.begin(), members.end(),
+              [](const Member& a, const Member& b) { return std::tie(a.root, a.id) < std::tie(b.root, b.id); });
+    constexpr std::size_t ahead = 8;
+    for (std::size_t i = 0; i < members.size();) {
+      const std::uint32_t root = members[i].root;
+      scalar::DropState<F> sum = state_of<F>(drops.get(grid.slot[root]));
+      for (; i < members.size() && members[i].root == root; ++i) {
+        if (i + ahead < members.size()) {
+          prefetch(drops, members[i + ahead].slot);
+          prefetch(drops, grid.slot[members[i + ahead].root]);
+        }
+        const std::int64_t slot = members[i].slot;
+        const Drop d = drops.get(slot);
+        if (d.mass > most_mass - sum.mass.v) continue;  // exact, where the sum is not
+        sum = scalar::absorb(sum, state_of<F>(d));
+        drops.set(slot, {{d.position[0], d.position[1]}, {0, 0}, 0, 0, d.id, 0});
+        ++ended_in[static_cast<std::size_t>(bucket)];
+      }
+      drops.set(grid.slot[root], drop_of(sum, grid.id[root]));
+    }
+  });
+  return std::accumulate(ended_in.begin(), ended_in.end(), std::int64_t{0});
 }
 
 MassBalance leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {

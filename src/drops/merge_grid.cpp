@@ -1,17 +1,16 @@
 #include "drops/merge_grid.h"
 
 #include <algorithm>
-#include <utility>
+#include <span>
 
 #include "drops/kernels.h"
 
 namespace rainref::drops {
 namespace {
 
-constexpr std::uint32_t no_cell = 0xffffffffu;
-constexpr std::size_t room_behind = 64;      // slots of a vector, and more
-constexpr double slack = 1.0001;             // more than the rounding of radii and coordinates
-constexpr std::uint32_t most_buckets = 512;  // of the first step of the sort
+constexpr std::size_t room_behind = 64;  // slots of a vector, and more
+constexpr double slack = 1.0001;         // more than the rounding of radii and coordinates
+constexpr std::size_t ahead = 16;        // elements between asking for a slot and using it
 
 std::size_t chunks_of(std::int64_t count) { return static_cast<std::size_t>((count + chunk_slots - 1) / chunk_slots); }
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -63,7 +62,7 @@ void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, con
     for (std::int64_t i = begin; i < end; ++i) {
       const std::size_t k = index(i);
       if (!(slots.life[i] > 0)) {
-        slot_cell_[k] = no_cell;
+        slot_cell_[k] = BucketSort::no_key;
         continue;
       }
       const ClassGrid& g = classes[static_cast<std::size_t>(size_class_of(slots.mass[i]))];
@@ -74,55 +73,31 @@ void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, con
   sort(executor, drops);
 }
 
-// Counting sort in two steps that threads share: into buckets of neighbouring cells, chunk behind chunk, and then each
-// bucket by cells.
 void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops) {
-  const std::int64_t extent = drops.extent();
   const auto cells = static_cast<std::uint32_t>(cell_start.size() - 1);
-  int shift = 0;
-  while ((cells >> shift) >= most_buckets) ++shift;
-  const std::size_t buckets = (cells >> shift) + 1u, chunks = chunks_of(extent);
-
-  std::vector<std::uint32_t> offset(chunks * buckets, 0);
-  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
-    std::uint32_t* counts = offset.data() + index(begin / chunk_slots) * buckets;
-    for (std::int64_t i = begin; i < end; ++i) {
-      if (slot_cell_[index(i)] != no_cell) ++counts[slot_cell_[index(i)] >> shift];
-    }
-  });
-  std::vector<std::uint32_t> bucket_start(buckets + 1);
-  std::uint32_t sum = 0;
-  for (std::size_t b = 0; b < buckets; ++b) {
-    bucket_start[b] = sum;
-    for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(offset[c * buckets + b], sum);
-  }
-  bucket_start[buckets] = sum;
-  entries_.resize(std::max(entries_.size(), index(count)));
-  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
-    std::uint32_t* to = offset.data() + index(begin / chunk_slots) * buckets;
-    for (std::int64_t i = begin; i < end; ++i) {
-      const std::uint32_t cell = slot_cell_[index(i)];
-      if (cell != no_cell) entries_[to[cell >> shift]++] = {cell, static_cast<std::uint32_t>(i)};
-    }
-  });
-
+  by_cell_.sort(executor, drops.extent(), chunk_slots, cells, [&](std::int64_t i) { return slot_cell_[index(i)]; });
   for (auto* a : {&x, &y, &radius, &mass}) a->resize(std::max(a->size(), index(count) + room_behind));
   for (auto* a : {&id, &slot}) a->resize(std::max(a->size(), index(count)));
   const std::span<const float> masses = drops.mass();
   const std::span<const std::uint32_t> ids = drops.id();
-  executor.for_range(static_cast<std::int64_t>(buckets), 1, [&](std::int64_t b, std::int64_t) {
-    const std::uint32_t first = bucket_start[index(b)], last = bucket_start[index(b) + 1];
-    const std::uint32_t first_cell = static_cast<std::uint32_t>(b) << shift,
-                        last_cell = std::min(cells, static_cast<std::uint32_t>(b + 1) << shift);
+  executor.for_range(static_cast<std::int64_t>(by_cell_.buckets()), 1, [&](std::int64_t b, std::int64_t) {
+    const std::span<const BucketSort::Entry> entries = by_cell_[index(b)];
+    const auto [first_cell, last_cell] = by_cell_.keys(index(b));
     std::vector<std::uint32_t> next(last_cell - first_cell + 1u, 0);
-    for (std::uint32_t k = first; k < last; ++k) ++next[entries_[k].cell - first_cell + 1];
-    next[0] = first;
+    for (const BucketSort::Entry& e : entries) ++next[e.key - first_cell + 1];
+    next[0] = by_cell_.start(index(b));
     for (std::uint32_t c = first_cell; c < last_cell; ++c) {
       cell_start[c] = next[c - first_cell];
       next[c - first_cell + 1] += next[c - first_cell];
     }
-    for (std::uint32_t k = first; k < last; ++k) {
-      const std::size_t from = entries_[k].slot, to = next[entries_[k].cell - first_cell]++;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      if (k + ahead < entries.size()) {  // the slots lie anywhere
+        const std::size_t soon = entries[k + ahead].element;
+        for (const std::vector<float>* a : {&slot_x_, &slot_y_, &slot_radius_}) __builtin_prefetch(a->data() + soon);
+        __builtin_prefetch(masses.data() + soon);
+        __builtin_prefetch(ids.data() + soon);
+      }
+      const std::size_t from = entries[k].element, to = next[entries[k].key - first_cell]++;
       x[to] = slot_x_[from];
       y[to] = slot_y_[from];
       radius[to] = slot_radius_[from];
@@ -131,7 +106,7 @@ void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops
       slot[to] = static_cast<std::uint32_t>(from);
     }
   });
-  cell_start[cells] = sum;
+  cell_start[cells] = static_cast<std::uint32_t>(count);
 }
 
 }  // namespace rainref::drops

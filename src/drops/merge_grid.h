@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "drops/bucket_sort.h"
 #include "drops/drops.h"
 #include "drops/uniforms.h"
 #include "rainref/executor.h"
@@ -47,15 +48,12 @@ struct MergeGrid {
   void build(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms);
 
  private:
-  struct Entry {
-    std::uint32_t cell, slot;
-  };
   void lay_out(const std::array<std::int64_t, size_classes>& counts, const MergeUniforms& uniforms);
   void sort(const parallel::Executor& executor, const DropArrays& drops);
 
   std::vector<float> slot_x_, slot_y_, slot_radius_;
   std::vector<std::uint32_t> slot_cell_;
-  std::vector<Entry> entries_;
+  BucketSort by_cell_;
 };
 
 }  // namespace rainref::drops

@@ -175,18 +175,21 @@ TEST_P(EveryItem, IsNotIdle) {
   for (const StateScene& scene : state_scenes()) {
     if (!scene.name.starts_with(GetParam())) continue;
     const bool renders_twice = !scene.name.starts_with("windshield");
-    const std::vector<Moment> moments = moments_of(scene, executor, renders_twice);
     const Reached run(scene, executor);
     const Bytes beginning = run.save();
     const state::Items items = run.items();
+    if (std::all_of(items.all().begin(), items.all().end(), [&](const state::Item& item) { return seen[item.name]; })) continue;
+    const std::vector<Moment> moments = moments_of(scene, executor, renders_twice);
+    for (const Moment& moment : moments) {
+      run.load(moment.state);
+      EXPECT_EQ(after(moment.name, *run.instance, renders_twice), moment.after) << scene.name << ", " << moment.name;
+    }
     for (std::size_t i = 0; i < items.all().size(); ++i) {
       bool& is_seen = seen[items.all()[i].name];
       for (const Moment& moment : moments) {
         if (is_seen) break;
         load_without(run, moment.state, beginning, i);
         is_seen = after(moment.name, *run.instance, renders_twice) != moment.after;
-        run.load(moment.state);
-        EXPECT_EQ(after(moment.name, *run.instance, renders_twice), moment.after) << scene.name << ", " << moment.name;
       }
     }
   }

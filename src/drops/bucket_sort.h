@@ -1,0 +1,75 @@
+// A sort by small keys that threads share.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "rainref/executor.h"
+
+namespace rainref::drops {
+
+/// Elements sorted into buckets of neighbouring keys: the first step of a counting sort, of which the second takes each bucket by
+/// itself. In a bucket they are in their own order, for every number of threads.
+class BucketSort {
+ public:
+  static constexpr std::uint32_t no_key = 0xffffffffu;
+  struct Entry {
+    std::uint32_t key, element;
+  };
+
+  /// Elements 0 to count - 1. key_of(element), asked twice, is below `keys`, or no_key for what is left out.
+  template <class KeyOf>
+  void sort(const parallel::Executor& executor, std::int64_t count, std::int64_t chunk, std::uint32_t keys, const KeyOf& key_of) {
+    keys_ = keys;
+    shift_ = 0;
+    while ((keys >> shift_) >= most_buckets) ++shift_;
+    const std::size_t buckets = (keys >> shift_) + 1u, chunks = static_cast<std::size_t>((count + chunk - 1) / chunk);
+    std::vector<std::uint32_t>& offset = offset_;
+    offset.assign(chunks * buckets, 0);
+    const auto of_chunk = [&](std::int64_t begin) { return offset.data() + static_cast<std::size_t>(begin / chunk) * buckets; };
+    executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
+      std::uint32_t* counts = of_chunk(begin);
+      for (std::int64_t i = begin; i < end; ++i)
+        if (const std::uint32_t key = key_of(i); key != no_key) ++counts[key >> shift_];
+    });
+    start_.resize(buckets + 1);
+    std::uint32_t sum = 0;
+    for (std::size_t b = 0; b < buckets; ++b) {
+      start_[b] = sum;
+      for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(offset[c * buckets + b], sum);
+    }
+    start_[buckets] = sum;
+    if (entries_.size() < sum) entries_.resize(sum);
+    executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
+      std::uint32_t* to = of_chunk(begin);
+      for (std::int64_t i = begin; i < end; ++i)
+        if (const std::uint32_t key = key_of(i); key != no_key) entries_[to[key >> shift_]++] = {key, static_cast<std::uint32_t>(i)};
+    });
+  }
+
+  std::size_t buckets() const { return start_.size() - 1; }
+  /// Where a bucket begins among all sorted elements, and what is in it.
+  std::uint32_t start(std::size_t bucket) const { return start_[bucket]; }
+  std::span<const Entry> operator[](std::size_t bucket) const {
+    return {entries_.data() + start_[bucket], entries_.data() + start_[bucket + 1]};
+  }
+  /// Its keys: from the first to one before the second.
+  std::pair<std::uint32_t, std::uint32_t> keys(std::size_t bucket) const {
+    const auto at = [&](std::size_t b) {
+      const std::uint64_t key = static_cast<std::uint64_t>(b) << shift_;
+      return key < keys_ ? static_cast<std::uint32_t>(key) : keys_;
+    };
+    return {at(bucket), at(bucket + 1)};
+  }
+
+ private:
+  static constexpr std::uint32_t most_buckets = 512;
+  std::uint32_t keys_ = 0;
+  int shift_ = 0;
+  std::vector<std::uint32_t> offset_, start_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace rainref::drops
