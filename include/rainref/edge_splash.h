@@ -123,6 +123,6 @@ class EdgeSplash {
 
 /// Bytes that these settings take at their peak, within 10 %: every buffer, decoded texture and scratch of src/edge_splash/memory.cpp. The
 /// caller's images are not counted.
-std::size_t memory_bytes(const Settings& settings);
+std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::edge_splash

@@ -30,6 +30,7 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
 
   static constexpr int max_threads = 1024;
+  /// As many as were asked for; 1 in a build without threads.
   int threads() const;
 
   /// Runs body once for every tile of a width x height area, tiles of at most tile_width x tile_height from the top

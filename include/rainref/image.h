@@ -63,7 +63,7 @@ class Image {
   std::ptrdiff_t stride() const { return stride_; }
 
   /// Bytes that an image of this format and size occupies.
-  static std::size_t memory_bytes(Format format, int width, int height);
+  static std::uint64_t memory_bytes(Format format, int width, int height);
 
  private:
   struct Free {

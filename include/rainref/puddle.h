@@ -127,6 +127,6 @@ class Puddle {
 
 /// Bytes that a puddle of these settings takes at its peak, within 10 %: every buffer, decoded texture, mip and scratch of
 /// src/puddle/memory.cpp. The caller's images are not counted.
-std::size_t memory_bytes(const Settings& settings);
+std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::puddle

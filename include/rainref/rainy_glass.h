@@ -130,6 +130,6 @@ inline constexpr double worst_seam = 4;
 
 /// Bytes that settings take at their peak, within 10 %: every buffer, decoded map, mip and scratch of src/rainy_glass/memory.cpp. The
 /// caller's images are not counted.
-std::size_t memory_bytes(const Settings& settings);
+std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::rainy_glass

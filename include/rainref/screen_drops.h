@@ -119,6 +119,6 @@ class ScreenDrops {
 
 /// Bytes that settings take at their peak, within 10 %: every buffer, level and scratch of src/screen_drops/memory.cpp. The caller's images
 /// and flowing water are not counted.
-std::size_t memory_bytes(const Settings& settings);
+std::uint64_t memory_bytes(const Settings& settings);
 
 }  // namespace rainref::screen_drops

@@ -109,7 +109,7 @@ class Windshield {
 /// Bytes that a windshield of this scene takes at its peak in run.frames frames, within 10 %: every buffer, the drops and what their passes
 /// work with, the street's pictures while they are rendered; src/windshield/memory.cpp. Pictures given instead of the street are not
 /// counted.
-std::size_t memory_bytes(const scene::Config& config);
+std::uint64_t memory_bytes(const scene::Config& config);
 
 }  // namespace windshield
 }  // namespace rainref

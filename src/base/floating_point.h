@@ -13,16 +13,12 @@
 
 namespace rainref {
 
-/// The control bits of the floating-point unit: MXCSR on x86, FPCR on aarch64.
+/// The control bits of the floating-point unit: MXCSR on x86, FPCR on aarch64, always 0 in WebAssembly, which has none to set.
 std::uint64_t floating_point_control();
 void set_floating_point_control(std::uint64_t bits);
 
 /// The pinned state: round to nearest even, subnormals kept (no flush to zero, no denormals-are-zero), no traps.
-#if defined(__aarch64__)
-inline constexpr std::uint64_t pinned_floating_point_control = 0;
-#else
-inline constexpr std::uint64_t pinned_floating_point_control = 0x1f80;
-#endif
+extern const std::uint64_t pinned_floating_point_control;
 
 /// Pins the state for a scope and puts the caller's back. Every tile body runs inside one, because a thread pool hands
 /// its workers whatever state the caller had, and a task that dirties the state leaks it to the next.

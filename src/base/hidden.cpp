@@ -47,7 +47,7 @@ bool is_hidden_name(std::string_view name, std::string_view end) {
 }
 
 // EINVAL, ENOSYS, ENOTSUP: not on this file system or kernel.
-bool exchange(const fs::path& a, const fs::path& b) {
+bool exchange([[maybe_unused]] const fs::path& a, [[maybe_unused]] const fs::path& b) {
 #ifdef RENAME_EXCHANGE
   if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) fail(errno);

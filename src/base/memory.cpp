@@ -14,19 +14,19 @@
 namespace rainref {
 namespace {
 
-std::size_t page() { return static_cast<std::size_t>(sysconf(_SC_PAGESIZE)); }
+std::uint64_t page() { return static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)); }
 
 /// The number that a file begins with; none where there is no such file, or a word like "max".
-std::optional<std::size_t> number_in(const std::filesystem::path& file) {
+std::optional<std::uint64_t> number_in(const std::filesystem::path& file) {
   std::string text;
   std::getline(std::ifstream(file), text);
-  std::size_t value = 0;
+  std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end == text.data()) return std::nullopt;
   return value;
 }
 
-void lower(MemoryLimit& least, std::size_t bytes, const std::string& owner) {
+void lower(MemoryLimit& least, std::uint64_t bytes, const std::string& owner) {
   if (bytes < least.bytes) least = {bytes, owner};
 }
 
@@ -60,11 +60,11 @@ void lower_by_groups(MemoryLimit& least, const std::filesystem::path& root) {
 }
 
 struct Pages {
-  std::size_t size = 0, resident = 0, data = 0;
+  std::uint64_t size = 0, resident = 0, data = 0;
 };
 Pages pages() {
   Pages p;
-  std::size_t skipped = 0;
+  std::uint64_t skipped = 0;
   std::ifstream("/proc/self/statm") >> p.size >> p.resident >> skipped >> skipped >> skipped >> p.data;
   return p;
 }
@@ -72,13 +72,13 @@ Pages pages() {
 }  // namespace
 
 MemoryLimit memory_limit(const std::filesystem::path& root) {
-  MemoryLimit least{static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * page(), "this machine has"};
+  MemoryLimit least{static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * page(), "this machine has"};
   lower_by_groups(least, root);
   const Pages p = pages();
-  const auto lower_by_resource = [&](auto resource, std::size_t taken, const char* owner) {
+  const auto lower_by_resource = [&](auto resource, std::uint64_t taken, const char* owner) {
     rlimit limit{};
     if (::getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-    const std::size_t reserved = taken > p.resident ? (taken - p.resident) * page() : 0;
+    const std::uint64_t reserved = taken > p.resident ? (taken - p.resident) * page() : 0;
     lower(least, limit.rlim_cur > reserved ? limit.rlim_cur - reserved : 0, owner);
   };
   lower_by_resource(RLIMIT_AS, p.size, "the limit RLIMIT_AS (ulimit -v) allows");
@@ -86,17 +86,17 @@ MemoryLimit memory_limit(const std::filesystem::path& root) {
   return least;
 }
 
-std::size_t resident_memory() { return pages().resident * page(); }
+std::uint64_t resident_memory() { return pages().resident * page(); }
 
-void require_memory(std::string_view subject, std::size_t bytes) {
-  const std::size_t need = bytes + resident_memory();
+void require_memory(std::string_view subject, std::uint64_t bytes) {
+  const std::uint64_t need = bytes + resident_memory();
   const MemoryLimit limit = memory_limit();
   if (need > limit.bytes)
     throw Error(ExitCode::usage,
                 fmt::format("{} needs {} of memory; {} {}", subject, memory_text(need), limit.owner, memory_text(limit.bytes)));
 }
 
-std::string memory_text(std::size_t bytes) {
+std::string memory_text(std::uint64_t bytes) {
   const double mib = static_cast<double>(bytes) / (1u << 20);
   return mib < 1024 ? fmt::format("{:.1f} MiB", mib) : fmt::format("{:.1f} GiB", mib / 1024);
 }

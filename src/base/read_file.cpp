@@ -35,10 +35,10 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
   if (::fstat(file.number, &status) != 0) fail(path, errno);
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   if (!S_ISREG(status.st_mode)) fail(path, "not a regular file");
-  const auto size = static_cast<std::size_t>(status.st_size);
+  const auto size = static_cast<std::uint64_t>(status.st_size);
   if (const MemoryLimit limit = memory_limit(); size > limit.bytes)
     fail(path, fmt::format("its {} are too many; {} {} of memory", memory_text(size), limit.owner, memory_text(limit.bytes)));
-  std::vector<std::byte> bytes(size);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t count = ::read(file.number, bytes.data() + done, bytes.size() - done);

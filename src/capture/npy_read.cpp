@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/checked_product.h"
 #include "capture/python_literal.h"
 #include "rainref/error.h"
 
@@ -27,11 +28,6 @@ struct Refusal {
   std::string_view file;
   [[noreturn]] void operator()(const std::string& why) const { throw Error(ExitCode::port_files, fmt::format("{}: {}", file, why)); }
 };
-
-std::optional<std::size_t> product(std::size_t a, std::size_t b) {
-  if (b != 0 && a > std::numeric_limits<std::size_t>::max() / b) return std::nullopt;
-  return a * b;
-}
 
 std::size_t type_bytes(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
 
@@ -209,7 +205,7 @@ void check_size(const NpyHeader& header, std::size_t file_size, const Refusal& r
   // A side of 0 makes the product 0 whatever the others are.
   if (std::ranges::find(header.shape, 0u) != header.shape.end()) expected = 0;
   for (const std::size_t side : header.shape) {
-    if (expected) expected = product(*expected, side);
+    if (expected) expected = checked_product(*expected, side);
   }
   const std::string what = fmt::format("shape ({}) of {} bytes each", fmt::join(header.shape, ", "), header.record_bytes);
   if (!expected) refuse(fmt::format("{} overflows; {} bytes of data found", what, found));

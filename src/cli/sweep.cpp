@@ -1,7 +1,6 @@
 // `rainref sweep plan`, `status`, `gc` and `script`.
 #include "cli/sweep.h"
 
-#include <charconv>
 #include <fstream>
 #include <map>
 #include <system_error>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/memory.h"
+#include "base/number_text.h"
 #include "cli/own_program.h"
 #include "cli/progress.h"
 #include "cli/terminal.h"
@@ -42,14 +42,11 @@ Taken taken_by(const OpenPlan& open) {
         f = line.substr(at, comma - at);
         at = std::min(comma + 1, line.size());
       }
-      double seconds = 0, bytes = 0;
-      const auto read = [](const std::string& text, double& x) {
-        return std::from_chars(text.data(), text.data() + text.size(), x).ec == std::errc();
-      };
-      if (!ours.contains(field[0]) || !read(field[2], seconds) || !read(field[3], bytes)) continue;
+      const auto seconds = number_from<double>(field[2]), bytes = number_from<double>(field[3]);
+      if (!ours.contains(field[0]) || !seconds || !bytes) continue;
       ++taken.cells;
-      taken.seconds += seconds;
-      taken.bytes += bytes;
+      taken.seconds += *seconds;
+      taken.bytes += *bytes;
     }
   }
   return taken;

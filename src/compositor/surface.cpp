@@ -1,5 +1,6 @@
 #include "compositor/surface.h"
 
+#include "base/floating_point.h"
 #include "compositor/packet.h"
 
 namespace rainref::compositor {
@@ -18,6 +19,15 @@ std::uint32_t Surface::meet_packet(std::uint32_t self, std::uint32_t primitive, 
 
 void Surface::normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const {
   for (std::size_t k = 0; k < which.size(); ++k) normals.put(k, normal(rays[which[k]], hits[k]));
+}
+
+Hit first_hit_of_all(std::span<const std::shared_ptr<const Surface>> surfaces, const Ray& ray) {
+  const FloatingPointGuard guard;
+  Hit first;
+  for (std::uint32_t self = 0; self < surfaces.size(); ++self) {
+    for (std::uint32_t i = 0; i < surfaces[self]->primitives(); ++i) surfaces[self]->meet(self, i, ray, first);
+  }
+  return first;
 }
 
 }  // namespace rainref::compositor

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "compositor/columns.h"
@@ -70,5 +71,8 @@ class Surface {
   /// lanes, repeating the last one. Surfaces that gain by it override it.
   virtual void normals(const RayArrays& rays, std::span<const std::uint32_t> which, const Hit* hits, const VecArraysOut& normals) const;
 };
+
+/// The first hit among all surfaces, found by asking every primitive of each: the oracle of the tests for what a Tracer finds.
+Hit first_hit_of_all(std::span<const std::shared_ptr<const Surface>> surfaces, const Ray& ray);
 
 }  // namespace rainref::compositor

@@ -44,7 +44,4 @@ class Tracer {
   std::unique_ptr<State> state_;
 };
 
-/// The same by asking every primitive of every surface: the oracle of the tests.
-Hit first_hit_of_all(std::span<const std::shared_ptr<const Surface>> surfaces, const Ray& ray);
-
 }  // namespace rainref::compositor

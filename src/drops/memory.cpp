@@ -11,7 +11,7 @@
 namespace rainref::drops {
 
 MemoryPeak memory(const Settings& s, int columns, int rows, std::int64_t live) {
-  const auto drops = static_cast<std::size_t>(live);
+  const auto drops = static_cast<std::uint64_t>(live);
   MemoryPeak m;
   m.hold(DropArrays::memory_bytes(s.capacity));
   m.hold(drops * (sizeof(Drop) + sizeof(StampRecord)));  // listed, and to be drawn

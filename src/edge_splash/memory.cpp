@@ -9,7 +9,7 @@ MemoryPeak memory(const Settings& s, int noise_side) {
   const auto image = [&](Format f) { return Image::memory_bytes(f, s.width, s.height); };
   MemoryPeak m;
   m.hold(image(Format::rgba16f) + image(Format::r32f) + image(Format::r8));  // scene, depth, layer
-  const std::size_t map = Image::memory_bytes(Format::r8, noise_side, noise_side);
+  const std::uint64_t map = Image::memory_bytes(Format::r8, noise_side, noise_side);
   if (s.variant == Variant::corrected) {
     m.hold(2 * map);
     MemoryPeak halved;
@@ -27,7 +27,7 @@ MemoryPeak memory(const Settings& s, int noise_side) {
   return m;
 }
 
-std::size_t memory_bytes(const Settings& settings) {
+std::uint64_t memory_bytes(const Settings& settings) {
   const FloatingPointGuard guard;
   return memory(settings).peak();
 }

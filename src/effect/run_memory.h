@@ -14,13 +14,13 @@ namespace rainref::effect {
 struct RunMemory {
   std::string subject;  ///< "run.size 1280x720": what in the scene asks for it
   MemoryPeak peak;
-  int width, height;                  ///< of the picture
-  std::size_t exr_images, exr_texel;  ///< of an EXR picture, bytes a pixel: images turned over, and their channels side by side
+  int width, height;                    ///< of the picture
+  std::uint64_t exr_images, exr_texel;  ///< of an EXR picture, bytes a pixel: images turned over, and their channels side by side
 
-  std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
 };
 /// An image of the picture's size.
-inline std::size_t image_bytes(const RunMemory& m, Format format) { return Image::memory_bytes(format, m.width, m.height); }
+inline std::uint64_t image_bytes(const RunMemory& m, Format format) { return Image::memory_bytes(format, m.width, m.height); }
 /// Whether the scene names a file there.
 inline bool is_named(const scene::Config& config, const char* key) { return !config.text(key).empty(); }
 

@@ -1,12 +1,12 @@
 // Which other value of a literal or a uniform gives what a port stored.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "faults/place_faults.h"
 
 namespace rainref::faults {
@@ -47,12 +47,7 @@ float bisected(float low, float high, const Off& off) {
 }
 
 /// With so many significant digits.
-float rounded(float x, int digits) {
-  const std::string text = fmt::format("{:.{}g}", x, digits);
-  float value = x;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
+float rounded(float x, int digits) { return number_from<float>(fmt::format("{:.{}g}", x, digits)).value_or(x); }
 
 /// The replacements of a constant that give a texel what it wants, the nearest to the constant first.
 std::vector<float> replacements(const Replaced& pass, const Wanted& w) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -50,8 +51,8 @@ Format format_from_name(std::string_view name) {
 
 void Image::Free::operator()(std::byte* p) const { std::free(p); }
 
-std::size_t Image::memory_bytes(Format format, int width, int height) {
-  return stride_bytes(format, width) * static_cast<std::size_t>(height);
+std::uint64_t Image::memory_bytes(Format format, int width, int height) {
+  return std::uint64_t{stride_bytes(format, width)} * static_cast<std::uint64_t>(height);
 }
 
 Image::Image(Format format, int width, int height) : format_(format), width_(width), height_(height) {
@@ -60,13 +61,14 @@ Image::Image(Format format, int width, int height) : format_(format), width_(wid
     throw Error(ExitCode::usage, fmt::format("image size {}x{}: each side must be from 1 to {}", width, height, max_side));
   }
   stride_ = static_cast<std::ptrdiff_t>(stride_bytes(format, width));
-  const std::size_t bytes = memory_bytes(format, width, height);
-  memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, bytes)));
+  const std::uint64_t bytes = memory_bytes(format, width, height);
+  if (std::in_range<std::ptrdiff_t>(bytes))
+    memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, static_cast<std::size_t>(bytes))));
   if (!memory_) {
     throw Error(ExitCode::usage, fmt::format("image {}x{} {}: {:.1f} GiB of memory could not be had", width, height, info(format).name,
                                              static_cast<double>(bytes) / (1u << 30)));
   }
-  std::memset(memory_.get(), 0, bytes);
+  std::memset(memory_.get(), 0, static_cast<std::size_t>(bytes));
   // The margin keeps the first texel of every row aligned to 16 texels' worth of bytes.
   origin_ = memory_.get() + static_cast<std::size_t>(left_margin) * info(format).texel_bytes();
 }

@@ -44,8 +44,8 @@ std::string reason(std::string text) {
 /// What the picture needs at once: the decoded samples and the image made of them. A header of a few bytes can ask for
 /// 64 GiB, and filling that would get the process killed rather than refused.
 void check_memory(std::string_view file, const StoredPicture& spec, std::size_t texel_bytes) {
-  const std::size_t bytes =
-      static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * (texel_bytes + info(Format::rgba32f).texel_bytes());
+  const std::uint64_t bytes = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) *
+                              (texel_bytes + info(Format::rgba32f).texel_bytes());
   const MemoryLimit limit = memory_limit();
   if (bytes > limit.bytes)
     refuse(file, fmt::format("{}x{} needs {} of memory; {} {}", spec.width, spec.height, memory_text(bytes), limit.owner,

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/checked_product.h"
 #include "image_io/codec.h"
 #include "image_io/exr_header.h"
 #include "image_io/png_chunks.h"
@@ -150,7 +152,10 @@ Evidence read_evidence(std::string_view file, std::span<const std::byte> bytes) 
   if (!reader) throw Error(ExitCode::internal, "this OpenImageIO cannot read EXR or PNG from memory");
   Evidence out;
   take_spec(file, reader->picture(), exr, size, out);
-  out.texels.resize(out.width * out.height * out.texel_bytes);
+  const std::optional<std::size_t> size_in_memory = checked_product(out.width, out.height, out.texel_bytes);
+  if (!size_in_memory)
+    refuse(file, fmt::format("{}x{} texels of {} bytes are more than this build can hold", out.width, out.height, out.texel_bytes));
+  out.texels.resize(*size_in_memory);
   reader->read(0, reader->picture().channels.size(), out.texels.data());
   return out;
 } catch (const Error&) {

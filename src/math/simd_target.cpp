@@ -17,7 +17,7 @@ struct Named {
 };
 // EMU128 is what Highway builds in place of SCALAR with clang: the same operations on arrays of four.
 constexpr Named known[] = {{"avx3", HWY_AVX3},     {"avx2", HWY_AVX2},     {"sse4", HWY_SSE4}, {"ssse3", HWY_SSSE3},
-                           {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128}, {"neon", HWY_NEON}};
+                           {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128}, {"neon", HWY_NEON}, {"wasm", HWY_WASM}};
 
 std::int64_t usable() {
   static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;

@@ -7,8 +7,8 @@
 namespace rainref::night_street {
 
 /// One ray for each texel, before neighbours are compared: radiance, tone, object, ground.
-inline std::size_t centres_bytes(int width, int height) {
-  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * (24 + 4 + 4 + 1);
+inline std::uint64_t centres_bytes(int width, int height) {
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * (24 + 4 + 4 + 1);
 }
 
 /// Street::view. Holds colour, depth and normal.
@@ -19,7 +19,7 @@ inline MemoryPeak view_memory(int width, int height) {
   return memory;
 }
 /// What a View keeps besides its normals, which most leave.
-inline std::size_t normal_bytes(int width, int height) { return Image::memory_bytes(Format::rgba32f, width, height); }
+inline std::uint64_t normal_bytes(int width, int height) { return Image::memory_bytes(Format::rgba32f, width, height); }
 
 /// Street::panorama. Holds the picture.
 inline MemoryPeak panorama_memory(int width, int height) {

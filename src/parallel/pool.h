@@ -1,4 +1,5 @@
-// The threads behind an Executor: oneTBB's, or plain ones under the thread sanitizer.
+// The threads behind an Executor: oneTBB's, plain ones under the thread sanitizer, or none. CMake compiles one of pool_tbb.cpp,
+// pool_threads.cpp and pool_serial.cpp.
 //
 // oneTBB is not built with that sanitizer, which therefore sees no order in what its workers do: either everything is reported or,
 // with the library suppressed, nothing. Plain threads that take turns with the tiles order nothing but start and end of a loop, so that
@@ -13,16 +14,8 @@
 
 namespace rainref::parallel {
 
-#if defined(__SANITIZE_THREAD__)
-#define RAINREF_PLAIN_THREADS 1
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define RAINREF_PLAIN_THREADS 1
-#endif
-#endif
-
 struct Executor::Pool {
-  /// 0 threads: one for each processor that this process may use.
+  /// 0 threads: one for each processor that this process may use. The serial pool has one whatever it is told.
   explicit Pool(int threads);
   ~Pool();
   int threads() const;

@@ -1,12 +1,11 @@
-#include "parallel/pool.h"
-
-#ifndef RAINREF_PLAIN_THREADS
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include "parallel/pool.h"
 
 namespace rainref::parallel {
 
@@ -40,4 +39,3 @@ void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64
 }
 
 }  // namespace rainref::parallel
-#endif

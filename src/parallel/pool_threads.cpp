@@ -1,12 +1,12 @@
-#include "parallel/pool.h"
-
-#ifdef RAINREF_PLAIN_THREADS
+// Plain threads that take turns with the pieces, for the thread sanitizer: parallel/pool.h.
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#include "parallel/pool.h"
 
 namespace rainref::parallel {
 
@@ -44,4 +44,3 @@ void Executor::Pool::run(std::int64_t count, const std::function<void(std::int64
 }
 
 }  // namespace rainref::parallel
-#endif

@@ -245,12 +245,13 @@ Inputs<P> inputs_of(const capture::PassCase& c) {
     const std::string fault = P::fault(m);
     if (!fault.empty()) throw Error(ExitCode::port_files, c.folder() + ": " + fault);
   }
-  each<P>(m.captured, [&](auto& member) {
-    if constexpr (
-        requires { &P::near; } && requires { member.near; })
-      member.choose(m.width, m.height,
-                    [&](const parallel::Tile& t) { return P::near(m.uniforms, member.records, m.corrected, m.width, t); });
-  });
+  if constexpr (requires { &P::near; }) {
+    each<P>(m.captured, [&](auto& member) {
+      if constexpr (requires { member.near; })
+        member.choose(m.width, m.height,
+                      [&](const parallel::Tile& t) { return P::near(m.uniforms, member.records, m.corrected, m.width, t); });
+    });
+  }
   return m;
 }
 template <class P, class Text>

@@ -150,14 +150,14 @@ Dds parse_dds(std::span<const std::byte> bytes, const std::string& file) {
   if (count > 17) in.refuse(fmt::format("{} mip levels; {}x{} has at most 17", count, width, height));
 
   Dds out{{}, std::string(format.name), format.kind == Kind::srgb8};
-  std::size_t expected = 0;
+  std::uint64_t expected = 0;
   for (std::uint32_t l = 0; l < count; ++l) {
     out.levels.push_back(level_of(format, file, std::max(width >> l, 1u), std::max(height >> l, 1u)));
-    expected += out.levels.back().row_pitch * out.levels.back().height;
+    expected += std::uint64_t{out.levels.back().row_pitch} * out.levels.back().height;
   }
   const std::size_t found = bytes.size() - start;
   StoredImage& first = out.levels.front();
-  if (found != expected && count == 1 && (flags & has_pitch) && pitch > first.row_pitch && found == std::size_t{pitch} * height) {
+  if (found != expected && count == 1 && (flags & has_pitch) && pitch > first.row_pitch && found == std::uint64_t{pitch} * height) {
     first.row_pitch = pitch;
     expected = found;
   }

@@ -1,7 +1,9 @@
 #include "port_dump/json_object.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -97,11 +99,17 @@ std::optional<bool> JsonObject::boolean(const std::string& key) const {
   return value->get<bool>();
 }
 
+std::size_t JsonObject::count_of(const std::string& key, const nlohmann::json& value) const {
+  if (!value.is_number_unsigned() || !std::in_range<std::size_t>(value.get<std::uint64_t>())) {
+    refuse_value(key, "a whole number, at least 0", value);
+  }
+  return value.get<std::size_t>();
+}
+
 std::optional<std::size_t> JsonObject::count(const std::string& key) const {
   const Json* value = find(key);
   if (!value) return std::nullopt;
-  if (!value->is_number_unsigned()) refuse_value(key, "a whole number, at least 0", *value);
-  return value->get<std::size_t>();
+  return count_of(key, *value);
 }
 
 std::optional<std::size_t> JsonObject::choice(const std::string& key, std::span<const std::string> choices) const {
@@ -124,8 +132,7 @@ std::optional<std::vector<std::pair<std::string, std::size_t>>> JsonObject::coun
   if (!value->is_object()) refuse_value(key, "an object of whole numbers, as {\"x\": 0, \"y\": 4}", *value);
   std::vector<std::pair<std::string, std::size_t>> out;
   for (const auto& [name, number] : value->items()) {
-    if (!number.is_number_unsigned()) refuse_value(key + "." + name.substr(0, 40), "a whole number, at least 0", number);
-    out.emplace_back(name, number.get<std::size_t>());
+    out.emplace_back(name, count_of(key + "." + name.substr(0, 40), number));
   }
   return out;
 }

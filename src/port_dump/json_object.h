@@ -40,6 +40,8 @@ class JsonObject {
 
  private:
   const nlohmann::json* find(const std::string& key) const;
+  /// The value as a whole number that std::size_t holds.
+  std::size_t count_of(const std::string& key, const nlohmann::json& value) const;
   [[noreturn]] void refuse_value(const std::string& key, const std::string& expected, const nlohmann::json& found) const;
 
   std::string file_;

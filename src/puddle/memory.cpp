@@ -16,7 +16,7 @@ constexpr int own_ground = 512;  // make_asphalt
 
 /// recode and the texture made of it.
 void hold_picture(MemoryPeak& m, std::array<int, 2> size, bool has_mips) {
-  const std::size_t texels = texel_bytes(size[0], size[1], 4);
+  const std::uint64_t texels = texel_bytes(size[0], size[1], 4);
   m.pass(2 * texels);  // decoded, and in the pass's code
   m.hold(texels);
   if (has_mips) hold_mips(m, size[0], size[1], 4);
@@ -31,7 +31,7 @@ PictureSizes sizes_of(const Surroundings& s) {
 MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   const bool corrected = s.variant == Variant::corrected;
   const auto [columns, rows] = wave_size(s);
-  const std::size_t wave_floats = texel_bytes(columns, rows, 1);
+  const std::uint64_t wave_floats = texel_bytes(columns, rows, 1);
   const Format channel = s.storage == Format::rgba8 ? Format::r8 : s.storage == Format::rg32f ? Format::r32f : Format::r16f;
   MemoryPeak m;
   m.hold(2 * Image::memory_bytes(channel, columns, rows));
@@ -40,7 +40,7 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   const bool makes_ground = sizes.ground[0] == 0;
   const int own_side = !corrected && s.use_checkerboard ? 1 : own_ground;
   const std::array<int, 2> ground = makes_ground ? std::array{own_side, own_side} : sizes.ground;
-  const std::size_t made = makes_ground ? Image::memory_bytes(Format::rgba32f, own_side, own_side) : 0;
+  const std::uint64_t made = makes_ground ? Image::memory_bytes(Format::rgba32f, own_side, own_side) : 0;
   m.hold(made);
   hold_picture(m, ground, corrected);
   if (corrected) {
@@ -58,8 +58,8 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   m.hold(wave_floats);  // decoded for lookups
   m.release(made);
   if (corrected) {
-    const std::size_t blocks = static_cast<std::size_t>((columns + extent_block - 1) / extent_block) *
-                               static_cast<std::size_t>((rows + extent_block - 1) / extent_block);
+    const std::uint64_t blocks = static_cast<std::uint64_t>((columns + extent_block - 1) / extent_block) *
+                                 static_cast<std::uint64_t>((rows + extent_block - 1) / extent_block);
     m.pass(blocks * (sizeof(Extent) + 2 * sizeof(float)));
   }
   return m;
@@ -70,7 +70,7 @@ void check_memory(const Settings& s, const PictureSizes& sizes) {
   require_memory(fmt::format("run.size {}x{} with a wave of {}x{}", s.width, s.height, columns, rows), memory(s, sizes).peak());
 }
 
-std::size_t memory_bytes(const Settings& settings) {
+std::uint64_t memory_bytes(const Settings& settings) {
   const FloatingPointGuard guard;
   return memory(settings).peak();
 }

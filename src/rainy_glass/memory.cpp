@@ -16,7 +16,7 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
   const bool corrected = s.variant == Variant::corrected;
   const auto image = [&](Format f) { return Image::memory_bytes(f, s.width, s.height); };
   MemoryPeak m;
-  std::size_t decoded_maps = 0;
+  std::uint64_t decoded_maps = 0;
   for (const std::array<int, 2>& given : {sizes.raindrops, sizes.rivulets}) {
     const std::array<int, 2> map = given[0] == 0 ? std::array{s.map_size, s.map_size} : given;
     if (given[0] != 0) m.pass(texel_bytes(map[0], map[1], 4) + Image::memory_bytes(s.map_storage, map[0], map[1]));
@@ -45,7 +45,7 @@ void check_memory(const Settings& s, const PictureSizes& sizes) {
   require_memory(fmt::format("run.size {}x{} with maps.size {}", s.width, s.height, s.map_size), memory(s, sizes).peak());
 }
 
-std::size_t memory_bytes(const Settings& settings) {
+std::uint64_t memory_bytes(const Settings& settings) {
   const FloatingPointGuard guard;
   return memory(settings).peak();
 }

@@ -20,14 +20,14 @@ MemoryPeak memory(const Settings& s, const FlowSettings* flow, double seconds) {
   MemoryPeak floats;
   floats.hold(texel_bytes(s.width, s.height, 4));
   hold_mips(floats, s.width, s.height, 4);
-  const std::size_t halves = floats.held() / 2;
+  const std::uint64_t halves = floats.held() / 2;
   m.pass(floats.peak());
   m.pass(floats.held() + halves);
   m.hold(2 * halves);
   if (s.variant == Variant::corrected) {
     const std::array<int, 2> size = cells_size(make_layers(s));
     m.hold(Image::memory_bytes(Format::rgba32f, size[0], size[1]) +
-           static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * sizeof(DrawnCell));
+           static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]) * sizeof(DrawnCell));
     if (flow != nullptr) {
       const double arrivals = drops::flux(flow->drops, 0, -flow->wind).drops * flow->pane[0] * flow->pane[1] * seconds;
       const auto live = static_cast<std::int64_t>(std::min(std::ceil(arrivals), static_cast<double>(flow->drops.capacity)));
@@ -41,7 +41,7 @@ MemoryPeak memory(const Settings& s, const FlowSettings* flow, double seconds) {
   return m;
 }
 
-std::size_t memory_bytes(const Settings& settings) {
+std::uint64_t memory_bytes(const Settings& settings) {
   const FloatingPointGuard guard;
   return memory(settings).peak();
 }

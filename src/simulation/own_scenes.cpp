@@ -1,27 +1,14 @@
 #include "simulation/own_scenes.h"
 
-#include <dlfcn.h>
-#include <link.h>
-
 #include <algorithm>
 #include <system_error>
+
+#include "simulation/own_file.h"
 
 namespace rainref::simulation {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The program or shared library that this code is in.
-fs::path own_file() {
-  std::error_code error;
-  Dl_info symbol;
-  void* map = nullptr;
-  if (::dladdr1(reinterpret_cast<const void*>(&own_file), &symbol, &map, RTLD_DL_LINKMAP) != 0 && map) {
-    const char* const library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
-    if (library && *library) return fs::canonical(library, error);
-  }
-  return fs::read_symlink("/proc/self/exe", error);
-}
 
 /// The folders `scenes`, from where that file lies: an installation may be moved. A build folder links the sources'.
 std::vector<fs::path> own_folders() {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "base/read_file.h"
 #include "rainref/error.h"
 #include "windshield/rows_of_text.h"
@@ -44,7 +45,7 @@ class Rows {
 
  private:
   static double number(std::string_view field, std::size_t column, const Fail& fail) {
-    const std::optional<double> value = number_of(field);
+    const std::optional<double> value = number_from<double>(field);
     if (!value) fail(fmt::format("{}: expected a number, found '{}'", column_names[column], field));
     return *value;
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "rainref/error.h"
 #include "windshield/rows_of_text.h"
 
@@ -21,7 +22,7 @@ std::vector<Pchip> parse_curves(std::string_view text, const std::string& key, s
     const std::vector<std::string_view> fields = words_of(frame);
     if (fields.size() != columns.size()) fail(fmt::format("expected \"{}\", found '{}'", form, frame));
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const std::optional<double> value = number_of(fields[k]);
+      const std::optional<double> value = number_from<double>(fields[k]);
       const char* name = k == 0 ? "time" : quantities[k - 1].name;
       if (!value) fail(fmt::format("{}: expected a number, found '{}'", name, fields[k]));
       if (k == 0 && !columns[0].empty() && !(*value > columns[0].back()))

@@ -53,7 +53,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   const auto image = [](Format f, int width, int height) { return Image::memory_bytes(f, width, height); };
   const Weather weather(s.weather);
   MemoryPeak m;
-  std::size_t wet_more = 0, wet_most = 0;  // drops as they come: of all panes; what the passes of one take besides
+  std::uint64_t wet_more = 0, wet_most = 0;  // drops as they come: of all panes; what the passes of one take besides
   for (int k = 0; k <= static_cast<int>(s.panes.size()); ++k) {
     const Settings of = settings_of_pane(s, k);
     const int columns = of.surface.width, rows = of.surface.height;
@@ -68,10 +68,10 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   }
   m.hold((s.panes.empty() ? 1 : 2) * image(Format::rgba16f, s.picture.width, s.picture.height) +
          image(Format::rgba8, s.picture.width, s.picture.height));
-  m.hold(static_cast<std::size_t>(most_falling(s, frames / s.fps)) * (sizeof(FallingDrop) + sizeof(Streak)));
+  m.hold(static_cast<std::uint64_t>(most_falling(s, frames / s.fps)) * (sizeof(FallingDrop) + sizeof(Streak)));
   const bool own = scene[0] == 0;
   const auto [width, height] = own ? s.scene_size : scene;
-  const std::size_t half = image(Format::rgba16f, width, height), view = half + image(Format::r32f, width, height);
+  const std::uint64_t half = image(Format::rgba16f, width, height), view = half + image(Format::r32f, width, height);
   MemoryPeak rendered = night_street::view_memory(width, height);
   rendered.pass(half);
   const bool moves = own && s.scene_moves;
@@ -84,11 +84,11 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
     m.pass(rendered.peak());
     m.hold(view);
   }
-  std::size_t texels = 0;
+  std::uint64_t texels = 0;
   for (int l = 0; l < std::min(s.blur.levels, blur_pyramid::level_count(width, height)); ++l) {
     const auto [w, h] = blur_pyramid::level_size(width, height, l);
     m.hold(image(Format::rgba16f, w, h));
-    texels += static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
+    texels += static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h);
   }
   m.hold(4 * sizeof(Half) * texels);  // as they are looked up
   m.pass(wet_more + wet_most);
@@ -101,7 +101,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   return m;
 }
 
-std::size_t memory_bytes(const scene::Config& config) {
+std::uint64_t memory_bytes(const scene::Config& config) {
   const FloatingPointGuard guard;
   return memory(settings_from(config), static_cast<int>(config.integer("run.frames"))).peak();
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "rainref/error.h"
 #include "windshield/rows_of_text.h"
 
@@ -38,7 +39,7 @@ std::vector<Corners> parse_panes(std::string_view text) {
       const std::vector<std::string_view> numbers = words_of(points[i]);
       if (numbers.size() != 3) fail();
       for (std::size_t k = 0; k < 3; ++k) {
-        const double x = number_of(numbers[k]).value_or(2 * largest_coordinate);
+        const double x = number_from<double>(numbers[k]).value_or(2 * largest_coordinate);
         if (!(-largest_coordinate <= x && x <= largest_coordinate)) fail();
         corners[i][k] = x;
       }

@@ -1,8 +1,6 @@
 #include "windshield/rows_of_text.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace rainref::windshield {
 namespace {
@@ -30,13 +28,6 @@ std::vector<std::string_view> words_of(std::string_view s) {
   std::vector<std::string_view> words = split(s, ' ');
   std::erase_if(words, [](std::string_view w) { return w.empty(); });
   return words;
-}
-
-std::optional<double> number_of(std::string_view field) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace rainref::windshield

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.h"
 #include "rainref/error.h"
 #include "windshield/rows_of_text.h"
 
@@ -32,7 +33,7 @@ std::vector<Key> parse(std::string_view text, std::string_view table) {
     const bool runs = words.size() == 2 && (words[1] == "off" || words[1] == "slow" || words[1] == "fast");
     if (!pauses && !runs)
       fail(fmt::format("expected \"time off\", \"time intermittent PERIOD\", \"time slow\" or \"time fast\", found '{}'", frame));
-    const std::optional<double> time = number_of(words[0]), period = pauses ? number_of(words[2]) : 0;
+    const std::optional<double> time = number_from<double>(words[0]), period = pauses ? number_from<double>(words[2]) : 0;
     if (!time || *time < 0) fail(fmt::format("time: expected a number not below 0, found '{}'", words[0]));
     if (!keys.empty() && !(*time > keys.back().time))
       fail(fmt::format("time: expected more than {:g} of the row before, found {:g}", keys.back().time, *time));

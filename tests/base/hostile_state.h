@@ -22,7 +22,7 @@ inline std::vector<HostileState> hostile_states() {
           {"rounding down", 2u << 22, false, false, false},
           {"rounding toward zero", 3u << 22, false, false, false}};
 #else
-  constexpr std::uint64_t pinned = pinned_floating_point_control;
+  const std::uint64_t pinned = pinned_floating_point_control;
   return {{"flush to zero", pinned | 0x8000, true, false, true}, {"denormals are zero", pinned | 0x0040, false, true, true},
           {"both", pinned | 0x8040, true, true, true},           {"rounding down", pinned | 0x2000, false, false, false},
           {"rounding up", pinned | 0x4000, false, false, false}, {"rounding toward zero", pinned | 0x6000, false, false, false},

@@ -1,4 +1,9 @@
-// Prints every golden line; scripts/accept_golden writes them to tests/golden/hashes.txt.
+// Prints every golden line; scripts/accept_golden writes them to tests/golden/hashes.txt. With arguments, those of these effects alone
+// ("compositor": traced pictures).
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "truth/golden_scenes.h"
@@ -8,15 +13,19 @@
 #include "screen_drops/golden_scenes.h"
 #include "windshield/golden_scenes.h"
 
-int main() {
+int main(int argc, char** argv) {
   const rainref::parallel::Executor executor;
-  const auto print = [](const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) fmt::print("{}\n", line);
+  const std::vector<std::string> wanted(argv + 1, argv + argc);
+  const auto print = [&](const char* name, const auto& scenes) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) return;
+    for (const auto& scene : scenes()) {
+      for (const std::string& line : golden_lines(scene, executor)) fmt::print("{}\n", line);
+    }
   };
-  for (const auto& scene : rainref::puddle::golden_scenes()) print(rainref::puddle::golden_lines(scene, executor));
-  for (const auto& scene : rainref::windshield::golden_scenes()) print(rainref::windshield::golden_lines(scene, executor));
-  for (const auto& scene : rainref::edge_splash::golden_scenes()) print(rainref::edge_splash::golden_lines(scene, executor));
-  for (const auto& scene : rainref::screen_drops::golden_scenes()) print(rainref::screen_drops::golden_lines(scene, executor));
-  for (const auto& scene : rainref::rainy_glass::golden_scenes()) print(rainref::rainy_glass::golden_lines(scene, executor));
-  for (const auto& scene : rainref::truth::golden_scenes()) print(rainref::truth::golden_lines(scene, executor));
+  print("puddle", rainref::puddle::golden_scenes);
+  print("windshield", rainref::windshield::golden_scenes);
+  print("edge_splash", rainref::edge_splash::golden_scenes);
+  print("screen_drops", rainref::screen_drops::golden_scenes);
+  print("rainy_glass", rainref::rainy_glass::golden_scenes);
+  print("compositor", rainref::truth::golden_scenes);
 }

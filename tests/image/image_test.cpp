@@ -92,6 +92,12 @@ TEST(Image, IsZeroWithItsMarginsAndRowsDoNotOverlap) {
   }
 }
 
+// 64 GiB, which a std::size_t of 32 bits would take for a few MiB.
+TEST(Image, TheBytesOfTheLargestAreNotWrapped) {
+  const std::uint64_t row = (std::uint64_t{Image::left_margin} + 65536 + Image::right_margin) * 16;
+  EXPECT_EQ(Image::memory_bytes(Format::rgba32f, 65536, 65536), (row + 63) / 64 * 64 * 65536);
+}
+
 TEST(Image, RowsAreAlignedToWholeVectors) {
   for (const Format format : formats) {
     const Image image(format, 37, 4);

@@ -155,6 +155,41 @@ TEST(Layers, OnlyTheTerminalPrints) {
   }
 }
 
+// Which machine and compiler it is, only files ask that CMake chooses; the processor's floating-point unit, threads and rays have some.
+TEST(Layers, OnlySeamsAskForThePlatform) {
+  const std::regex asks(
+      "__x86_64__|__i386__|__aarch64__|__arm__|__wasm|__EMSCRIPTEN__|_M_X64|__linux__|__APPLE__|_WIN32|__SANITIZE|__has_feature");
+  for (const char* top : {"src", "include"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string file = fs::relative(entry.path(), root).string();
+      if (file == "src/compositor/tracer_embree.cpp") continue;  // the thread sanitizer sees nothing of Embree's threads
+      std::ifstream in(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(in, line);) {
+        ++number;
+        EXPECT_FALSE(std::regex_search(line, asks)) << file << ":" << number << ": " << line;
+      }
+    }
+  }
+}
+
+// What CMake chooses among is there.
+TEST(Layers, SeamsHaveSeveralFiles) {
+  std::ifstream in(root / "src/CMakeLists.txt");
+  const std::regex chosen("^ *rainref_seam\\(([a-z_]+/[a-z_]+) ([a-z0-9_]+)\\)");
+  std::map<std::string, int> files;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (!std::regex_search(line, match, chosen)) continue;
+    const fs::path file = root / "src" / (match[1].str() + "_" + match[2].str() + ".cpp");
+    EXPECT_TRUE(fs::exists(file)) << line;
+    ++files[match[1]];
+  }
+  EXPECT_EQ(files.size(), 6u);
+  for (const auto& [stem, count] : files) EXPECT_GE(count, 2) << stem;
+}
+
 TEST(Layers, KernelsHaveNoForbiddenWords) {
   // What would change bits between machines; comments aside.
   const std::regex forbidden(

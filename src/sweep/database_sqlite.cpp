@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/hidden.h"
+#include "base/number_text.h"
 #include "base/read_file.h"
 #include "rainref/error.h"
 
@@ -31,8 +33,7 @@ Value typed(const std::string& text) {
   const char* const end = text.data() + text.size();
   std::int64_t whole = 0;
   if (!text.empty() && std::from_chars(text.data(), end, whole).ptr == end) return whole;
-  double real = 0;
-  if (!text.empty() && std::from_chars(text.data(), end, real).ptr == end) return real;
+  if (const std::optional<double> real = number_from<double>(text)) return *real;
   return text;
 }
 

@@ -337,13 +337,4 @@ void Tracer::any_hits(std::span<const Ray> rays, std::span<std::uint8_t> blocked
   }
 }
 
-Hit first_hit_of_all(std::span<const std::shared_ptr<const Surface>> surfaces, const Ray& ray) {
-  const FloatingPointGuard guard;
-  Hit first;
-  for (std::uint32_t self = 0; self < surfaces.size(); ++self) {
-    for (std::uint32_t i = 0; i < surfaces[self]->primitives(); ++i) surfaces[self]->meet(self, i, ray, first);
-  }
-  return first;
-}
-
 }  // namespace rainref::compositor

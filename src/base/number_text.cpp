@@ -1,0 +1,65 @@
+#include "base/number_text.h"
+
+#include <locale.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "base/floating_point.h"
+
+namespace rainref {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// How many digits stand at the front, which are taken away.
+std::size_t take_digits(std::string_view& text) {
+  std::size_t count = 0;
+  while (count < text.size() && is_digit(text[count])) ++count;
+  text.remove_prefix(count);
+  return count;
+}
+
+bool is_number(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  std::size_t digits = take_digits(text);
+  if (text.starts_with('.')) {
+    text.remove_prefix(1);
+    digits += take_digits(text);
+  }
+  if (digits == 0) return false;
+  if (text.empty()) return true;
+  if (text.front() != 'e' && text.front() != 'E') return false;
+  text.remove_prefix(1);
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return take_digits(text) > 0 && text.empty();
+}
+
+/// Whether a digit other than 0 stands before the exponent.
+bool is_zero(std::string_view text) {
+  return text.substr(0, text.find_first_of("eE")).find_first_of("123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+template <class T>
+std::optional<T> number_from(std::string_view text) {
+  if (!is_number(text)) return std::nullopt;
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", locale_t{});
+  const std::string ended(text);
+  const FloatingPointGuard guard;  // the C library rounds as the processor does
+  T value;
+  if constexpr (std::is_same_v<T, float>)
+    value = ::strtof_l(ended.c_str(), nullptr, plain);
+  else
+    value = ::strtod_l(ended.c_str(), nullptr, plain);
+  if (!std::isfinite(value) || (value == 0 && !is_zero(text))) return std::nullopt;
+  return value;
+}
+
+template std::optional<float> number_from(std::string_view);
+template std::optional<double> number_from(std::string_view);
+
+}  // namespace rainref

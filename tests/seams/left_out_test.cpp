@@ -1,0 +1,52 @@
+// A build without OpenImageIO and Embree: this program is linked with the files that stand in their place. What needs them alone is
+// refused with a sentence.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "base/temporary_folder.h"
+#include "rainref/error.h"
+#include "rainref/simulation.h"
+
+namespace rainref {
+namespace {
+
+using testing::HasSubstr;
+
+Simulation opened(std::vector<std::string> set) {
+  static const parallel::Executor executor;
+  set.insert(set.end(), {"run.size=[32, 18]"});
+  return Simulation(SceneText{"", std::move(set)}, executor);
+}
+
+void expect_refused(const std::function<void()>& call, ExitCode code, const std::string& why) {
+  try {
+    call();
+    ADD_FAILURE() << why;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), code);
+    EXPECT_THAT(e.what(), HasSubstr(why));
+  }
+}
+
+TEST(LeftOut, AConfigurationOfEmbreeIsRefusedWithoutIt) {
+  expect_refused(
+      [] {
+        opened({"effect=\"puddle\"", "compositor.picture=\"traced\"", "compositor.embree_config=\"isa=sse2\""}).next_frame();
+      },
+      ExitCode::usage, "compositor.embree_config = \"isa=sse2\": this build of rainref traces rays without Embree");
+}
+
+TEST(LeftOut, PicturesInFilesAreRefusedWithoutOpenImageIO) {
+  const TemporaryFolder folder;
+  Simulation puddle = opened({"effect=\"puddle\""});
+  puddle.next_frame();
+  EXPECT_FALSE(puddle.picture().empty());
+  expect_refused([&] { puddle.write_png(folder.path() / "a.png"); }, ExitCode::io, "made without OpenImageIO");
+  expect_refused([&] { puddle.write_exr(folder.path() / "a.exr"); }, ExitCode::io, "made without OpenImageIO");
+}
+
+}  // namespace
+}  // namespace rainref
