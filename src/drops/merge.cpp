@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 #include <tuple>
 
@@ -51,13 +50,14 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
 
   // Ends of chains. What is known of a chain shortens it for the others: whatever of it a thread meets leads to the same end.
-  const auto next = [&](std::int64_t i) { return std::atomic_ref(larger[static_cast<std::size_t>(i)]); };
+  // With the compilers' own atomics: libc++ before 19 has no std::atomic_ref.
+  const auto next = [&](std::int64_t i) { return &larger[static_cast<std::size_t>(i)]; };
   executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      std::int32_t root = next(i).load(std::memory_order_relaxed);
+      std::int32_t root = __atomic_load_n(next(i), __ATOMIC_RELAXED);
       if (root < 0) continue;
-      for (std::int32_t beyond; (beyond = next(root).load(std::memory_order_relaxed)) >= 0;) root = beyond;
-      for (std::int64_t k = i; k != root;) k = next(k).exchange(root, std::memory_order_relaxed);
+      for (std::int32_t beyond; (beyond = __atomic_load_n(next(root), __ATOMIC_RELAXED)) >= 0;) root = beyond;
+      for (std::int64_t k = i; k != root;) k = __atomic_exchange_n(next(k), root, __ATOMIC_RELAXED);
     }
   });
   BucketSort& by_root = scratch_->by_root;
