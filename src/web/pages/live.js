@@ -76,7 +76,7 @@ async function passes() {
   open.passes = found;
   at("pass").replaceChildren(...found.map(pass => new Option(pass.name)));
   // First what gives the radiance that is displayed.
-  if (found.length > 0) at("pass").selectedIndex = Math.max(0, found.findLastIndex(pass => pass.writes.includes("colour")));
+  if (found.length > 0) at("pass").selectedIndex = Math.max(0, found.findLastIndex(pass => pass.usual && pass.writes.includes("colour")));
   at("run_pass").disabled = found.length === 0;
   at("trio").hidden = true;
   at("compared").textContent = navigator.gpu ? "" : "This browser has no WebGPU. All else on this page needs none.";

@@ -11,11 +11,13 @@ const json = async path => {
   return answer.json();
 };
 
-/// The passes of a variant that have a port: [{name, sentence, formula, reads, writes}], in their order.
+/// The passes of a variant that have a port: [{name, sentence, formula, reads, writes, usual}], in their order; not `usual` are those that only
+/// special scenes run.
 export async function passesOf(effect, variant) {
   const [{packs}, {programs}] = await Promise.all([json("packs/index.json"), json(`ports/${effect}/programs.json`)]), found = new Map();
   for (const pack of packs.filter(p => p.effect === effect && p.variant === variant))
-    for (const pass of pack.passes) if (programs[pass.formula] && !found.has(pass.name)) found.set(pass.name, {...pass, program: programs[pass.formula]});
+    for (const pass of pack.passes) if (programs[pass.formula] && !found.has(pass.name)) 
+        found.set(pass.name, {...pass, program: programs[pass.formula], usual: pack.name === `${effect}-${variant}`});
   return [...found.values()];
 }
 
