@@ -1,20 +1,21 @@
-// node live_page_test.mjs SITE RAINREF BROWSER...: the live page gives the hashes that the native program prints, with parameters as they are and
+// node live_page_test.mjs SITE chromium|firefox RAINREF: the live page gives the hashes that the native program prints, with parameters as they are and
 // changed; scenes come from files and go to them; what is refused is said; the ports run beside it.
 import assert from "node:assert";
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
-import {inBrowser} from "./browsers.mjs";
+import {launch, open, serve} from "./browser.mjs";
 
-const [site, rainref, ...browsers] = process.argv.slice(2), effects = ["puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"];
-const folder = fs.mkdtempSync(path.join(os.tmpdir(), "live-"));
+const [folder, name, rainref] = process.argv.slice(2), effects = ["puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"];
+const work = fs.mkdtempSync(path.join(os.tmpdir(), "live-page-"));
 /// The lines of the last of N frames, by the native program.
 const native = (scene, size, frames, ...set) =>
     execFileSync(rainref, ["hash", scene, "--size", size, "--frames", String(frames), ...set.flatMap(s => ["--set", s])], {encoding: "utf8"})
         .split("\n").filter(line => line.startsWith(`${frames - 1} `));
 
-async function drive({page, url}) {
+async function drive(page) {
+  page.setDefaultTimeout(120000);
   const text = id => page.$eval(id, e => e.textContent);
   const lines = async () => (await text("#lines")).trimEnd().split("\n");
   const settled = condition => page.waitForFunction(condition);
@@ -33,7 +34,6 @@ async function drive({page, url}) {
     assert.deepStrictEqual(found, expected, words);
     equal += expected.length;
   };
-  await page.goto(`${url}live.html`);
   await settled(() => document.body.dataset.frame !== undefined);
   await settled(() => !document.getElementById("status").textContent.startsWith("Opening"));
   await smallest();
@@ -84,7 +84,7 @@ async function drive({page, url}) {
   assert.strictEqual(await page.$eval("[id='p-puddle.damping']", e => e.value), "0.97");
 
   // Scene files: one of one's own, one with a mistake, and what Save gives.
-  const own = path.join(folder, "own.toml"), wrong = path.join(folder, "wrong.toml");
+  const own = path.join(work, "own.toml"), wrong = path.join(work, "wrong.toml");
   fs.writeFileSync(own, 'effect = "edge_splash"\nvariant = "as-published"\nseed = 5\n');
   fs.writeFileSync(wrong, 'effect = "puddle"\nvariant = "corrected"\n[rain]\nrat = 5\n');
   const file = await page.$("#file");
@@ -101,7 +101,7 @@ async function drive({page, url}) {
     const opened = await engine.run("open", {toml: await (await fetch("scenes/windshield/default.toml")).text(), set: ["rain.rate=3", "run.size=[320, 180]"]});
     return sceneText(opened.scene, effects.windshield.parameters);
   });
-  const kept = path.join(folder, "saved.toml");
+  const kept = path.join(work, "saved.toml");
   fs.writeFileSync(kept, saved);
   assert.deepStrictEqual(native(kept, "320x180", 1), native("windshield/default.toml", "320x180", 1, "rain.rate=3"), "a saved scene");
 
@@ -118,9 +118,13 @@ async function drive({page, url}) {
   return equal;
 }
 
-for (const name of browsers) {
-  let equal;
-  await inBrowser(name, site, async shown => { equal = await drive(shown); });
+const site = await serve(path.resolve(folder)), browser = await launch(name), errors = [];
+try {
+  const equal = await drive(await open(browser, site, "live.html", errors));
+  assert.deepStrictEqual(errors, []);
   console.log(`live page in ${name}: ${equal} hash lines as native`);
+} finally {
+  await browser.close();
+  site.close();
+  fs.rmSync(work, {recursive: true});
 }
-fs.rmSync(folder, {recursive: true});
