@@ -7,6 +7,7 @@ import {fileURLToPath} from "node:url";
 import {create, globals} from "webgpu";
 import {checkCensus} from "./census/check.js";
 import {judgePack} from "./census/judge.js";
+import {filesOfTar, readerOf} from "./census/tar.js";
 import {censusText, takeCensus, totals} from "./census/take.js";
 
 const here = path.dirname(fileURLToPath(import.meta.url)), require = createRequire(import.meta.url);
@@ -23,15 +24,26 @@ function optionsOf(args) {
   return {modulePath: path.resolve(options["--module"]), packFolder: options["--packs"]};
 }
 
+/// Packs as folders, as tests/packs has them, or as the files NAME.tar.gz of the site.
+async function packsIn(folder, reader) {
+  const packs = [];
+  for (const name of fs.readdirSync(folder).sort()) {
+    const file = path.join(folder, name), isArchive = name.endsWith(".tar.gz");
+    if (isArchive) packs.push({name: name.slice(0, -7), read: readerOf(await filesOfTar(reader(folder)(name)), file)});
+    else if (fs.existsSync(path.join(file, "manifest.json"))) packs.push({name, read: reader(file)});
+  }
+  if (packs.length === 0) throw new Error(`--packs: no pack in ${folder}: expected folders with a manifest.json, or NAME.tar.gz`);
+  return packs;
+}
+
 async function main() {
   const {modulePath, packFolder} = optionsOf(process.argv.slice(2));
   const module = await require(modulePath)();
-  const names = fs.readdirSync(packFolder).filter(name => fs.existsSync(path.join(packFolder, name, "manifest.json"))).sort();
-  if (names.length === 0) throw new Error(`--packs: no folder in ${packFolder} has a manifest.json`);
   const reader = folder => file => new Uint8Array(fs.readFileSync(path.join(folder, file)));
+  const packs = await packsIn(packFolder, reader);
   const dawn = JSON.parse(fs.readFileSync(path.join(path.dirname(require.resolve("webgpu")), "package.json"))).version;
   const census = await takeCensus({
-    gpu, packs: names.map(name => ({name, read: reader(path.join(packFolder, name))})), readPort: reader(here),
+    gpu, packs, readPort: reader(here),
     judge: (manifest, pack, port) => judgePack(module, manifest, pack, port),
     rainref: {version: module.UTF8ToString(module._rr_version()), golden_generation: module._rr_golden_generation()},
     by: {program: `Dawn for Node ${dawn}`, user_agent: `node ${process.version} ${process.platform} ${process.arch}`},
