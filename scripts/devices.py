@@ -21,11 +21,11 @@ BEGIN, END = "<!-- scripts/devices.py write -->\n", "<!-- end of scripts/devices
 # What lies outside `typical`, which says what GPUs do: software devices are coarser. {(file, number of the profile): what it does}
 SWIFTSHADER = {
     "exp2": "off by 2.9 ULP", "log_near_one": "off by 2^-22.5", "log2_near_one": "off by 2^-22", "pow_is_inherited": "as its exp2 and log2",
-    "sin_cos": "off by 2^-12.3", "unorm_load": "the code times a rounded 1/255",
+    "sin_cos": "off by 2^-12.3", "sin_cos_beyond": "the same near 2^9", "unorm_load": "off by 1 ULP",
 }
 LAVAPIPE = {
     "exp2": "off by 2.9 ULP", "log_near_one": "off by 2^-22.9", "log2_near_one": "off by 2^-22.5", "pow_is_inherited": "as its exp2 and log2",
-    "atan2": "off by 1.6e-7 where the angle is small", "unorm_load": "the code times a rounded 1/255", "srgb_store_ulp": "a coarser curve",
+    "atan2": "off by 1.6e-7 where the angle is small", "unorm_load": "off by 1 ULP", "srgb_store_ulp": "a coarser curve",
 }
 KNOWN = {(stem, key): reason for stems, outside in [(("chromium-swiftshader", "node-swiftshader"), SWIFTSHADER), (("firefox-lavapipe",), LAVAPIPE)]
          for stem in stems for key, reason in outside.items()}
@@ -103,14 +103,14 @@ def tables(found):
         h = c["habits"]
         stores = {way: short_rounding(h["half_store"][way]["rounding"]) for way in ("render", "storage")}
         weights = {"texels": weight_words(h["filter"]["texels"]), "levels": weight_words(h["filter"]["levels"])}
-        habits.append([file(stem), same(stores), f"{h['srgb8_store']['render']['furthest']:.3f}", f"{h['load']['unorm8_ulp']:g}", same(weights),
+        habits.append([file(stem), same(stores), f"{h['srgb8_store']['render']['furthest']:.3f}", h["load"]["unorm8"], same(weights),
                        same(h["contraction"]), order_words(h["order"]), same(h["subnormals"])])
     names = list(next(iter(found.values()))["habits"]["accuracy"])
     spelled = {name: re.sub(r"^(.*?)(, (?:to|1/2) .*)?$", r"`\1`\2", name) for name in names}
     errors = [[spelled[name]] + [error_words(c["habits"]["accuracy"][name]) for c in found.values()] for name in names]
     return "\n".join([
         table(["file", "device", "run by", "passes of all small packs under `webgpu`"], who),
-        table(["file", "stores to halves", "sRGB store, furthest code", "8-bit load, ULP", "sampler's weights", "`a * b + c`", "order", "subnormal floats"], habits),
+        table(["file", "stores to halves", "sRGB store, furthest code", "loads of 8 bits", "sampler's weights", "`a * b + c`", "order", "subnormal floats"], habits),
         "Largest errors, in ULP, or absolute as a power of two where the function has zeros:\n",
         table(["function"] + [f"{stem}" for stem in found], errors)])
 
@@ -190,6 +190,19 @@ def share(key):
     return judge
 
 
+def beyond(profile, habits):
+    """Far arguments: what holds near, its absolute part at least so much for each unit of the argument."""
+    near = profile["sin_cos"]
+    worst = 0
+    for name, exact in SINES.items():
+        for sample in habits["accuracy"][f"{name}(a), to 2^16"]["worst"]:
+            x, got = floats(sample)
+            error = abs(got - exact(x)) if math.isfinite(got) else math.inf
+            far = near | {"absolute": max(near.get("absolute", 0), abs(x) * profile["sin_cos_beyond"]["value"])}
+            worst = max(worst, error / allowed(far, exact(x), x))
+    return worst <= 1, f"{worst:.2f} of what is allowed"
+
+
 def bits(key, sweeps):
     def judge(profile, habits):
         step = 2.0 ** -profile[key]["value"]
@@ -255,11 +268,11 @@ def unorm_load(profile, habits):
 MEASURED = {
     "basic": basic, "contraction": contraction, "flush": flush,
     **{key: share(key) for key in [*FUNCTIONS, "sin_cos"]},
-    "subtexel_bits": bits("subtexel_bits", ["texels", "product"]), "coordinate_bits": far_texels, "lod_bits": bits("lod_bits", ["levels"]),
+    "sin_cos_beyond": beyond, "subtexel_bits": bits("subtexel_bits", ["texels", "product"]), "coordinate_bits": far_texels, "lod_bits": bits("lod_bits", ["levels"]),
     "unorm_load": unorm_load, "half_store": half_store, "half_overflow": half_overflow, "half_store_flush": half_flush,
     "unorm_store_ulp": code_distance("unorm_store_ulp", "unorm8_store"), "srgb_store_ulp": code_distance("srgb_store_ulp", "srgb8_store"),
 }
-# What a number means for others, and so is measured with them.
+# What is measured with another number.
 WITH_OTHERS = {"sin_cos_domain": "measured up to 314, with sin_cos"}
 
 

@@ -31,7 +31,7 @@ def ideal():
         for sweep in sweeps:
             habits["accuracy"][sweep]["worst"] = [rounded(sample, exact) for sample in habits["accuracy"][sweep]["worst"]]
     for function, exact in devices.SINES.items():
-        for to in ("pi", "100 pi"):
+        for to in ("pi", "100 pi", "2^16"):
             entry = habits["accuracy"][f"{function}(a), to {to}"]
             entry["worst"] = [rounded(sample, exact) for sample in entry["worst"]]
     habits["load"]["unorm8_ulp"] = 0
@@ -81,6 +81,8 @@ class Devices(unittest.TestCase):
             self.assertEqual(with_error(sweeps[0], 2**20 if "near_one" in key or key == "pow_is_inherited" else 200), {key})
         for sweep in ("sin(a), to pi", "cos(a), to 100 pi"):
             self.assertEqual(with_error(sweep, 2**12), {"sin_cos"})
+        self.assertEqual(with_error("sin(a), to 2^16", 2**20), {"sin_cos_beyond"})
+
         def put(*path):
             def change(habits):
                 for key in path[:-2]:

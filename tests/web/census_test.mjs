@@ -18,14 +18,14 @@ same(exact.half_store, {render: nearest, storage: nearest, pack2x16float: neares
 same(exact.unorm8_store.render.half, 128);
 assert(exact.unorm8_store.render.furthest > 0.4999 && exact.unorm8_store.render.furthest < 0.50002);
 assert(exact.srgb8_store.render.furthest > 0.4999 && exact.srgb8_store.render.furthest < 0.50002);
-same(exact.load, {half_subnormals: "kept", unpack2x16float_subnormals: "kept", unorm8_ulp: 0});
+same(exact.load, {half_subnormals: "kept", unpack2x16float_subnormals: "kept", unorm8: "the nearest float", unorm8_ulp: 0});
 const asFloats = {bits: null, rounding: "as floats", furthest: 0};
 same(exact.filter, {format: "r32float", texels: asFloats, far_texels: asFloats, product: asFloats, levels: asFloats});
 same(exact.rounding, {"a + b": 0, "a - b": 0, "a * b": 0});
 same(new Set(Object.values(exact.contraction)), new Set(["separate"]));
 same(new Set(Object.values(exact.order)), new Set(["as written"]));
 same(new Set(Object.values(exact.subnormals)), new Set(["kept"]));
-same([exact.not_numbers["min(NaN, 1)"], exact.not_numbers["NaN == NaN"], exact.not_numbers["1 / 0"]], ["1", "0", "Infinity"]);
+same([exact.not_numbers["min(NaN, 1)"], exact.not_numbers["NaN == NaN"], exact.not_numbers["1 / 0"]], ["1", "false", "Infinity"]);
 for (const name of sweepNames) {
   const {unit, most} = exact.accuracy[name];
   assert(unit === "ULP" ? most > 0.49 && most <= 0.5 : most < 2 ** -24, `${name}: ${most} ${unit}`);
@@ -50,10 +50,11 @@ same((await habitsOf({overflow: 0x7fff})).half_store.storage.overflow, "NaN");
 // 8 bits that are cut, and a sampler of 8 bits as NVIDIA's: weights to nearest, ties up, levels cut.
 const coarse = await habitsOf({
   code: x => Math.floor(x), weight: s => Math.floor(256 * s + 0.5) / 256, level: s => Math.floor(256 * s) / 256,
-  product: (x, y) => Math.floor(256 * (Math.floor(256 * x + 0.5) / 256) * (Math.floor(256 * y + 0.5) / 256) + 0.5) / 256,
+  unorm: k => Math.fround(k * Math.fround(1 / 255)), product: (x, y) => Math.floor(256 * (Math.floor(256 * x + 0.5) / 256) * (Math.floor(256 * y + 0.5) / 256) + 0.5) / 256,
 });
 assert(coarse.unorm8_store.render.furthest > 0.75 && coarse.srgb8_store.render.furthest > 0.75);
 same(coarse.unorm8_store.storage.half, 127);
+same([coarse.load.unorm8, coarse.load.unorm8_ulp], ["code * (1 / 255) in floats", 1]);
 same(coarse.filter.texels, {bits: 8, rounding: "to nearest, ties up", furthest: 2 ** -9});
 same(coarse.filter.far_texels, coarse.filter.texels);
 same([coarse.filter.levels.bits, coarse.filter.levels.rounding], [8, "cut"]);

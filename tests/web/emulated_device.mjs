@@ -1,6 +1,6 @@
 // A device in JavaScript with the four functions of examples/ports/wgsl/census/tools.js, whose habits are given:
 //   half: (value, below, above, negative, isOdd) => whether the half `above` is stored, where the bits of `below` are odd; overflow: bits;
-//   flushHalf; code: x => the code of x [1/255]
+//   flushHalf; code: x => the code of x [1/255]; unorm: code => float
 //   weight: share => weight; product(fx, fy) => weight; level: share => weight
 //   fuse, reorder, flush: booleans; nan: what min and max give beside NaN; error: ULP that every function is off by
 const words = new Uint32Array(1), floats = new Float32Array(words.buffer);
@@ -33,7 +33,7 @@ const nearestEven = (value, below, above, negative, isOdd) => value - below > ab
 export const truncating = () => false;
 
 export const exactDevice = {
-  half: nearestEven, overflow: 0x7c00, flushHalf: false, code: x => Math.round(x), weight: s => s, product: (x, y) => x * y, level: s => s,
+  half: nearestEven, overflow: 0x7c00, flushHalf: false, code: x => Math.round(x), unorm: k => f(k / 255), weight: s => s, product: (x, y) => x * y, level: s => s,
   fuse: false, reorder: false, flush: false, nan: "other", error: 0, filtersFloats: true,
 };
 
@@ -90,7 +90,7 @@ export function emulated(habits) {
       return values.map(x => format === "rgba16float" ? halfOf(x) : code(x));
     },
     async load(format, codes) {
-      return Uint32Array.from(codes, code => bitsOf(format === "r16float" ? (habits.flushHalf && code < 0x400 ? 0 : halves[code]) : f(code / 255)));
+      return Uint32Array.from(codes, code => bitsOf(format === "r16float" ? (habits.flushHalf && code < 0x400 ? 0 : halves[code]) : habits.unorm(code)));
     },
     async sample(format, levels, coordinates) {
       const [first, second] = levels, texel = (x, y) => first.texels[Math.min(first.height - 1, Math.max(0, y)) * first.width + Math.min(first.width - 1, Math.max(0, x))];

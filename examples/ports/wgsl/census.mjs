@@ -9,6 +9,7 @@ import {checkCensus} from "./census/check.js";
 import {judgePack} from "./census/judge.js";
 import {filesOfTar, readerOf} from "./census/tar.js";
 import {censusText, takeCensus, totals} from "./census/take.js";
+import {deviceName} from "./census/words.js";
 
 const here = path.dirname(fileURLToPath(import.meta.url)), require = createRequire(import.meta.url);
 Object.assign(globalThis, globals);
@@ -51,7 +52,7 @@ async function main() {
   });
   checkCensus(census);
   fs.writeSync(1, censusText(census));
-  console.error(Object.entries(totals(census)).map(([status, count]) => `${count} ${status}`).join(", "));
+  console.error(deviceName(census) + (census.device.fallback ? " (software): " : ": ") + Object.entries(totals(census)).map(([status, count]) => `${count} ${status}`).join(", "));
 }
 
 // Dawn keeps threads, so the program ends itself.

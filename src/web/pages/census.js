@@ -4,7 +4,7 @@ import {Engine} from "./engine.js";
 import {checkCensus} from "./ports/census/check.js";
 import {filesOfTar, readerOf} from "./ports/census/tar.js";
 import {censusText, takeCensus, totals} from "./ports/census/take.js";
-import {deviceName, habitRows} from "./ports/census/words.js";
+import {deviceName, errorRows, habitRows} from "./ports/census/words.js";
 
 const part = id => document.getElementById(id);
 function element(name, content = "", attributes = {}) {
@@ -42,9 +42,8 @@ function showCard(census) {
   part("name").textContent = deviceName(census) + (device.fallback ? " (software)" : "");
   const rows = (table, list) => table.replaceChildren(...list.map(([name, value]) => element("tr", [element("th", name, {scope: "row"}), element("td", value)])));
   rows(part("device"), [
-    ["Vendor", device.vendor || "not said"], ["Architecture", device.architecture || "not said"],
-    ["Device", [device.device, device.description].filter(word => word).join(", ") || "not said"], ["Features", device.features.join(", ") || "none of those that matter"],
-    ["Run by", by.program], ["User agent", by.user_agent], ["rainref", `${rainref.version}, golden generation ${rainref.golden_generation}`],
+    ...["vendor", "architecture", "device", "description"].map(key => [key[0].toUpperCase() + key.slice(1), device[key] || "the browser does not say"]),
+    ["Features that matter", device.features.join(", ") || "none"], ["User agent", by.user_agent], ["rainref", `${rainref.version}, golden generation ${rainref.golden_generation}`],
   ]);
   part("totals").replaceChildren(...Object.entries(sums).map(([status, count]) => element("span", [`${count} `, pill(status)])));
   const others = ports.flatMap(({pack, others}) => others.map(other => ({pack, ...other})));
@@ -52,6 +51,8 @@ function showCard(census) {
     element("li", [pill(status), element("strong", ` ${pass}`), ` of ${pack}: ${reason || "no reason is given"}`])));
   part("all_pass").hidden = others.length > 0;
   rows(part("habits"), habitRows(census));
+  part("errors").replaceChildren(...errorRows(census).map(([name, error, at]) =>
+    element("tr", [element("th", name, {scope: "row"}), element("td", error), element("td", at)])));
   part("json").value = censusText(census);
   part("card").hidden = false;
 }

@@ -14,7 +14,7 @@ const shape = {
     half_store: {render: halves, storage: halves, pack2x16float: halves},
     unorm8_store: {render: codes, storage: codes},
     srgb8_store: {render: codes},
-    load: {half_subnormals: text, unpack2x16float_subnormals: text, unorm8_ulp: number},
+    load: {half_subnormals: text, unpack2x16float_subnormals: text, unorm8: text, unorm8_ulp: number},
     filter: {format: text, texels: weights, far_texels: weights, product: weights, levels: weights},
     rounding: counts, contraction: texts, order: texts, subnormals: texts, not_numbers: texts,
     accuracy: Object.fromEntries(sweepNames.map(name => [name, {

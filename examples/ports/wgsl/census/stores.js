@@ -88,7 +88,9 @@ export async function unormStores(tools) {
 }
 export const srgbStores = async tools => ({render: await codes8(values => tools.store("rgba8unorm-srgb", "render", values), encodeSrgb, decodeSrgb)});
 
-/// Loads: subnormal halves from images and by unpack2x16float, and codes of 8 bits, whose nearest float is code / 255.
+/// How a code of 8 bits may become a float.
+const unormRules = {"the nearest float": k => Math.fround(k / 255), "code * (1 / 255) in floats": k => Math.fround(k * Math.fround(1 / 255))};
+/// Loads: subnormal halves from images and by unpack2x16float, and codes of 8 bits.
 export async function loads(tools) {
   const small = Array.from({length: 1023}, (_, i) => i + 1), exact = small.map(k => bitsOf(k * 2 ** -24));
   const unpacked = await tools.evaluate("unpack2x16float(bitcast<u32>(a)).x", small.map(k => [k, 0, 0, 0]));
@@ -96,6 +98,7 @@ export async function loads(tools) {
   return {
     half_subnormals: kept(Array.from(await tools.load("r16float", small)), exact),
     unpack2x16float_subnormals: kept(Array.from(unpacked), exact),
+    unorm8: Object.keys(unormRules).find(name => codes.every(k => fromBits(unorm[k]) === unormRules[name](k))) ?? "by no rule",
     unorm8_ulp: Math.max(...codes.map(k => Math.abs(fromBits(unorm[k]) - Math.fround(k / 255)) / gapAt(Math.fround(k / 255)))),
   };
 }
