@@ -18,17 +18,12 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs/notes/devices.md"
 BEGIN, END = "<!-- scripts/devices.py write -->\n", "<!-- end of scripts/devices.py write -->\n"
 
-# What lies outside `typical`, which says what GPUs do: software devices are coarser. {(file, number of the profile): what it does}
-SWIFTSHADER = {
-    "exp2": "off by 2.9 ULP", "log_near_one": "off by 2^-22.5", "log2_near_one": "off by 2^-22", "pow_is_inherited": "as its exp2 and log2",
-    "sin_cos": "off by 2^-12.3", "sin_cos_beyond": "the same near 2^9", "unorm_load": "off by 1 ULP",
-}
-LAVAPIPE = {
-    "exp2": "off by 2.9 ULP", "log_near_one": "off by 2^-22.9", "log2_near_one": "off by 2^-22.5", "pow_is_inherited": "as its exp2 and log2",
-    "atan2": "off by 1.6e-7 where the angle is small", "unorm_load": "off by 1 ULP", "srgb_store_ulp": "a coarser curve",
-}
-KNOWN = {(stem, key): reason for stems, outside in [(("chromium-swiftshader", "node-swiftshader"), SWIFTSHADER), (("firefox-lavapipe",), LAVAPIPE)]
-         for stem in stems for key, reason in outside.items()}
+# What lies outside `typical`, as (file, number of the profile): software devices, which approximate more coarsely than GPUs, whose habits the
+# profile holds.
+SWIFTSHADER = {"exp2", "log_near_one", "log2_near_one", "pow_is_inherited", "sin_cos", "sin_cos_beyond", "unorm_load"}
+LAVAPIPE = {"exp2", "log_near_one", "log2_near_one", "pow_is_inherited", "atan2", "unorm_load", "srgb_store_ulp"}
+KNOWN = {(stem, key) for stem, outside in [("chromium-swiftshader", SWIFTSHADER), ("node-swiftshader", SWIFTSHADER), ("firefox-lavapipe", LAVAPIPE)]
+         for key in outside}
 
 
 def devices(folder):
@@ -151,125 +146,131 @@ def pow_allowed(profile, y, x, power):
     return max(high - y, y - 2 ** (product - exponent)) + allowed(profile["exp2"], high, product + exponent)
 
 
-# Of each function: the sweeps of the census, the exact value.
+# Of each function: the sweep of the census, the exact value, and which part of the accuracy is asked for.
 FUNCTIONS = {
-    "division": (["a / b"], lambda a, b: a / b),
-    "inverse_sqrt": (["inverseSqrt(a)"], lambda a: 1 / math.sqrt(a)),
-    "sqrt": (["sqrt(a)"], math.sqrt),
-    "exp": (["exp(a)"], math.exp),
-    "exp2": (["exp2(a)"], lambda a: 2.0**a),
-    "log": (["log(a)"], math.log),
-    "log_near_one": (["log(a), 1/2 to 2"], math.log),
-    "log2": (["log2(a)"], math.log2),
-    "log2_near_one": (["log2(a), 1/2 to 2"], math.log2),
-    "atan2": (["atan2(a, b)"], math.atan2),
-    "pow_is_inherited": (["pow(a, b)"], lambda a, b: a**b),
+    "division": ("a / b", lambda a, b: a / b, "ulp"),
+    "inverse_sqrt": ("inverseSqrt(a)", lambda a: 1 / math.sqrt(a), "ulp"),
+    "sqrt": ("sqrt(a)", math.sqrt, "ulp"),
+    "exp": ("exp(a)", math.exp, "ulp"),
+    "exp2": ("exp2(a)", lambda a: 2.0**a, "ulp"),
+    "log": ("log(a)", math.log, "ulp"),
+    "log_near_one": ("log(a), 1/2 to 2", math.log, "absolute"),
+    "log2": ("log2(a)", math.log2, "ulp"),
+    "log2_near_one": ("log2(a), 1/2 to 2", math.log2, "absolute"),
+    "atan2": ("atan2(a, b)", math.atan2, "ulp"),
 }
 SINES = {"sin": math.sin, "cos": math.cos}
 
 
-def function_share(profile, key, habits):
-    """The largest error, as a share of what the profile allows there."""
-    sweeps = [(name, exact) for name, exact in ([(n, FUNCTIONS[key][1]) for n in FUNCTIONS[key][0]] if key in FUNCTIONS else
-              [(f"{f}(a), to {to}", SINES[f]) for f in SINES for to in ("pi", "100 pi")])]
-    worst = 0
+# Of each number of the profile a function (profile, habits) -> (whether the device lies inside, what it needs): texts, or (amount, unit).
+
+def samples(habits, sweeps):
+    """(arguments, what the device gave, exact value) of each worst sample."""
     for name, exact in sweeps:
         for sample in habits["accuracy"][name]["worst"]:
             *arguments, got = floats(sample)
-            y = exact(*arguments)
-            error = abs(got - y) if math.isfinite(got) else math.inf
-            room = pow_allowed(profile, y, *arguments) if key == "pow_is_inherited" else allowed(profile[key], y, arguments[0])
-            worst = max(worst, error / room)
-    return worst
+            yield arguments, got, exact(*arguments)
 
 
-def share(key):
+def accuracy(key, sweeps, unit="ulp"):
+    """How large `ulp`, or `absolute`, must be where the other parts stay."""
     def judge(profile, habits):
-        worst = function_share(profile, key, habits)
-        return worst <= 1 + 1e-9, f"{worst:.2f} of what is allowed"
+        others = profile[key] | {unit: 0}
+        inside, need = True, 0
+        for (x, *_), got, y in samples(habits, sweeps):
+            error = abs(got - y) if math.isfinite(got) else math.inf
+            inside &= error <= allowed(profile[key], y, x) * (1 + 1e-9)
+            rest = error - (allowed(others, y, x) if any(others[k] for k in others if k != "source") else 0)
+            need = max(need, rest / gap(y) if unit == "ulp" else rest)
+        return inside, (need, unit)
     return judge
 
 
 def beyond(profile, habits):
     """Far arguments: what holds near, its absolute part at least so much for each unit of the argument."""
-    near = profile["sin_cos"]
+    near, inside, need = profile["sin_cos"], True, 0
+    for (x,), got, y in samples(habits, [(f"{name}(a), to 2^16", exact) for name, exact in SINES.items()]):
+        error = abs(got - y) if math.isfinite(got) else math.inf
+        far = near | {"absolute": max(near.get("absolute", 0), abs(x) * profile["sin_cos_beyond"]["value"])}
+        inside &= error <= allowed(far, y, x)
+        need = max(need, (error - allowed(near | {"absolute": 0}, y, x)) / abs(x))
+    return inside, (need, "for each unit of |x|")
+
+
+def inherited_pow(profile, habits):
     worst = 0
-    for name, exact in SINES.items():
-        for sample in habits["accuracy"][f"{name}(a), to 2^16"]["worst"]:
-            x, got = floats(sample)
-            error = abs(got - exact(x)) if math.isfinite(got) else math.inf
-            far = near | {"absolute": max(near.get("absolute", 0), abs(x) * profile["sin_cos_beyond"]["value"])}
-            worst = max(worst, error / allowed(far, exact(x), x))
-    return worst <= 1, f"{worst:.2f} of what is allowed"
+    for (x, power), got, y in samples(habits, [("pow(a, b)", lambda a, b: a**b)]):
+        error = abs(got - y) if math.isfinite(got) else math.inf
+        worst = max(worst, error / pow_allowed(profile, y, x, power))
+    return worst <= 1 + 1e-9, (worst, "of what its exp2 and log2 allow")
 
 
 def bits(key, sweeps):
+    """A weight may be so far from the share as a step of that many bits."""
     def judge(profile, habits):
-        step = 2.0 ** -profile[key]["value"]
-        worst = max(habits["filter"][sweep]["furthest"] for sweep in sweeps)
-        return worst <= step, f"{' and '.join(dict.fromkeys(weight_words(habits['filter'][s]) for s in sweeps))}, at most 2^{math.log2(worst):.1f} off" if worst else "exact"
+        furthest = max(habits["filter"][sweep]["furthest"] for sweep in sweeps)
+        return furthest <= 2.0 ** -profile[key]["value"], {weight_words(habits["filter"][sweep]) for sweep in sweeps}
     return judge
 
 
 def far_texels(profile, habits):
     near, far = habits["filter"]["texels"], habits["filter"]["far_texels"]
-    return far == near, "the same weights at texel 1000 as at texel 0" if far == near else f"other weights at texel 1000: {weight_words(far)}"
+    return far == near, {"at texel 1000 the weights of texel 0"} if far == near else {f"other weights at texel 1000: {weight_words(far)}"}
 
 
-def half_store(profile, habits):
-    names = {"to nearest, ties to even": "rne", "toward zero": "rtz"}
-    found = {names.get(habits["half_store"][way]["rounding"], habits["half_store"][way]["rounding"]) for way in ("render", "storage")}
-    value = profile["half_store"]["value"]
-    return found <= ({"rne", "rtz"} if value == "either" else {value}), " and ".join(sorted(found))
-
-
-def half_overflow(profile, habits):
-    # What profiles allow is said of values below 2^16; beyond, WGSL promises nothing.
-    names = {"infinity": "inf", "the largest half": "max"}
-    found = {names.get(habits["half_store"][way]["overflow"], habits["half_store"][way]["overflow"]) for way in ("render", "storage")}
-    value = profile["half_overflow"]["value"]
-    return found <= ({"inf", "max"} if value == "either" else {value}), " and ".join(sorted(found))
+def of_stores(key, part, names):
+    """What both ways of storing halves do, as the profile calls it."""
+    def judge(profile, habits):
+        found = {names.get(words, words) for words in (habits["half_store"][way][part] for way in ("render", "storage"))}
+        value = profile[key]["value"]
+        return found <= (set(names.values()) if value == "either" else {value}), found
+    return judge
 
 
 def half_flush(profile, habits):
     found = {habits["half_store"][way]["subnormals"] for way in ("render", "storage")}
-    return found == {"kept"} or profile["half_store_flush"]["value"], " and ".join(sorted(found))
+    return found == {"kept"} or profile["half_store_flush"]["value"], found
 
 
 def code_distance(key, habit):
     def judge(profile, habits):
         worst = max(way["furthest"] for way in habits[habit].values())
-        return worst <= max(0.5, profile[key]["value"]) + 1e-6, f"{worst:.3f} codes"
+        return worst <= max(0.5, profile[key]["value"]) + 1e-6, (worst, "codes")
     return judge
 
 
 def basic(profile, habits):
     off = sum(habits["rounding"].values())
-    return off == 0 or profile["basic"]["value"] == "either", "to nearest" if off == 0 else f"{off} of {3 * 4096} not to nearest"
+    return off == 0 or profile["basic"]["value"] == "either", {"to nearest" if off == 0 else "not to nearest"}
 
 
 def contraction(profile, habits):
     found = set(habits["contraction"].values())
-    return found == {"separate"} or profile["contraction"]["value"], " and ".join(sorted(found))
+    return found == {"separate"} or profile["contraction"]["value"], found
 
 
 def flush(profile, habits):
     found = set(habits["subnormals"].values())
-    value = profile["flush"]["value"]
-    return {"may": True, "never": found == {"kept"}, "must": found == {"flushed to zero"}}[value], " and ".join(sorted(found))
+    return {"may": True, "never": found == {"kept"}, "must": found == {"flushed to zero"}}[profile["flush"]["value"]], found
 
 
 def unorm_load(profile, habits):
     off = habits["load"]["unorm8_ulp"]
-    part = profile["unorm_load"]
-    return off <= part.get("ulp", 0), "the nearest float" if off == 0 else f"{off:g} ULP from the nearest float"
+    return off <= profile["unorm_load"].get("ulp", 0), (off, "ulp from the nearest float")
 
 
 MEASURED = {
     "basic": basic, "contraction": contraction, "flush": flush,
-    **{key: share(key) for key in [*FUNCTIONS, "sin_cos"]},
-    "sin_cos_beyond": beyond, "subtexel_bits": bits("subtexel_bits", ["texels", "product"]), "coordinate_bits": far_texels, "lod_bits": bits("lod_bits", ["levels"]),
-    "unorm_load": unorm_load, "half_store": half_store, "half_overflow": half_overflow, "half_store_flush": half_flush,
+    **{key: accuracy(key, [(sweep, exact)], unit) for key, (sweep, exact, unit) in FUNCTIONS.items()},
+    "pow_is_inherited": inherited_pow,
+    "sin_cos": accuracy("sin_cos", [(f"{name}(a), to {to}", exact) for name, exact in SINES.items() for to in ("pi", "100 pi")], "absolute"),
+    "sin_cos_beyond": beyond,
+    "subtexel_bits": bits("subtexel_bits", ["texels", "product"]), "coordinate_bits": far_texels, "lod_bits": bits("lod_bits", ["levels"]),
+    "unorm_load": unorm_load,
+    "half_store": of_stores("half_store", "rounding", {"to nearest, ties to even": "rne", "toward zero": "rtz"}),
+    # What profiles allow is said of values below 2^16; beyond, WGSL promises nothing.
+    "half_overflow": of_stores("half_overflow", "overflow", {"infinity": "inf", "the largest half": "max"}),
+    "half_store_flush": half_flush,
     "unorm_store_ulp": code_distance("unorm_store_ulp", "unorm8_store"), "srgb_store_ulp": code_distance("srgb_store_ulp", "srgb8_store"),
 }
 # What is measured with another number.
@@ -282,26 +283,37 @@ def allowed_words(entry):
     return " + ".join(f"{entry[k]:g} {k}" for k in ("ulp", "ulp_per_x", "relative", "absolute") if k in entry)
 
 
+def need_words(need):
+    return f"{need[0]:.3g} {need[1]}" if isinstance(need, tuple) else " and ".join(sorted(need))
+
+
+def widest(needs):
+    """What holds all of them."""
+    return max(needs) if isinstance(needs[0], tuple) else set().union(*needs)
+
+
 def typical(found, profile, known):
     """(lines, whether nothing unknown lies outside)."""
-    lines, good = [], True
-    software = sum(c["device"]["fallback"] for c in found.values())
-    lines.append(f"{len(found)} files, {software} of them of software devices")
+    gpus = [stem for stem, census in found.items() if not census["device"]["fallback"]]
+    lines, good = [f"{len(found)} files, {len(gpus)} of GPUs, the others of software devices"], True
     for key, entry in profile.items():
         if key in ("name", "reference"):
             continue
+        lines.append(f"{key} = {allowed_words(entry)}")
         if key not in MEASURED:
-            lines.append(f"{key} = {allowed_words(entry)}: {WITH_OTHERS.get(key, 'no device file supports it')}")
+            lines.append(f"  {WITH_OTHERS.get(key, 'no device file supports it')}")
             continue
-        lines.append(f"{key} = {allowed_words(entry)}, from {len(found)} devices")
-        for stem, census in found.items():
-            inside, words = MEASURED[key](profile, census["habits"])
-            reason = known.get((stem, key))
-            good &= inside == (reason is None)
-            mark = "inside" if inside and reason is None else f"OUTSIDE, known: {reason}" if reason and not inside else \
-                   "OUTSIDE" if not inside else "inside, but listed as outside"
-            lines.append(f"  {stem}: {words}: {mark}")
-    for stem, key in known:
+        verdicts = {stem: MEASURED[key](profile, census["habits"]) for stem, census in found.items()}
+        for stems, words in ((gpus, f"{len(gpus)} GPUs"), (list(found), f"all {len(found)}")):
+            if stems:
+                lines.append(f"  {words}: {need_words(widest([verdicts[stem][1] for stem in stems]))}")
+        for stem, (inside, need) in verdicts.items():
+            is_known = (stem, key) in known
+            good &= inside != is_known
+            if is_known or not inside:
+                mark = "inside, but listed as outside" if inside else "outside, as known" if is_known else "OUTSIDE"
+                lines.append(f"  {stem}: {need_words(need)}: {mark}")
+    for stem, key in sorted(known):
         if stem not in found or key not in MEASURED:
             lines.append(f"known: no device {stem} or no number {key}")
             good = False

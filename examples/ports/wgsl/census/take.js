@@ -15,23 +15,19 @@ export function filesOfPack(manifest) {
   return [...new Set(manifest.cases.flatMap(c => [...filesOf(c), ...c.outputs.flatMap(of)]))];
 }
 
-/// Runs all ports of a pack. What stops one is its reason, and the others run without it. Gives {port, stopped: [{pass, status, reason}]}.
+/// Runs all ports of a pack, each on a device of its own: what stops one is its reason, and the others run without it. Gives {port, stopped:
+/// [{pass, status, reason}]}.
 async function runPorts(gpu, manifest, pack, readPort, cancel) {
-  const port = {}, stopped = [], decoder = new TextDecoder();
-  const {programs} = JSON.parse(decoder.decode(await readPort(`${manifest.effect}/programs.json`)));
-  let passes = manifest.passes.filter(pass => programs[pass.formula]).map(pass => pass.name);
-  while (passes.length > 0) {
-    const readPack = path => (cancel(), pack[path]), write = (path, bytes) => { port[path] = bytes; };
+  const port = {}, stopped = [], {programs} = JSON.parse(new TextDecoder().decode(await readPort(`${manifest.effect}/programs.json`)));
+  const readPack = path => (cancel(), pack[path]);
+  for (const {name: pass} of manifest.passes.filter(({formula}) => programs[formula])) {
+    const given = {};
     try {
-      await runPack(gpu, {readPack, readPort, write, passes});
-      break;
+      await runPack(gpu, {readPack, readPort, write: (path, bytes) => { given[path] = bytes; }, passes: [pass]});
+      Object.assign(port, given);
     } catch (error) {
       cancel();
-      const pass = passes.find(name => error.message.startsWith(`${manifest.effect}.${name}/`));
-      if (!pass) throw error;
       stopped.push({pass, status: "NOT RUN", reason: error.message.split("\n")[0].slice(0, 300)});
-      passes = passes.filter(name => name !== pass);
-      for (const file of Object.keys(port)) if (file.startsWith(`${manifest.effect}.${pass}/`)) delete port[file];
     }
   }
   return {port, stopped};
