@@ -1,5 +1,5 @@
-// node census.mjs [--module rainref_module.js] [--packs FOLDER] > FILE: the census of this machine's GPU by Dawn (npm package webgpu). In the
-// folder that scripts/web builds, the module and the packs are where it looks. VK_ICD_FILENAMES chooses a Vulkan driver.
+// node census.mjs [--module rainref_module.js] [--packs tests/packs] > FILE: the census of this machine's GPU by Dawn (npm package webgpu). Without
+// options the module and the folder packs lie beside this folder. VK_ICD_FILENAMES chooses a Vulkan driver. Exit code 3: there is none.
 import fs from "node:fs";
 import {createRequire} from "node:module";
 import path from "node:path";
@@ -7,7 +7,6 @@ import {fileURLToPath} from "node:url";
 import {create, globals} from "webgpu";
 import {checkCensus} from "./census/check.js";
 import {judgePack} from "./census/judge.js";
-import {filesOfTar, readerOf} from "./census/tar.js";
 import {censusText, takeCensus, totals} from "./census/take.js";
 import {deviceName} from "./census/words.js";
 
@@ -25,27 +24,17 @@ function optionsOf(args) {
   return {modulePath: path.resolve(options["--module"]), packFolder: options["--packs"]};
 }
 
-/// Packs as folders, as tests/packs has them, or as the files NAME.tar.gz of the site.
-async function packsIn(folder, reader) {
-  const packs = [];
-  for (const name of fs.readdirSync(folder).sort()) {
-    const file = path.join(folder, name), isArchive = name.endsWith(".tar.gz");
-    if (isArchive) packs.push({name: name.slice(0, -7), read: readerOf(await filesOfTar(reader(folder)(name)), file)});
-    else if (fs.existsSync(path.join(file, "manifest.json"))) packs.push({name, read: reader(file)});
-  }
-  if (packs.length === 0) throw new Error(`--packs: no pack in ${folder}: expected folders with a manifest.json, or NAME.tar.gz`);
-  return packs;
-}
-
 async function main() {
   const {modulePath, packFolder} = optionsOf(process.argv.slice(2));
   const module = await require(modulePath)();
   const reader = folder => file => new Uint8Array(fs.readFileSync(path.join(folder, file)));
-  const packs = await packsIn(packFolder, reader);
+  const names = fs.readdirSync(packFolder).filter(name => fs.existsSync(path.join(packFolder, name, "manifest.json"))).sort();
+  if (names.length === 0) throw new Error(`--packs: no folder in ${packFolder} has a manifest.json`);
+  const packs = names.map(name => ({name, read: reader(path.join(packFolder, name))}));
   const dawn = JSON.parse(fs.readFileSync(path.join(path.dirname(require.resolve("webgpu")), "package.json"))).version;
   const census = await takeCensus({
     gpu, packs, readPort: reader(here),
-    judge: (manifest, pack, port) => judgePack(module, manifest, pack, port),
+    judge: given => judgePack(module, given),
     rainref: {version: module.UTF8ToString(module._rr_version()), golden_generation: module._rr_golden_generation()},
     by: {program: `Dawn for Node ${dawn}`, user_agent: `node ${process.version} ${process.platform} ${process.arch}`},
     step: ({done, of, words}) => console.error(`${done}/${of} ${words}`),

@@ -1,8 +1,9 @@
 // The census page: runs the probes and every port on this device, has them judged, and shows the card.
 // census.html?packs=NAME,...: these packs alone.
 import {Engine} from "./engine.js";
+import {bytesOf} from "./files.js";
+import {packFolder, packList} from "./packs.js";
 import {checkCensus} from "./ports/census/check.js";
-import {filesOfTar, readerOf} from "./ports/census/tar.js";
 import {censusText, takeCensus, totals} from "./ports/census/take.js";
 import {deviceName, errorRows, habitRows} from "./ports/census/words.js";
 
@@ -15,26 +16,18 @@ function element(name, content = "", attributes = {}) {
 }
 const pill = status => element("span", status, {class: "pill", "data-status": status});
 
-async function get(path, kind = "arrayBuffer") {
-  const answer = await fetch(path);
+async function portFile(path) {
+  const answer = await fetch(`ports/${path}`);
   if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
-  return answer[kind]();
+  return new Uint8Array(await answer.arrayBuffer());
 }
-const bytesOf = async path => new Uint8Array(await get(path));
-
-/// The packs to run, each loaded when it is asked for and let go with the next.
+/// The packs to run, each loaded when it is asked for.
 async function packsToRun() {
-  const {packs} = await get("packs/index.json", "json"), wanted = new URLSearchParams(location.search).get("packs")?.split(",");
+  const packs = await packList(), wanted = new URLSearchParams(location.search).get("packs")?.split(",");
   const unknown = wanted?.find(name => !packs.some(pack => pack.name === name));
   if (unknown) throw new Error(`packs: no pack ${unknown}; there are ${packs.map(pack => pack.name).join(", ")}`);
-  let loaded = null;
-  return packs.filter(pack => !wanted || wanted.includes(pack.name)).map(({name, file}) => ({
-    name,
-    async read(path) {
-      if (loaded?.name !== name) loaded = {name, read: readerOf(await filesOfTar(await bytesOf(`packs/${file}`)), file)};
-      return loaded.read(path);
-    },
-  }));
+  return packs.filter(pack => !wanted || wanted.includes(pack.name)).map(pack => ({
+    name: pack.name, read: async path => bytesOf(await packFolder(pack), path)}));
 }
 
 function showCard(census) {
@@ -69,8 +62,8 @@ async function take() {
   try {
     if (!navigator.gpu) throw new Error("This browser has no WebGPU. Chrome and Edge have it; Safari from version 26 on; Firefox on Windows and macOS, elsewhere with dom.webgpu.enabled in about:config.");
     const census = await takeCensus({
-      gpu: navigator.gpu, packs: await packsToRun(), readPort: path => bytesOf(`ports/${path}`), rainref: await engine.run("versions"),
-      judge: (manifest, pack, port) => engine.run("judge", {manifest, pack, port}),
+      gpu: navigator.gpu, packs: await packsToRun(), readPort: portFile, rainref: await engine.run("versions"),
+      judge: given => engine.run("judge", given),
       by: {program: "page", user_agent: navigator.userAgent}, signal: running.signal,
       step: ({done, of, words}) => {
         part("bar").value = done / of;

@@ -2,4 +2,4 @@
 import {judgePack} from "./ports/census/judge.js";
 
 export const versions = library => ({version: library.text(library.value("rr_version")), golden_generation: library.value("rr_golden_generation")});
-export const judge = (library, {manifest, pack, port}) => judgePack(library.module, manifest, pack, port);
+export const judge = (library, given) => judgePack(library.module, given);

@@ -15,22 +15,23 @@ export function filesOfPack(manifest) {
   return [...new Set(manifest.cases.flatMap(c => [...filesOf(c), ...c.outputs.flatMap(of)]))];
 }
 
-/// Runs all ports of a pack, each on a device of its own: what stops one is its reason, and the others run without it. Gives {port, stopped:
-/// [{pass, status, reason}]}.
+/// Runs all ports of a pack, each on a device of its own: what stops one is its reason, and the others run without it. Gives {port, passes,
+/// stopped: [{pass, status, reason}]}: passes are those that ran.
 async function runPorts(gpu, manifest, pack, readPort, cancel) {
-  const port = {}, stopped = [], {programs} = JSON.parse(new TextDecoder().decode(await readPort(`${manifest.effect}/programs.json`)));
+  const port = {}, passes = [], stopped = [], {programs} = JSON.parse(new TextDecoder().decode(await readPort(`${manifest.effect}/programs.json`)));
   const readPack = path => (cancel(), pack[path]);
   for (const {name: pass} of manifest.passes.filter(({formula}) => programs[formula])) {
     const given = {};
     try {
       await runPack(gpu, {readPack, readPort, write: (path, bytes) => { given[path] = bytes; }, passes: [pass]});
       Object.assign(port, given);
+      passes.push(pass);
     } catch (error) {
       cancel();
       stopped.push({pass, status: "NOT RUN", reason: error.message.split("\n")[0].slice(0, 300)});
     }
   }
-  return {port, stopped};
+  return {port, passes, stopped};
 }
 
 /// The verdicts of one pack: counts of each, and what is neither PASS nor DATA.
@@ -44,7 +45,7 @@ function packEntry(name, passes) {
 }
 
 /// Takes a census. gpu: a GPU, such as navigator.gpu. packs: [{name, read(path)}]. readPort(path): bytes of a file of this folder's parent.
-/// judge(manifest, pack, port): judgePack's, or a promise of that. rainref: {version, golden_generation}. by: {program, user_agent}.
+/// judge({pack, port, passes}): judgePack's, or a promise of that. rainref: {version, golden_generation}. by: {program, user_agent}.
 /// step({done, of, words}) is called as work goes on. signal: an AbortSignal that ends it.
 export async function takeCensus({gpu, packs, readPort, judge, rainref, by, step = () => {}, signal = null}) {
   const cancel = () => signal?.throwIfAborted(), adapter = await gpu?.requestAdapter();
@@ -70,9 +71,9 @@ export async function takeCensus({gpu, packs, readPort, judge, rainref, by, step
       cancel();
       pack[file] = await read(file);
     }
-    const {port, stopped} = await runPorts(gpu, manifest, pack, readPort, cancel);
+    const {port, passes, stopped} = await runPorts(gpu, manifest, pack, readPort, cancel);
     cancel();
-    ports.push(packEntry(name, [...await judge(manifest, pack, port), ...stopped]));
+    ports.push(packEntry(name, [...(passes.length > 0 ? await judge({pack, port, passes}) : []), ...stopped]));
   }
   step({done: of, of, words: "done"});
   return {

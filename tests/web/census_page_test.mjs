@@ -1,24 +1,27 @@
-// The census page in a browser: what a visitor does with it, and what it says where something fails.
+// node census_page_test.mjs SITE BROWSER NATIVE ROOT: the census page in a headless browser: what a visitor does with it, and what it says where
+// something fails. NATIVE is not used; ROOT: the sources.
 import assert from "node:assert";
 import fs from "node:fs";
 import {checkCensus} from "../../examples/ports/wgsl/census/check.js";
 import {habitRows} from "../../examples/ports/wgsl/census/words.js";
+import {launch, serve} from "./browser.mjs";
 
+const [folder, browserName, , root] = process.argv.slice(2);
 const packs = ["edge_splash-corrected", "rainy_glass-corrected"];
 const textOf = (page, selector) => page.$eval(selector, element => element.textContent);
 const isShown = (page, selector) => page.$eval(selector, element => element.getClientRects().length > 0);
 
-async function open(browser, base, {before = null, given = [], only = packs} = {}) {
-  const page = await browser.newPage(), errors = [];
+async function open({before = null, given = [], only = packs} = {}) {
+  const page = await browser.newPage();
   page.on("pageerror", error => errors.push(error.message));
   if (before) await page.evaluateOnNewDocument(before, ...given);
-  await page.goto(`${base}/census.html?packs=${only.join(",")}`);
-  return {page, errors};
+  await page.goto(`${site.url}census.html?packs=${only.join(",")}`);
+  return page;
 }
 /// Presses the button and waits for the card, or for an error, which is given.
 async function take(page) {
   await page.click("#take");
-  await page.waitForFunction(() => !document.getElementById("take").disabled, {timeout: 240000, polling: 200});
+  await page.waitForFunction(() => !document.getElementById("take").disabled, {timeout: 400000, polling: 200});
   return await isShown(page, "#card") ? JSON.parse(await page.$eval("#json", area => area.value)) : {error: await textOf(page, "#status")};
 }
 /// In the page, before its scripts: shaders whose path ends so come with `by` in the place of `what`.
@@ -33,15 +36,15 @@ function changedShader(ending, what, by) {
   };
 }
 
-/// browser: of puppeteer; base: the address of the site; devices: the folder of committed files.
-export async function testCensusPage(browser, base, devices) {
+const devices = `${root}/docs/devices`, errors = [], site = await serve(folder), browser = await launch(browserName);
+try {
   // Cancelled first; then taken, by the same page.
-  const {page, errors} = await open(browser, base);
+  const page = await open();
   await page.click("#take");
-  await page.waitForFunction(() => /^\d+ of \d+: /.test(document.getElementById("status").textContent), {timeout: 60000, polling: 50});
+  await page.waitForFunction(() => /^\d+ of \d+: /.test(document.getElementById("status").textContent), {timeout: 120000, polling: 50});
   assert(await isShown(page, "#progress"));
   await page.click("#cancel");
-  await page.waitForFunction(() => !document.getElementById("take").disabled, {timeout: 60000});
+  await page.waitForFunction(() => !document.getElementById("take").disabled, {timeout: 120000});
   assert.match(await textOf(page, "#status"), /^Cancelled/);
   assert.deepStrictEqual([await isShown(page, "#card"), await isShown(page, "#progress")], [false, false]);
 
@@ -80,12 +83,11 @@ export async function testCensusPage(browser, base, devices) {
   // Nothing is cut off on a narrow screen.
   await page.setViewport({width: 390, height: 800});
   assert(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "the page is wider than the screen");
-  assert.deepStrictEqual(errors, []);
   await page.close();
 
   // A port that is wrong FAILs; one that does not compile is NOT RUN, with the line; the other passes are judged.
   const wrong = async (...change) => {
-    const {page} = await open(browser, base, {before: changedShader, given: change, only: [packs[0]]});
+    const page = await open({before: changedShader, given: change, only: [packs[0]]});
     const found = await take(page), shown = found.error ? "" : await textOf(page, "#others");
     await page.close();
     return {...found, shown};
@@ -99,11 +101,16 @@ export async function testCensusPage(browser, base, devices) {
 
   // What a visitor cannot help is said in words.
   const refused = async options => {
-    const {page} = await open(browser, base, options), {error} = await take(page);
+    const page = await open(options), {error} = await take(page);
     await page.close();
     return error;
   };
   assert.match(await refused({before: () => Object.defineProperty(Navigator.prototype, "gpu", {value: undefined})}), /^This browser has no WebGPU/);
   assert.match(await refused({before: () => Object.defineProperty(Navigator.prototype, "gpu", {value: {requestAdapter: async () => null}})}), /no WebGPU adapter/);
   assert.match(await refused({only: ["puddle"]}), /^packs: no pack puddle; there are edge_splash-as-published, /);
+  assert.deepStrictEqual(errors, []);
+  console.log(`${browserName}: the census page shows what the device does, and what is wrong with ports and browsers`);
+} finally {
+  await browser.close();
+  site.close();
 }
