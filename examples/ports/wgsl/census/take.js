@@ -64,7 +64,7 @@ export async function takeCensus({gpu, packs, readPort, judge, rainref, by, step
     device.destroy();
   }
   const ports = [];
-  for (const {name, read} of packs) {
+  for (const {name, read} of packs.toSorted((a, b) => a.name < b.name ? -1 : 1)) {
     next(`ports of ${name}`);
     const manifestBytes = await read("manifest.json"), manifest = JSON.parse(new TextDecoder().decode(manifestBytes)), pack = {"manifest.json": manifestBytes};
     for (const file of filesOfPack(manifest)) {
