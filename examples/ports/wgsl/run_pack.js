@@ -16,13 +16,17 @@ export async function runPack(gpu, {readPack, readPort, write, passes = null}) {
   const {programs} = json(await readPort(`${manifest.effect}/programs.json`));
   const {device, name} = await requestDevice(gpu);
   let count = 0;
-  for (const oneCase of manifest.cases) {
-    const names = programs[manifest.passes.find(pass => pass.name === oneCase.pass).formula];
-    if (!names || (passes && !passes.includes(oneCase.pass))) continue;
-    const files = {}, shader = await shaderOf(names, manifest.effect, readPort);
-    for (const file of filesOf(oneCase)) files[file] = await readPack(file);
-    for (const {file, bytes} of await runCase(device, manifest, oneCase, files, shader)) await write(file, bytes);
-    ++count;
+  try {
+    for (const oneCase of manifest.cases) {
+      const names = programs[manifest.passes.find(pass => pass.name === oneCase.pass).formula];
+      if (!names || (passes && !passes.includes(oneCase.pass))) continue;
+      const files = {}, shader = await shaderOf(names, manifest.effect, readPort);
+      for (const file of filesOf(oneCase)) files[file] = await readPack(file);
+      for (const {file, bytes} of await runCase(device, manifest, oneCase, files, shader)) await write(file, bytes);
+      ++count;
+    }
+  } finally {
+    device.destroy();  // who runs pack after pack would hold one for each
   }
   await write("port.json", new TextEncoder().encode(JSON.stringify({api: "WebGPU", device: name}) + "\n"));
   return {count, device: name};
