@@ -201,7 +201,8 @@ async function takePack(one) {
   const about = passes.map(({name, sentence, formula}) => ({name, sentence, formula, cases: cases.filter(c => c.pass === name).length}));
   packs = [...packs.filter(p => p.name !== one.name), {name: one.name, effect, variant, scene, passes: about, folder: one}];
   await choose({pack: one.name});
-  $("folder-state").textContent = `${one.name} is a pack of ${cases.length} cases: it is chosen above.`;
+  $("pack-state").textContent = `${one.name} is a pack of ${cases.length} cases: it is chosen above.`;
+  $("pack-state").hidden = false;
 }
 async function takePort(one) {
   port = one;
