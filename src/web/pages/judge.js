@@ -65,6 +65,7 @@ async function show() {
     const text = edits.get(chosen.formula) ?? textOf(await exampleOf(pack().effect, chosen.formula));
     if (formula() === chosen.formula) editor.value = text;
   }
+  document.documentElement.dataset.shown = `${$("pack").value} ${$("pass").value}`;  // for who drives the page
   if ($("bindings").open) showBindings().catch(error => outcome.fail(error.message));
   showLink();
 }
@@ -130,6 +131,7 @@ async function guarded(work) {
   if (running) return;
   running = new AbortController();
   $("run").disabled = $("judge-folder").disabled = true;
+  working("Preparing");
   outcome.clear();
   const begin = performance.now();
   try {
