@@ -9,5 +9,7 @@ const packs = process.argv.slice(2).map(folder => {
   const {effect, variant, scene} = manifest;
   const passes = manifest.passes.map(({name, sentence, formula, reads, writes}) => ({name, sentence, formula, reads, writes, cases: manifest.cases.filter(c => c.pass === name).length}));
   return {name, file: `${name}.tar.gz`, effect, variant, scene, passes};
-}).sort((a, b) => order.indexOf(a.effect) - order.indexOf(b.effect));
+})
+  // The plain pack of a variant before those with something special.
+  .sort((a, b) => order.indexOf(a.effect) - order.indexOf(b.effect) || (b.name === `${b.effect}-${b.variant}`) - (a.name === `${a.effect}-${a.variant}`));
 process.stdout.write(JSON.stringify({packs}, null, 1) + "\n");

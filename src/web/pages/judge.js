@@ -65,7 +65,8 @@ async function show() {
     const text = edits.get(chosen.formula) ?? textOf(await exampleOf(pack().effect, chosen.formula));
     if (formula() === chosen.formula) editor.value = text;
   }
-  $("bindings").open && showBindings();
+  document.documentElement.dataset.shown = `${$("pack").value} ${$("pass").value}`;  // for who drives the page
+  if ($("bindings").open) showBindings().catch(error => outcome.fail(error.message));
   showLink();
 }
 
@@ -130,6 +131,7 @@ async function guarded(work) {
   if (running) return;
   running = new AbortController();
   $("run").disabled = $("judge-folder").disabled = true;
+  working("Preparing");
   outcome.clear();
   const begin = performance.now();
   try {
@@ -201,7 +203,8 @@ async function takePack(one) {
   const about = passes.map(({name, sentence, formula}) => ({name, sentence, formula, cases: cases.filter(c => c.pass === name).length}));
   packs = [...packs.filter(p => p.name !== one.name), {name: one.name, effect, variant, scene, passes: about, folder: one}];
   await choose({pack: one.name});
-  $("folder-state").textContent = `${one.name} is a pack of ${cases.length} cases: it is chosen above.`;
+  $("pack-state").textContent = `${one.name} is a pack of ${cases.length} cases: it is chosen above.`;
+  $("pack-state").hidden = false;
 }
 async function takePort(one) {
   port = one;
