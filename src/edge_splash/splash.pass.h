@@ -105,7 +105,7 @@ struct Splash {
 template <class N, class T>
 RAINREF_FN N texel_at(const T& t, N x, N y) {
   const Level<N> l = uniform_level<N>(t, 0);
-  return load_texel<0, 1, N>(t, texel_column<N>(t, l, to_int(x)), texel_row<N>(t, l, to_int(y)))[0];
+  return load_near_texel<N>(t, texel_column<N>(t, l, to_int(x)), texel_row<N>(t, l, to_int(y)));
 }
 template <class N, class M>
 RAINREF_FN N one_where(M mask) {
@@ -208,16 +208,15 @@ RAINREF_FN N reach_of(const SplashUniforms& u, N q) {
 /// Sobel's sums: the kernels (-1 0 1, -2 0 2, -1 0 1) and its transpose.
 template <class N>
 RAINREF_FN Gradient<N> sobel(const Taps<N>& t) {
-  N z[9];
-  for (int k = 0; k < 9; ++k) z[k] = N(1.0f) / t.q[k];
+  const auto z = [&](int k) RAINREF_LAMBDA { return N(1.0f) / t.q[k]; };
+  const N z0 = z(0), z1 = z(1), z2 = z(2), z3 = z(3), z5 = z(5), z6 = z(6), z7 = z(7), z8 = z(8);
   const N two(2.0f);
-  return {sum_any_order(z[2] - z[0], two * (z[5] - z[3]), z[8] - z[6]), sum_any_order(z[6] - z[0], two * (z[7] - z[1]), z[8] - z[2])};
+  return {sum_any_order(z2 - z0, two * (z5 - z3), z8 - z6), sum_any_order(z6 - z0, two * (z7 - z1), z8 - z2)};
 }
 template <class N>
 RAINREF_FN N bend_of(const Taps<N>& t) {
   const N twice = N(2.0f) * t.q[4], across = abs((t.q[3] + t.q[5]) - twice), along = abs((t.q[1] + t.q[7]) - twice);
-  N nearest = t.q[4];
-  for (int k = 1; k < 9; k += 2) nearest = max(nearest, t.q[k]);
+  const N nearest = max(max(max(max(t.q[4], t.q[1]), t.q[3]), t.q[5]), t.q[7]);
   return max(across, along) / nearest;
 }
 
@@ -229,19 +228,16 @@ RAINREF_FN Taps<N> taps_corrected(const SplashUniforms& u, const T& depth, N x, 
   const N beside = max(inverse_distance(u, depth, x - far, y), inverse_distance(u, depth, x + far, y));
   const N around = max(inverse_distance(u, depth, x, y - far), inverse_distance(u, depth, x, y + far));
   const N reach = reach_of(u, max(q, max(beside, around)));
+  const N left = x - reach, right = x + reach, low = y - reach, high = y + reach;
   Taps<N> taps;
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      if (i != 1 || j != 1)
-        taps.q[3 * j + i] = inverse_distance(u, depth,
-                                             i == 0   ? x - reach
-                                             : i == 2 ? x + reach
-                                                      : x,
-                                             j == 0   ? y - reach
-                                             : j == 2 ? y + reach
-                                                      : y);
-    }
-  }
+  taps.q[0] = inverse_distance(u, depth, left, low);
+  taps.q[1] = inverse_distance(u, depth, x, low);
+  taps.q[2] = inverse_distance(u, depth, right, low);
+  taps.q[3] = inverse_distance(u, depth, left, y);
+  taps.q[5] = inverse_distance(u, depth, right, y);
+  taps.q[6] = inverse_distance(u, depth, left, high);
+  taps.q[7] = inverse_distance(u, depth, x, high);
+  taps.q[8] = inverse_distance(u, depth, right, high);
   taps.q[4] = q;
   return taps;
 }

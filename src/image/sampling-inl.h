@@ -123,12 +123,9 @@ RAINREF_FN auto texel_row(const T& t, const Level<N>& l, typename N::Int y) {
   const auto place = index * l.pitch + l.offset;
   return Line<typename N::Int, typename N::Mask>{t.channels == 1 ? place : place * t.channels, in};
 }
-/// Channels First ... First + Count - 1 of the texel where a column meets a row.
+/// The border colour where a column or a row lies outside.
 template <int First, int Count, class N, class T, class Line>
-RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
-  const auto place = row.place + column.place;
-  Channels<N, Count> out;
-  RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
+RAINREF_FN Channels<N, Count> with_border(const T& t, Channels<N, Count> out, const Line& column, const Line& row) {
   if constexpr (requires { t.border; }) {
     if (t.address_u == Address::border || t.address_v == Address::border) {
       const auto in = column.in & row.in;
@@ -136,6 +133,26 @@ RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const L
     }
   }
   return out;
+}
+/// Channels First ... First + Count - 1 of the texel where a column meets a row.
+template <int First, int Count, class N, class T, class Line>
+RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
+  const auto place = row.place + column.place;
+  Channels<N, Count> out;
+  RAINREF_UNROLL for (int c = 0; c < Count; ++c) out[c] = fetch(t.texels + (First + c), place, N());
+  return with_border<First, Count, N>(t, out, column, row);
+}
+/// What lanes make sooner; see math/lanes-inl.h.
+template <class N, class Stored>
+RAINREF_FN N fetch_near(const Stored* texels, typename N::Int offset, N n) {
+  return fetch(texels, offset, n);
+}
+/// The single channel of a texel, where the next element mostly wants the next texel.
+template <class N, class T, class Line>
+RAINREF_FN N load_near_texel(const T& t, const Line& column, const Line& row) {
+  Channels<N, 1> out;
+  out[0] = fetch_near(t.texels, row.place + column.place, N());
+  return with_border<0, 1, N>(t, out, column, row)[0];
 }
 
 template <int First, int Count, class N, class T>

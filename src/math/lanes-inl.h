@@ -143,6 +143,12 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Lanes atan2(Lanes y, Lanes x) { return atan2_lanes(y.v, x.v); }
 
   friend HWY_INLINE HWY_ATTR Lanes fetch(const float* texels, Int offset, Lanes) { return hn::GatherIndex(D(), texels, offset.i); }
+  /// Where neighbouring elements mostly want neighbouring texels: those are one load, and a gather costs by the element.
+  friend HWY_INLINE HWY_ATTR Lanes fetch_near(const float* texels, Int offset, Lanes) {
+    const std::int32_t first = hn::GetLane(offset.i);
+    if (hn::AllTrue(DI(), hn::Eq(offset.i, hn::Iota(DI(), first)))) return hn::LoadU(D(), texels + first);
+    return hn::GatherIndex(D(), texels, offset.i);
+  }
 
   friend HWY_INLINE HWY_ATTR Lanes fetch(const Half* texels, Int offset, Lanes) {
     HWY_ALIGN std::int32_t places[HWY_MAX_BYTES / sizeof(std::int32_t)];

@@ -19,6 +19,14 @@ struct Named {
 constexpr Named known[] = {{"avx3", HWY_AVX3},     {"avx2", HWY_AVX2},     {"sse4", HWY_SSE4}, {"ssse3", HWY_SSSE3},
                            {"scalar", HWY_SCALAR}, {"scalar", HWY_EMU128}, {"neon", HWY_NEON}, {"wasm", HWY_WASM}};
 
+consteval bool has_name(std::int64_t bit) {
+  for (const Named& target : known)
+    if (target.bit == bit) return true;
+  return false;
+}
+// What the compiler's own flags ask for, -march=native among them. HWY_DISABLED_TARGETS leaves the others out.
+static_assert(has_name(HWY_STATIC_TARGET), "the narrowest target of this build has no name");
+
 std::int64_t usable() {
   static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
   return targets;
