@@ -241,6 +241,24 @@ typedef struct rr_judge_options {
 /// Judges every pass that anything was given for, and says why one fails. A run with an output that was not given is NOT JUDGED. `options`
 /// may be NULL. Free it; it may outlive the cases.
 RR_API int rr_judge(const rr_cases* cases, const rr_judge_options* options, rr_judgement** judgement);
+
+/// Told how many runs of passes are judged, of how many. Returns 0 to go on; anything else ends the judging.
+typedef int (*rr_progress)(void* user, int32_t done, int32_t of);
+typedef struct rr_folder_options {
+  size_t struct_bytes;
+  const char* profile;        ///< NULL: "vulkan"
+  const char* const* passes;  ///< judge these alone; none named: every one
+  size_t pass_count;
+  int32_t partial;       ///< 1: a pass without any file is NOT JUDGED, and its files are not missing
+  int32_t threads;       ///< 0: one for each processor
+  rr_progress progress;  ///< called by the thread that judges; may be NULL
+  void* user;
+} rr_folder_options;
+/// Judges the files that a port wrote (docs/dumps.md) for the cases of a pack, as `rainref validate PACK --port PORT` does; one case is in
+/// memory at a time. Files that are missing or cannot be used stand in the reports, and what does not need them is judged: RR_OK. RR_FILES
+/// where nothing can be judged, RR_USAGE where `progress` ended it. `options` may be NULL. Reports with pictures read both folders again.
+/// Free it.
+RR_API int rr_judge_folder(const char* pack, const char* port, const rr_folder_options* options, rr_judgement** judgement);
 /// NULL is allowed.
 RR_API void rr_free_judgement(rr_judgement* judgement);
 
@@ -301,6 +319,7 @@ RR_API int rr_get_failure(const rr_judgement* judgement, size_t pass, size_t ind
 RR_API int rr_report_text(rr_judgement* judgement, const char** text);
 RR_API int rr_report_json(rr_judgement* judgement, const char** json);
 RR_API int rr_report_html(rr_judgement* judgement, const char** html);
+RR_API int rr_report_junit(rr_judgement* judgement, const char** junit);
 
 #ifdef __cplusplus
 }

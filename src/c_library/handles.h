@@ -27,5 +27,5 @@ struct rr_cases {
 
 struct rr_judgement {
   rainref::judging::Judged made;
-  std::optional<std::string> text{}, json{}, html{};  ///< made when asked for
+  std::optional<std::string> text{}, json{}, html{}, junit{};  ///< made when asked for
 };

@@ -1,6 +1,7 @@
 // Verdicts on outputs in memory as C has them: texts are addresses in the judgement.
 #include "c_library/call.h"
 #include "c_library/handles.h"
+#include "judging/judge_folder.h"
 
 using namespace rainref;
 using c_library::call;
@@ -22,6 +23,17 @@ const PassVerdict& pass_of(const rr_judgement* judgement, size_t pass) {
   const rr_judgement& j = required(judgement, "judgement");
   require_index(pass, j.made.verdict.passes.size(), "pass");
   return j.made.verdict.passes[pass];
+}
+
+/// Tells the caller how far it is. One in C++ may throw: the caller's exception means nothing here.
+void go_on(const rr_folder_options& o, int done, int of) {
+  int result = 1;
+  try {
+    result = o.progress(o.user, done, of);
+  } catch (...) {
+    throw Error(ExitCode::usage, "rr_folder_options.progress: the callback threw an exception");
+  }
+  if (result != 0) throw Error(ExitCode::usage, fmt::format("stopped by rr_folder_options.progress after {} of {} runs", done, of));
 }
 
 /// A report, which is made once.
@@ -47,6 +59,22 @@ int rr_judge(const rr_cases* cases, const rr_judge_options* options, rr_judgemen
     if (o.port) how.port = o.port;
     how.half = rounding(o.half);
     *judgement = std::make_unique<rr_judgement>(rr_judgement{judging::judge_cases(c.list, how, parallel::Executor(o.threads))}).release();
+  });
+}
+int rr_judge_folder(const char* pack, const char* port, const rr_folder_options* options, rr_judgement** judgement) {
+  return call([&] {
+    required(judgement, "judgement") = nullptr;
+    const rr_folder_options o =
+        options ? sized(options, "rr_folder_options") : rr_folder_options{sizeof o, nullptr, nullptr, 0, 0, 0, nullptr, nullptr};
+    judging::FolderOptions how;
+    if (o.profile) how.profile = o.profile;
+    how.passes = c_library::texts(o.passes, o.pass_count, "rr_folder_options.passes");
+    how.partial = o.partial != 0;
+    if (o.progress) how.progress = [&o](int done, int of) { go_on(o, done, of); };
+    const parallel::Executor executor(o.threads);
+    *judgement =
+        std::make_unique<rr_judgement>(rr_judgement{judging::judge_folder(&required(pack, "pack"), &required(port, "port"), how, executor)})
+            .release();
   });
 }
 void rr_free_judgement(rr_judgement* judgement) {
@@ -105,4 +133,7 @@ int rr_report_json(rr_judgement* judgement, const char** json) {
 }
 int rr_report_html(rr_judgement* judgement, const char** html) {
   return report(judgement, html, &rr_judgement::html, [](const judging::Judged& j) { return j.html(); });
+}
+int rr_report_junit(rr_judgement* judgement, const char** junit) {
+  return report(judgement, junit, &rr_judgement::junit, [](const judging::Judged& j) { return j.junit(); });
 }

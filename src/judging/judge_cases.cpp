@@ -16,6 +16,7 @@
 #include "reports/figures.h"
 #include "reports/html.h"
 #include "reports/json.h"
+#include "reports/junit.h"
 #include "reports/text.h"
 
 namespace rainref::judging {
@@ -127,6 +128,8 @@ std::vector<Failure> worst_of(const judge::PassJudgement& pass) {
   return out;
 }
 
+}  // namespace
+
 Verdict verdict_of(const judge::PortJudgement& j) {
   Verdict v{judge::name(j.status), j.reason, j.first_bad_pass, j.profile, {}};
   for (const judge::PassJudgement& p : j.passes) {
@@ -139,11 +142,10 @@ Verdict verdict_of(const judge::PortJudgement& j) {
   return v;
 }
 
-}  // namespace
-
 std::string Judged::text() const { return reports::report_text(judged); }
 std::string Judged::json() const { return reports::report_json(judged, reports::exit_code(judged, false)); }
 std::string Judged::html() const { return reports::report_html(judged, source); }
+std::string Judged::junit() const { return reports::report_junit(judged, false); }
 
 Judged judge_cases(const CaseList& cases, const JudgeOptions& options, const parallel::Executor& executor) {
   Judged out{judged(cases, options, executor), source_of(cases), {}};

@@ -21,7 +21,10 @@ struct Judged {
   std::string text() const;
   std::string json() const;
   std::string html() const;
+  std::string junit() const;
 };
+/// A judgement in public words.
+Verdict verdict_of(const judge::PortJudgement& judged);
 
 /// Judges every pass that anything was given for. Error(usage) for an unknown profile, Error(port_files) where nothing was given.
 Judged judge_cases(const CaseList& cases, const JudgeOptions& options, const parallel::Executor& executor);

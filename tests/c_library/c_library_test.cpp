@@ -165,6 +165,52 @@ TEST_F(CLibrary, LetsNothingThroughThatACallbackThrows) {
   EXPECT_EQ(load(simulation, read, nullptr), RR_IO);
   EXPECT_STREQ(error(), "state: the callback that reads it threw an exception");
   close(simulation);
+  const auto judge = find(&rr_judge_folder, "rr_judge_folder");
+  const std::string pack = test::source_folder() + "/tests/packs/edge_splash-corrected";
+  const TemporaryFolder port;
+  fs::copy(pack, port / "port", fs::copy_options::recursive);
+  rr_folder_options options{};
+  options.struct_bytes = sizeof options;
+  options.progress = [](void*, int32_t, int32_t) -> int { throw 1; };
+  rr_judgement* judgement = nullptr;
+  EXPECT_EQ(judge(pack.c_str(), (port / "port").c_str(), &options, &judgement), RR_USAGE);
+  EXPECT_STREQ(error(), "rr_folder_options.progress: the callback threw an exception");
+  EXPECT_EQ(judgement, nullptr);
+}
+// The reports are those of the command line, of a port of which one pass fails and one has no files.
+TEST_F(CLibrary, JudgesAFolderAsTheCommandLineDoes) {
+  const TemporaryFolder folder;
+  const fs::path pack = fs::path(test::source_folder()) / "tests/packs/edge_splash-corrected", port = folder / "port";
+  fs::copy(pack, port, fs::copy_options::recursive);
+  bool is_first = true;
+  for (const auto& entry : fs::directory_iterator(port)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "edge_splash.splash") fs::remove_all(entry.path());
+    if (name != "edge_splash.display") continue;
+    for (const auto& file : fs::recursive_directory_iterator(entry.path())) {
+      if (!is_first || !file.path().filename().string().starts_with("out.")) continue;
+      std::fstream bytes(file.path(), std::ios::in | std::ios::out | std::ios::binary);
+      bytes.seekp(-5, std::ios::end).write("\x7f", 1);
+      is_first = false;
+    }
+  }
+  ASSERT_FALSE(is_first);
+  expect_success(fmt::format("folder {} {} {}", pack.string(), port.string(), (folder / "c").string()));
+  const auto cli = [&](const char* ending) { return (folder / "cli").string() + ending; };
+  const auto [text, status] =
+      output_of(fmt::format("{} validate {} --port {} --partial --json {} --html {} --junit {} >{}", RAINREF_PROGRAM, pack.string(),
+                            port.string(), cli(".json"), cli(".html"), cli(".xml"), cli(".txt")));
+  ASSERT_EQ(WEXITSTATUS(status), 1) << text;
+  for (const char* ending : {".txt", ".json", ".html", ".xml"}) {
+    std::string expected = text_of(cli(ending)), found = text_of((folder / "c").string() + ending);
+    // The command line says how it was called.
+    expected = std::regex_replace(expected, std::regex("\"command\": *\"[^\"]*\""), "\"command\": \"\"");
+    found = std::regex_replace(found, std::regex("\"command\": *\"[^\"]*\""), "\"command\": \"\"");
+    expected = std::regex_replace(expected, std::regex("\n[^\n]*<property name=\"command\"[^\n]*"), "");
+    expected = std::regex_replace(expected, std::regex("<p class=\"command\">[^\n]*\n"), "");
+    EXPECT_FALSE(found.empty());
+    EXPECT_TRUE(found == expected) << ending;
+  }
 }
 TEST_F(CLibrary, JudgesOutputsInMemory) {
   expect_success("judging " + scene("edge_splash_corrected"));

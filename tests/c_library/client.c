@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   if (strcmp(what, "states") == 0 && argc == 5) return in_other_states(argv[4], argv[3]), 0;
   if (strcmp(what, "refusals") == 0) return refusals(argv[3]), 0;
   if (strcmp(what, "judging") == 0) return judging(argv[3]), 0;
+  if (strcmp(what, "folder") == 0 && argc == 6) return folder_refusals(argv[3], argv[4]), folder_judged(argv[3], argv[4], argv[5]), 0;
   if (strcmp(what, "views") == 0) return views(argv[3]), 0;
   if (strcmp(what, "saved") == 0) return states_saved(argv[3]), 0;
   return 2;

@@ -46,6 +46,7 @@
   X(rr_get_judge)           \
   X(rr_give)                \
   X(rr_judge)               \
+  X(rr_judge_folder)        \
   X(rr_free_judgement)      \
   X(rr_get_verdict)         \
   X(rr_get_pass_verdict)    \
@@ -53,7 +54,8 @@
   X(rr_get_failure)         \
   X(rr_report_text)         \
   X(rr_report_json)         \
-  X(rr_report_html)
+  X(rr_report_html)         \
+  X(rr_report_junit)
 
 struct library {
 #define RR_MEMBER(name) __typeof__(name)* name;
@@ -80,6 +82,8 @@ void after_fork(const char* scene, const char* hashes);
 void in_other_states(const char* scene, const char* hashes);
 void refusals(const char* scene);
 void judging(const char* scene);
+void folder_judged(const char* pack, const char* port, const char* out);
+void folder_refusals(const char* pack, const char* port);
 void views(const char* scene);
 void states_saved(const char* scene);
 

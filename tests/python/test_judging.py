@@ -1,5 +1,7 @@
 """Ports judged in memory, on simulations and on packs."""
 
+import shutil
+
 import numpy as np
 import numpy_ports as ports
 import pytest
@@ -47,6 +49,28 @@ def test_a_port_of_a_pack():
         rr.judge(pack, rr.Port("edge_splash", "display", lambda i, u: 0))
     with pytest.raises(OSError, match="there is no such folder"):
         rr.judge(ROOT / "tests/no_pack", ports.right)
+
+
+def test_files_of_a_port(tmp_path):
+    pack, port = ROOT / "tests/packs/puddle-corrected", tmp_path / "port"
+    shutil.copytree(pack, port)
+    assert rr.judge_folder(pack, port).status == "PASS"
+    # One pass fails, and of another the files are gone.
+    for file in port.glob("puddle.display/*/out.*.npy"):
+        numpy_file = np.load(file)
+        np.save(file, numpy_file[::-1])
+    shutil.rmtree(port / "puddle.shade")
+    verdict = rr.judge_folder(str(pack), port, "webgpu", partial=True, threads=1)
+    assert verdict.status == "FAIL" and verdict.first_bad_pass == "display" and verdict.profile == "webgpu"
+    assert verdict["shade"].status == "NOT JUDGED" and verdict["display"].causes[0].name == "upside down"
+    verdict.junit(tmp_path / "r.xml")
+    assert 'failures="3"' in (tmp_path / "r.xml").read_text()
+    verdict.html(tmp_path / "r.html")
+    assert "data:image/png" in (tmp_path / "r.html").read_text()
+    assert [p.name for p in rr.judge_folder(pack, port, passes=["wave_step"]).passes] == ["wave_step"]
+    assert rr.judge_folder(pack, port).json()["files"]
+    with pytest.raises(ValueError, match="did you mean 'wave_step'"):
+        rr.judge_folder(pack, port, passes=["wavestep"])
 
 
 def test_what_the_reference_gives_passes_for_every_pass(puddle):

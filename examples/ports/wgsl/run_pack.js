@@ -1,8 +1,8 @@
 // Runs the ports of a pack's passes, wherever the files come from and go to.
 import {filesOf, requestDevice, runCase} from "./port.js";
 
-/// The shaders of a program: [{name, text}], by the names in an effect's programs.json.
-async function shaderOf(names, effect, readPort) {
+/// The shaders of a program: [{name, text}], by the names in an effect's programs.json; readPort(path) gives bytes of a file of this folder.
+export async function shaderOf(names, effect, readPort) {
   const decoder = new TextDecoder();
   return Promise.all(names.map(async name => ({name, text: decoder.decode(await readPort(name.startsWith("../") ? name.slice(3) : `${effect}/${name}`))})));
 }

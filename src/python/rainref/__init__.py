@@ -14,7 +14,7 @@ was expected, what was found and the nearest name.
 from ._library import golden_generation, version
 from .cases import Case, Cases, Inputs
 from .errors import Error, FileError, StaleViewError
-from .judging import Cause, Failure, PassVerdict, Port, Verdict, judge, port
+from .judging import Cause, Failure, PassVerdict, Port, Verdict, judge, judge_folder, port
 from .parameters import Parameter, describe, effects, profiles
 from .pictures import show, shown
 from .simulation import Frame, Simulation, open
@@ -22,5 +22,5 @@ from .simulation import Frame, Simulation, open
 __version__ = version()
 __all__ = [
     "Case", "Cases", "Cause", "Error", "Failure", "FileError", "Frame", "Inputs", "Parameter", "PassVerdict", "Port", "Simulation",
-    "StaleViewError", "Verdict", "describe", "effects", "golden_generation", "judge", "open", "port", "profiles", "show", "shown", "version",
+    "StaleViewError", "Verdict", "describe", "effects", "golden_generation", "judge", "judge_folder", "open", "port", "profiles", "show", "shown", "version",
 ]

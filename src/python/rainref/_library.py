@@ -81,6 +81,7 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "get_judge": (_text, [_handle, _index, _index]),
     "give": (_result, [_handle, _index, _index, c.c_void_p, _index, _index]),
     "judge": (_result, [_handle, c.POINTER(s.JudgeOptions), _out]),
+    "judge_folder": (_result, [_text, _text, c.POINTER(s.FolderOptions), _out]),
     "free_judgement": (None, [_handle]),
     "get_verdict": (_result, [_handle, c.POINTER(s.VerdictInfo)]),
     "get_pass_verdict": (_result, [_handle, _index, c.POINTER(s.PassVerdictInfo)]),
@@ -89,6 +90,7 @@ _PROTOTYPES: dict[str, tuple[object, list[object]]] = {
     "report_text": (_result, [_handle, _text_out]),
     "report_json": (_result, [_handle, _text_out]),
     "report_html": (_result, [_handle, _text_out]),
+    "report_junit": (_result, [_handle, _text_out]),
 }
 
 _loaded = _load()

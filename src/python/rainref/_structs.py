@@ -57,6 +57,10 @@ class JudgeOptions(Struct):
     _fields_ = _members("profile:text port:text half:text threads:i32")
 
 
+class FolderOptions(Struct):
+    _fields_ = _members("profile:text passes:texts pass_count:size partial:i32 threads:i32 progress:pointer user:pointer")
+
+
 class VerdictInfo(Struct):
     _fields_ = _members("status:text reason:text first_bad_pass:text profile:text passes:size")
 

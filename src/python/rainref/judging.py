@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _structs as s
-from ._library import Handle, decoded, encoded, filled, text_of
+from ._library import Handle, decoded, encoded, filled, text_of, texts
 from .cases import Case, Cases
 from .errors import Error, unknown
 from .parameters import describe
@@ -150,6 +150,10 @@ class Verdict:
         """Writes it as one page with pictures of what fails."""
         Path(path).write_text(text_of("report_html", self._handle), "utf-8", "surrogateescape")
 
+    def junit(self, path: str | os.PathLike[str]) -> None:
+        """Writes it as JUnit XML, for continuous integration."""
+        Path(path).write_text(text_of("report_junit", self._handle), "utf-8", "surrogateescape")
+
 
 def _run(ports: Iterable[Port], cases: Cases) -> None:
     by_name = {p.name: p for p in ports}
@@ -192,3 +196,15 @@ def judge(what: Simulation | str | os.PathLike[str], ports: Port | Iterable[Port
     options = s.JudgeOptions.new(profile=encoded(profile), half=encoded(half) if half is not None else None, threads=threads,
                                  port=", ".join(getattr(p.function, "__name__", p.name) for p in ports).encode())
     return Verdict(Handle("free_judgement", "judge", cases.handle, c.byref(options)))
+
+
+def judge_folder(pack: str | os.PathLike[str], port: str | os.PathLike[str], profile: str = "vulkan", *, passes: Iterable[str] = (),
+                 partial: bool = False, threads: int = 0) -> Verdict:
+    """Judges the files that a port wrote for the cases of a pack, as `rainref validate PACK --port PORT` does.
+
+    `passes` are judged alone; none named: every one. With `partial` a pass without any file is NOT JUDGED. Files that are missing or cannot
+    be used stand in the verdict's `json()["files"]`. `html` reads both folders again. Raises Error for what cannot be judged.
+    """
+    many, count = texts(passes)
+    options = s.FolderOptions.new(profile=encoded(profile), passes=many, pass_count=count, partial=partial, threads=threads)
+    return Verdict(Handle("free_judgement", "judge_folder", encoded(pack), encoded(port), c.byref(options)))

@@ -1,0 +1,11 @@
+// node pack_index.mjs PACK...: what a page must know of packs before it loads one, as packs/index.json.
+import fs from "node:fs";
+import path from "node:path";
+
+const packs = process.argv.slice(2).map(folder => {
+  const manifest = JSON.parse(fs.readFileSync(path.join(folder, "manifest.json"), "utf8")), name = path.basename(folder);
+  const {effect, variant, scene} = manifest;
+  const passes = manifest.passes.map(({name, sentence, formula}) => ({name, sentence, formula, cases: manifest.cases.filter(c => c.pass === name).length}));
+  return {name, file: `${name}.tar.gz`, effect, variant, scene, passes};
+});
+process.stdout.write(JSON.stringify({packs}, null, 1) + "\n");

@@ -1,0 +1,84 @@
+// The C library in a worker of its own, so that the page answers while it works. A page gives the script with its operations:
+//   const engine = new Engine("judge_operations.js");
+//   const verdict = await engine.run("judgeFolder", {profile: "webgpu"}, {onProgress: (done, of) => ..., transfer: [...]});
+// That script exports functions: run("judgeFolder", args) calls judgeFolder(library, args, progress), where library is a CLibrary
+// (c_library.js) and progress(...values) calls onProgress. They keep what they need between calls in variables of their module.
+// Several engines share one compiled module.
+
+let compiled = null;
+/// The WebAssembly module, downloaded and compiled once for the page.
+export function loadLibrary() {
+  compiled ??= (async () => {
+    const url = new URL("rainref_module.wasm", import.meta.url), answer = await fetch(url);
+    if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
+    // A server that does not know the type still gives the bytes.
+    if (answer.headers.get("content-type") === "application/wasm") return WebAssembly.compileStreaming(answer);
+    return WebAssembly.compile(await answer.arrayBuffer());
+  })();
+  compiled.catch(() => { compiled = null; });  // the next call tries again
+  return compiled;
+}
+
+/// What calls fail with that were under way when cancel() was called.
+export class Cancelled extends Error {
+  constructor() {
+    super("cancelled");
+    this.name = "Cancelled";
+  }
+}
+
+export class Engine {
+  #operations;
+  #worker = null;
+  #waiting = new Map();
+  #next = 0;
+  #ended = 0;  // how often the worker was
+
+  /// `operations`: a script beside this one.
+  constructor(operations) {
+    this.#operations = operations;
+  }
+
+  /// Loads the library; the first run does so too.
+  async start() {
+    const module = await loadLibrary();
+    if (this.#worker) return;
+    const worker = this.#worker = new Worker(new URL("engine_worker.js", import.meta.url));
+    worker.onmessage = ({data}) => {
+      const call = this.#waiting.get(data.call);
+      if (!call) return;
+      if (data.progress) return call.onProgress?.(...data.progress);
+      this.#waiting.delete(data.call);
+      if (data.error) call.reject(Object.assign(new Error(data.error.message), data.error));
+      else call.resolve(data.result);
+    };
+    worker.onerror = event => this.#end(new Error(event.message ?? "the worker could not be started"));
+    worker.postMessage({module, operations: new URL(this.#operations, import.meta.url).href});
+  }
+
+  /// Calls an operation, one after the other. Rejects with what it threw (with `code` where the library said so), or Cancelled.
+  async run(operation, args = {}, {onProgress, transfer = []} = {}) {
+    const ended = this.#ended;
+    await this.start();
+    if (ended !== this.#ended) throw new Cancelled();  // while the library was loading
+    const call = this.#next++;
+    return new Promise((resolve, reject) => {
+      this.#waiting.set(call, {resolve, reject, onProgress});
+      this.#worker.postMessage({call, operation, args}, transfer);
+    });
+  }
+
+  /// Ends the worker with all that it holds; the next run starts a new one.
+  cancel() {
+    this.#end(new Cancelled());
+  }
+
+  #end(error) {
+    ++this.#ended;
+    this.#worker?.terminate();
+    this.#worker = null;
+    const waiting = [...this.#waiting.values()];
+    this.#waiting.clear();
+    for (const {reject} of waiting) reject(error);
+  }
+}
