@@ -1,0 +1,44 @@
+// What the judge page asks of the library (engine.js): folders of Blobs, judged without copies in memory.
+import {structs} from "./c_library.js";
+
+structs.rr_folder_options = [["profile", "text"], ["passes", "pointer"], ["pass_count", "size"], ["partial", "i32"], ["threads", "i32"],
+                             ["progress", "pointer"], ["user", "pointer"]];
+
+/// The names of the profiles.
+export function profiles(library) {
+  const names = [];
+  for (let i = 0, pointer; (pointer = library.value("rr_profile_name", i)) !== 0; ++i) names.push(library.text(pointer));
+  return names;
+}
+export const version = library => library.text(library.value("rr_version"));
+
+/// Makes a folder, {path, files: [[path, Blob]]}, one of the library's; gives a function that takes it away. Blobs are read by FileReaderSync.
+function mounted({FS, WORKERFS}, {path, files}) {
+  const at = `/${path}`;
+  FS.mkdirTree(at);
+  FS.mount(WORKERFS, {blobs: files.map(([name, data]) => ({name, data}))}, at);
+  return () => {
+    FS.unmount(at);
+    FS.rmdir(at);
+  };
+}
+
+/// Judges a port's folder for a pack: {status, first_bad_pass, text, json, html, junit}. progress(done, of) after each run.
+export function judgeFolder(library, {pack, port, profile, passes = [], partial = false}, progress) {
+  const {module} = library, undo = [];
+  try {
+    undo.push(mounted(module, pack));
+    undo.push(mounted(module, port));
+    const callback = module.addFunction((user, done, of) => { progress(done, of); return 0; }, "iiii");
+    undo.push(() => module.removeFunction(callback));
+    const judgement = library.withTexts(passes, (names, count) => library.withStruct("rr_folder_options",
+      {profile, passes: count ? names : 0, pass_count: count, partial: partial ? 1 : 0, progress: callback},
+      options => library.out("rr_judge_folder", pack.path, port.path, options)));
+    undo.push(() => library.value("rr_free_judgement", judgement));
+    const {status, first_bad_pass} = library.filled("rr_verdict", "rr_get_verdict", judgement), reports = {};
+    for (const kind of ["text", "json", "html", "junit"]) reports[kind] = library.text(library.out(`rr_report_${kind}`, judgement));
+    return {status, first_bad_pass, ...reports};
+  } finally {
+    for (const step of undo.reverse()) step();
+  }
+}
