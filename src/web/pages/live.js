@@ -1,0 +1,293 @@
+// The live page: a scene that the reference simulates, what changes it, and the lines that the native program prints for the same frame.
+// live.html?scene=puddle/default.toml&size=640x360 opens that.
+import {Comparison} from "./live_compare.js";
+import {LiveRun} from "./live_run.js";
+import {Parameters} from "./parameters.js";
+import {shownGallery} from "./live_gallery.js";
+import {tomlOf} from "./scene_values.js";
+
+const part = id => document.getElementById(id);
+const option = (text, value = text) => Object.assign(document.createElement("option"), {textContent: text, value});
+const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
+
+const run = new LiveRun(), parameters = new Parameters(part("parameters"), changeParameter);
+let shipped = [], playing = false, shownTimes = [], stopped = Promise.resolve();
+
+function showError(id, error) {
+  part(id).textContent = error?.message ?? "";
+  part(id).hidden = !error;
+}
+function setBusy(text) {
+  part("busy").textContent = text;
+  part("busy").hidden = text === "";
+}
+/// What takes long enough to be noticed says so; a frame that comes at once does not flicker.
+async function whileBusy(text, work, delay = 250) {
+  const timer = setTimeout(() => setBusy(text), delay);
+  try {
+    return await work();
+  } finally {
+    clearTimeout(timer);
+    setBusy("");
+  }
+}
+
+// ---- frames ----
+
+function showPicture({width, height, picture}) {
+  const canvas = part("picture");
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
+  canvas.getContext("2d").putImageData(new ImageData(picture, width, height), 0, 0);
+}
+function showFrame(shown) {
+  showPicture(shown);
+  const [width, height] = run.pictureSize;
+  const perSecond = Math.min(1000 / shown.milliseconds, framesPerSecond());
+  const rate = playing && shownTimes.length > 2 ? `, ${perSecond.toFixed(perSecond < 10 ? 1 : 0)} frames a second` : "";
+  part("state").textContent = `frame ${run.frame}, ${width} x ${height}, ${shown.milliseconds.toFixed(0)} ms${rate}`;
+  const hasLines = shown.lines !== undefined;
+  part("no-hashes").hidden = hasLines;
+  part("no-hashes").textContent = hasLines ? "" : "This frame's buffers went to the port and were not hashed. The next step has its lines again.";
+  const rows = (shown.lines ?? []).map(line => {
+    const row = document.createElement("tr"), [, ...cells] = line.split(" ");
+    row.append(...cells.map(text => Object.assign(document.createElement("td"), {textContent: text})));
+    return row;
+  });
+  part("hashes").tBodies[0].replaceChildren(...rows);
+  showCommand();
+}
+function showCommand() {
+  part("command").textContent = run.command();
+  part("changed").hidden = !run.changedLate;
+}
+/// Of the last frames shown.
+function framesPerSecond() {
+  const span = shownTimes[shownTimes.length - 1] - shownTimes[0];
+  return span > 0 ? 1000 * (shownTimes.length - 1) / span : Infinity;
+}
+
+async function step() {
+  showError("run-error", null);
+  try {
+    const shown = await whileBusy("Computing a frame…", () => run.step());
+    shownTimes = [...shownTimes.slice(-19), performance.now()];
+    showFrame(shown);
+    return true;
+  } catch (error) {
+    if (error.name !== "Cancelled") showError("run-error", error);
+    return false;
+  }
+}
+async function play() {
+  shownTimes = [];
+  const fps = Number(run.values.get("run.fps") ?? 60);
+  while (playing) {
+    const begin = performance.now();
+    if (!await step()) break;
+    // A scene is not shown faster than it is meant.
+    const left = 1000 / fps - (performance.now() - begin);
+    await new Promise(done => left > 4 ? setTimeout(done, left) : requestAnimationFrame(done));
+  }
+  setPlaying(false);
+}
+function setPlaying(now) {
+  if (now === playing) return;
+  playing = now;
+  part("play").textContent = now ? "Pause" : "Play";
+  part("step").disabled = now;
+  if (now) stopped = play();
+}
+
+// ---- scenes ----
+
+/// Opens a scene and shows frame 0, in place of what runs; false where it is refused, which is said.
+async function open(scene, options) {
+  setPlaying(false);
+  showError("scene-error", null);
+  const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null;
+  try {
+    await whileBusy("Opening the scene…", () => run.open(scene, options), 100);
+  } catch (error) {
+    showError("scene-error", error);
+    return false;
+  }
+  await stopped;
+  const {description} = run;
+  if (isFirst || effect !== run.info.effect || variant !== run.info.variant) {
+    part("variant").replaceChildren(...description.variants.map(name => option(name)));
+    const passes = description.passes.filter(pass => pass.variants.includes(run.info.variant) && pass.judge !== "input_only");
+    part("pass").replaceChildren(...passes.map(pass => option(pass.name)));
+    part("pass").value = passes[passes.length - 1].name;
+    parameters.build(description, run.values, run.info.variant);
+    parameters.find(part("find").value);
+  }
+  parameters.update(run.values);
+  part("variant").value = run.info.variant;
+  part("size").value = run.size;
+  part("text").value = scene.text;
+  const known = shipped.find(s => s.path === scene.path);
+  part("scene").value = known?.path ?? "";
+  part("about").textContent = known?.sentence ?? `${scene.file}: a scene of yours.`;
+  part("warnings").replaceChildren(...run.info.warnings.map(text => Object.assign(document.createElement("li"), {textContent: text})));
+  part("warnings").hidden = run.info.warnings.length === 0;
+  for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
+  comparison.ready();
+  const address = new URL(location);
+  address.search = known ? new URLSearchParams({scene: known.path, ...(run.size === "automatic" ? {} : {size: run.size})}) : "";
+  history.replaceState(null, "", address);
+  await step();
+  return true;
+}
+async function fetched(path, kind) {
+  const answer = await fetch(path);
+  if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
+  return answer[kind]();
+}
+/// Opens a scene that came with rainref, by its path in scenes/.
+async function openShipped(path, options) {
+  const entry = shipped.find(s => s.path === path);
+  try {
+    if (!entry) throw new Error(`no scene ${path}; there are ${shipped.map(s => s.path).join(", ")}`);
+    const files = await Promise.all(entry.files.map(async name => ({path: `scenes/${name}`, bytes: new Uint8Array(await fetched(`scenes/${name}`, "arrayBuffer"))})));
+    return await open({path, file: `scenes/${path}`, text: await fetched(`scenes/${path}`, "text"), files}, options);
+  } catch (error) {
+    showError("scene-error", error);
+    return false;
+  }
+}
+/// A scene and the files that it names, as they were chosen or dropped.
+async function openFiles(list) {
+  const all = [...list], scene = all.find(file => /\.toml$/i.test(file.name));
+  if (!scene) return showError("scene-error", new Error(`${all.map(f => f.name).join(", ")}: expected a scene (.toml), and files that it names beside it`));
+  const files = await Promise.all(all.filter(f => f !== scene).map(async f => ({path: f.name, bytes: new Uint8Array(await f.arrayBuffer())})));
+  await open({file: scene.name, text: await scene.text(), files});
+}
+async function changeVariant(variant) {
+  const {scene} = run, {effect} = run.info, sets = new Map([...run.sets, ["variant", JSON.stringify(variant)]]);
+  if (await open(scene, {sets})) return;
+  // Most scenes say keys that one variant alone has.
+  const path = `${effect}/${variant === "corrected" ? "default" : "as_published"}.toml`;
+  if (await openShipped(path)) part("about").textContent = `${scene.file} says keys that ${variant} does not have, so this is ${path}: ${part("about").textContent}`;
+  else part("variant").value = run.info.variant;
+}
+
+// ---- parameters ----
+
+const waiting = new Map();  // key to the newest value, while an older one is on its way
+async function changeParameter(key, toml) {
+  if (waiting.has(key)) {
+    waiting.set(key, toml);
+    return;
+  }
+  waiting.set(key, toml);
+  try {
+    for (let value = null; value !== waiting.get(key);) {
+      value = waiting.get(key);
+      await run.set(key, value);
+    }
+    showCommand();
+    parameters.update(run.values);
+  } catch (error) {
+    const value = waiting.get(key);
+    error.restart = async () => {
+      setPlaying(false);
+      await run.restartWith(key, value);
+      parameters.update(run.values);
+      await step();
+    };
+    throw error;
+  } finally {
+    waiting.delete(key);
+  }
+}
+
+// ---- the page ----
+
+const comparison = new Comparison(run, {
+  before: () => setPlaying(false),
+  shown: shown => {
+    shownTimes = [];
+    showFrame(shown);
+  },
+});
+
+async function reset() {
+  setPlaying(false);
+  try {
+    await whileBusy("Starting again…", () => run.reset(), 100);
+  } catch (error) {
+    return showError("run-error", error);
+  }
+  await stopped;
+  await step();
+}
+part("play").onclick = () => setPlaying(!playing);
+part("step").onclick = () => step();
+part("reset").onclick = () => reset();
+document.addEventListener("keydown", event => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, summary, [contenteditable]")) return;
+  const button = {" ": "play", ".": "step", r: "reset", R: "reset"}[event.key];
+  if (!button || (event.key === " " && event.target.closest("button, a"))) return;
+  event.preventDefault();
+  if (!part(button).disabled) part(button).click();
+});
+part("scene").onchange = () => openShipped(part("scene").value);
+part("variant").onchange = () => changeVariant(part("variant").value);
+part("size").onchange = () => open(run.scene, {sets: run.sets, size: part("size").value});
+part("choose").onclick = () => part("files").click();
+part("files").onchange = () => openFiles(part("files").files).then(() => { part("files").value = ""; });
+part("open-text").onclick = () => open({...run.scene, path: null, text: part("text").value});
+part("find").oninput = () => parameters.find(part("find").value);
+part("save").onclick = () => {
+  const link = document.createElement("a"), address = URL.createObjectURL(new Blob([tomlOf(run.values)], {type: "application/toml"}));
+  Object.assign(link, {href: address, download: `${run.info.effect}.toml`});
+  link.click();
+  URL.revokeObjectURL(address);
+};
+part("copy").onclick = async () => {
+  try {
+    await navigator.clipboard.writeText(part("command").textContent);
+    part("copied").textContent = "copied";
+  } catch {
+    getSelection().selectAllChildren(part("command"));
+    part("copied").textContent = "selected: this browser leaves copying to you";
+  }
+};
+addEventListener("dragover", event => event.preventDefault());
+addEventListener("drop", event => {
+  event.preventDefault();
+  if (event.dataTransfer.files.length > 0) openFiles(event.dataTransfer.files);
+});
+
+/// By effect; what cannot run here is named as such.
+function showSceneList() {
+  const groups = new Map();
+  for (const {path, effect, error} of shipped) {
+    if (!groups.has(effect)) groups.set(effect, Object.assign(document.createElement("optgroup"), {label: effect.replaceAll("_", " ")}));
+    const entry = option(error ? `${path} (not here: ${error})` : path, path);
+    entry.disabled = Boolean(error);
+    groups.get(effect).append(entry);
+  }
+  part("scene").replaceChildren(Object.assign(option("a scene of yours", ""), {hidden: true}), ...groups.values());
+}
+async function start() {
+  part("size").append(option("automatic"), ...fileSizes.map(size => option(size.replace("x", " x "), size)), option("as the scene says", "scene"));
+  const wanted = new URLSearchParams(location.search);
+  try {
+    const [index] = await Promise.all([fetched("scenes/index.json", "json"), run.start()]);
+    shipped = index.scenes;
+  } catch (error) {
+    setBusy("");
+    return showError("run-error", error);
+  }
+  showSceneList();
+  shownGallery(part("gallery"), shipped, path => {
+    openShipped(path);
+    part("scene-title").scrollIntoView();
+  });
+  const size = wanted.get("size") ?? "automatic";
+  if (![...part("size").options].some(o => o.value === size)) part("size").append(option(size));
+  for (const id of ["scene"]) part(id).disabled = false;
+  await openShipped(wanted.get("scene") ?? "puddle/default.toml", {size});
+}
+start();

@@ -1,0 +1,97 @@
+// What the live page asks of the library: a scene that runs, its picture, its lines of hashes, and cases of a pass for a port. engine.js says
+// how these are called. Names and bytes only: the page draws, and runs ports.
+import {structs} from "./c_library.js";
+import {addCases, judgeCases} from "./live_cases.js";
+
+Object.assign(structs, {
+  rr_case_info: [["id", "text"], ["effect", "text"], ["variant", "text"], ["pass", "text"], ["formula", "text"], ["frame", "i32"], ["step", "i32"],
+                 ["level", "i32"], ["time", "f32"], ["dt", "f32"], ["inputs", "size"], ["outputs", "size"]],
+  rr_sampling: [["filter", "text"], ["mip_filter", "text"], ["address_u", "text"], ["address_v", "text"], ["border", "f32*4"]],
+  rr_layout_info: [["name", "text"], ["bytes", "size"], ["members", "size"]],
+  rr_member: [["name", "text"], ["unit", "text"], ["sentence", "text"], ["type", "i32"], ["components", "i32"], ["offset", "size"], ["low", "f64"],
+              ["high", "f64"]],
+  rr_judge_options: [["profile", "text"], ["port", "text"], ["half", "text"], ["threads", "i32"]],
+  rr_pass_verdict: [["pass", "text"], ["formula", "text"], ["status", "text"], ["reason", "text"], ["where", "text"], ["cases", "i64"],
+                    ["elements", "i64"], ["outside", "i64"], ["differing", "i64"], ["vacuous", "i64"], ["causes", "size"], ["worst", "size"]],
+});
+
+let simulation = 0;
+const opened = library => {
+  if (simulation === 0) throw new Error("no scene is open");
+  return simulation;
+};
+
+/// {effects: [what rr_describe says of each], version, generation}.
+export function describe(library) {
+  const effects = [];
+  for (let k = 0, name; (name = library.text(library.value("rr_effect_name", k))) !== null; ++k)
+    effects.push(JSON.parse(library.text(library.out("rr_describe", name))));
+  return {effects, version: library.text(library.value("rr_version")), generation: library.value("rr_golden_generation")};
+}
+
+/// Opens `text`, a scene, in place of the one that runs, which stays where the new one is refused. `sets`: ["key=value", ...]. `file`: what
+/// errors call it. `files`: [{path, bytes}] that it may name, relative to the folder of `file`.
+export function open(library, {text, file, sets = [], files = []}) {
+  const {FS} = library.module, folder = "/scenes";
+  for (const {path, bytes} of files) {
+    const to = `${folder}/${path}`;
+    FS.mkdirTree(to.slice(0, to.lastIndexOf("/")));
+    FS.writeFile(to, bytes);
+  }
+  const path = `${folder}/${file}`;
+  FS.mkdirTree(path.slice(0, path.lastIndexOf("/")));
+  FS.chdir(folder);
+  const made = library.withTexts(sets, (set, set_count) =>
+    library.withStruct("rr_open_options", {file, set, set_count, threads: 1}, options => library.out("rr_open", text, options)));
+  close(library);
+  simulation = made;
+  return info(library);
+}
+
+export function close(library) {
+  library.value("rr_close", simulation);
+  simulation = 0;
+}
+
+/// {effect, variant, frame, frames, sceneJson, warnings: [sentence, ...]}; frame: frames simulated so far; sceneJson: every key with its value.
+export function info(library) {
+  const {effect, variant, frame, frames, scene_json, warnings: count} = library.filled("rr_simulation_info", "rr_get_info", opened(library));
+  const warnings = Array.from({length: count}, (_, k) => library.text(library.value("rr_warning", simulation, k)));
+  return {effect, variant, frame, frames, sceneJson: scene_json, warnings};
+}
+
+/// Gives a key another value, as TOML writes it, from the next frame on.
+export function set(library, {key, value}) {
+  library.call("rr_set", opened(library), key, value);
+  return info(library);
+}
+
+/// The next frame: {lines, milliseconds, width, height, picture}; picture: RGBA of 8 bits, top row first.
+export function step(library) {
+  const begin = performance.now();
+  const lines = library.text(library.out("rr_next_frame_hashes", opened(library))).trimEnd().split("\n");
+  const milliseconds = performance.now() - begin, shown = picture(library);
+  return {result: {lines, milliseconds, ...shown}, transfer: [shown.picture.buffer]};
+}
+
+/// The next frame, and what the named pass took and gave in it: {milliseconds, width, height, picture, cases} (live_cases.js).
+export function stepWithCases(library, {pass}) {
+  const begin = performance.now(), cases = addCases(library, opened(library), pass);
+  const milliseconds = performance.now() - begin, shown = picture(library);
+  return {result: {milliseconds, ...shown, cases}, transfer: [shown.picture.buffer]};
+}
+
+/// Judges what a port gave for the cases of the last stepWithCases: {status, reason, elements, outside, differing,
+/// outputs} (live_cases.js).
+export const judge = (library, {profile, given}) => judgeCases(library, profile, given);
+
+function picture(library) {
+  const {width, height, row_bytes, texel_bytes, plane} = library.filled("rr_array", "rr_get_picture", simulation);
+  if (texel_bytes !== 4) throw new Error(`a picture of ${texel_bytes} bytes a texel`);
+  const heap = library.module.HEAPU8, picture = new Uint8ClampedArray(4 * width * height);
+  for (let y = 0; y < height; ++y) {  // the library's row 0 is the bottom one
+    const from = plane[0] + (height - 1 - y) * row_bytes;
+    picture.set(heap.subarray(from, from + 4 * width), 4 * width * y);
+  }
+  return {width, height, picture};
+}
