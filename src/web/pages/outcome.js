@@ -17,7 +17,7 @@ export class Outcome {
     const line = element("div", "line", ""), pill = element("span", "pill", status), cause = bad?.causes[0];
     pill.dataset.status = status;
     line.append(pill);
-    const words = bad ? [`${bad.pass} is the first bad pass.`, cause ? `${cause.is_likely ? "Likely cause" : "May be"}: ${cause.name}.` : ""]
+    const words = bad ? [`${bad.pass} is the first bad pass.`, cause ? `${cause.is_likely ? "Likely cause" : "The cause may be"}: ${cause.name}.` : ""]
                       : [reason ? `${reason}.` : passes.length === 1 ? `${passes[0].pass}.` : `${passes.length} passes.`];
     line.append(element("span", "", words.filter(word => word).join(" ")));
     this.#verdict.replaceChildren(line);

@@ -1,0 +1,51 @@
+// A static site served to a headless browser, with what its tests share. node_modules: npm ci beside package.json.
+import fs from "node:fs";
+import http from "node:http";
+import path from "node:path";
+import zlib from "node:zlib";
+import puppeteer from "puppeteer-core";
+
+const types = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".json": "application/json", ".wasm": "application/wasm", ".svg": "image/svg+xml"};
+
+/// Serves a folder as static hosts do, compressed by gzip; {url, bytes(), requests(), close()}: bytes that were sent since they were asked
+/// for last, and the paths.
+export async function serve(folder) {
+  let bytes = 0, paths = [];
+  const compressed = new Map();
+  const server = http.createServer((request, response) => {
+    const name = decodeURIComponent(new URL(request.url, "http://x").pathname), file = path.join(folder, name.endsWith("/") ? `${name}index.html` : name);
+    paths.push(name);
+    if (!file.startsWith(folder) || !fs.existsSync(file) || fs.statSync(file).isDirectory()) {
+      response.writeHead(404);
+      return response.end();
+    }
+    const type = types[path.extname(file)];
+    if (!compressed.has(file)) compressed.set(file, type ? zlib.gzipSync(fs.readFileSync(file), {level: 6}) : fs.readFileSync(file));
+    const body = compressed.get(file);
+    bytes += body.length;
+    response.writeHead(200, {"content-type": type ?? "application/octet-stream", ...(type ? {"content-encoding": "gzip"} : {})});
+    response.end(body);
+  });
+  await new Promise(done => server.listen(0, "127.0.0.1", done));
+  const taken = (value, reset) => { reset(); return value; };
+  return {url: `http://127.0.0.1:${server.address().port}/`, bytes: () => taken(bytes, () => { bytes = 0; }), requests: () => taken(paths, () => { paths = []; }),
+          close: () => server.close()};
+}
+
+/// Starts "chromium" or "firefox" with WebGPU on its software adapter.
+export function launch(name) {
+  if (name === "firefox") {
+    return puppeteer.launch({browser: "firefox", executablePath: "/usr/bin/firefox-esr", extraPrefsFirefox: {"dom.webgpu.enabled": true, "gfx.webgpu.ignore-blocklist": true}});
+  }
+  return puppeteer.launch({executablePath: "/usr/bin/chromium", args: [...(process.getuid() === 0 ? ["--no-sandbox"] : []), "--enable-unsafe-webgpu",
+    "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan"]});
+}
+
+/// A new page at a path of the site, of the given width; errors that nobody caught are put into `errors`.
+export async function open(browser, site, address, errors, width = 1280) {
+  const page = await browser.newPage();
+  page.on("pageerror", error => errors.push(`${address}: ${error.message}`));
+  await page.setViewport({width, height: width < 600 ? 844 : 900});
+  await page.goto(site.url + address);
+  return page;
+}
