@@ -31,10 +31,18 @@ const scenes = all.filter(name => name.endsWith(".toml")).map(name => {
   const commands = comment.findIndex(line => line.startsWith("  ")), words = comment.slice(0, commands < 0 ? undefined : commands).join(" ");
   const sentence = words.match(/.*?[.:](?= |$)/)?.[0].replace(/:$/, ".") ?? words.trim();
   const files = all.filter(other => !other.endsWith(".toml") && text.includes(path.relative(path.dirname(name), other)));
+  // Of the keys that it sets, those that make it what it is.
+  let section = "";
+  const keys = [];
+  for (const line of text.split("\n")) {
+    section = /^\[(\w+)\]/.exec(line)?.[1] ?? section;
+    const set = /^(\w+) *= *([^#\n]*)/.exec(line);
+    if (set && !["", "run", "camera", "composite", "scene"].includes(section)) keys.push(`${section}.${set[1]} = ${set[2].trim()}`);
+  }
   const picture = `${name.replace(/\.toml$/, "").replaceAll("/", "_")}.jpg`, namesFile = /^[^#\n]*= *"[^"\n]*\.\w+"/m.test(text);
   const error = namesFile ? refusal(name, text) : null;
   return {
-    path: name, effect: value("effect"), variant: value("variant"), sentence, files,
+    path: name, effect: value("effect"), variant: value("variant"), sentence, files, keys: keys.slice(0, 4),
     ...(fs.existsSync(path.join(pictures, picture)) ? {picture: `gallery/${picture}`} : {}), ...(error === null ? {} : {error}),
   };
 });

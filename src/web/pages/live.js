@@ -112,6 +112,7 @@ async function open(scene, options) {
     return false;
   }
   await stopped;
+  part("state").textContent = "";
   const {description} = run;
   if (isFirst || effect !== run.info.effect || variant !== run.info.variant) {
     part("variant").replaceChildren(...description.variants.map(name => option(name)));
@@ -191,6 +192,7 @@ async function changeParameter(key, toml) {
     const value = waiting.get(key);
     error.restart = async () => {
       setPlaying(false);
+      part("state").textContent = "";
       await run.restartWith(key, value);
       parameters.update(run.values);
       await step();
@@ -213,6 +215,8 @@ const comparison = new Comparison(run, {
 
 async function reset() {
   setPlaying(false);
+  showError("run-error", null);
+  part("state").textContent = "";
   try {
     await whileBusy("Starting again…", () => run.reset(), 100);
   } catch (error) {

@@ -42,13 +42,17 @@ export class Parameters {
     for (const parameter of description.parameters) {
       const {name} = parameter;
       if (elsewhere.has(name) || !values.has(name)) continue;
-      const section = name.includes(".") ? name.slice(0, name.indexOf(".")) : "scene";
+      const section = name.includes(".") ? name.slice(0, name.indexOf(".")) : "run";
       if (!groups.has(section)) groups.set(section, []);
       groups.get(section).push(this.#row(parameter, variant));
     }
-    this.#root.replaceChildren(...[...groups].map(([section, rows], k) => {
+    // What the effect is about comes first, how it is run and seen last.
+    const order = [description.effect, "rain", "drops", "flow"], last = ["camera", "display", "compositor", "sequence", "run"];
+    const place = section => order.includes(section) ? order.indexOf(section) - order.length : 1 + last.indexOf(section);
+    const sorted = [...groups].sort(([a], [b]) => place(a) - place(b));
+    this.#root.replaceChildren(...sorted.map(([section, rows], k) => {
       const details = element("details", [element("summary", section.replaceAll("_", " ")), ...rows]);
-      details.open = k < 2 && rows.length < 24 || section === "rain";
+      details.open = k === 0 && rows.length < 24 || section === "rain";
       details.dataset.section = section;
       return details;
     }));
