@@ -243,7 +243,7 @@ part("files").onchange = () => openFiles(part("files").files).then(() => { part(
 part("open-text").onclick = () => open({...run.scene, path: null, text: part("text").value});
 part("find").oninput = () => parameters.find(part("find").value);
 part("save").onclick = () => {
-  const link = document.createElement("a"), address = URL.createObjectURL(new Blob([tomlOf(run.values)], {type: "application/toml"}));
+  const link = document.createElement("a"), address = URL.createObjectURL(new Blob([tomlOf(run.values, run.description)], {type: "application/toml"}));
   Object.assign(link, {href: address, download: `${run.info.effect}.toml`});
   link.click();
   URL.revokeObjectURL(address);

@@ -7,10 +7,17 @@ export function valuesOf(sceneJson) {
   return new Map([...sceneJson.matchAll(pair)].map(([, key, value]) => [key, value]));
 }
 
-/// A scene file that says every key.
-export function tomlOf(values) {
-  const lines = ["# Saved by rainref's live page: every key with its value."], sections = new Map();
+/// A scene file with the keys whose values are not the defaults; others may not be said everywhere (sequence.first without a sequence).
+/// `description`: of rr_describe.
+export function tomlOf(values, description) {
+  const lines = ["# Saved by rainref's live page. Keys that are not here have their defaults."], sections = new Map();
+  const variant = JSON.parse(values.get("variant"));
+  const isDefault = (key, value) => {
+    const parameter = description.parameters.find(p => p.name === key), standard = parameter?.variant_defaults?.[variant] ?? parameter?.default ?? null;
+    return standard !== null && JSON.stringify(JSON.parse(value)) === JSON.stringify(standard);
+  };
   for (const [key, value] of values) {
+    if (isDefault(key, value)) continue;
     const dot = key.lastIndexOf(".");
     if (dot < 0) {
       lines.push(`${key} = ${value}`);
