@@ -142,11 +142,30 @@ try {
     await frame.waitForSelector(".banner .verdict", {timeout: mostMs});
     assert.equal(await frame.$eval(".banner .verdict", e => e.textContent), "FAIL");
     assert(await frame.evaluate(() => [...document.images].length > 0 && [...document.images].every(i => i.naturalWidth > 0)), "pictures");
+    await frame.$eval('a[href="#pass-display"]', e => e.click());
+    assert.equal(await frame.evaluate(() => location.hash), "#pass-display", "links within the report");
+    assert.equal(await frame.$eval(".banner .verdict", e => e.textContent), "FAIL");
     assert.equal(await frame.evaluate(() => { try { return parent.document.title; } catch { return "apart"; } }), "apart");
     await shot(page, "fail");
     await page.setViewport({width: 390, height: 844});
     await shot(page, "fail");
     await page.setViewport({width: 1280, height: 900});
+    if (shots && name === "chromium") {
+      await page.emulateMediaFeatures([{name: "prefers-color-scheme", value: "dark"}]);
+      await shot(page, "dark");
+      await page.emulateMediaFeatures([]);
+    }
+  });
+
+  await step("what a shader binds is listed", async () => {
+    await choose(page, {pass: "splash"});
+    await click(page, "#bindings summary");
+    await page.waitForFunction(() => document.querySelectorAll("#bindings tbody tr").length > 0, {timeout: mostMs});
+    const rows = await page.$$eval("#bindings tbody tr", all => all.map(row => row.textContent));
+    assert.match(rows[0], /^0SplashUniformsuniform block$/);
+    assert(rows.some(row => /^1sceneinput, rgba16f \d+x\d+/.test(row)) && rows.some(row => /output/.test(row)), rows.join("; "));
+    await choose(page, {pass: "display"});
+    await click(page, "#bindings summary");
   });
 
   await step("a link gives the view again", async () => {
@@ -172,6 +191,7 @@ try {
     const place = await textOf(page, "#shader-errors button"), marked = await textOf(page, "#gutter .bad");
     assert.match(place, new RegExp(`^\\S+\\.wgsl:${wrong - lines.slice(0, wrong).findLastIndex(l => l.startsWith("// file:")) - 1}:\\d+$`));
     assert.equal(Number(marked), wrong);
+    assert.match(await textOf(page, "#shader-errors li"), /no_such_function/);
     await click(page, "#shader-errors button");
     const caret = await page.evaluate(() => [document.activeElement.id, document.activeElement.value.slice(0, document.activeElement.selectionStart).split("\n").length]);
     assert.deepEqual(caret, ["shader", wrong]);

@@ -65,7 +65,7 @@ async function show() {
     const text = edits.get(chosen.formula) ?? textOf(await exampleOf(pack().effect, chosen.formula));
     if (formula() === chosen.formula) editor.value = text;
   }
-  $("bindings").open && showBindings();
+  if ($("bindings").open) showBindings().catch(error => outcome.fail(error.message));
   showLink();
 }
 

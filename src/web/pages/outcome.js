@@ -25,9 +25,9 @@ export class Outcome {
       const url = URL.createObjectURL(new Blob([result[kind]], {type: `${type};charset=utf-8`})), link = document.getElementById(`save-${kind}`);
       this.#urls.push(url);
       [link.href, link.download] = [url, `${name}.${ending}`];
-      // A blob's address, not srcdoc: links within the report are then the report's own.
-      if (kind === "html") this.#frame.src = url;
     }
+    // With this base links within the report stay in it; a frame apart from the page may not go to places of a blob's address.
+    this.#frame.srcdoc = result.html.replace("<head>", '<head>\n<base href="about:srcdoc">');
     this.#box.hidden = false;
   }
   /// A sentence that is no verdict.
@@ -42,7 +42,7 @@ export class Outcome {
   }
   clear() {
     for (const url of this.#urls.splice(0)) URL.revokeObjectURL(url);
-    this.#frame.removeAttribute("src");
+    this.#frame.removeAttribute("srcdoc");
     this.#verdict.replaceChildren();
     this.#box.hidden = true;
   }

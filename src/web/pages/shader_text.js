@@ -18,7 +18,8 @@ export function filesOf(text) {
 /// What a compiler complains of in the message of runCase: [{file, line, column, message, at}], `at` the line of the whole text.
 export function errorsOf(message, files) {
   const found = [];
-  for (const [, name, line, column, sentence] of message.matchAll(/(?:^|\s)([^\s:]+):(\d+):(\d+): ([^\n]*)/g)) {
+  // A compiler may begin its sentence on the next line.
+  for (const [, name, line, column, sentence] of message.matchAll(/(?:^|\s)([^\s:]+):(\d+):(\d+):\s+(?:Shader '' parsing error: )?([^\n]*)/g)) {
     const file = files.find(f => f.name === name);
     if (file) found.push({file: name, line: Number(line), column: Number(column), message: sentence, at: file.line + Number(line) - 1});
   }
