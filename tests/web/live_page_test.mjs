@@ -187,9 +187,9 @@ try {
   await step("plays and pauses", async () => {
     const before = await frameOf(page);
     await page.evaluate(() => document.activeElement.blur());
-    await page.keyboard.press("Space");
+    await page.keyboard.press(" ");
     await page.waitForFunction(n => Number(/^frame (\d+)/.exec(document.getElementById("state").textContent)[1]) > n + 3, {timeout, polling: 30}, before);
-    await page.keyboard.press("Space");
+    await page.keyboard.press(" ");
     assert.equal(await textOf(page, "#play"), "Play");
     await new Promise(done => setTimeout(done, 500));
     const paused = await frameOf(page);
