@@ -7,7 +7,7 @@ const order = ["puddle", "windshield", "edge_splash", "screen_drops", "rainy_gla
 const packs = process.argv.slice(2).map(folder => {
   const manifest = JSON.parse(fs.readFileSync(path.join(folder, "manifest.json"), "utf8")), name = path.basename(folder);
   const {effect, variant, scene} = manifest;
-  const passes = manifest.passes.map(({name, sentence, formula, reads, writes}) => ({name, sentence, formula, reads, writes, cases: manifest.cases.filter(c => c.pass === name).length}));
+  const passes = manifest.passes.map(({name, sentence, formula}) => ({name, sentence, formula, cases: manifest.cases.filter(c => c.pass === name).length}));
   return {name, file: `${name}.tar.gz`, effect, variant, scene, passes};
 })
   // The plain pack of a variant before those with something special.

@@ -1,15 +1,49 @@
-// node scene_index.mjs SCENES: the scenes that came with rainref, as scenes/index.json says them to a page.
+// node scene_index.mjs RAINREF_MODULE.js SCENES [PICTURES]: what a page must know of the scenes that come with rainref, as scenes/index.json.
+// One that names files is opened with the library as the page does: where it is refused, it is listed with the reason.
 import fs from "node:fs";
+import {createRequire} from "node:module";
 import path from "node:path";
 
-const root = process.argv[2];
-const scenes = fs.readdirSync(root, {recursive: true}).filter(file => file.endsWith(".toml")).sort().map(file => {
-  const text = fs.readFileSync(path.join(root, file), "utf8");
-  const value = key => text.match(new RegExp(`^${key} = "(.*)"$`, "m"))?.[1];
-  // The first sentence of the comment that it begins with.
-  const comment = text.split("\n").slice(0, text.split("\n").findIndex(line => !line.startsWith("#"))).map(line => line.slice(1).trim()).join(" ");
-  const named = [...text.matchAll(/^[a-z_]+ = "(.*\.(?:csv|npy|png|exr))"$/gm)].map(match => path.join(path.dirname(file), match[1]));
-  return {file, effect: value("effect"), variant: value("variant"), sentence: comment.match(/^.*?\.(?= |$)/)?.[0] ?? comment,
-          traced: /^picture = "traced"$/m.test(text), files: named};
+const [modulePath, folder, pictures = ""] = process.argv.slice(2);
+const m = await createRequire(import.meta.url)(path.resolve(modulePath))();
+const all = fs.readdirSync(folder, {recursive: true}).filter(name => fs.statSync(path.join(folder, name)).isFile()).sort();
+for (const name of all) {
+  const to = path.join("/scenes", name);
+  m.FS.mkdirTree(path.dirname(to));
+  m.FS.writeFile(to, fs.readFileSync(path.join(folder, name)));
+}
+
+/// Why the library refuses the scene; null where it does not.
+function refusal(name, text) {
+  const set = m._malloc(4), options = m._malloc(20), out = m._malloc(4);
+  m.setValue(set, m.stringToNewUTF8("run.size=[64, 36]"), "i32");
+  [20, m.stringToNewUTF8(`/scenes/${name}`), set, 1, 1].forEach((value, k) => m.setValue(options + 4 * k, value, "i32"));
+  const result = m._rr_open(m.stringToNewUTF8(text), options, out);
+  if (result !== 0) return m.UTF8ToString(m._rr_error()).replaceAll("/scenes/", "");
+  m._rr_close(m.getValue(out, "i32"));
+  return null;
+}
+
+const scenes = all.filter(name => name.endsWith(".toml")).map(name => {
+  const text = fs.readFileSync(path.join(folder, name), "utf8"), value = key => new RegExp(`^${key} *= *"([^"]*)"`, "m").exec(text)?.[1];
+  // The comment at the beginning, up to where it gives commands.
+  const comment = /^(?:#.*\n)*/.exec(text)[0].split("\n").map(line => line.replace(/^# ?/, ""));
+  const commands = comment.findIndex(line => line.startsWith("  ")), words = comment.slice(0, commands < 0 ? undefined : commands).join(" ");
+  const sentence = words.match(/.*?[.:](?= |$)/)?.[0].replace(/:$/, ".") ?? words.trim();
+  const files = all.filter(other => !other.endsWith(".toml") && text.includes(path.relative(path.dirname(name), other)));
+  // Of the keys that it sets, those that make it what it is.
+  let section = "";
+  const keys = [];
+  for (const line of text.split("\n")) {
+    section = /^\[(\w+)\]/.exec(line)?.[1] ?? section;
+    const set = /^(\w+) *= *([^#\n]*)/.exec(line);
+    if (set && !["", "run", "camera", "composite", "scene"].includes(section)) keys.push(`${section}.${set[1]} = ${set[2].trim()}`);
+  }
+  const picture = `${name.replace(/\.toml$/, "").replaceAll("/", "_")}.jpg`, namesFile = /^[^#\n]*= *"[^"\n]*\.\w+"/m.test(text);
+  const error = namesFile ? refusal(name, text) : null;
+  return {
+    path: name, effect: value("effect"), variant: value("variant"), sentence, files, keys: keys.slice(0, 4),
+    ...(fs.existsSync(path.join(pictures, picture)) ? {picture: `gallery/${picture}`} : {}), ...(error === null ? {} : {error}),
+  };
 });
 process.stdout.write(JSON.stringify({scenes}, null, 1) + "\n");

@@ -28,12 +28,6 @@ export const structs = {
   rr_open_options: [["file", "text"], ["set", "pointer"], ["set_count", "size"], ["threads", "i32"]],
   rr_simulation_info: [["effect", "text"], ["variant", "text"], ["frame", "i32"], ["frames", "i32"], ["buffers", "size"], ["warnings", "size"],
                        ["scene_json", "text"]],
-  rr_case_info: [["id", "text"], ["effect", "text"], ["variant", "text"], ["pass", "text"], ["formula", "text"], ["frame", "i32"], ["step", "i32"],
-                 ["level", "i32"], ["time", "f32"], ["dt", "f32"], ["inputs", "size"], ["outputs", "size"]],
-  rr_sampling: [["filter", "text"], ["mip_filter", "text"], ["address_u", "text"], ["address_v", "text"], ["border", "f32*4"]],
-  rr_layout_info: [["name", "text"], ["bytes", "size"], ["members", "size"]],
-  rr_member: [["name", "text"], ["unit", "text"], ["sentence", "text"], ["type", "i32"], ["components", "i32"], ["offset", "size"], ["low", "f64"],
-              ["high", "f64"]],
   rr_verdict: [["status", "text"], ["reason", "text"], ["first_bad_pass", "text"], ["profile", "text"], ["passes", "size"]],
 };
 

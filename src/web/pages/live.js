@@ -1,242 +1,297 @@
-// The live page: a scene in the worker, its picture, hashes and parameters.
-import {Cancelled, Engine} from "./engine.js";
-import {brightness, difference, draw, passesOf, runPort, spread} from "./live_compare.js";
-import {showGallery} from "./live_gallery.js";
-import {showParameters} from "./live_parameters.js";
-import {sceneText, tomlValue} from "./live_toml.js";
+// The live page: a scene that the reference simulates, what changes it, and the lines that the native program prints for the same frame.
+// live.html?scene=puddle/default.toml&size=640x360 opens that.
+import {Comparison} from "./live_compare.js";
+import {LiveRun} from "./live_run.js";
+import {Parameters} from "./parameters.js";
+import {shownGallery} from "./live_gallery.js";
+import {tomlOf} from "./scene_values.js";
 
-const at = id => document.getElementById(id);
-const engine = new Engine("live_operations.js");
-const sizes = [[320, 180], [480, 270], [640, 360], [960, 540], [1280, 720]];
-const slowest = 250;  // [ms] of a frame, above which the picture that the page chose becomes smaller
+const part = id => document.getElementById(id);
+const option = (text, value = text) => Object.assign(document.createElement("option"), {textContent: text, value});
+const fileSizes = ["1280x720", "960x540", "640x360", "480x270", "320x180", "160x90"];
 
-let effects = {};
-let scenes = [];
-// What is open: the scene's text and name, keys with the values that win over it, and what the library says of it.
-let open = null;
-let playing = false;
-let busy = Promise.resolve();
+const run = new LiveRun(), parameters = new Parameters(part("parameters"), changeParameter);
+let shipped = [], playing = false, shownTimes = [], stopped = Promise.resolve();
 
-/// One call of the worker after the other; what is asked for twice is done twice.
-function inTurn(action) {
-  const done = busy.then(action);
-  busy = done.catch(() => {});
-  return done;
+function showError(id, error) {
+  part(id).textContent = error?.message ?? "";
+  part(id).hidden = !error;
 }
-function tell(text) { at("status").textContent = text; }
-function complain(error) {
-  if (error instanceof Cancelled) return;
-  at("problem").textContent = error.message;
-  at("problem").hidden = false;
-  tell("");
-  pause();
+function setBusy(text) {
+  part("busy").textContent = text;
+  part("busy").hidden = text === "";
 }
-
-/// Opens a scene anew, at frame 0. `chosen`: [width, height], or null for what this machine affords.
-async function start({toml, file, named = [], overrides = new Map()}, chosen) {
-  at("problem").hidden = true;
-  tell("Opening. What lies around the rain is made once, which takes some seconds.");
-  const size = chosen ?? sizes[2], files = {};
-  for (const path of named) {
-    const answer = await fetch(`scenes/${path}`);
-    if (!answer.ok) throw new Error(`scenes/${path}: ${answer.status} ${answer.statusText}`);
-    files[path] = new Uint8Array(await answer.arrayBuffer());
+/// What takes long enough to be noticed says so; a frame that comes at once does not flicker.
+async function whileBusy(text, work, delay = 250) {
+  const timer = setTimeout(() => setBusy(text), delay);
+  try {
+    return await work();
+  } finally {
+    clearTimeout(timer);
+    setBusy("");
   }
-  const set = [`run.size=[${size.join(", ")}]`, ...[...overrides].map(([key, value]) => `${key}=${value}`)];
-  const info = await engine.run("open", {toml, file, files, set});
-  open = {toml, file, named, overrides, chosen, size, info, began: open?.file === file && open?.toml === toml ? open.began : info.scene, changed: false};
-  at("canvas").style.aspectRatio = size.join(" / ");
-  parameters();
-  await passes();
-  await next();
-  tell(info.warnings.join(" "));
-  if (chosen) return;
-  // What one frame costs, without what the first one makes.
-  const {milliseconds} = await next();
-  const affordable = sizes.filter(([w, h]) => milliseconds * w * h / (size[0] * size[1]) <= slowest).pop() ?? sizes[0];
-  if (affordable[0] >= size[0]) return;
-  await start({toml, file, named, overrides}, affordable);
-  open.chosen = null;
-  tell(`A smaller picture: one of ${size.join(" x ")} takes this machine ${(milliseconds / 1000).toFixed(1)} s a frame.`);
 }
 
-function parameters() {
-  showParameters(at("parameters"), effects[open.info.effect].parameters, open.info.scene, open.began, {
-    change: (key, value) => inTurn(async () => {
-      open.info = await engine.run("set", {key, value});
-      open.overrides.set(key, value);
-      open.changed = true;
-      tell("From the next frame on.");
-    }),
-    restart: (key, value) => again(new Map([...open.overrides, [key, value]])),
-  });
-}
-async function passes() {
-  const found = navigator.gpu ? await passesOf(open.info.effect, open.info.variant) : [];
-  open.passes = found;
-  at("pass").replaceChildren(...found.map(pass => new Option(pass.name)));
-  // First what gives the radiance that is displayed.
-  if (found.length > 0) at("pass").selectedIndex = Math.max(0, found.findLastIndex(pass => pass.usual && pass.writes.includes("colour")));
-  at("run_pass").disabled = found.length === 0;
-  at("trio").hidden = true;
-  at("compared").textContent = navigator.gpu ? "" : "This browser has no WebGPU. All else on this page needs none.";
-}
-/// The same scene from frame 0, with other values; the old one stays where they are refused.
-const again = overrides => inTurn(() => start({...open, overrides}, open.chosen ?? open.size)).catch(complain);
+// ---- frames ----
 
-function show({frame, width, height, rgba, milliseconds, lines}) {
-  const canvas = at("canvas");
+function showPicture({width, height, picture}) {
+  const canvas = part("picture");
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
-  canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(rgba), width, height), 0, 0);
-  at("clock").textContent = `frame ${frame}   ${milliseconds < 100 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
-  at("hash").textContent = lines.length > 0 ? lines[lines.length - 1].split(" ").pop() : "not taken while a pass is compared";
-  at("lines").textContent = lines.join("\n");
-  at("command").textContent = command(frame);
-  Object.assign(document.body.dataset, {frame, hash: at("hash").textContent});
+  canvas.getContext("2d").putImageData(new ImageData(picture, width, height), 0, 0);
 }
-/// What prints the lines of this frame at a prompt, as its last ones.
-function command(frame) {
-  if (open.changed) return "A parameter was changed on the way: Reset begins with it, and then a command gives the same.";
-  const quoted = text => /^[\w.=\/+-]+$/.test(text) ? text : `'${text}'`;
-  const set = [...open.overrides].map(([key, value]) => ` --set ${quoted(`${key}=${value}`)}`).join("");
-  return `rainref hash ${quoted(open.file)} --size ${open.size.join("x")} --frames ${frame + 1}${set}`;
+function showFrame(shown) {
+  showPicture(shown);
+  const [width, height] = run.pictureSize;
+  const perSecond = Math.min(1000 / shown.milliseconds, framesPerSecond());
+  const rate = playing && shownTimes.length > 2 ? `, ${perSecond.toFixed(perSecond < 10 ? 1 : 0)} frames a second` : "";
+  part("state").textContent = `frame ${run.frame}, ${width} x ${height}, ${shown.milliseconds.toFixed(0)} ms${rate}`;
+  const hasLines = shown.lines !== undefined;
+  part("no-hashes").hidden = hasLines;
+  part("no-hashes").textContent = hasLines ? "" : "This frame's buffers went to the port and were not hashed. The next step has its lines again.";
+  const rows = (shown.lines ?? []).map(line => {
+    const row = document.createElement("tr"), [, ...cells] = line.split(" ");
+    row.append(...cells.map(text => Object.assign(document.createElement("td"), {textContent: text})));
+    return row;
+  });
+  part("hashes").tBodies[0].replaceChildren(...rows);
+  showCommand();
 }
-async function next() {
-  const done = await engine.run("frame");
-  show(done);
-  return done;
+function showCommand() {
+  part("command").textContent = run.command();
+  part("changed").hidden = !run.changedLate;
+}
+/// Of the last frames shown.
+function framesPerSecond() {
+  const span = shownTimes[shownTimes.length - 1] - shownTimes[0];
+  return span > 0 ? 1000 * (shownTimes.length - 1) / span : Infinity;
 }
 
-function pause() {
-  playing = false;
-  at("play").textContent = "Play";
+async function step() {
+  showError("run-error", null);
+  try {
+    const shown = await whileBusy("Computing a frame…", () => run.step());
+    shownTimes = [...shownTimes.slice(-19), performance.now()];
+    showFrame(shown);
+    return true;
+  } catch (error) {
+    if (error.name !== "Cancelled") showError("run-error", error);
+    return false;
+  }
 }
 async function play() {
-  if (playing) return pause();
-  playing = true;
-  at("play").textContent = "Pause";
-  tell("");
-  const times = [];
+  shownTimes = [];
+  const fps = Number(run.values.get("run.fps") ?? 60);
   while (playing) {
-    await new Promise(requestAnimationFrame);
-    try {
-      const {milliseconds} = await inTurn(next);
-      times.push(milliseconds);
-      if (times.length > 30) times.shift();
-      at("clock").textContent += `   ${(1000 * times.length / times.reduce((a, b) => a + b)).toFixed(1)} frames/s`;
-    } catch (error) {
-      complain(error);
-    }
+    const begin = performance.now();
+    if (!await step()) break;
+    // A scene is not shown faster than it is meant.
+    const left = 1000 / fps - (performance.now() - begin);
+    await new Promise(done => left > 4 ? setTimeout(done, left) : requestAnimationFrame(done));
   }
+  setPlaying(false);
 }
-const step = () => { pause(); inTurn(next).catch(complain); };
-const reset = () => { pause(); again(open.overrides); };
-
-function choose(scene) {
-  pause();
-  at("scene").value = scene.file;
-  inTurn(async () => {
-    const answer = await fetch(`scenes/${scene.file}`);
-    if (!answer.ok) throw new Error(`scenes/${scene.file}: ${answer.status} ${answer.statusText}`);
-    await start({toml: await answer.text(), file: scene.file, named: scene.files}, chosenSize());
-    history.replaceState(null, "", `#${scene.file}`);
-  }).catch(complain);
-}
-const chosenSize = () => sizes[at("size").selectedIndex - 1] ?? null;
-
-async function openFile(file) {
-  pause();
-  const toml = await file.text();
-  inTurn(async () => {
-    await start({toml, file: file.name}, chosenSize());
-    at("scene").selectedIndex = -1;
-    history.replaceState(null, "", location.pathname);
-  }).catch(complain);
-}
-function save() {
-  const text = sceneText(open.info.scene, effects[open.info.effect].parameters), link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], {type: "application/toml"}));
-  link.download = open.file.split("/").pop();
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+function setPlaying(now) {
+  if (now === playing) return;
+  playing = now;
+  part("play").textContent = now ? "Pause" : "Play";
+  part("step").disabled = now;
+  if (now) stopped = play();
 }
 
-async function compare() {
-  pause();
-  const pass = open.passes[at("pass").selectedIndex];
-  at("run_pass").disabled = true;
+// ---- scenes ----
+
+/// Opens a scene and shows frame 0, in place of what runs; false where it is refused, which is said.
+async function open(scene, options) {
+  setPlaying(false);
+  showError("scene-error", null);
+  const effect = run.info?.effect, variant = run.info?.variant, isFirst = run.info === null;
   try {
-    const done = await inTurn(() => engine.run("frameWithCase", {pass: pass.name}));
-    show(done);
-    if (!done.given) {
-      at("compared").textContent = `${pass.name} does not run in this frame.`;
-      at("trio").hidden = true;
-      return;
-    }
-    const ran = await runPort(open.info.effect, pass, done.given);
-    const chosen = at("output").value;
-    at("output").replaceChildren(...ran.outputs.map(output => new Option(output.name)));
-    if (ran.outputs.some(output => output.name === chosen)) at("output").value = chosen;
-    open.ran = ran;
-    showCompared();
+    await whileBusy("Opening the scene…", () => run.open(scene, options), 100);
   } catch (error) {
-    at("compared").textContent = error.message;
-    at("trio").hidden = true;
-  } finally {
-    at("run_pass").disabled = false;
+    showError("scene-error", error);
+    return false;
+  }
+  await stopped;
+  part("state").textContent = "";
+  const {description} = run;
+  if (isFirst || effect !== run.info.effect || variant !== run.info.variant) {
+    part("variant").replaceChildren(...description.variants.map(name => option(name)));
+    const passes = description.passes.filter(pass => pass.variants.includes(run.info.variant) && pass.judge !== "input_only");
+    part("pass").replaceChildren(...passes.map(pass => option(pass.name)));
+    part("pass").value = passes[passes.length - 1].name;
+    parameters.build(description, run.values, run.info.variant);
+    parameters.find(part("find").value);
+  }
+  parameters.update(run.values);
+  part("variant").value = run.info.variant;
+  part("size").value = run.size;
+  part("text").value = scene.text;
+  const known = shipped.find(s => s.path === scene.path);
+  part("scene").value = known?.path ?? "";
+  part("about").textContent = known?.sentence ?? `${scene.file}: a scene of yours.`;
+  part("warnings").replaceChildren(...run.info.warnings.map(text => Object.assign(document.createElement("li"), {textContent: text})));
+  part("warnings").hidden = run.info.warnings.length === 0;
+  for (const id of ["scene", "variant", "save", "play", "step", "reset"]) part(id).disabled = false;
+  comparison.ready();
+  const address = new URL(location);
+  address.search = known ? new URLSearchParams({scene: known.path, ...(run.size === "automatic" ? {} : {size: run.size})}) : "";
+  history.replaceState(null, "", address);
+  await step();
+  return true;
+}
+async function fetched(path, kind) {
+  const answer = await fetch(path);
+  if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
+  return answer[kind]();
+}
+/// Opens a scene that came with rainref, by its path in scenes/.
+async function openShipped(path, options) {
+  const entry = shipped.find(s => s.path === path);
+  try {
+    if (!entry) throw new Error(`no scene ${path}; there are ${shipped.map(s => s.path).join(", ")}`);
+    const files = await Promise.all(entry.files.map(async name => ({path: `scenes/${name}`, bytes: new Uint8Array(await fetched(`scenes/${name}`, "arrayBuffer"))})));
+    return await open({path, file: `scenes/${path}`, text: await fetched(`scenes/${path}`, "text"), files}, options);
+  } catch (error) {
+    showError("scene-error", error);
+    return false;
   }
 }
-function showCompared() {
-  const {ran} = open ?? {}, output = ran?.outputs[at("output").selectedIndex];
-  at("trio").hidden = !output;
-  if (!output) {
-    if (ran) at("compared").textContent = "This pass gives lists alone: the judge page compares those.";
+/// A scene and the files that it names, as they were chosen or dropped.
+async function openFiles(list) {
+  const all = [...list], scene = all.find(file => /\.toml$/i.test(file.name));
+  if (!scene) return showError("scene-error", new Error(`${all.map(f => f.name).join(", ")}: expected a scene (.toml), and files that it names beside it`));
+  const files = await Promise.all(all.filter(f => f !== scene).map(async f => ({path: f.name, bytes: new Uint8Array(await f.arrayBuffer())})));
+  await open({file: scene.name, text: await scene.text(), files});
+}
+async function changeVariant(variant) {
+  const {scene} = run, {effect} = run.info, sets = new Map([...run.sets, ["variant", JSON.stringify(variant)]]);
+  if (await open(scene, {sets})) return;
+  // Most scenes say keys that one variant alone has.
+  const path = `${effect}/${variant === "corrected" ? "default" : "as_published"}.toml`;
+  if (await openShipped(path)) part("about").textContent = `${scene.file} says keys that ${variant} does not have, so this is ${path}: ${part("about").textContent}`;
+  else part("variant").value = run.info.variant;
+}
+
+// ---- parameters ----
+
+const waiting = new Map();  // key to the newest value, while an older one is on its way
+async function changeParameter(key, toml) {
+  if (waiting.has(key)) {
+    waiting.set(key, toml);
     return;
   }
-  const {texels, differ, most} = difference(output), gain = at("gain").value, scale = output.format.type === "|u1" ? 1 : brightness(output.expected);
-  at("compared").textContent = `${ran.device}, ${ran.milliseconds.toFixed(0)} ms with uploads: ${differ} of ${texels} texels differ, by ${most.toPrecision(3)} at most. ` +
-      "Which differences a correct GPU may have, the judge page says.";
-  // Radiance spans more than a screen shows: its root does not.
-  const shade = output.format.type === "|u1" ? v => v : v => Math.sqrt(Math.abs(v));
-  draw(at("expected"), output, output.expected, v => shade(v * scale));
-  draw(at("given"), output, output.given, v => shade(v * scale));
-  const distances = output.expected.map((v, i) => Math.abs(v - output.given[i]));
-  if (gain === "any") draw(at("difference"), {...output, format: {channels: 1}}, spread(output, distances), v => v);
-  else draw(at("difference"), output, distances, v => v * scale * Number(gain));
+  waiting.set(key, toml);
+  try {
+    for (let value = null; value !== waiting.get(key);) {
+      value = waiting.get(key);
+      await run.set(key, value);
+    }
+    showCommand();
+    parameters.update(run.values);
+  } catch (error) {
+    const value = waiting.get(key);
+    error.restart = async () => {
+      setPlaying(false);
+      part("state").textContent = "";
+      await run.restartWith(key, value);
+      parameters.update(run.values);
+      await step();
+    };
+    throw error;
+  } finally {
+    waiting.delete(key);
+  }
 }
 
-at("play").onclick = play;
-at("step").onclick = step;
-at("reset").onclick = reset;
-at("save").onclick = save;
-at("run_pass").onclick = compare;
-at("output").onchange = at("gain").onchange = showCompared;
-at("scene").onchange = () => choose(scenes.find(scene => scene.file === at("scene").value));
-at("size").onchange = () => { pause(); inTurn(() => start({...open}, chosenSize())).catch(complain); };
-at("file").onchange = ({target}) => { if (target.files[0]) openFile(target.files[0]); target.value = ""; };
-at("choose").onsubmit = event => event.preventDefault();
-document.addEventListener("dragover", event => event.preventDefault());
-document.addEventListener("drop", event => {
-  event.preventDefault();
-  if (event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
+// ---- the page ----
+
+const comparison = new Comparison(run, {
+  before: () => setPlaying(false),
+  shown: shown => {
+    shownTimes = [];
+    showFrame(shown);
+  },
 });
+
+async function reset() {
+  setPlaying(false);
+  showError("run-error", null);
+  part("state").textContent = "";
+  try {
+    await whileBusy("Starting again…", () => run.reset(), 100);
+  } catch (error) {
+    return showError("run-error", error);
+  }
+  await stopped;
+  await step();
+}
+part("play").onclick = () => setPlaying(!playing);
+part("step").onclick = () => step();
+part("reset").onclick = () => reset();
 document.addEventListener("keydown", event => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, button, summary, a")) return;
-  const action = {" ": play, ".": step, r: reset}[event.key];
-  if (!action || !open) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, summary, [contenteditable]")) return;
+  const button = {" ": "play", ".": "step", r: "reset", R: "reset"}[event.key];
+  if (!button || (event.key === " " && event.target.closest("button, a"))) return;
   event.preventDefault();
-  action();
+  if (!part(button).disabled) part(button).click();
+});
+part("scene").onchange = () => openShipped(part("scene").value);
+part("variant").onchange = () => changeVariant(part("variant").value);
+part("size").onchange = () => open(run.scene, {sets: run.sets, size: part("size").value});
+part("choose").onclick = () => part("files").click();
+part("files").onchange = () => openFiles(part("files").files).then(() => { part("files").value = ""; });
+part("open-text").onclick = () => open({...run.scene, path: null, text: part("text").value});
+part("find").oninput = () => parameters.find(part("find").value);
+part("save").onclick = () => {
+  const link = document.createElement("a"), address = URL.createObjectURL(new Blob([tomlOf(run.values, run.description)], {type: "application/toml"}));
+  Object.assign(link, {href: address, download: `${run.info.effect}.toml`});
+  link.click();
+  URL.revokeObjectURL(address);
+};
+part("copy").onclick = async () => {
+  try {
+    await navigator.clipboard.writeText(part("command").textContent);
+    part("copied").textContent = "copied";
+  } catch {
+    getSelection().selectAllChildren(part("command"));
+    part("copied").textContent = "selected: this browser leaves copying to you";
+  }
+};
+addEventListener("dragover", event => event.preventDefault());
+addEventListener("drop", event => {
+  event.preventDefault();
+  if (event.dataTransfer.files.length > 0) openFiles(event.dataTransfer.files);
 });
 
-async function begin() {
-  at("size").replaceChildren(new Option("what this machine affords"), ...sizes.map(size => new Option(size.join(" x "))));
-  const answer = await fetch("scenes/index.json");
-  if (!answer.ok) throw new Error(`scenes/index.json: ${answer.status} ${answer.statusText}`);
-  ({scenes} = await answer.json());
-  at("scene").replaceChildren(...scenes.map(({file, traced}) => new Option(traced ? `${file} (traced: slow here)` : file, file)));
-  showGallery(at("gallery"), scenes, scene => { choose(scene); scrollTo({top: 0}); });
-  effects = await engine.run("describe");
-  const wanted = decodeURIComponent(location.hash.slice(1));
-  choose(scenes.find(scene => scene.file === wanted) ?? scenes.find(scene => scene.file === "puddle/default.toml"));
+/// By effect; what cannot run here is named as such.
+function showSceneList() {
+  const groups = new Map();
+  for (const {path, effect, error} of shipped) {
+    if (!groups.has(effect)) groups.set(effect, Object.assign(document.createElement("optgroup"), {label: effect.replaceAll("_", " ")}));
+    const entry = option(error ? `${path} (not here: ${error})` : path, path);
+    entry.disabled = Boolean(error);
+    groups.get(effect).append(entry);
+  }
+  part("scene").replaceChildren(Object.assign(option("a scene of yours", ""), {hidden: true}), ...groups.values());
 }
-begin().catch(complain);
+async function start() {
+  part("size").append(option("automatic"), ...fileSizes.map(size => option(size.replace("x", " x "), size)), option("as the scene says", "scene"));
+  const wanted = new URLSearchParams(location.search);
+  try {
+    const [index] = await Promise.all([fetched("scenes/index.json", "json"), run.start()]);
+    shipped = index.scenes;
+  } catch (error) {
+    setBusy("");
+    return showError("run-error", error);
+  }
+  showSceneList();
+  shownGallery(part("gallery"), shipped, path => {
+    openShipped(path);
+    part("scene-title").scrollIntoView();
+  });
+  const size = wanted.get("size") ?? "automatic";
+  if (![...part("size").options].some(o => o.value === size)) part("size").append(option(size));
+  for (const id of ["scene"]) part(id).disabled = false;
+  await openShipped(wanted.get("scene") ?? "puddle/default.toml", {size});
+}
+start();

@@ -1,107 +1,132 @@
-// The example port of a pass on this GPU beside the reference, in the same frame.
-import {runCase, filesOf, requestDevice} from "./ports/port.js";
+// A port of a pass beside the reference: the example program on this device's GPU with the inputs of the frame that the reference computes next.
+import {requestDevice, runCase} from "./ports/port.js";
 import {shaderOf} from "./ports/run_pack.js";
-import {npyData} from "./ports/npy.js";
-import {formatOf, texelBytes} from "./ports/formats.js";
+import {channelsOf, differenceOf, differingOf, pixelsOf} from "./texels.js";
 
-let gpu = null;
-const json = async path => {
-  const answer = await fetch(path);
-  if (!answer.ok) throw new Error(`${path}: ${answer.status} ${answer.statusText}`);
-  return answer.json();
+const part = id => document.getElementById(id);
+
+export class Comparison {
+  #run;
+  #hooks;
+  #device = null;
+  #programs = new Map();  // effect to its programs.json
+  #outcome = null;        // {entry, outputs} of the last case
+
+  /// hooks: before() is called first, shown(frame) with the frame's picture.
+  constructor(run, hooks) {
+    this.#run = run;
+    this.#hooks = hooks;
+    if (!navigator.gpu) this.#without("This browser gives no WebGPU. The simulation above needs none.");
+    part("compare").onclick = () => this.#compare();
+    part("gain").oninput = () => this.#draw();
+    part("output").onchange = () => this.#draw();
+    part("pass").onchange = () => this.#clear();
+  }
+  /// A scene is open.
+  ready() {
+    part("compare").disabled = !navigator.gpu;
+    this.#clear();
+  }
+  #clear() {
+    part("comparison").hidden = true;
+    this.#say(null);
+  }
+  #without(text) {
+    part("no-gpu").textContent = text;
+    part("no-gpu").hidden = false;
+  }
+  #say(error) {
+    part("compare-error").textContent = error?.message ?? "";
+    part("compare-error").hidden = !error;
+  }
+
+  async #compare() {
+    const button = part("compare"), pass = part("pass").value, profile = part("profile").value;
+    this.#hooks.before();
+    this.#say(null);
+    button.disabled = true;
+    try {
+      this.#device ??= await requestDevice(navigator.gpu);
+      this.#device.device.lost.then(() => { this.#device = null; });
+      const frame = await this.#run.step(pass), {cases} = frame;
+      this.#hooks.shown(frame);
+      if (cases.length === 0) throw new Error(`${pass} does not run in frame ${this.#run.frame}`);
+      const given = [];
+      for (const entry of cases) given.push(await this.#runPort(entry));
+      this.#show(cases, await this.#run.judge(profile, given), profile);
+    } catch (error) {
+      part("comparison").hidden = true;
+      if (error.name !== "Cancelled") this.#say(error);
+    } finally {
+      button.disabled = false;
+    }
+  }
+  async #runPort({oneCase, records, files}) {
+    const {effect} = this.#run.info, description = {reads: oneCase.inputs.map(b => b.name), writes: oneCase.outputs.map(b => b.name), ...this.#passOf(oneCase.pass)};
+    if (!this.#programs.has(effect)) this.#programs.set(effect, JSON.parse(new TextDecoder().decode(await readPort(`${effect}/programs.json`))).programs);
+    const names = this.#programs.get(effect)[oneCase.formula];
+    if (!names) throw new Error(`no example port of ${oneCase.formula}`);
+    const manifest = {passes: [{name: oneCase.pass, ...description}], records};
+    return runCase(this.#device.device, manifest, oneCase, files, await shaderOf(names, effect, readPort));
+  }
+  /// The bindings' order is that of rr_describe.
+  #passOf(name) {
+    const {reads, writes} = this.#run.description.passes.find(pass => pass.name === name);
+    return {reads, writes};
+  }
+
+  #show(cases, verdict, profile) {
+    const last = cases.length - 1;
+    this.#outcome = {entry: cases[last], outputs: verdict.outputs[last]};
+    part("verdict").textContent = verdict.status;
+    part("verdict").dataset.status = verdict.status;
+    const count = (number, one, many) => `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
+    let texels = 0, differing = 0;
+    cases.forEach(({expected}, k) => expected.forEach(({elementBytes, bytes}, output) => {
+      texels += Math.max(bytes.length, verdict.outputs[k][output].length) / elementBytes;
+      differing += differingOf(bytes, verdict.outputs[k][output], elementBytes);
+    }));
+    part("counts").textContent = `under ${profile}, frame ${this.#run.frame}, ${count(cases.length, "run", "runs")} of the pass: `
+      + `${count(differing, "texel or record differs", "texels or records differ")} in bits of ${texels.toLocaleString("en")}, `
+      + `${count(verdict.outside, "channel is", "channels are")} outside what the profile allows.${verdict.reason ? ` ${verdict.reason}` : ""}`;
+    const images = this.#outcome.entry.oneCase.outputs.filter(buffer => buffer.format !== "records");
+    part("output").replaceChildren(...images.map(({name}) => Object.assign(document.createElement("option"), {textContent: name})));
+    part("output-label").hidden = images.length < 2;
+    document.querySelector(".three").hidden = images.length === 0;
+    part("comparison").hidden = false;
+    this.#draw();
+  }
+  #draw() {
+    const gain = 2 ** Number(part("gain").value);
+    part("gain-value").textContent = gain.toLocaleString("en");
+    const name = part("output").value;
+    if (!this.#outcome || !name) return;
+    const {entry, outputs} = this.#outcome, k = entry.oneCase.outputs.findIndex(buffer => buffer.name === name);
+    const {width, height} = entry.oneCase.outputs[k], {type, channels, bytes} = entry.expected[k];
+    const expected = channelsOf(bytes, type), given = channelsOf(outputs[k], type);
+    const show = (id, pixels) => {
+      const canvas = part(id);
+      Object.assign(canvas, {width, height});
+      canvas.getContext("2d").putImageData(new ImageData(pixels, width, height), 0, 0);
+    };
+    // Display code is shown as it is; other buffers from their least to their greatest value.
+    const range = type <= 2 ? [0, 1] : rangeOf(expected);
+    show("expected", pixelsOf(expected, channels, width, height, range));
+    show("given", pixelsOf(given, channels, width, height, range));
+    show("difference", differenceOf(expected, given, channels, width, height, gain / (range[1] - range[0] || 1)));
+  }
+}
+
+function rangeOf(values) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high && value !== Infinity) high = value;
+  }
+  return [low, high];
+}
+const readPort = async path => {
+  const answer = await fetch(`ports/${path}`);
+  if (!answer.ok) throw new Error(`ports/${path}: ${answer.status} ${answer.statusText}`);
+  return new Uint8Array(await answer.arrayBuffer());
 };
-
-/// The passes of a variant that have a port: [{name, sentence, formula, reads, writes, usual}], in their order; not `usual` are those that only
-/// special scenes run.
-export async function passesOf(effect, variant) {
-  const [{packs}, {programs}] = await Promise.all([json("packs/index.json"), json(`ports/${effect}/programs.json`)]), found = new Map();
-  for (const pack of packs.filter(p => p.effect === effect && p.variant === variant))
-    for (const pass of pack.passes) if (programs[pass.formula] && !found.has(pass.name)) 
-        found.set(pass.name, {...pass, program: programs[pass.formula], usual: pack.name === `${effect}-${variant}`});
-  return [...found.values()];
-}
-
-/// Runs the port of `pass` on a case (live_cases.js). Gives {device, milliseconds, outputs: [{name, format, width, height, expected, given}]} with
-/// the numbers of images, row 0 the bottom one; lists are left out.
-export async function runPort(effect, pass, given) {
-  gpu ??= await requestDevice(navigator.gpu);
-  const manifest = {effect, passes: [pass], records: given.records};
-  const shader = await shaderOf(pass.program, effect, async path => {
-    const answer = await fetch(`ports/${path}`);
-    if (!answer.ok) throw new Error(`ports/${path}: ${answer.status} ${answer.statusText}`);
-    return new Uint8Array(await answer.arrayBuffer());
-  });
-  const files = Object.fromEntries(filesOf(given.case).map(file => [file, given.files[file]])), begin = performance.now();
-  const done = await runCase(gpu.device, manifest, given.case, files, shader), milliseconds = performance.now() - begin, outputs = [];
-  for (const output of given.case.outputs) {
-    if (output.format === "records") continue;
-    const format = formatOf(output), {file, name, width, height} = output;
-    const data = npyData(done.find(d => d.file === file).bytes, width * height * texelBytes(format), file);
-    outputs.push({name, format, width, height, expected: numbers(format, given.expected[name]), given: numbers(format, data)});
-  }
-  return {device: gpu.name, milliseconds, outputs};
-}
-
-/// The numbers that an image's bytes stand for; codes of 8 bits in [0, 1].
-function numbers(format, bytes) {
-  const whole = bytes.slice();  // aligned
-  if (format.type === "|u1") return Float32Array.from(whole, code => code / 255);
-  if (format.type === "<f4") return new Float32Array(whole.buffer);
-  if (format.type === "<u4") return Float32Array.from(new Uint32Array(whole.buffer));
-  return Float32Array.from(new Uint16Array(whole.buffer), half);
-}
-function half(bits) {
-  const sign = bits & 0x8000 ? -1 : 1, exponent = bits >> 10 & 31, fraction = bits & 1023;
-  if (exponent === 0) return sign * fraction * 2 ** -24;
-  if (exponent === 31) return fraction ? NaN : sign * Infinity;
-  return sign * (1024 + fraction) * 2 ** (exponent - 25);
-}
-
-/// {texels, differ, most}: how many there are, how many have another value in some channel, and the largest distance of two numbers.
-export function difference({format, width, height, expected, given}) {
-  let differ = 0, most = 0;
-  for (let i = 0; i < width * height; ++i) {
-    let other = false;
-    for (let c = 0; c < format.channels; ++c) {
-      const a = expected[i * format.channels + c], b = given[i * format.channels + c];
-      if (Object.is(a, b) || a === b) continue;
-      other = true;
-      most = Math.max(most, Math.abs(a - b));
-    }
-    differ += other;
-  }
-  return {texels: width * height, differ, most};
-}
-
-/// Draws numbers: one channel as grey, two as red and green; shade(number) is 1 where the screen is brightest.
-export function draw(canvas, {format, width, height}, values, shade) {
-  canvas.width = width;
-  canvas.height = height;
-  const image = new ImageData(width, height), channels = format.channels;
-  for (let y = 0; y < height; ++y) {
-    for (let x = 0; x < width; ++x) {
-      const from = (y * width + x) * channels, to = 4 * ((height - 1 - y) * width + x);
-      for (let c = 0; c < 3; ++c) image.data[to + c] = channels === 1 ? 255 * shade(values[from]) : c < channels ? 255 * shade(values[from + c]) : 0;
-      image.data[to + 3] = 255;
-    }
-  }
-  canvas.getContext("2d").putImageData(image, 0, 0);
-}
-/// 1 at every texel with a distance other than 0 and at those around it, so that a single one is seen.
-export function spread({format, width, height}, distances) {
-  const shown = new Float32Array(width * height);
-  for (let y = 0; y < height; ++y) {
-    for (let x = 0; x < width; ++x) {
-      const first = (y * width + x) * format.channels;
-      if (!distances.subarray(first, first + format.channels).some(d => d !== 0)) continue;
-      for (let j = Math.max(0, y - 1); j <= Math.min(height - 1, y + 1); ++j)
-        for (let i = Math.max(0, x - 1); i <= Math.min(width - 1, x + 1); ++i) shown[j * width + i] = 1;
-    }
-  }
-  return shown;
-}
-/// What brings all but the largest 200th of the numbers below 1.
-export function brightness(values) {
-  const sizes = values.filter(Number.isFinite).map(Math.abs).sort();
-  return 1 / (sizes[Math.floor(0.995 * (sizes.length - 1))] || sizes[sizes.length - 1] || 1);
-}

@@ -1,75 +1,97 @@
-// What the live page asks of the library, in the worker (engine.js): one simulation at a time, and the cases of a pass for the GPU.
-import {caseOf} from "./live_cases.js";
+// What the live page asks of the library: a scene that runs, its picture, its lines of hashes, and cases of a pass for a port. engine.js says
+// how these are called. Names and bytes only: the page draws, and runs ports.
+import {structs} from "./c_library.js";
+import {addCases, judgeCases} from "./live_cases.js";
+
+Object.assign(structs, {
+  rr_case_info: [["id", "text"], ["effect", "text"], ["variant", "text"], ["pass", "text"], ["formula", "text"], ["frame", "i32"], ["step", "i32"],
+                 ["level", "i32"], ["time", "f32"], ["dt", "f32"], ["inputs", "size"], ["outputs", "size"]],
+  rr_sampling: [["filter", "text"], ["mip_filter", "text"], ["address_u", "text"], ["address_v", "text"], ["border", "f32*4"]],
+  rr_layout_info: [["name", "text"], ["bytes", "size"], ["members", "size"]],
+  rr_member: [["name", "text"], ["unit", "text"], ["sentence", "text"], ["type", "i32"], ["components", "i32"], ["offset", "size"], ["low", "f64"],
+              ["high", "f64"]],
+  rr_judge_options: [["profile", "text"], ["port", "text"], ["half", "text"], ["threads", "i32"]],
+  rr_pass_verdict: [["pass", "text"], ["formula", "text"], ["status", "text"], ["reason", "text"], ["where", "text"], ["cases", "i64"],
+                    ["elements", "i64"], ["outside", "i64"], ["differing", "i64"], ["vacuous", "i64"], ["causes", "size"], ["worst", "size"]],
+});
 
 let simulation = 0;
+const opened = library => {
+  if (simulation === 0) throw new Error("no scene is open");
+  return simulation;
+};
 
-/// What `rainref describe EFFECT --json` prints, of every effect: {effect: object}.
+/// {effects: [what rr_describe says of each], version, generation}.
 export function describe(library) {
-  const effects = {};
-  for (let i = 0, pointer; (pointer = library.value("rr_effect_name", i)) !== 0; ++i) {
-    const effect = library.text(pointer);
-    effects[effect] = JSON.parse(library.text(library.out("rr_describe", effect)));
-  }
-  return effects;
+  const effects = [];
+  for (let k = 0, name; (name = library.text(library.value("rr_effect_name", k))) !== null; ++k)
+    effects.push(JSON.parse(library.text(library.out("rr_describe", name))));
+  return {effects, version: library.text(library.value("rr_version")), generation: library.value("rr_golden_generation")};
 }
 
-/// Opens the text of a scene in place of the one that was open; that one stays where the new one is refused. `file`: what errors call it,
-/// in whose folder the files of `files` ({path: bytes}) lie that it names. `set`: ["key=value"], which win over the text.
-export function open(library, {toml, file = "scene.toml", files = {}, set = []}) {
-  const fs = library.module.FS, folder = "/scene/" + file.split("/").slice(0, -1).join("/");
-  for (const [path, bytes] of Object.entries(files)) {
-    const to = "/scene/" + path;
-    fs.mkdirTree(to.split("/").slice(0, -1).join("/"));
-    fs.writeFile(to, bytes);
+/// Opens `text`, a scene, in place of the one that runs, which stays where the new one is refused. `sets`: ["key=value", ...]. `file`: what
+/// errors call it. `files`: [{path, bytes}] that it may name, relative to the folder of `file`.
+export function open(library, {text, file, sets = [], files = []}) {
+  const {FS} = library.module, folder = "/scenes";
+  for (const {path, bytes} of files) {
+    const to = `${folder}/${path}`;
+    FS.mkdirTree(to.slice(0, to.lastIndexOf("/")));
+    FS.writeFile(to, bytes);
   }
-  fs.mkdirTree(folder);
-  fs.chdir(folder);  // errors then name the file alone
-  const opened = library.withTexts(set, (texts, count) =>
-      library.withStruct("rr_open_options", {file: file.split("/").pop(), set: texts, set_count: count, threads: 1},
-                         options => library.out("rr_open", toml, options)));
+  const path = `${folder}/${file}`;
+  FS.mkdirTree(path.slice(0, path.lastIndexOf("/")));
+  FS.chdir(folder);
+  const made = library.withTexts(sets, (set, set_count) =>
+    library.withStruct("rr_open_options", {file, set, set_count, threads: 1}, options => library.out("rr_open", text, options)));
+  close(library);
+  simulation = made;
+  return info(library);
+}
+
+export function close(library) {
   library.value("rr_close", simulation);
-  simulation = opened;
-  return information(library);
+  simulation = 0;
 }
 
-function information(library) {
-  const {effect, variant, frame, frames, warnings, scene_json} = library.filled("rr_simulation_info", "rr_get_info", simulation), told = [];
-  for (let i = 0; i < warnings; ++i) told.push(library.text(library.value("rr_warning", simulation, i)));
-  return {effect, variant, frame, frames, warnings: told, scene: JSON.parse(scene_json)};
+/// {effect, variant, frame, frames, sceneJson, warnings: [sentence, ...]}; frame: frames simulated so far; sceneJson: every key with its value.
+export function info(library) {
+  const {effect, variant, frame, frames, scene_json, warnings: count} = library.filled("rr_simulation_info", "rr_get_info", opened(library));
+  const warnings = Array.from({length: count}, (_, k) => library.text(library.value("rr_warning", simulation, k)));
+  return {effect, variant, frame, frames, sceneJson: scene_json, warnings};
 }
 
 /// Gives a key another value, as TOML writes it, from the next frame on.
 export function set(library, {key, value}) {
-  library.call("rr_set", simulation, key, value);
-  return information(library);
+  library.call("rr_set", opened(library), key, value);
+  return info(library);
 }
 
-/// The next frame: its number, picture and hash lines, and how long it took.
-export function frame(library) {
-  const begin = performance.now(), lines = library.text(library.out("rr_next_frame_hashes", simulation)), milliseconds = performance.now() - begin;
-  return shown(library, {milliseconds, lines: lines.trimEnd().split("\n")});
+/// The next frame: {lines, milliseconds, width, height, picture}; picture: RGBA of 8 bits, top row first.
+export function step(library) {
+  const begin = performance.now();
+  const lines = library.text(library.out("rr_next_frame_hashes", opened(library))).trimEnd().split("\n");
+  const milliseconds = performance.now() - begin, shown = picture(library);
+  return {result: {lines, milliseconds, ...shown}, transfer: [shown.picture.buffer]};
 }
 
-/// The next frame, and the first case of a pass in it as a port takes it, null where the pass does not run.
-export function frameWithCase(library, {pass}) {
-  const begin = performance.now(), cases = library.out("rr_cases_of_simulation", simulation);
-  try {
-    library.withTexts([pass], (texts, count) => library.call("rr_next_frame_cases", simulation, texts, count, cases));
-    const milliseconds = performance.now() - begin;
-    const given = library.value("rr_case_count", cases) > 0 ? caseOf(library, cases, 0) : null;
-    const done = shown(library, {milliseconds, lines: []});
-    return {result: {...done.result, given}, transfer: done.transfer};
-  } finally {
-    library.value("rr_free_cases", cases);
+/// The next frame, and what the named pass took and gave in it: {milliseconds, width, height, picture, cases} (live_cases.js).
+export function stepWithCases(library, {pass}) {
+  const begin = performance.now(), cases = addCases(library, opened(library), pass);
+  const milliseconds = performance.now() - begin, shown = picture(library);
+  return {result: {milliseconds, ...shown, cases}, transfer: [shown.picture.buffer]};
+}
+
+/// Judges what a port gave for the cases of the last stepWithCases: {status, reason, elements, outside, differing,
+/// outputs} (live_cases.js).
+export const judge = (library, {profile, given}) => judgeCases(library, profile, given);
+
+function picture(library) {
+  const {width, height, row_bytes, texel_bytes, plane} = library.filled("rr_array", "rr_get_picture", simulation);
+  if (texel_bytes !== 4) throw new Error(`a picture of ${texel_bytes} bytes a texel`);
+  const heap = library.module.HEAPU8, picture = new Uint8ClampedArray(4 * width * height);
+  for (let y = 0; y < height; ++y) {  // the library's row 0 is the bottom one
+    const from = plane[0] + (height - 1 - y) * row_bytes;
+    picture.set(heap.subarray(from, from + 4 * width), 4 * width * y);
   }
-}
-
-function shown(library, more) {
-  const info = library.filled("rr_simulation_info", "rr_get_info", simulation);
-  const {width, height, row_bytes, plane} = library.filled("rr_array", "rr_get_picture", simulation);
-  // Row 0 is the bottom one.
-  const rgba = new Uint8ClampedArray(4 * width * height), from = library.module.HEAPU8;
-  for (let y = 0; y < height; ++y) rgba.set(from.subarray(plane[0] + y * row_bytes, plane[0] + y * row_bytes + 4 * width), 4 * width * (height - 1 - y));
-  for (let i = 3; i < rgba.length; i += 4) rgba[i] = 255;  // alpha is not coverage
-  return {result: {frame: info.frame - 1, width, height, rgba: rgba.buffer, ...more}, transfer: [rgba.buffer]};
+  return {width, height, picture};
 }

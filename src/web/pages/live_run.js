@@ -1,0 +1,141 @@
+// The scene that the live page runs, without the page: what was opened, which keys were set since, and one thing done after the other.
+import {Engine} from "./engine.js";
+import {shellWord, valuesOf} from "./scene_values.js";
+
+/// A frame that takes longer than this is not waited for when another scene is wanted [ms].
+const patience = 700;
+/// Pictures that "automatic" chooses among, and the longest that a frame should take [ms].
+const sizes = [[960, 540], [640, 360], [320, 180]], longest = 125;
+
+export class LiveRun {
+  #engine = new Engine("live_operations.js");
+  #last = Promise.resolve();
+  #stepBegan = null;
+  #measured = new Map();  // scene and variant to the size that "automatic" chose
+  #scene = null;
+  #size = "automatic";
+
+  /// Of the library: what rr_describe says of each effect, its version, its golden generation.
+  effects = [];
+  version = "";
+  generation = 0;
+  /// Keys that were set, with their text in TOML.
+  sets = new Map();
+  /// Of the open scene: {effect, variant, frames, sceneJson, warnings}, and every key with its text.
+  info = null;
+  values = new Map();
+  /// The last frame that was simulated; -1: none.
+  frame = -1;
+  /// Keys were set after the first frame: the native program, which sets them before it, gives other lines.
+  changedLate = false;
+
+  get scene() { return this.#scene; }
+  get size() { return this.#size; }
+  get pictureSize() { return JSON.parse(this.values.get("run.size") ?? "[640, 360]"); }
+
+  /// What rr_describe says of the open scene's effect.
+  get description() { return this.effects.find(({effect}) => effect === this.info.effect); }
+
+  /// Loads the library and what it says of its effects; first of all.
+  start() {
+    return this.#inTurn(async () => { Object.assign(this, await this.#engine.run("describe")); });
+  }
+
+  /// scene: {text, file, files}; size: "automatic", "scene" (its own) or "640x360". The scene that runs stays where the new one is refused.
+  async open(scene, {sets = new Map(), size = this.#size} = {}) {
+    const former = {scene: this.#scene, sets: this.sets, size: this.#size}, lost = this.#giveUp();
+    return this.#inTurn(async () => {
+      try {
+        await this.#open(scene, sets, size);
+      } catch (error) {
+        if (lost && former.scene) await this.#open(former.scene, former.sets, former.size);
+        throw error;
+      }
+    });
+  }
+  /// Frame 0 again, with the keys as they are now.
+  reset() { return this.open(this.#scene, {sets: new Map(this.sets)}); }
+  /// The same with another value, which a running scene does not take.
+  restartWith(key, toml) { return this.open(this.#scene, {sets: new Map([...this.sets, [key, toml]])}); }
+
+  /// Gives a key another value from the next frame on.
+  set(key, toml) {
+    return this.#inTurn(async () => {
+      const info = await this.#engine.run("set", {key, value: toml});
+      this.sets.set(key, toml);
+      this.changedLate ||= this.frame >= 0;
+      this.#took(info);
+    });
+  }
+
+  /// The next frame: as live_operations.js's step; `pass`: as its stepWithCases.
+  step(pass = null) {
+    return this.#inTurn(async () => {
+      this.#stepBegan = performance.now();
+      try {
+        const shown = pass === null ? await this.#engine.run("step") : await this.#engine.run("stepWithCases", {pass});
+        ++this.frame;
+        return shown;
+      } finally {
+        this.#stepBegan = null;
+      }
+    });
+  }
+  judge(profile, given) { return this.#inTurn(() => this.#engine.run("judge", {profile, given})); }
+
+  /// What prints this frame's lines natively.
+  command() {
+    const [width, height] = this.pictureSize, words = ["rainref", "hash", this.#scene.file, "--frames", String(this.frame + 1)];
+    if (this.#size !== "scene") words.push("--size", `${width}x${height}`);
+    for (const [key, toml] of this.sets) words.push("--set", `${key}=${toml}`);
+    return words.map(shellWord).join(" ");
+  }
+
+  #inTurn(action) {
+    const done = this.#last.then(action);
+    this.#last = done.catch(() => {});
+    return done;
+  }
+  /// Ends the worker where a frame holds it up; true where it did.
+  #giveUp() {
+    if (this.#stepBegan === null || performance.now() - this.#stepBegan < patience) return false;
+    this.#engine.cancel();
+    return true;
+  }
+
+  async #open(scene, sets, size) {
+    const key = [scene.file, scene.text.length, sets.get("variant")].join("|");
+    let chosen = size === "automatic" ? this.#measured.get(key) ?? sizes[1] : size === "scene" ? null : size.split("x").map(Number);
+    const open = () => this.#engine.run("open", {
+      ...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(chosen ? [`run.size=[${chosen.join(", ")}]`] : [])]});
+    let info = await open();
+    if (size === "automatic" && !this.#measured.has(key)) {
+      const best = await this.#sizeFor(chosen);
+      this.#measured.set(key, best);
+      chosen = best;
+      info = await open();
+    }
+    Object.assign(this, {sets, frame: -1, changedLate: false});
+    this.#scene = scene;
+    this.#size = size;
+    this.#took(info);
+  }
+  /// The size for this machine: frames 1 and 2 of the open scene are timed; frame 0 makes things that later ones keep.
+  async #sizeFor([width, height]) {
+    let shortest = Infinity;
+    this.#stepBegan = performance.now();
+    for (let frame = 0; frame < 3; ++frame) {
+      const {milliseconds} = await this.#engine.run("step");
+      if (frame > 0) shortest = Math.min(shortest, milliseconds);
+      if (milliseconds > 20 * longest) break;  // a traced picture
+    }
+    this.#stepBegan = null;
+    // A part of a frame's work does not depend on the picture; taking all of it to do so errs to the small side.
+    const fits = sizes.find(([w, h]) => shortest * w * h / (width * height) <= longest);
+    return fits ?? sizes[sizes.length - 1];
+  }
+  #took(info) {
+    this.info = info;
+    this.values = valuesOf(info.sceneJson);
+  }
+}
