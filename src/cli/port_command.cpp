@@ -5,7 +5,6 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +21,7 @@
 
 #include "base/interruption.h"
 #include "base/signals.h"
+#include "cli/process_control.h"
 #include "rainref/error.h"
 
 namespace rainref::cli {
