@@ -26,7 +26,7 @@ namespace {
 
 /// The file's bytes are on their way to the disk: when all files are waited for, later, that is one wait and not one for each.
 void begin_to_sync(int descriptor) {
-#ifdef SYNC_FILE_RANGE_WRITE
+#ifdef __linux__
   ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);  // no matter where it fails: it is waited for all the same
 #endif
 }
