@@ -257,12 +257,10 @@ TEST(ListDiagnosis, AnotherValueOfAUniformIsReadOff) {
   int named = 0;
   for (const ListCase& l : list_cases("windshield-as-published", "spawn")) {
     if (l.reference().width < 4 || named > 0) continue;
-    Array port = l.reference();
-    for (const scene::Member& m : port.record.members) {
-      if (m.name != "life") continue;
-      const float life = 0.8125f;
-      for (std::size_t r = m.offset; r < port.levels[0].size(); r += port.record.size) std::memcpy(&port.levels[0][r], &life, 4);
-    }
+    PassCase altered = *l.c;
+    for (const scene::Member& m : l.pass.block.members)
+      if (const float life = 0.8125f; m.name == "life") std::memcpy(altered.uniforms.data() + m.offset, &life, 4);
+    const Array port = l.evaluations().recompute(altered)[l.output];
     const std::vector<Cause> causes = l.causes(port);
     ASSERT_FALSE(causes.empty());
     EXPECT_EQ(causes[0].name, "another value of life");

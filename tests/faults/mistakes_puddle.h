@@ -17,7 +17,6 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   if (r.is("left neighbour twice")) sum = (u(-1, 0) + u(-1, 0)) + (u(0, -1) + u(0, 1));
   float laplacian = sum - 4 * here;
   if (r.is("centre weight 3")) laplacian = sum - 3 * here;
-  if (r.is("centre of the previous level")) laplacian = sum - 4 * p;
   if (r.is("centre forgotten")) laplacian = sum;
   if (r.is("laplacian halved")) laplacian = 0.5f * laplacian;
   if (r.is("laplacian's sign")) laplacian = -laplacian;
@@ -47,6 +46,7 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   if (r.is("craters' sign")) craters = -craters;
   if (r.is("laplacian damped")) laplacian = damping * laplacian;
   float next = ((here + damping * velocity) + courant * laplacian) + craters;
+  if (r.is("velocity for the laplacian")) next = ((here + damping * velocity) + courant * velocity) + craters;
   if (r.is("damping of all")) next = damping * (here + velocity + courant * laplacian) + craters;
   if (r.is("craters forgotten")) next = next - craters;
   out[0] = next;
@@ -114,10 +114,11 @@ inline bool puddle_display(const Run& r, int x, int y, float* out) {
              : r.is("power 1/2.2 for sRGB")      ? power(linear, 1 / 2.2f)
              : r.is("offset 0.55 for 0.055")     ? (linear <= 0.0031308f ? 12.92f * linear : 1.055f * power(linear, 1 / 2.4f) - 0.0055f)
              : r.is("1.505 for 1.055")           ? (linear <= 0.0031308f ? 12.92f * linear : 1.505f * power(linear, 1 / 2.4f) - 0.055f)
-             : r.is("scaled by 256/255")         ? srgb(linear) * (256 / 255.0f)
              : r.is("exponent 1/2 in the curve") ? (linear <= 0.0031308f ? 12.92f * linear : 1.055f * power(linear, 0.5f) - 0.055f)
                                                  : srgb(linear);
   }
+  if (r.is("result squared"))
+    for (int k = 0; k < 3; ++k) out[k] = out[k] * out[k];
   if (r.is("green for all")) out[0] = out[2] = out[1];
   if (r.is("blue first")) std::swap(out[0], out[2]);
   if (r.is("green for blue")) out[2] = out[1];
