@@ -94,10 +94,14 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   const Constants constants = names_of_constants(probes, known);
   const std::vector<Probe> alike = probes_again(p.model, probes, {});
   add_place_faults(all, probes, known, PlaceKind::plain);
+  // A scalar that is missing from three components is rather not set: vectors come after the uniforms.
+  std::vector<Fault> vectors;
+  take(all, vectors, [](const Fault& d) { return d.name.ends_with(", in all components"); });
   add_named_constants(all, constants, false);
   take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero") || d.name.ends_with("the other way"); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
+  std::move(vectors.begin(), vectors.end(), std::back_inserter(all));
   add_place_faults(all, alike, {}, PlaceKind::plain);
   std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
   add_whole_mixups(all, p);
