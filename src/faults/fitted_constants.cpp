@@ -78,7 +78,7 @@ std::vector<float> typed_wrong(float x) {
     if (const std::optional<float> v = number_from<float>(text); v && *v != x && std::isfinite(*v)) out.push_back(*v);
   };
   // More digits than that are no literal of the text but computed from some.
-  if (right.find('e') != std::string::npos || right.size() > 10) return out;
+  if (right.find('e') != std::string::npos || right.size() > 9) return out;
   for (std::size_t at = 0; at < right.size(); ++at) {
     if (right[at] < '0' || right[at] > '9') continue;
     for (char digit = '0'; digit <= '9'; ++digit) {
@@ -131,7 +131,8 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
   // Of the numbers that suit as well the one that is typed most easily for it.
   std::optional<float> typed;
   for (const float other : is_literal ? typed_wrong(pass.constant) : std::vector<float>())
-    if (std::abs(other - *best) <= 0.1f * std::abs(*best) && suits(other) && (!typed || std::abs(other - *best) < std::abs(*typed - *best)))
+    if (std::abs(other - *best) <= 0.1f * std::abs(*best) && misfit(other) <= 1.02 * least + 0.005 * static_cast<double>(wanted.size()) &&
+        (!typed || std::abs(other - *best) < std::abs(*typed - *best)))
       typed = other;
   if (typed) return typed;
   for (int digits = 1; *best != 0 && digits < 7; ++digits) {

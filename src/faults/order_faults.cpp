@@ -77,6 +77,14 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
     if (part < 0 || node_of(p, part).op == Op::comparison) return;
     const std::string wrong = words(p, part), right = words(p, whole);
     if (wrong == right || wrong == "...") return;
+    // What both ends of a clamp hold.
+    const bool is_held = (op == Op::minimum || op == Op::maximum) && path == std::array<std::int8_t, 2>{0, 0} &&
+                         node_of(p, node_of(p, whole).of[0]).op == (op == Op::minimum ? Op::maximum : Op::minimum);
+    if (is_held) {
+      add(p, site, {RewriteKind::part, 0, -1, k, path}, "clamp left out: " + right,
+          fmt::format("in {} stands {} where {} is meant: it is not held between its ends", words(p, at), wrong, right));
+      return;
+    }
     add(p, site, {RewriteKind::part, 0, -1, k, path}, fmt::format("value of before: {} for {}", wrong, right),
         fmt::format("in {} stands {} where {} is meant: the value of before a step", words(p, at), wrong, right));
   };

@@ -68,6 +68,15 @@ TEST(OrderFaults, AFactorMovesOverAMaximumAndADivisorIntoASum) {
   EXPECT_EQ(rewritten(mean, Op::quotient, {RewriteKind::over_first, 0, -1, 0, {-1, -1}}), 1.5f + 5);
 }
 
+/// min(max(9, 0), 1) * 2: without the clamp 18.
+TEST(OrderFaults, AClampIsLeftOutWhole) {
+  const auto held = [] {
+    const Perturbed inner = max(Perturbed(9.0f), Perturbed(0.0f));
+    return min(inner, Perturbed(1.0f)) * Perturbed(2.0f);
+  };
+  EXPECT_EQ(rewritten(held, Op::product, {}), 2);
+  EXPECT_EQ(rewritten(held, Op::product, {RewriteKind::part, 0, -1, 0, {0, 0}}), 18);
+}
 /// The faults of a pass that the order of steps makes, at some texels of a case of a small pack.
 std::vector<Fault> orders_of(const std::string& pack_name, const std::string& pass, std::vector<Probe>& probes) {
   const capture::Pack pack(judge::test::pack_folder(pack_name));
@@ -97,6 +106,12 @@ TEST(OrderFaults, OfAVectorEachComponentHasTheMistake) {
     return d.name.ends_with(", in all components") && d.rewrites && (*d.rewrites)[1].kind == (*d.rewrites)[0].kind;
   });
   EXPECT_GT(of_vectors, 0);
+}
+// The place along a blade is held between its ends: what is left out is named as the clamp, not as a value of before.
+TEST(OrderFaults, AClampHasItsName) {
+  std::vector<Probe> probes;
+  const std::vector<Fault> all = orders_of("windshield-as-published", "wipe_texture", probes);
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Fault& d) { return d.name.starts_with("clamp left out: min(max("); }));
 }
 // x += (v + a) dt in place of v alone: the operand of the product is a part of what it should be, elsewhere the sum stays.
 TEST(OrderFaults, AValueOfBeforeIsUsedAtOnePlaceAlone) {
