@@ -129,7 +129,9 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // Likely is one cause at most: the first, of those that say so of themselves, where enough fails that it is no chance. Of what
   // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
   constexpr std::ptrdiff_t most_rivals = 20;
-  const auto rivals = std::count_if(causes.begin(), causes.end(), is_best);
+  const auto rivals = std::count_if(causes.begin(), causes.end(), [&](const Tried& c) {
+    return is_best(c) && !is_solved(c.name) && !c.name.ends_with(", in all components");  // other words for the same places
+  });
   for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
 }

@@ -31,7 +31,10 @@ void add_words(const Add& add) {
 
 }  // namespace
 
-void add_draw_faults(std::vector<Fault>& out) {
+void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>& drawn) {
+  std::vector<random::Purpose> purposes{random::Purpose{}};
+  if (drawn.size() > 1) purposes.insert(purposes.end(), drawn.begin(), drawn.end());
+
   const auto add = [&](const Draws& draws, std::string name, std::string sentence) {
     Fault d;
     d.name = std::move(name);
@@ -45,18 +48,51 @@ void add_draw_faults(std::vector<Fault>& out) {
     d.*member = value;
     add(d, name, sentence);
   };
-  set(&Draws::are_counters_swapped, true, "random counters exchanged",
-      "the two counters of a block of random words, as the step and the number of a record, are exchanged");
-  set(&Draws::are_seeds_swapped, true, "random seed's words exchanged", "the low and the high word of the seed are exchanged");
-  set(&Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
-  set(&Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");
+  for (const random::Purpose only : purposes) {
+    const std::string which = only == random::Purpose{} ? "" : fmt::format(" of purpose {}", static_cast<std::uint32_t>(only));
+    const auto set_in = [&](auto Draws::*member, auto value, const char* name, const char* sentence) {
+      Draws d;
+      d.only = only;
+      d.*member = value;
+      add(d, name + which, fmt::format("{}{}", sentence, which.empty() ? "" : fmt::format(", in the blocks{}", which)));
+    };
+    using Off = std::array<std::int32_t, 2>;
+    set_in(&Draws::are_counters_swapped, true, "random counters exchanged",
+           "the two counters of a block of random words, as the step and the number of a record, are exchanged");
+    for (const int by : {1, -1}) {
+      const char* const more = by > 0 ? "more" : "less";
+      set_in(&Draws::counters_off, Off{by, 0}, by > 0 ? "random first counter one more" : "random first counter one less",
+             fmt::format("the first counter of a block of random words is one {} than it should be", more).c_str());
+      set_in(&Draws::counters_off, Off{0, by}, by > 0 ? "random second counter one more" : "random second counter one less",
+             fmt::format("the second counter of a block of random words, as the number of a record, is one {} than it should be", more)
+                 .c_str());
+    }
+    set_in(&Draws::are_seeds_swapped, true, "random seed's words exchanged", "the low and the high word of the seed are exchanged");
+    set_in(&Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
+    set_in(&Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");
+  }
   set(&Draws::is_place_of_low_bits, true, "place from low bits", "a place takes the low bits of its random word in place of the high ones");
+  using Axes = std::array<bool, 2>;
+  set(&Draws::is_whole, Axes{true, true}, "place without its fraction", "a place is cut to whole texels");
+  set(&Draws::is_whole, Axes{true, false}, "column without its fraction", "the column of a place is cut to whole texels");
+  set(&Draws::is_whole, Axes{false, true}, "row without its fraction", "the row of a place is cut to whole texels");
   set(&Draws::is_choice_of_low_bits, true, "class from low bits",
       "what is chosen from a table is chosen by the low bits of its random word in place of the high ones");
   set(&Draws::counts_above, true, "thresholds counted the other way",
       "the thresholds above the random word are counted, in place of those that it is not below");
   set(&Draws::counts_one_draw, true, "one draw alone", "of several draws that add up the first alone counts");
   add_words(add);
+}
+
+std::vector<random::Purpose> purposes_drawn(const std::function<void()>& run) {
+  std::vector<random::Purpose> met;
+  random::Draws watching;
+  watching.met = &met;
+  const random::DrawsScope scope(watching);
+  run();
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  return met;
 }
 
 }  // namespace rainref::faults

@@ -1,12 +1,16 @@
 // Mistakes in passes of whole numbers: what is taken of a random word.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "faults/fault.h"
 
 namespace rainref::faults {
 
-void add_draw_faults(std::vector<Fault>& out);
+/// What `run` draws random words for.
+std::vector<random::Purpose> purposes_drawn(const std::function<void()>& run);
+/// Adds what can be taken of the wrong word or counter, of all blocks and, where there are several, of those of each purpose.
+void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>& drawn = {});
 
 }  // namespace rainref::faults

@@ -141,13 +141,14 @@ void add_uniforms(std::vector<Fault>& out, const capture::PackPass& pass, const 
           [m, k](PassCase& c) { c.uniforms[m.offset + 4 * static_cast<std::size_t>(k) + 3] ^= std::byte{0x80}; });
       out.back().for_diagnosis = true;
     }
-    if (m.scalar == scene::Scalar::int32 && m.components == 1) {
+    if (m.scalar != scene::Scalar::float32 && m.components == 1) {
       for (const int by : {-1, 1}) {
         add(by < 0 ? "one less" : "one more", fmt::format("{} is off by one", m.name), [m, by](PassCase& c) {
           std::int32_t v;
           std::memcpy(&v, c.uniforms.data() + m.offset, 4);
           set_member(c, m.offset, std::max(0, v + by));
         });
+        out.back().for_diagnosis = m.scalar != scene::Scalar::int32;
       }
     }
     if (before && before->uniforms.size() >= m.offset + m.size()) {
@@ -282,10 +283,13 @@ void FaultyPass::store(Texel at, std::vector<Array>& out) const {
   }
   perturbed::Behaviour behaviour = fault_.behaviour;
   std::vector<float> loads;
-  if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
   perturbed::Trace trace;
-  if (fault_.rewrite) behaviour.trace = &trace;
-  const perturbed::RewriteScope rewriting(fault_.rewrite.value_or(perturbed::Rewrite()));
+  if (fault_.rewrites) behaviour.trace = &trace;
+  perturbed::Substitutions substitutions{fault_.substitutions};
+  if (!substitutions.all.empty()) behaviour.substitutions = &substitutions, substitutions.start();
+  if (fault_.at_texel) fault_.at_texel(at, behaviour, loads);
+  const random::DrawsScope drawing(fault_.draws.value_or(random::Draws()));
+  const perturbed::RewriteScope rewriting(fault_.rewrites.value_or(perturbed::Rewrites()));
   const perturbed::Scope scope(behaviour);
   std::vector<perturbed::Perturbed> values(slots_.size());
   (altered_model_ ? *altered_model_ : model_).evaluate(at.x, at.y, values.data());

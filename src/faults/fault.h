@@ -42,11 +42,12 @@ struct Fault {
   std::function<float(float, const judge::Slot&)> alter_value;  ///< of the evaluated values, before they are stored
   /// The behaviour at one texel. `loads` is room for Behaviour::loads.
   std::function<void(Texel, perturbed::Behaviour&, std::vector<float>& loads)> at_texel;
-  std::optional<perturbed::Rewrite> rewrite;  ///< at one place, of other values of the invocation
-  std::optional<random::Draws> draws;         ///< of a pass of whole numbers: how it draws
-  std::optional<judge::HalfMode> stores;      ///< how halves are stored, whatever was declared
-  bool legal = false;                         ///< a conforming GPU may do this: not a bug, but it explains differences
-  bool for_diagnosis = false;                 ///< asked by the diagnosis only: `mutate` has enough of its kind
+  std::optional<perturbed::Rewrites> rewrites;         ///< of other values of the invocation
+  std::vector<perturbed::Substitution> substitutions;  ///< other values for operands, of one mistake
+  std::optional<random::Draws> draws;                  ///< of a pass of whole numbers: how it draws
+  std::optional<judge::HalfMode> stores;               ///< how halves are stored, whatever was declared
+  bool legal = false;                                  ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool for_diagnosis = false;                          ///< asked by the diagnosis only: `mutate` has enough of its kind
 
   bool is_evaluated() const { return !alter_outputs && !alter_list && !draws; }
 };

@@ -70,8 +70,37 @@ std::vector<float> replacements(const Replaced& pass, const Wanted& w) {
   return roots;
 }
 
+/// What a number becomes when it is typed wrong: a digit other, left out, twice, exchanged with the next, or the point moved.
+std::vector<float> typed_wrong(float x) {
+  const std::string right = fmt::format("{}", x);
+  std::vector<float> out;
+  const auto add = [&](const std::string& text) {
+    if (const std::optional<float> v = number_from<float>(text); v && *v != x && std::isfinite(*v)) out.push_back(*v);
+  };
+  // More digits than that are no literal of the text but computed from some.
+  if (right.find('e') != std::string::npos || right.size() > 9) return out;
+  for (std::size_t at = 0; at < right.size(); ++at) {
+    if (right[at] < '0' || right[at] > '9') continue;
+    for (char digit = '0'; digit <= '9'; ++digit) {
+      std::string text = right;
+      text[at] = digit;
+      add(text);
+    }
+    add(std::string(right).erase(at, 1));
+    add(std::string(right).insert(at, 1, right[at]));
+    add(std::string(right).insert(at, 1, '0'));
+    if (at + 1 < right.size() && right[at + 1] != '.') {
+      std::string text = right;
+      std::swap(text[at], text[at + 1]);
+      add(text);
+    }
+  }
+  for (const float factor : {10.0f, 0.1f, 100.0f, 0.01f}) add(fmt::format("{:.7g}", x * factor));
+  return out;
+}
+
 /// The one that suits all texels best, as one of a few digits where that suits them about as well; nothing where none does.
-std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wanted) {
+std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wanted, bool is_literal) {
   // How far off all are, in steps of the store.
   const auto misfit = [&](float r) {
     double sum = 0;
@@ -99,6 +128,13 @@ std::optional<float> fitted(const Replaced& pass, const std::vector<Wanted>& wan
   if (const float mean = sum / count; mean != pass.constant)
     if (const double m = misfit(mean); m < least) least = m, best = mean;
   const auto suits = [&](float r) { return r != pass.constant && misfit(r) <= 1.1 * least + 0.02 * static_cast<double>(wanted.size()); };
+  // Of the numbers that suit as well the one that is typed most easily for it.
+  std::optional<float> typed;
+  for (const float other : is_literal ? typed_wrong(pass.constant) : std::vector<float>())
+    if (std::abs(other - *best) <= 0.1f * std::abs(*best) && misfit(other) <= 1.02 * least + 0.005 * static_cast<double>(wanted.size()) &&
+        (!typed || std::abs(other - *best) < std::abs(*typed - *best)))
+      typed = other;
+  if (typed) return typed;
   for (int digits = 1; *best != 0 && digits < 7; ++digits) {
     if (const float nice = rounded(*best, digits); suits(nice)) return nice;
     if (const float nice = 1 / rounded(1 / *best, digits); digits < 4 && suits(nice)) return nice;
@@ -112,7 +148,7 @@ void add_fitted_constants(std::vector<Fault>& out, const EvaluateWith& evaluate,
                           const std::vector<Wanted>& wanted) {
   if (wanted.empty()) return;
   for (const auto& [value, name, is_literal] : constants) {
-    const std::optional<float> other = fitted({evaluate, value}, wanted);
+    const std::optional<float> other = fitted({evaluate, value}, wanted, is_literal);
     if (!other) continue;
     Fault d;
     d.name = fmt::format("another value of {}", name);

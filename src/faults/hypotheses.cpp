@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "faults/draw_faults.h"
 #include "faults/failing_texels.h"
 #include "faults/order_faults.h"
 #include "faults/place_faults.h"
+#include "faults/substitution_faults.h"
 #include "faults/whole_faults.h"
 
 namespace rainref::faults {
@@ -78,6 +80,11 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   std::erase_if(all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant; });
   take(all, uniforms, is_of_uniform);
   take(all, operations, is_of_operation);
+  const std::vector<random::Purpose> drawn = purposes_drawn([&] {
+    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
+    for (const Texel at : spread(failing, 4)) p.model.evaluate(at.x, at.y, unused.data());
+  });
+  if (!drawn.empty()) add_draw_faults(all, drawn);
   add_output_mixups(all, p, before);
   add_tap_faults(all, p);
   add_input_mixups(all, p);
@@ -87,10 +94,14 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   const Constants constants = names_of_constants(probes, known);
   const std::vector<Probe> alike = probes_again(p.model, probes, {});
   add_place_faults(all, probes, known, PlaceKind::plain);
+  // A scalar that is missing from three components is rather not set: vectors come after the uniforms.
+  std::vector<Fault> vectors;
+  take(all, vectors, [](const Fault& d) { return d.name.ends_with(", in all components"); });
   add_named_constants(all, constants, false);
   take(uniforms, all, [](const Fault& d) { return d.name.ends_with("is zero") || d.name.ends_with("the other way"); });
   add_uniform_mixups(all, p, uniforms_met(probes, p.pass));
   // The same places, with all constants alike: the components of a vector are one place then, whatever they are multiplied by.
+  std::move(vectors.begin(), vectors.end(), std::back_inserter(all));
   add_place_faults(all, alike, {}, PlaceKind::plain);
   std::move(uniforms.begin(), uniforms.end(), std::back_inserter(all));
   add_whole_mixups(all, p);
@@ -104,7 +115,9 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   std::vector<Fault> orders;
   add_order_faults(orders, probes, known);
   add_order_faults(orders, alike, {});
-  return {std::move(all), constants, std::move(orders)};
+  constexpr std::size_t most_vectors = 600;
+  if (!probes.empty()) add_vector_substitutions(orders, probes[0], known, most_vectors);
+  return {std::move(all), constants, std::move(orders), probes, known};
 }
 
 std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::vector<Array>& port, const std::vector<Array>& reference,

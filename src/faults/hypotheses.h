@@ -14,6 +14,8 @@ struct Hypotheses {
   std::vector<Fault> faults;  ///< in the order in which they are to be believed
   Constants constants;        ///< that the pass meets
   std::vector<Fault> orders;  ///< what is asked only where these explain little
+  std::vector<Probe> probes;  ///< some failing texels, of texels
+  std::vector<float> known;   ///< as these were made with
 };
 /// `failing`: some texels that fail, at least one.
 Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const std::vector<Texel>& failing);

@@ -181,6 +181,11 @@ void add_records(CaseAdder& add, const PassCase& c, std::size_t i) {
     if (f.is_in_texels) scaled("half a texel less", "is half a texel less", [](float v) { return v - 0.5f; });
     if (f.is_in_texels) scaled("half a texel more", "is half a texel more", [](float v) { return v + 0.5f; });
     for (const Field& other : fields)
+      if (&other != &f)
+        each(fmt::format("{} of {} is {}", f.name, name, other.name),
+             fmt::format("of {} {} is read where {} is meant", name, other.name, f.name),
+             [to = f.offset, from = other.offset](std::byte* r) { std::memcpy(r + to, r + from, 4); });
+    for (const Field& other : fields)
       if (&other > &f)
         each(fmt::format("{} and {} of {} exchanged", f.name, other.name, name),
              fmt::format("of {} {} and {} have each other's value", name, f.name, other.name),

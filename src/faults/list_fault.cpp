@@ -92,8 +92,10 @@ std::optional<Array> faulty_list(const Fault& d, const PassCase& c, std::size_t 
   std::vector<float> unused;
   if (d.at_texel) d.at_texel({-1, -1}, behaviour, unused);
   perturbed::Trace trace;
-  if (d.rewrite) behaviour.trace = &trace;
-  const perturbed::RewriteScope rewriting(d.rewrite.value_or(perturbed::Rewrite()));
+  if (d.rewrites) behaviour.trace = &trace;
+  perturbed::Substitutions substitutions{d.substitutions};
+  if (!substitutions.all.empty()) behaviour.substitutions = &substitutions, substitutions.start();
+  const perturbed::RewriteScope rewriting(d.rewrites.value_or(perturbed::Rewrites()));
   const perturbed::Scope scope(behaviour);
   const auto bytes = keyed->perturbed();
   if (!bytes) return std::nullopt;

@@ -132,6 +132,12 @@ void add_fields(Adder& a, bool has_input) {
             });
     }
     if (m.scalar != scene::Scalar::float32) continue;
+    a.add(fmt::format("with {} through half", m.name), fmt::format("{} has half precision", m.name),
+          [m](const List&, const PassCase&, ListEdit& e) {
+            for (auto& r : e.records) each_float(m, r, [](float f, int) { return to_float(to_half(f)); });
+            return true;
+          })
+        .for_diagnosis = true;
     a.add(fmt::format("without {}", m.name), fmt::format("{} is not stored", m.name), [m](const List&, const PassCase&, ListEdit& e) {
        for (auto& r : e.records) each_float(m, r, [](float, int) { return 0.0f; });
        return true;

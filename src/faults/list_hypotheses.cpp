@@ -4,7 +4,9 @@
 #include "faults/list_faults.h"
 #include "faults/order_faults.h"
 #include "faults/place_faults.h"
+#include "faults/substitution_faults.h"
 #include "faults/whole_faults.h"
+#include "judge/evaluations.h"
 
 namespace rainref::faults {
 namespace {
@@ -19,7 +21,11 @@ std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCas
   // As for texels, constants are tried by their names.
   std::erase_if(
       all, [](const Fault& d) { return d.behaviour.fault == perturbed::Fault::constant || is_of_operation(d) || is_mixed_up_uniform(d); });
-  if (!p.bind) add_draw_faults(all);
+  const capture::PassEvaluations* evaluations = judge::evaluations_of(p.c.effect, p.c.pass);
+  if (!p.bind && evaluations && evaluations->recompute) {
+    add_draw_faults(all, purposes_drawn([&] { static_cast<void>(evaluations->recompute(p.c)); }));
+    add_uniform_values(all, p);
+  }
   return all;
 }
 
@@ -47,9 +53,12 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list) {
   add_named_constants(all, constants, true);
   add_place_faults(all, alike, {}, PlaceKind::multiple);
   add_odd_constants(all, p, constants);
-  add_order_faults(all, probes, known);
-  add_order_faults(all, alike, {});
-  return {std::move(all), constants, {}};
+  // All records are evaluated for each: fewer where they are many.
+  const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size(), most = std::min<std::size_t>(600, 1 + 2000000 / nodes);
+  add_order_faults(all, probes, known, most);
+  add_order_faults(all, alike, {}, most);
+  if (!probes.empty()) add_vector_substitutions(all, probes[0], known, most);
+  return {std::move(all), constants, {}, {}, {}};
 }
 
 }  // namespace rainref::faults

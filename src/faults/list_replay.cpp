@@ -7,6 +7,7 @@
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
 #include "faults/place_faults.h"
+#include "faults/whole_faults.h"
 #include "judge/evaluations.h"
 #include "judge/keyed.h"
 #include "math/path_enumeration.h"
@@ -145,9 +146,27 @@ std::vector<Fault> ListReplay::deeper() {
   return std::move(all.faults);
 }
 
+std::vector<Fault> ListReplay::uniforms_read_off() const {
+  std::vector<float> stored;
+  constexpr std::size_t most = 8;
+  for (const std::uint32_t id : failing_) {
+    const Records &port = of(got_, id), &right = of(right_, id);
+    if (port.size() != 1 || right.size() != 1 || stored.size() > most) continue;
+    for (const Word& w : words_) {
+      float v;
+      std::memcpy(&v, &port[0][w.offset], 4);
+      const bool differs = w.is_float && std::memcmp(&port[0][w.offset], &right[0][w.offset], 4) != 0;
+      if (differs && std::find(stored.begin(), stored.end(), v) == stored.end()) stored.push_back(v);
+    }
+  }
+  std::vector<Fault> out;
+  add_uniforms_of_values(out, {pass_, c_, nullptr, *model_}, stored);
+  return out;
+}
+
 std::vector<Fault> ListReplay::fitted() {
   const capture::KeyedModel* keyed = model_->keyed(c_.outputs[output_].name);
-  if (!keyed) return {};
+  if (!keyed) return uniforms_read_off();
   std::vector<std::size_t> floats;
   for (const Word& w : words_)
     if (w.is_float) floats.push_back(w.offset);

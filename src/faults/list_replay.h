@@ -40,6 +40,8 @@ class ListReplay : public Replay {
  private:
   using ById = std::map<std::uint32_t, Records>;
   Tried cause(const Fault& d) const;
+  /// Uniforms that a pass of whole numbers hands on, as the port stored them.
+  std::vector<Fault> uniforms_read_off() const;
 
   const capture::PackPass& pass_;
   const capture::PassCase& c_;

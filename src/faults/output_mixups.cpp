@@ -52,6 +52,10 @@ void add_values(std::vector<Fault>& out, const PassCase& c) {
   add("unpacked as 2 v - 1", "the result is unpacked from [0, 1] to [-1, 1], or not packed", [](double v) { return 2 * v - 1; });
   add("1 - v", "the result is taken from 1", [](double v) { return 1 - v; });
   add("negated", "the result has the other sign", [](double v) { return -v; });
+  add("times 255/256", "the result is scaled by 255/256 before the store", [](double v) { return v * (255.0 / 256); });
+  add("times 256/255", "the result is scaled by 256/255 before the store", [](double v) { return v * (256.0 / 255); });
+  add("squared", "the result is squared", [](double v) { return v * v; });
+  add("as its root", "the root of the result is stored", [](double v) { return v > 0 ? std::sqrt(v) : v; });
 }
 
 /// Of several images each by itself; the other faults turn all of them.
@@ -126,6 +130,12 @@ void add_single_images(std::vector<Fault>& out, const PassCase& c, const PassCas
               std::memcpy(a.levels[0].data() + t, stale.levels[0].data() + t, n);
           });
     }
+    for (int from = 0; f.channels > 2 && from < 3; ++from)
+      add(fmt::format("with its {} for each", "xyzw"[from]).c_str(), fmt::format("of {} {} is stored in each channel", name, "xyzw"[from]),
+          [from](Array& a) {
+            for (int to = 0; to < 3; ++to)
+              if (to != from) judge::copy_channel(a, from, to);
+          });
     for (int from = 0; from < f.channels; ++from)
       for (int to = 0; to < f.channels; ++to) {
         if (from == to) continue;

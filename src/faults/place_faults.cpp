@@ -25,8 +25,12 @@ struct Words {
 
 std::string shortened(const Probe& p, std::int32_t node) {
   for (int depth = 3; depth > 0; --depth)
-    if (const std::string text = p.text(node, depth); text.size() <= 60) return text;
-  const std::string text = p.text(node, 1);
+    if (const std::string text = p.text(node, depth); text.size() <= 60 && (depth > 1 || text.find_first_not_of(".+-*/ ()") != text.npos))
+      return text;
+  // A text of dots alone says nothing: then the beginning of a longer one.
+  std::string text = p.text(node, 1);
+  for (int depth = 2; depth <= 4 && std::none_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c); }); ++depth)
+    text = p.text(node, depth);
   return text.size() <= 80 ? text : fmt::format("{:.77}...", text);
 }
 
@@ -78,6 +82,43 @@ std::string of_any_component(std::string text) {
   return text;
 }
 
+/// Groups of two or three first places of different shapes and one text, each met as often, of the operations that `wanted` says.
+template <class Wanted>
+std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wanted) {
+  std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_text;
+  for (std::size_t at = 0; at < p.trace.nodes.size(); ++at) {
+    const Node& n = p.trace.nodes[at];
+    if (!wanted(n.op) || n.occurrence != 0) continue;
+    const std::string text = p.text(static_cast<std::int32_t>(at), 3);
+    if (text != "...") by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
+  }
+  std::vector<std::vector<std::size_t>> out;
+  for (const auto& [text, places] : by_text) {
+    if (places.size() < 2 || places.size() > 3) continue;
+    std::vector<std::size_t> vector;
+    for (const auto& [shape, at] : places) vector.push_back(at);
+    std::sort(vector.begin(), vector.end());
+    const auto count = [&](std::size_t at) { return p.trace.met.at(p.trace.nodes[at].shape); };
+    if (std::all_of(vector.begin(), vector.end(), [&](std::size_t at) { return count(at) == count(vector[0]); }))
+      out.push_back(std::move(vector));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> vectors_of(const Probe& p) {
+  return groups_of(p, [](Op op) {
+    return op == Op::sum || op == Op::difference || op == Op::product || op == Op::quotient || op == Op::minimum || op == Op::maximum ||
+           op == Op::mix || op == Op::negation;
+  });
+}
+std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p) {
+  return groups_of(p, [](Op op) { return op != Op::comparison && op != Op::lookup; });
+}
+
+namespace {
+
 /// What a mistake makes of a node, in words.
 std::vector<Words> words_of(const Probe& p, std::size_t at) {
   const Node& n = p.trace.nodes[at];
@@ -95,6 +136,10 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::second_negated, "sign of a term: " + b, fmt::format("in {} the term {} has the other sign", all, b));
       add(PlaceFault::swapped, n.op == Op::sum ? "sign of a term: " + a : "difference the other way: " + all,
           n.op == Op::sum ? fmt::format("in {} the term {} has the other sign", all, a) : fmt::format("{} is taken the other way", all));
+      if (n.op == Op::sum) {
+        add(PlaceFault::larger, "max for sum: " + all, fmt::format("the larger one of {} and {} stands in place of their sum", a, b));
+        add(PlaceFault::smaller, "min for sum: " + all, fmt::format("the smaller one of {} and {} stands in place of their sum", a, b));
+      }
       add(PlaceFault::first_twice, "term twice: " + a, fmt::format("in {} the term {} counts twice", all, a));
       add(PlaceFault::second_twice, "term twice: " + b, fmt::format("in {} the term {} counts twice", all, b));
       if (n.op == Op::difference) add(PlaceFault::other, "complement left out: " + all, fmt::format("for {} stands {}", all, b));
@@ -225,10 +270,10 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
 
 void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind) {
   const auto shared = std::make_shared<const std::vector<float>>(known);
-  const auto add = [&](const Words& w, std::array<perturbed::Place, 2> places, std::string remark) {
+  const auto add = [&](const Words& w, std::array<perturbed::Place, 4> places, std::string remark) {
     Fault d;
     d.name = w.name;
-    if (remark.starts_with(", and so")) d.name.append(", in both components");
+    if (remark.starts_with(", and so")) d.name.append(remark.ends_with("s") ? ", in all components" : ", in both components");
     d.sentence = w.sentence + remark;
     d.behaviour.places = places;
     d.at_texel = [shared](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = shared.get(); };
@@ -238,22 +283,25 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
   constexpr std::int32_t most = 6;  // of one shape that are tried one by one: components, neighbours
   std::set<std::pair<std::uint32_t, std::int32_t>> done;
   for (const Probe& p : probes) {
-    // A vector's two components stand at two places; a mistake in the vector is made at both.
-    std::map<std::string, std::vector<std::size_t>> vectors;
-    for (std::size_t at = p.trace.nodes.size(); at-- > 0 && kind == PlaceKind::plain;) {
-      const Node& n = p.trace.nodes[at];
-      if ((n.op == Op::sum || n.op == Op::difference || n.op == Op::product) && p.trace.met.at(n.shape) == 1)
-        vectors[of_any_component(with_columns(p.text(static_cast<std::int32_t>(at), 3)))].push_back(at);
-    }
-    for (const auto& [text, at] : vectors) {
-      if (at.size() != 2) continue;
-      const Node &one = p.trace.nodes[at[0]], &other = p.trace.nodes[at[1]];
-      if (one.op != other.op || !done.insert({one.shape ^ other.shape * 5, 0}).second) continue;
-      const std::vector<Words> first = words_of(p, at[0]), second = words_of(p, at[1]);
-      for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k)
-        if (!is_multiple(first[k].fault, one.op) && first[k].fault == second[k].fault)
-          add(first[k], {perturbed::Place{one.shape, -1, first[k].fault}, perturbed::Place{other.shape, -1, first[k].fault}},
-              ", and so in the other component");
+    // The components of a vector stand at two places or three; a mistake in the vector is made at each.
+    for (const std::vector<std::size_t>& at : kind == PlaceKind::plain ? vectors_of(p) : std::vector<std::vector<std::size_t>>()) {
+      std::array<perturbed::Place, 4> places{};
+      std::uint32_t key = 0;
+      std::vector<std::vector<Words>> words;
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const Node& n = p.trace.nodes[at[k]];
+        places[k].shape = n.shape;
+        key = key * 5 ^ n.shape;
+        words.push_back(words_of(p, at[k]));
+      }
+      if (!done.insert({key, 0}).second) continue;
+      for (std::size_t w = 0; w < words[0].size(); ++w) {
+        const PlaceFault fault = words[0][w].fault;
+        const bool is_of_all = std::all_of(words.begin(), words.end(), [&](const auto& o) { return o.size() > w && o[w].fault == fault; });
+        if (!is_of_all || is_multiple(fault, p.trace.nodes[at[0]].op)) continue;
+        for (std::size_t k = 0; k < at.size(); ++k) places[k].fault = fault;
+        add(words[0][w], places, at.size() == 2 ? ", and so in the other component" : ", and so in the other components");
+      }
     }
     // From the results to what they are made of: a whole term left out is a plainer mistake than one in its depths.
     for (std::size_t at = p.trace.nodes.size(); at-- > 0;) {
@@ -264,7 +312,7 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
         if (!done.insert({n.shape, occurrence}).second) continue;
         for (const Words& w : words_of(p, at))
           if ((kind == PlaceKind::multiple) == is_multiple(w.fault, n.op))
-            add(w, {perturbed::Place{n.shape, occurrence, w.fault}, {}},
+            add(w, {perturbed::Place{n.shape, occurrence, w.fault}},
                 occurrence < 0 ? "" : fmt::format(" (one of {} alike, number {})", count, occurrence + 1));
       }
       if (n.op != Op::lookup || kind == PlaceKind::multiple) continue;

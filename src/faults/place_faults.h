@@ -16,6 +16,11 @@ enum class PlaceKind {
 /// Adds what can go wrong at each place that the probes met. `known`: as they were made with.
 void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, PlaceKind kind);
 
+/// The places of the components of vectors, two or three of one operation and one text but for the components: nodes of the probe.
+std::vector<std::vector<std::size_t>> vectors_of(const Probe& p);
+/// The same of any values, leaves too.
+std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p);
+
 /// Adds, for each constant, the value that it would need to have for what the port stored at some failing texels, where there
 /// is one. `wanted`: texels and what the port stored there, one number for each slot.
 struct Wanted {

@@ -115,6 +115,9 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
     if (!is_leaf(a.op) || (is_texel ? touched.value.has_value() : touched.is_input)) continue;
     const double by = std::abs(static_cast<double>(b.value) - a.value);
     if (!(by > 0)) continue;
+    // A member of a record that changed by more than its last bits is that of another record: they came in another order.
+    const bool is_of_record = !touched.is_input && !touched.value;
+    if (is_of_record && by > 0x1p-16 * std::abs(static_cast<double>(a.value)) + 0x1p-19) continue;
     std::string& name = probe.names[n];
     if (!touched.is_input && !name.empty()) {
       // Of several numbers: named after all of them, the second time and on.

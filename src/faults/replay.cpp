@@ -30,6 +30,8 @@ std::vector<Fault> named(Replay& run, const std::set<std::string>& names) {
   };
   if (std::all_of(names.begin(), names.end(), has)) return all;
   for (Fault& d : run.deeper()) all.push_back(std::move(d));
+  if (std::any_of(names.begin(), names.end(), is_solved))
+    for (Fault& d : run.solved()) all.push_back(std::move(d));
   take_named();
   return all;
 }
@@ -60,6 +62,7 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
     const auto found = there.find(c.name);
     if (found == there.end()) {
       c.is_likely = false;
+      if (is_solved(c.name)) c.of += there.begin()->second.of;  // it was looked for there, and not found
       continue;
     }
     c.explained += found->second.explained;
@@ -98,7 +101,8 @@ bool has_rival(const Replay& run, const std::string& first, const std::set<std::
     if (std::vector<float> numbers = elsewhere->given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
   const std::vector<float> right = elsewhere->given(Fault{});
   const auto own = given.find(first);
-  if (own == given.end()) return false;
+  // What was solved for cannot be asked elsewhere.
+  if (own == given.end()) return is_solved(first);
   return std::any_of(others.begin(), others.end(), [&](const std::string& name) {
     const auto theirs = given.find(name);
     return theirs != given.end() && std::none_of(theirs->second.begin(), theirs->second.end(), [&](const std::vector<float>& b) {
@@ -121,6 +125,10 @@ void say_one_of(Cause& first, const std::vector<Tried>& causes, std::set<std::st
 
 }  // namespace
 
+bool is_solved(const std::string& name) {
+  return name.starts_with("wrong value: ") || name.starts_with("wrong texel: ") || name.starts_with("factor too many: ") ||
+         name.starts_with("term too many: ");
+}
 bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
 
 std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const Cause& none,
@@ -145,7 +153,7 @@ std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<F
 std::vector<Cause> diagnosed(Replay& run, Replay* other) {
   std::vector<Tried> causes = run.causes(run.plain());
   // Where nearly all of it is explained by what is plain, what is less so is not needed.
-  for (const auto more : {&Replay::deeper, &Replay::fitted})
+  for (const auto more : {&Replay::deeper, &Replay::solved, &Replay::fitted})
     if (!is_explained(causes))
       for (Tried& c : run.causes((run.*more)())) causes.push_back(std::move(c));
   if (other) check_in(*other, causes);

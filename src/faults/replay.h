@@ -25,6 +25,8 @@ class Replay {
   virtual std::vector<Fault> plain() = 0;
   /// More of it, asked where nothing plain explains the run.
   virtual std::vector<Fault> deeper() { return {}; }
+  /// What is found by solving for what the port stored, asked where that explains too little.
+  virtual std::vector<Fault> solved() { return {}; }
   /// What is fitted to the port, asked where all that explains too little. After these.
   virtual std::vector<Fault> fitted() = 0;
   /// How well each explains what fails.
@@ -36,6 +38,8 @@ class Replay {
   virtual std::vector<float> given(const Fault& d) const = 0;
 };
 
+/// Whether a cause of this name was found by solving.
+bool is_solved(const std::string& name);
 /// Whether a cause of this name is a number fitted to what the port stored.
 bool is_fitted(const std::string& name);
 

@@ -30,6 +30,7 @@ struct Tap {
 struct Taps {
   std::string input;
   std::vector<Tap> all;
+  int scale_x = 1, scale_y = 1;  ///< texels of the input for each of the pass: 2 where it is half as large
   bool is_neighbour(const Tap& t) const { return t.dx != 0 || t.dy != 0; }
 };
 
@@ -85,16 +86,26 @@ std::vector<float> loads_with(const Probed& p, std::size_t input, Texel at, cons
 Taps taps_of(const Probed& p, std::size_t input) {
   const Array& a = p.c.inputs[input].array;
   Taps taps{p.c.inputs[input].name, {}};
-  const Texel at{p.model.width() / 2, p.model.height() / 2};
-  const auto around = [](int x, int centre) { return std::clamp(x - centre, -reach, reach) + middle; };
-  const std::vector<float> columns = loads_with(p, input, at, [&](int x, int, int) { return around(x, at.x); }),
-                           rows = loads_with(p, input, at, [&](int, int y, int) { return around(y, at.y); }),
+  const Texel at{p.model.width() / 2, p.model.height() / 2}, next{std::max(at.x - 1, 0), std::max(at.y - 1, 0)};
+  taps.scale_x = std::max(1, (a.width + p.model.width() / 2) / std::max(p.model.width(), 1));
+  taps.scale_y = std::max(1, (a.height + p.model.height() / 2) / std::max(p.model.height(), 1));
+  const Texel centre{taps.scale_x * at.x, taps.scale_y * at.y};
+  const auto around = [](int x, int from) { return std::clamp(x - from, -reach, reach) + middle; };
+  const auto column = [&](int x, int, int) { return around(x, centre.x); };
+  const auto row = [&](int, int y, int) { return around(y, centre.y); };
+  const std::vector<float> columns = loads_with(p, input, at, column), rows = loads_with(p, input, at, row),
+                           next_columns = loads_with(p, input, next, column), next_rows = loads_with(p, input, next, row),
                            channels = loads_with(p, input, at, [](int, int, int k) { return middle + k; }),
                            none = loads_with(p, input, at, [](int, int, int) { return 0; });
   if (columns.size() != rows.size() || columns.size() != channels.size() || columns.size() != none.size()) return taps;
+  if (next_columns.size() != columns.size() || next_rows.size() != columns.size()) return taps;
   for (std::size_t l = 0; l < columns.size(); ++l) {
     // A load of another input is the same every time.
     if (channels[l] == none[l]) continue;
+    // What does not move with the pass's own texel is no neighbour of it.
+    if (whole_of(a, columns[l]) - whole_of(a, next_columns[l]) != taps.scale_x * (at.x - next.x) ||
+        whole_of(a, rows[l]) - whole_of(a, next_rows[l]) != taps.scale_y * (at.y - next.y))
+      continue;
     taps.all.push_back({l, whole_of(a, columns[l]) - middle, whole_of(a, rows[l]) - middle, whole_of(a, channels[l]) - middle});
   }
   return taps;
@@ -123,8 +134,10 @@ class Adder {
  public:
   Adder(std::vector<Fault>& out, std::string name) : out_(out), name_(std::move(name)) {}
   void take(const CaseInput& input, const Taps& taps) {
-    of_.push_back(
-        {std::make_shared<const CaseInput>(input), std::make_shared<const std::vector<float>>(capture::decoded(input.array)), taps.all});
+    of_.push_back({std::make_shared<const CaseInput>(input),
+                   std::make_shared<const std::vector<float>>(capture::decoded(input.array)),
+                   taps.all,
+                   {taps.scale_x, taps.scale_y}});
   }
   const std::string& name() const { return name_; }
 
@@ -150,8 +163,8 @@ class Adder {
       for (const Read& from : reads)
         for (const Tap& t : from.taps) {
           const Array& a = from.input->array;
-          const int x = placed(at.x + t.dx, a.width, address.value_or(from.input->address_u)),
-                    y = placed(at.y + t.dy, a.height, address.value_or(from.input->address_v));
+          const int x = placed(from.scale.x * at.x + t.dx, a.width, address.value_or(from.input->address_u)),
+                    y = placed(from.scale.y * at.y + t.dy, a.height, address.value_or(from.input->address_v));
           loads[t.load] = x >= 0 && y >= 0
                               ? (*from.texels)[static_cast<std::size_t>((y * a.width + x) * info(a.format).channels + t.channel)]
                           : address ? 0.0f
@@ -168,6 +181,7 @@ class Adder {
     std::shared_ptr<const CaseInput> input;
     std::shared_ptr<const std::vector<float>> texels;  ///< decoded
     std::vector<Tap> taps;
+    Texel scale;
   };
   std::vector<Fault>& out_;
   std::string name_;
@@ -198,6 +212,30 @@ void add_neighbours(const Adder& add, const Taps& taps) {
     all(fmt::format("read {}", way).c_str(), fmt::format("is read {}", way).c_str(),
         [dx = dx, dy = dy](int x, int y) { return std::pair(x + dx, y + dy); });
   }
+  // All of one row or one column of them.
+  std::set<std::pair<bool, int>> lines;
+  for (const Tap& one : taps.all)
+    for (const bool is_row : {true, false}) {
+      const int line = is_row ? one.dy : one.dx;
+      const auto is_in = [is_row, line](const Tap& t) { return (is_row ? t.dy : t.dx) == line; };
+      const auto count = std::count_if(taps.all.begin(), taps.all.end(), is_in);
+      if (count < 2 || count == static_cast<std::ptrdiff_t>(taps.all.size()) || !lines.insert({is_row, line}).second || lines.size() > 10)
+        continue;
+      const std::string which = fmt::format("neighbours in {} {}", is_row ? "row" : "column", line);
+      const auto moved = [&](const std::string& words, auto move) {
+        add(fmt::format("{} {}", which, words),
+            fmt::format("the texels of {} in {} {} from here are {}", in, is_row ? "row" : "column", line, words),
+            [is_in, move](Tap t) { return is_in(t) ? move(t) : t; });
+      };
+      for (const int to : {line - 1, line + 1, -line, 0})
+        if (to != line)
+          moved(fmt::format("read in {} {}", is_row ? "row" : "column", to), [is_row, to](Tap t) {
+            return Tap{t.load, is_row ? t.dx : to, is_row ? to : t.dy, t.channel};
+          });
+      moved("read along the other axis", [is_row, line](Tap t) {
+        return is_row ? Tap{t.load, t.dx + line, t.dy - line, t.channel} : Tap{t.load, t.dx - line, t.dy + line, t.channel};
+      });
+    }
   std::set<std::pair<int, int>> done;
   for (const Tap& one : taps.all) {
     if (!done.insert({one.dx, one.dy}).second || done.size() > 9 || taps.all.size() < 2) continue;

@@ -7,6 +7,7 @@
 #include "faults/alternative_formulas.h"
 #include "faults/failing_texels.h"
 #include "faults/hypotheses.h"
+#include "faults/substitution_faults.h"
 #include "image/code_range.h"
 #include "judge/reference_outputs.h"
 #include "math/path_enumeration.h"
@@ -153,7 +154,32 @@ std::vector<Fault> TexelReplay::plain() {
   Hypotheses all = hypotheses(probed_, before_, failing_);
   constants_ = std::move(all.constants);
   orders_ = std::move(all.orders);
+  probes_ = std::move(all.probes);
+  known_ = std::move(all.known);
   return std::move(all.faults);
+}
+std::vector<Fault> TexelReplay::solved() {
+  std::vector<Solvable> texels;
+  for (const Probe& probe : probes_) {
+    const auto same = [&](Texel t) { return t.x == probe.at.x && t.y == probe.at.y; };
+    const auto number = static_cast<std::size_t>(std::find_if(failing_.begin(), failing_.end(), same) - failing_.begin());
+    if (number >= leeway_.values.size()) continue;
+    Solvable& one = texels.emplace_back(Solvable{probe, {}, {}});
+    for (std::size_t v = 0; v < slots_.size(); ++v) {
+      const Slot& s = slots_[v];
+      const float stored = stored_value(s, s.at(port_[static_cast<std::size_t>(s.output)], probe.at.x, probe.at.y));
+      // Half a step is the store's own rounding.
+      const double step = s.kind == FormatInfo::unorm8    ? 1 / 255.0
+                          : s.kind == FormatInfo::float16 ? std::abs(stored) * 0x1p-10 + 0x1p-24
+                                                          : std::abs(stored) * 0x1p-23 + 0x1p-40;
+      one.port.push_back(stored);
+      one.leeway.push_back(std::max(0.75 * step, leeway_.values[number][v] + 0.5 * step));
+      if (probed_.model.is_free(static_cast<int>(v))) one.leeway.back() = HUGE_VAL;
+    }
+  }
+  std::vector<Fault> out;
+  add_solved_substitutions(out, probed_, texels, known_);
+  return out;
 }
 std::vector<Fault> TexelReplay::fitted() { return fits(probed_, constants_, port_, reference_, failing_); }
 

@@ -26,6 +26,7 @@ class TexelReplay : public Replay {
               const enclosed::Profile& profile, judge::HalfMode mode, const parallel::Executor& executor);
   std::vector<Fault> plain() override;
   std::vector<Fault> deeper() override { return std::move(orders_); }
+  std::vector<Fault> solved() override;
   std::vector<Fault> fitted() override;
   std::vector<Tried> causes(const std::vector<Fault>& all) const override;
   std::unique_ptr<Replay> elsewhere() const override;
@@ -52,6 +53,8 @@ class TexelReplay : public Replay {
   double passing_per_failing_ = 0;
   Constants constants_;
   std::vector<Fault> orders_;  ///< for deeper()
+  std::vector<Probe> probes_;  ///< for solved()
+  std::vector<float> known_;   ///< as these were made with
 };
 
 }  // namespace rainref::faults

@@ -107,6 +107,32 @@ void add_permutations(CaseAdder& add, const PassCase& c, const std::vector<Membe
   }
 }
 
+/// The same component of two vectors or more: one is taken for the other in all of them.
+void add_joint_components(CaseAdder& add, const PassCase& c, const std::vector<Member>& members) {
+  std::vector<Member> vectors;
+  std::copy_if(members.begin(), members.end(), std::back_inserter(vectors), [](const Member& m) { return m.components > 1; });
+  constexpr std::size_t most = 6;
+  const auto joint = [&](const std::vector<Member>& of) {
+    std::string names;
+    for (const Member& m : of) names += (names.empty() ? "" : " and ") + m.name;
+    for (int to = 0; to < of[0].components; ++to)
+      for (int from = 0; from < of[0].components; ++from) {
+        const bool changes = std::all_of(of.begin(), of.end(), [&](const Member& m) { return word_at(c, m, from) != word_at(c, m, to); });
+        if (from == to || !changes) continue;
+        add(fmt::format("uniforms {} with {} for {}", names, "xyzw"[from], "xyzw"[to]),
+            fmt::format("{} is taken for {} of {}", "xyzw"[from], "xyzw"[to], names), [of, from, to](PassCase& altered) {
+              for (const Member& m : of) put_word(altered, m, to, word_at(altered, m, from));
+            });
+      }
+  };
+  for (const Member& m : vectors)
+    if (m.components > 2) joint({m});
+  if (vectors.size() > most) return;
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    for (std::size_t j = i + 1; j < vectors.size(); ++j)
+      if (vectors[i].components == vectors[j].components) joint({vectors[i], vectors[j]});
+}
+
 /// Three vectors that may be the rows of a matrix.
 void add_transposes(CaseAdder& add, const PassCase& c, const std::vector<Member>& members) {
   std::vector<Member> rows;
@@ -164,12 +190,59 @@ void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set
 
   add_permutations(add, p.c, members);
   add_transposes(add, p.c, members);
+  add_joint_components(add, p.c, members);
   add_exchanges(add, p.c, members);
 }
 
 void add_whole_mixups(std::vector<Fault>& out, const Probed& p) {
   CaseAdder add(out);
   add_exchanges(add, p.c, whole_of(p.pass));
+}
+
+namespace {
+
+/// change(value) of each float of the uniforms, where that is another; `words` gives the name and the sentence of its part.
+template <class Change, class Words>
+void add_changed_uniforms(std::vector<Fault>& out, const Probed& p, Change change, Words words) {
+  CaseAdder add(out);
+  for (const Member& m : p.pass.block.members)
+    for (int k = 0; m.scalar == Scalar::float32 && !m.name.starts_with("padding") && k < m.components; ++k) {
+      float now;
+      const Word w = word_at(p.c, m, k);
+      std::memcpy(&now, w.data(), 4);
+      const float other = change(now);
+      if (other == now) continue;
+      const auto [name, sentence] = words(m.components == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), now, other);
+      add(name, sentence, [m, k, other](PassCase& altered) {
+        Word to;
+        std::memcpy(to.data(), &other, 4);
+        put_word(altered, m, k, to);
+      });
+    }
+}
+
+}  // namespace
+
+void add_uniform_values(std::vector<Fault>& out, const Probed& p) {
+  const auto as = [&](const char* what, auto change) {
+    add_changed_uniforms(out, p, change, [what](const std::string& name, float now, float other) {
+      return std::pair(fmt::format("{} {}", name, what), fmt::format("{} is {} in place of {}", name, other, now));
+    });
+  };
+  as("left out of a product", [](float) { return 1.0f; });
+  as("doubled", [](float v) { return v * 2; });
+  as("halved", [](float v) { return v / 2; });
+  as("with the other sign", [](float v) { return -v; });
+}
+
+void add_uniforms_of_values(std::vector<Fault>& out, const Probed& p, const std::vector<float>& values) {
+  for (const float value : values)
+    add_changed_uniforms(
+        out, p, [value](float) { return value; },
+        [](const std::string& name, float now, float other) {
+          return std::pair(fmt::format("another value of {}", name),
+                           fmt::format("{} is about {:.5g} in the port, {} in the reference", name, other, now));
+        });
 }
 
 void add_named_constants(std::vector<Fault>& out, const Constants& constants, bool literals) {

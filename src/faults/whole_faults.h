@@ -14,6 +14,10 @@ namespace rainref::faults {
 void add_whole_mixups(std::vector<Fault>& out, const Probed& p);
 /// Uniforms exchanged, permuted, transposed, in another encoding; of those that the pass uses.
 void add_uniform_mixups(std::vector<Fault>& out, const Probed& p, const std::set<std::string>& used);
+/// Each float of a uniform as 1, twice and half itself, of passes whose numbers are not followed.
+void add_uniform_values(std::vector<Fault>& out, const Probed& p);
+/// The same as each of these values, fitted to what a port stored.
+void add_uniforms_of_values(std::vector<Fault>& out, const Probed& p, const std::vector<float>& values);
 /// Inputs exchanged, shifted, by another address mode, level or encoding; the other variant's formula. Without `images` those of
 /// records alone.
 void add_input_mixups(std::vector<Fault>& out, const Probed& p, bool images = true);

@@ -98,16 +98,17 @@ struct Behaviour {
   int lean = 0;                             ///< -1 or 1: errors tend to this end, so that they add up
   std::vector<float>* constants = nullptr;  ///< collects every literal and uniform met
 
-  // One mistake at one place, or at two that belong together: the two coordinates of a lookup.
-  std::array<Place, 2> places{};
+  // One mistake at one place, or at those that belong together: the coordinates of a lookup, the components of a vector.
+  std::array<Place, 4> places{};
   const std::vector<float>* known = nullptr;  ///< sorted: constants that tell places apart; others are all alike
   Trace* trace = nullptr;                     ///< collects what is done
+  Substitutions* substitutions = nullptr;     ///< other values for operands; start()ed before each invocation
   const std::vector<float>* loads = nullptr;  ///< what the texels loaded by integers are instead, in order
   std::size_t loaded = 0;                     ///< of these so far: 0 before each invocation
   float column_offset = 0;                    ///< added to the element's own column
   bool is_column_mirrored = false;            ///< the column is column_offset less itself instead
   Coverage* coverage = nullptr;               ///< counts which sides of decisions are taken
-  bool follows() const { return trace || places[0].fault != PlaceFault::none; }
+  bool follows() const { return trace || substitutions || places[0].fault != PlaceFault::none; }
 };
 Behaviour& behaviour();
 /// Sets the behaviour for a scope.

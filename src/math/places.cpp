@@ -10,7 +10,7 @@ namespace rainref::perturbed {
 namespace {
 
 thread_local int unseen = 0;
-thread_local Rewrite rewriting;
+thread_local Rewrites rewrites;
 
 /// Murmur3's finalizer (Appleby) over a running sum.
 std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
@@ -68,6 +68,8 @@ Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
       return atan2(a, b);
     case Op::mix:
       return mix(a, b, c);
+    case Op::smoothstep:
+      return scalar::smoothstep<Perturbed>(b.v, c.v, a);
     case Op::choice:
       return c.v != 0 ? a : b;
     case Op::coordinate:
@@ -79,8 +81,9 @@ Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
       return r;
   }
 }
-/// What the thread's rewrite makes of an operation, whose operands are these nodes of the trace.
-Perturbed rewritten(Op op, const Perturbed& r, std::array<Perturbed, 4> of, const std::array<std::int32_t, 4>& nodes, const Trace& trace) {
+/// What a rewrite makes of an operation, whose operands are these nodes of the trace.
+Perturbed rewritten(const Rewrite& rewriting, Op op, const Perturbed& r, std::array<Perturbed, 4> of,
+                    const std::array<std::int32_t, 4>& nodes, const Trace& trace) {
   const Unseen parts;
   const auto k = static_cast<std::size_t>(rewriting.operand);
   if (nodes[k] < 0) return r;
@@ -109,7 +112,25 @@ Perturbed rewritten(Op op, const Perturbed& r, std::array<Perturbed, 4> of, cons
       if ((operand.op != Op::sum && operand.op != Op::difference) || first < 0 || second < 0) return r;
       const Perturbed factor = of[1 - k], a = value(first), b = value(second);
       const bool is_first = rewriting.kind == RewriteKind::over_first;
-      return again(operand.op, r, {is_first ? a * factor : a, is_first ? b : b * factor, a, a});
+      const Perturbed scaled = again(op, r, {is_first ? a : b, factor, a, a});
+      return again(operand.op, r, {is_first ? scaled : a, is_first ? b : scaled, a, a});
+    }
+    case RewriteKind::function_of_all: {
+      const std::int32_t inner = child(operand, 0);
+      if (inner < 0) return r;
+      of[k] = value(inner);
+      const Perturbed whole = again(op, r, of);
+      return again(operand.op, r, {whole, whole, whole, whole});
+    }
+    case RewriteKind::function_of_first:
+    case RewriteKind::function_of_second: {
+      const std::int32_t first = child(operand, 0), second = child(operand, 1);
+      if ((operand.op != Op::sum && operand.op != Op::difference) || first < 0 || second < 0) return r;
+      std::array<Perturbed, 4> terms{value(first), value(second), r, r};
+      Perturbed& term = terms[rewriting.kind == RewriteKind::function_of_first ? 0 : 1];
+      of[k] = term;
+      term = again(op, r, of);
+      return again(operand.op, r, terms);
     }
   }
   return r;
@@ -117,9 +138,62 @@ Perturbed rewritten(Op op, const Perturbed& r, std::array<Perturbed, 4> of, cons
 
 }  // namespace
 
-const Rewrite& rewrite() { return rewriting; }
-RewriteScope::RewriteScope(const Rewrite& r) : saved_(rewriting) { rewriting = r; }
-RewriteScope::~RewriteScope() { rewriting = saved_; }
+float changed(float v, Change change) {
+  switch (change) {
+    case Change::none:
+      return v;
+    case Change::negated:
+      return -v;
+    case Change::from_one:
+      return 1 - v;
+    case Change::magnitude:
+      return v < 0 ? -v : v;
+    case Change::squared:
+      return v * v;
+    case Change::rooted:
+      return v > 0 ? __builtin_sqrtf(v) : v;
+    case Change::inverted:
+      return v != 0 ? 1 / v : v;
+    case Change::doubled:
+      return 2 * v;
+    case Change::halved:
+      return v / 2;
+  }
+  return v;
+}
+float put(float right, float value, Put how) {
+  switch (how) {
+    case Put::instead:
+      return value;
+    case Put::times:
+      return right * value;
+    case Put::divided_by:
+      return value != 0 ? right / value : right;
+    case Put::plus:
+      return right + value;
+    case Put::minus:
+      return right - value;
+  }
+  return right;
+}
+
+void Substitutions::start() {
+  seen.assign(all.size(), 0);
+  met.assign(all.size(), {});
+}
+void Substitutions::meet(std::uint32_t shape, float value) {
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].back > 0 && all[k].source == shape) met[k].push_back(value);
+}
+float Substitutions::value_for(std::size_t k, float right) const {
+  const Substitution& s = all[k];
+  const auto back = static_cast<std::size_t>(s.back);
+  if (back > met[k].size()) return right;
+  return put(right, changed(back == 0 ? s.number : met[k][met[k].size() - back], s.change), s.how);
+}
+
+RewriteScope::RewriteScope(const Rewrites& r) : saved_(rewrites) { rewrites = r; }
+RewriteScope::~RewriteScope() { rewrites = saved_; }
 
 Unseen::Unseen() { ++unseen; }
 Unseen::~Unseen() { --unseen; }
@@ -128,6 +202,7 @@ Unseen::~Unseen() { --unseen; }
 void Perturbed::leaf(Op op, std::uint32_t shape) {
   shape_.fill(hashed(static_cast<std::uint32_t>(op) + 1, shape));
   Behaviour& b = behaviour();
+  if (b.substitutions) b.substitutions->meet(shape_[0], v);
   if (!b.trace) return;
   node_ = static_cast<std::int32_t>(b.trace->nodes.size());
   b.trace->nodes.push_back({op, v, shape_[0], b.trace->met[shape_[0]]++});
@@ -148,15 +223,29 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
     const std::int32_t occurrence = place.seen++;
     if (place.occurrence < 0 || place.occurrence == occurrence) r = with_fault(op, r, of, place.fault);
   }
-  if (b.trace && rewriting.kind != RewriteKind::none && rewriting.shape == shape &&
-      (rewriting.occurrence < 0 || rewriting.occurrence == b.trace->met[shape])) {
+  for (std::size_t s = 0; b.substitutions && s < b.substitutions->all.size(); ++s) {
+    const Substitution& other = b.substitutions->all[s];
+    if (other.shape != shape) continue;
+    const std::int32_t occurrence = b.substitutions->seen[s]++;
+    if (other.occurrence >= 0 && other.occurrence != occurrence) continue;
+    std::array<Perturbed, 4> operands;
+    std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
+    Perturbed& operand = operands[static_cast<std::size_t>(other.operand)];
+    const Unseen parts;
+    operand = Perturbed::of(b.substitutions->value_for(s, operand.v));
+    r = again(op, r, operands);
+  }
+  for (const Rewrite& rewriting : rewrites) {
+    if (!b.trace || rewriting.kind == RewriteKind::none) break;
+    if (rewriting.shape != shape || (rewriting.occurrence >= 0 && rewriting.occurrence != b.trace->met[shape])) continue;
     std::array<Perturbed, 4> operands;
     std::array<std::int32_t, 4> nodes{-1, -1, -1, -1};
     std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
     std::transform(of.begin(), of.end(), nodes.begin(), [](const Perturbed* operand) { return operand->node_; });
-    r = rewritten(op, r, operands, nodes, *b.trace);
+    r = rewritten(rewriting, op, r, operands, nodes, *b.trace);
   }
   std::copy_n(depth.begin(), r.shape_.size(), r.shape_.begin());
+  if (b.substitutions) b.substitutions->meet(shape, r.v);
   if (!b.trace) return r;
   Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
   std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
@@ -239,6 +328,10 @@ Perturbed Perturbed::with_fault(Op op, const Perturbed& r, std::initializer_list
     }
     case PlaceFault::saturated:
       return scalar::saturate(op == Op::maximum ? a + b : r);
+    case PlaceFault::larger:
+      return max(a, b);
+    case PlaceFault::smaller:
+      return min(a, b);
     case PlaceFault::nearest:
       return floor(r + half);
     case PlaceFault::half_less:

@@ -68,6 +68,8 @@ enum class PlaceFault : std::uint8_t {
   added,     ///< a + b t for a mix
   in_gamma,  ///< a mix of numbers encoded by a power of 1/2.2, decoded again
   saturated,
+  larger,  ///< the larger operand for a sum
+  smaller,
   nearest,  ///< of a coordinate
   half_less,
   half_more,
@@ -83,6 +85,38 @@ struct Place {
   std::int32_t occurrence = -1;  ///< of this shape in an invocation; -1: each
   PlaceFault fault = PlaceFault::none;
   std::int32_t seen = 0;  ///< of this shape so far: 0 before each invocation
+};
+
+/// What becomes of a value before it stands in place of another.
+enum class Change : std::uint8_t { none, negated, from_one, magnitude, squared, rooted, inverted, doubled, halved };
+/// How it is put there.
+enum class Put : std::uint8_t { instead, times, divided_by, plus, minus };
+
+float changed(float value, Change change);
+float put(float right, float value, Put how);
+
+/// Another value for one operand at a place: one that was met before in the invocation, or a number.
+struct Substitution {
+  std::uint32_t shape = 0;
+  std::int32_t occurrence = -1;  ///< of this shape in an invocation; -1: each
+  std::int8_t operand = 0;
+  std::uint32_t source = 0;  ///< shape of what was met
+  std::int32_t back = 0;     ///< the last one of it is 1, the one before 2; 0: `number`
+  float number = 0;
+  Change change = Change::none;
+  Put how = Put::instead;
+};
+/// Those of one mistake, and what is met for them in an invocation.
+struct Substitutions {
+  std::vector<Substitution> all;
+  std::vector<std::int32_t> seen = {};       ///< of each place so far
+  std::vector<std::vector<float>> met = {};  ///< of each source, in order
+
+  /// Before each invocation.
+  void start();
+  void meet(std::uint32_t shape, float value);
+  /// The value for number k, given what should stand there.
+  float value_for(std::size_t k, float right) const;
 };
 
 /// What an invocation did, in order.

@@ -1,4 +1,4 @@
-// One place of a pass text whose operation is made of other values of the invocation: what a mistake in the order of steps does.
+// Places of a pass text whose operation is made of other values of the invocation: what a mistake in the order of steps does.
 #pragma once
 
 #include <array>
@@ -11,7 +11,10 @@ enum class RewriteKind : std::uint8_t {
   part,        ///< an operand is a part of what it should be: the value of before
   over_all,    ///< a factor of one term multiplies the whole sum
   over_first,  ///< a factor of a sum multiplies its first term alone
-  over_second
+  over_second,
+  function_of_all,    ///< a function of one term is taken of the whole sum
+  function_of_first,  ///< a function of a sum is taken of its first term alone
+  function_of_second
 };
 
 /// It needs Behaviour::trace, where the values of before stand.
@@ -19,22 +22,23 @@ struct Rewrite {
   RewriteKind kind = RewriteKind::none;
   std::uint32_t shape = 0;                  ///< of the place, as Place::shape
   std::int32_t occurrence = -1;             ///< of this shape in an invocation; -1: each
-  std::int8_t operand = 0;                  ///< which one is other; of over_all the term, of over_first and over_second the sum
+  std::int8_t operand = 0;                  ///< which one is other; of ..._all the term, of ..._first and ..._second the sum
   std::array<std::int8_t, 2> path{-1, -1};  ///< of part: which operand of the operand, and which of that; of over_all [0]: the factor
 };
 
-/// That of the calling thread.
-const Rewrite& rewrite();
-/// Sets it for a scope.
+/// One rewrite, or those of the components of a vector: the first of kind none ends them.
+using Rewrites = std::array<Rewrite, 4>;
+
+/// Sets those of the calling thread for a scope.
 class RewriteScope {
  public:
-  explicit RewriteScope(const Rewrite& r);
+  explicit RewriteScope(const Rewrites& r);
   ~RewriteScope();
   RewriteScope(const RewriteScope&) = delete;
   RewriteScope& operator=(const RewriteScope&) = delete;
 
  private:
-  Rewrite saved_;
+  Rewrites saved_;
 };
 
 }  // namespace rainref::perturbed

@@ -78,8 +78,8 @@ std::vector<Drop> drops_of(const RainfallUniforms& u, std::span<const Drop> crat
   for (int i = 0; i < count; ++i) {
     const random::Block r = draws.block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
     Drop drop = craters[draws.choice(r[2], 10)];
-    drop.x = static_cast<float>((draws.place(r[0], 16) * u.columns) >> 8) * 0x1p-8f;
-    drop.y = static_cast<float>((draws.place(r[1], 16) * u.rows) >> 8) * 0x1p-8f;
+    drop.x = static_cast<float>(draws.fine((draws.place(r[0], 16) * u.columns) >> 8, 8, 0)) * 0x1p-8f;
+    drop.y = static_cast<float>(draws.fine((draws.place(r[1], 16) * u.rows) >> 8, 8, 1)) * 0x1p-8f;
     add_with_images(drop, u, out);
   }
   return out;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "random/counter.h"
 
@@ -14,14 +15,21 @@ struct Draws {
   bool are_counters_swapped = false;              ///< block(seed, purpose, b, a)
   bool are_seeds_swapped = false;                 ///< the seed's words
   int purpose_off = 0;
-  bool is_place_of_low_bits = false;   ///< a place takes the low bits of its word
-  bool is_choice_of_low_bits = false;  ///< a class takes the low bits of its word
-  bool counts_above = false;           ///< thresholds above the word are counted, in place of those that it is not below
-  bool counts_one_draw = false;        ///< of several draws the first alone counts
+  std::array<std::int32_t, 2> counters_off{0, 0};  ///< added to the two counters
+  Purpose only{};                                  ///< the blocks that these five concern; Purpose{}: each
+  bool is_place_of_low_bits = false;               ///< a place takes the low bits of its word
+  bool is_choice_of_low_bits = false;              ///< a class takes the low bits of its word
+  bool counts_above = false;                       ///< thresholds above the word are counted, in place of those that it is not below
+  bool counts_one_draw = false;                    ///< of several draws the first alone counts
+  std::array<bool, 2> is_whole{};      ///< of a place, its column or its row loses its fraction
+
+  std::vector<Purpose>* met = nullptr;  ///< collects what words are drawn for
 
   Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) const;
   /// The upper bits of a word, as the place of something.
   std::uint32_t place(std::uint32_t word, int bits) const { return upper(word, bits, is_place_of_low_bits); }
+  /// A column (0) or row (1) in fractions of so many bits.
+  std::uint32_t fine(std::uint32_t place, int bits, std::size_t axis) const { return is_whole[axis] ? place >> bits << bits : place; }
   /// The upper bits of a word, as the number of a class.
   std::uint32_t choice(std::uint32_t word, int bits) const { return upper(word, bits, is_choice_of_low_bits); }
   /// Of so many thresholds those that are counted where the word is not below `passed` of them.

@@ -1,6 +1,6 @@
 #include "screen_drops/cells.h"
 
-#include "random/counter.h"
+#include "random/draws.h"
 #include "screen_drops/scalar.h"
 
 namespace rainref::screen_drops {
@@ -16,7 +16,7 @@ CellLine::CellLine(const CellsUniforms& uniforms, int row) : u_(uniforms) {
 }
 void CellLine::draw_clock(int column, DrawnCell& drawn) const {
   const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
-  const random::Block own = random::block(seed, random::Purpose::screen_cell, static_cast<std::uint32_t>(column) | line_, layer_);
+  const random::Block own = random::draws().block(seed, random::Purpose::screen_cell, static_cast<std::uint32_t>(column) | line_, layer_);
   drawn.length = u_.shortest + ((own[0] >> 16) * u_.span >> 16);
   drawn.start = (own[1] >> 16) * drawn.length >> 16;
 }
@@ -24,7 +24,7 @@ void CellLine::draw_cycle(int column, std::uint32_t time, DrawnCell& drawn) cons
   const std::uint64_t seed = u_.seed[0] | static_cast<std::uint64_t>(u_.seed[1]) << 32;
   const std::uint32_t cycle = time / drawn.length;
   const random::Block drop =
-      random::block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
+      random::draws().block(seed, random::Purpose::screen_drop, static_cast<std::uint32_t>(column) | line_, cycle * layers + layer_);
   drawn.begin = cycle * drawn.length;
   drawn.cycle = {(drop[0] >> 16) < u_.keep, cycle, 0, drop[1] >> 16, drop[2] >> 16, drop[3] >> 16};
 }

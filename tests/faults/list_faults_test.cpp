@@ -252,5 +252,39 @@ TEST(ListFaultsOfMerge, ACauseMustNotBreakWhatIsRight) {
   EXPECT_TRUE(l.causes(port).empty()) << text_of(l.causes(port));
 }
 
+// A uniform that a pass of whole numbers only hands on has another number: it is read off what the port stored.
+TEST(ListDiagnosis, AnotherValueOfAUniformIsReadOff) {
+  int named = 0;
+  for (const ListCase& l : list_cases("windshield-as-published", "spawn")) {
+    if (l.reference().width < 4 || named > 0) continue;
+    PassCase altered = *l.c;
+    for (const scene::Member& m : l.pass.block.members)
+      if (const float life = 0.8125f; m.name == "life") std::memcpy(altered.uniforms.data() + m.offset, &life, 4);
+    const Array port = l.evaluations().recompute(altered)[l.output];
+    const std::vector<Cause> causes = l.causes(port);
+    ASSERT_FALSE(causes.empty());
+    EXPECT_EQ(causes[0].name, "another value of life");
+    EXPECT_THAT(causes[0].sentence, HasSubstr("0.8125"));
+    ++named;
+  }
+  EXPECT_EQ(named, 1);
+}
+// One field alone has half precision.
+TEST(ListDiagnosis, AFieldThroughHalfIsNamed) {
+  int named = 0;
+  for (const ListCase& l : list_cases("windshield-corrected", "integrate")) {
+    for (const Fault& d : l.faults()) {
+      if (d.name != "drops with velocity through half") continue;
+      const std::optional<Array> port = faulty_list(d, *l.c, l.output, l.evaluations(), l.model.get(), l.reference());
+      if (!port || l.judged(*port).events.outside.size() < 4) continue;
+      const std::vector<Cause> causes = l.causes(*port);
+      ASSERT_FALSE(causes.empty());
+      EXPECT_EQ(causes[0].name, d.name);
+      ++named;
+    }
+  }
+  EXPECT_GT(named, 0);
+}
+
 }  // namespace
 }  // namespace rainref::faults

@@ -44,7 +44,9 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
     craters += r.of("drops", d, "amplitude") * crater;
   }
   if (r.is("craters' sign")) craters = -craters;
+  if (r.is("laplacian damped")) laplacian = damping * laplacian;
   float next = ((here + damping * velocity) + courant * laplacian) + craters;
+  if (r.is("velocity for the laplacian")) next = ((here + damping * velocity) + courant * velocity) + craters;
   if (r.is("damping of all")) next = damping * (here + velocity + courant * laplacian) + craters;
   if (r.is("craters forgotten")) next = next - craters;
   out[0] = next;
@@ -111,9 +113,13 @@ inline bool puddle_display(const Run& r, int x, int y, float* out) {
              : r.is("encoded twice")             ? srgb(srgb(linear))
              : r.is("power 1/2.2 for sRGB")      ? power(linear, 1 / 2.2f)
              : r.is("offset 0.55 for 0.055")     ? (linear <= 0.0031308f ? 12.92f * linear : 1.055f * power(linear, 1 / 2.4f) - 0.0055f)
+             : r.is("1.505 for 1.055")           ? (linear <= 0.0031308f ? 12.92f * linear : 1.505f * power(linear, 1 / 2.4f) - 0.055f)
              : r.is("exponent 1/2 in the curve") ? (linear <= 0.0031308f ? 12.92f * linear : 1.055f * power(linear, 0.5f) - 0.055f)
                                                  : srgb(linear);
   }
+  if (r.is("result squared"))
+    for (int k = 0; k < 3; ++k) out[k] = out[k] * out[k];
+  if (r.is("green for all")) out[0] = out[2] = out[1];
   if (r.is("blue first")) std::swap(out[0], out[2]);
   if (r.is("green for blue")) out[2] = out[1];
   out[3] = 1;
