@@ -21,7 +21,7 @@ struct Draws {
   bool is_choice_of_low_bits = false;              ///< a class takes the low bits of its word
   bool counts_above = false;                       ///< thresholds above the word are counted, in place of those that it is not below
   bool counts_one_draw = false;                    ///< of several draws the first alone counts
-  std::array<bool, 2> is_whole{};      ///< of a place, its column or its row loses its fraction
+  std::array<bool, 2> is_whole{};                  ///< of a place, its column or its row loses its fraction
 
   std::vector<Purpose>* met = nullptr;  ///< collects what words are drawn for
 
