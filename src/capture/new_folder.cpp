@@ -1,6 +1,5 @@
 #include "capture/new_folder.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -11,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "capture/write_back.h"
 #include "rainref/error.h"
 
 namespace rainref::capture {
@@ -23,13 +23,6 @@ namespace {
   throw Error(ExitCode::io, fmt::format("cannot write '{}': {}", path.string(), why));
 }
 [[noreturn]] void fail(const fs::path& path, int error) { fail(path, std::generic_category().message(error)); }
-
-/// The file's bytes are on their way to the disk: when all files are waited for, later, that is one wait and not one for each.
-void begin_to_sync(int descriptor) {
-#ifdef __linux__
-  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);  // no matter where it fails: it is waited for all the same
-#endif
-}
 
 }  // namespace
 
@@ -77,7 +70,7 @@ void NewFolder::write(const std::string& path, std::span<const std::byte> bytes)
   }
   if (std::fwrite(bytes.data(), 1, bytes.size(), out.get()) != bytes.size()) fail(shown, errno);
   if (std::fflush(out.get()) != 0) fail(shown, errno);
-  begin_to_sync(::fileno(out.get()));
+  begin_write_back(::fileno(out.get()));
   files_.push_back(file);
   // A full disk may show only here.
   if (std::fclose(out.release()) != 0) fail(shown, errno);
