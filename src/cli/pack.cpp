@@ -172,6 +172,8 @@ class Packing {
   }
   /// Of the pack written last: which alternatives of its passes no case takes, a line for each pass.
   const std::string& not_exercised() const { return not_exercised_; }
+  /// The next write() is without this pass.
+  void leave_out(const std::string& pass) { std::erase(passes_, pass); }
   /// Looks on for frames in which these passes do more than nothing; takes those out that have one. False where there is none.
   bool add_frames(std::map<std::string, judge::NullPorts>& idle) const {
     const int end = static_cast<int>(config_.integer("run.frames")) + frames_beyond;
@@ -226,7 +228,20 @@ int pack(const PackOptions& options) {
   Packing packing(config, options, executor, passes, frames);
   capture::PackWriter::Total total = packing.write();
   std::map<std::string, judge::NullPorts> idle = idle_passes(options.output);
-  if (!idle.empty() && options.may_add_frames && packing.add_frames(idle)) total = packing.write();
+  if (!idle.empty() && options.may_add_frames) {
+    bool has_changed = packing.add_frames(idle);
+    // Wipers that a scene has none of move no drop in any frame: every port of that pass would be UNTESTED, the right one too.
+    if (options.passes.empty() && idle.size() < passes.size()) {
+      for (const auto& [pass, ports] : idle) {
+        say("left out: {}: a port that does nothing passes ({}), and no frame was found in which it does more\n", pass, ports.passing());
+        packing.leave_out(pass);
+        std::erase(passes, pass);
+        has_changed = true;
+      }
+      idle.clear();
+    }
+    if (has_changed) total = packing.write();
+  }
   for (const auto& [pass, ports] : idle)
     say("warning: this pack says nothing of {}: a port that does nothing passes ({}); take other frames, or a scene with more in it\n",
         pass, ports.passing());

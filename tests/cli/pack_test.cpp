@@ -94,6 +94,34 @@ TEST_F(PackVerb, FramesAndPassesAreChosen) {
                                     "puddle.wave_step/0003.2", "puddle.wave_step/0003.3", "puddle.shade/0003.0"));
 }
 
+// A scene without wipers runs wipe_drops, which moves no drop: a port that copies its input would pass, so nothing is said of it, unless
+// it is asked for by name.
+TEST_F(PackVerb, APassThatDoesNothingInAnyFrameIsLeftOut) {
+  put(folder / "dry.toml", R"(effect = "windshield"
+variant = "corrected"
+[run]
+size = [32, 18]
+frames = 2
+[windshield]
+height_size = [32, 20]
+[wipers]
+count = 0
+[scene]
+size = [32, 18]
+)");
+  const Outcome all = pack({"dry.toml", "-o", "all"});
+  EXPECT_THAT(all.out, HasSubstr("left out: wipe_drops: a port that does nothing passes (a copy of its input drops), and no frame was "
+                                 "found in which it does more\n"));
+  EXPECT_THAT(all.out, testing::Not(HasSubstr("says nothing of wipe_drops")));
+  const std::vector<std::string> cases = ids("all");
+  EXPECT_FALSE(cases.empty());
+  EXPECT_THAT(cases, testing::Not(testing::Contains(HasSubstr("wipe_drops"))));
+  std::filesystem::copy(folder / "all", folder / "port", std::filesystem::copy_options::recursive);
+  std::filesystem::remove(folder / "port/manifest.json");
+  EXPECT_EQ(rainref({"validate", "all", "--port", "port", "--profile", "cuda", "--no-causes"}).code, 0);
+
+  EXPECT_THAT(pack({"dry.toml", "--passes", "wipe_drops", "-o", "asked"}).out, HasSubstr("warning: this pack says nothing of wipe_drops"));
+}
 TEST_F(PackVerb, ThreadsAndSimdTargetsDoNotMatter) {
   const std::string basin = "puddle.shape=basin";  // the bed of a natural puddle costs most of a second
   pack({"corrected.toml", "-o", "p", "--at", "1", "--threads", "1", "--set", basin});
