@@ -247,7 +247,9 @@ TEST_F(RealFilms, HaveTheFramesInOrderAndTheScenesSpeed) {
     const bool is_gif = name == "rain.gif";
     const std::string probe = "ffprobe -v error -count_frames -select_streams v -of csv=p=0 -show_entries stream=";
     EXPECT_EQ(printed(probe + "width,height,nb_read_frames " + name), is_gif ? "25,15,3\n" : "26,16,3\n");
-    if (!is_gif) EXPECT_EQ(printed(probe + "avg_frame_rate " + name), "30/1\n");  // a GIF's are hundredths of a second, rounded
+    if (!is_gif) {  // a GIF's are hundredths of a second, rounded
+      EXPECT_EQ(printed(probe + "avg_frame_rate " + name), "30/1\n");
+    }
     // Three frames that differ: each decoded one is nearest to its own. 26x16 is 25x15 with a black line.
     printed("ffmpeg -v error -y -i " + name + " -vf crop=25:15:0:0 -f rawvideo -pix_fmt rgb24 back");
     const std::string back = contents(folder / "back");
@@ -262,8 +264,11 @@ TEST_F(RealFilms, HaveTheFramesInOrderAndTheScenesSpeed) {
         return sum / size;
       };
       const double own = distance(static_cast<int>(2 * k));
-      for (const int other : {0, 2, 4})
-        if (other != static_cast<int>(2 * k)) EXPECT_LT(own, distance(other)) << k;
+      for (const int other : {0, 2, 4}) {
+        if (other != static_cast<int>(2 * k)) {
+          EXPECT_LT(own, distance(other)) << k;
+        }
+      }
       // Codes of 0 to 255, after a lossy code with half the colour: measured 1 to 5.
       EXPECT_LT(own, 12) << k;
     }

@@ -65,7 +65,6 @@ TEST_F(PictureNotes, TheScenesHashIsOfWhatItsFilesHoldAndNotOfTheirNames) {
   EXPECT_THAT(note("b/puddle.0001.png", "scene"), HasSubstr("environment.image = \"other.png\"\n"));
   run({"corrected.toml", "-o", "c", "--set", "rain.rate=41"});
   EXPECT_NE(note("a/puddle.0001.png", "scene_hash"), note("c/puddle.0001.png", "scene_hash"));
-  std::string other = contents(folder / "sky.png");
   std::vector<std::string> rows(4, std::string(24, 'x'));
   put(folder / "deep/other.png", image_io::png(8, 4, 8, 2, rows));
   run({"corrected.toml", "-o", "d", "--set", "environment.image=deep/other.png"});
@@ -120,10 +119,11 @@ TEST_F(PictureNotes, OtherPicturesAreNoScenes) {
 }
 
 TEST_F(PictureNotes, AnotherGenerationIsSaid) {
+  std::string scene("rainref:scene\0", 14);
+  scene += contents(folder / "corrected.toml");
   put(folder / "old.png",
       image_io::png(1, 1, 8, 2, {"abc"},
-                    image_io::png_chunk("tEXt", std::string("rainref:golden_generation\0001", 27)) +
-                        image_io::png_chunk("tEXt", std::string("rainref:scene\0", 14) + contents(folder / "corrected.toml"))));
+                    image_io::png_chunk("tEXt", std::string("rainref:golden_generation\0001", 27)) + image_io::png_chunk("tEXt", scene)));
   const Outcome o = rainref({"run", "old.png", "-o", "o"});
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.err,

@@ -21,8 +21,10 @@ const std::string plain = png(1, 1, 8, 2, {"abc"});
 // PNG specification, third edition: 11.3.3.2 (tEXt: keyword, zero, Latin-1) and 11.3.3.4 (iTXt: keyword, zero, not compressed, method 0,
 // language, translated keyword, UTF-8).
 TEST(PngText, IsTheSpecificationsBytesBeforeTheTexels) {
-  const std::string ascii = png_chunk("tEXt", std::string("rainref:seed\0007", 14)),
-                    other = png_chunk("iTXt", std::string("rainref:scene\0\0\0\0\0", 18) + "a = \"Straße.exr\"\n");
+  const std::string ascii = png_chunk("tEXt", std::string("rainref:seed\0007", 14));
+  std::string content("rainref:scene\0\0\0\0\0", 18);
+  content += "a = \"Straße.exr\"\n";
+  const std::string other = png_chunk("iTXt", content);
   EXPECT_EQ(text_of(with_png_text(bytes_of(plain), {{"rainref:seed", "7"}, {"rainref:scene", "a = \"Straße.exr\"\n"}})),
             png(1, 1, 8, 2, {"abc"}, ascii + other));
   EXPECT_EQ(text_of(with_png_text(bytes_of(plain), {})), plain);
