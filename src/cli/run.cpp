@@ -169,7 +169,7 @@ int run(const RunOptions& options) {
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
   effect::RunMemory memory = simulation::memory_of(config);
-  add_pictures(memory, options.png, options.exr);
+  add_pictures(memory, options.png || !options.film.empty(), options.exr);
   if (options.capture != RunOptions::none) add_captures(memory);
   if (left) memory.peak.pass(*left);
   require_memory(memory);
