@@ -40,11 +40,12 @@ const std::array<FilmFormat, 3>& formats() {
       // Rain at night is small bright things on dark: 18 keeps them, where the default of 23 smears.
       {".mp4", "mp4", to_yuv, with_colours({"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"}), 0},
       {".webm", "webm", to_yuv, with_colours({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4"}), 0},
-      // One palette for the whole film, so that what rests does not flicker; ffmpeg holds all pictures until it knows them. Times are
+      // One palette for the whole film, so that what rests does not flicker; ffmpeg holds all pictures until it knows it. Not of
+      // what moves alone (stats_mode=diff): that leaves out the last picture's colours. Times are
       // hundredths of a second, and browsers take 1 for 10.
       {".gif",
        "gif",
-       "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+       "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
        {"-c:v", "gif", "-loop", "0"},
        50},
   }};
