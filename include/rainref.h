@@ -61,7 +61,8 @@ typedef struct rr_open_options {
 
 /// Opens the text of a scene; "" where `set` says everything. `options` may be NULL. A scene may name files, which are read. Close it.
 RR_API int rr_open(const char* toml, const rr_open_options* options, rr_simulation** simulation);
-/// The same of a scene file, or of a scene that came with rainref ("puddle/default.toml"); options->file is not used.
+/// The same of a scene file, of a scene that came with rainref ("puddle/default.toml"), or of a picture that rainref wrote;
+/// options->file is not used.
 RR_API int rr_open_file(const char* path, const rr_open_options* options, rr_simulation** simulation);
 /// NULL is allowed.
 RR_API void rr_close(rr_simulation* simulation);

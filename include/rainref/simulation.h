@@ -21,7 +21,8 @@ namespace rainref {
 using Buffer = std::variant<BufferView, RecordView>;
 
 /// The text of a scene file, with changes to it. Where there is no such file, of the scene of this name that came with rainref
-/// ("puddle/default.toml": `rainref list`). Throws Error(io) when it cannot be read.
+/// ("puddle/default.toml": `rainref list`). Of a PNG or EXR that rainref wrote: the scene that is in it, up to that frame. Throws Error(io)
+/// when it cannot be read, Error(usage) for another picture.
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set = {});
 
 /// A scene that runs. Every buffer has the same bits whatever the executor's threads, the SIMD target and the caller's floating-point

@@ -21,6 +21,7 @@ struct SceneOptions {
 struct RunOptions {
   SceneOptions scene;
   std::filesystem::path output;  ///< empty: out/<name of the scene>
+  std::filesystem::path film;    ///< of the frames from `first` on, each K-th with `every`; empty: none
   int first = 0;                 ///< frames before it are simulated and not rendered
   int every = 0;                 ///< 0: the last frame only
   int checkpoint_every = 0;      ///< frames between states that a killed run can go on from; 0: none

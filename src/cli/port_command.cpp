@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,6 +20,7 @@
 
 #include "base/interruption.h"
 #include "base/signals.h"
+#include "cli/command_end.h"
 #include "cli/process_control.h"
 #include "rainref/error.h"
 
@@ -32,34 +32,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kept_bytes = 65536, kept_lines = 20;
-
-std::vector<std::string> last_lines_of(const std::string& text) {
-  std::vector<std::string> lines{""};
-  for (const char c : text) {
-    if (c == '\n')
-      lines.emplace_back();
-    else if (c != '\r')
-      lines.back() += c;
-  }
-  if (lines.back().empty()) lines.pop_back();
-  if (lines.size() > kept_lines) lines.erase(lines.begin(), lines.end() - kept_lines);
-  return lines;
-}
-
-std::string signal_text(int signal) { return fmt::format("signal {} ({})", signal, ::strsignal(signal)); }
-
-std::string failure_of(int status) {
-  if (WIFSIGNALED(status)) return fmt::format("the port's command was ended by {}", signal_text(WTERMSIG(status)));
-  const int code = WEXITSTATUS(status);
-  if (code == 0) return "";
-  // A shell reports a child's signal like this.
-  if (code > 128 && code <= 128 + 64) return fmt::format("the port's command ended with exit code {}: {}", code, signal_text(code - 128));
-  return fmt::format("the port's command ended with exit code {}{}", code,
-                     code == 127   ? ": there is no such program"
-                     : code == 126 ? ": it is no program"
-                                   : "");
-}
+constexpr std::size_t kept_bytes = 65536;
 
 [[noreturn]] void fail(const char* what) {
   throw Error(ExitCode::io, fmt::format("--exec: {}: {}", what, std::generic_category().message(errno)));
@@ -265,7 +238,7 @@ CommandEnd run_command(const std::string& command, std::chrono::duration<double>
   for (int i = 0; i < 64 && read_some(0); ++i) {
   }
   ::close(out[0]);
-  CommandEnd result{failure_of(status), last_lines_of(text)};
+  CommandEnd result{failure_of("the port's command", status), last_lines_of(text)};
   if (timed_out) result.failure = fmt::format("the port's command was ended after {:g} s (--timeout)", timeout.count());
   return result;
 }

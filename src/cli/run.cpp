@@ -1,4 +1,5 @@
 // `rainref run` and `rainref hash`.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -20,11 +21,13 @@
 #include "capture/pack_write.h"
 #include "cli/checkpoint.h"
 #include "cli/commands.h"
+#include "cli/film.h"
 #include "cli/json_text.h"
 #include "cli/progress.h"
 #include "cli/differences.h"
 #include "cli/scene_file.h"
 #include "cli/terminal.h"
+#include "image/flipped.h"
 #include "image_io/codec.h"
 #include "math/simd_target.h"
 #include "rainref/error.h"
@@ -110,7 +113,17 @@ void check(const RunOptions& options, int frames) {
   if (options.capture != RunOptions::none && (options.checkpoint_every > 0 || options.resume))
     throw Error(ExitCode::usage,
                 "--capture: expected neither --checkpoint-every nor --resume beside it: its folder appears whole, at the end");
+  if (options.film.empty()) return;
+  if (options.checkpoint_every > 0 || options.resume)
+    throw Error(
+        ExitCode::usage,
+        "--film: expected neither --checkpoint-every nor --resume beside it: ffmpeg cannot go on with a film; write pictures, or run "
+        "a sweep with chunks");
+  if (const int every = std::max(options.every, 1); (frames - 1) / every * every < options.first)
+    throw Error(ExitCode::usage, fmt::format("--film: expected a frame to show, found none from {} to {} that {} divides", options.first,
+                                             frames - 1, every));
 }
+FilmRate film_rate(const RunOptions& options, const scene::Config& config) { return {config.real("run.fps"), std::max(options.every, 1)}; }
 
 nlohmann::ordered_json summary(const scene::Config& config, const std::vector<effect::InputFile>& inputs,
                                const parallel::Executor& executor, const capture::HashRecorder& recorder,
@@ -149,13 +162,14 @@ int run(const RunOptions& options) {
       options.output.empty() ? std::filesystem::path("out") / config.effect() / options.scene.scene.stem() : options.output;
   const int frames = static_cast<int>(config.integer("run.frames"));
   check(options, frames);
+  if (!options.film.empty()) require_film(options.film, film_rate(options, config));
   OutputFolder made(folder);
   const Checkpoint checkpoint(folder, options);
   const std::optional<std::uintmax_t> left = options.resume ? checkpoint.bytes() : std::nullopt;
   if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
   effect::RunMemory memory = simulation::memory_of(config);
-  add_pictures(memory, options.png, options.exr);
+  add_pictures(memory, options.png || !options.film.empty(), options.exr);
   if (options.capture != RunOptions::none) add_captures(memory);
   if (left) memory.peak.pass(*left);
   require_memory(memory);
@@ -170,6 +184,12 @@ int run(const RunOptions& options) {
   const auto written = [&](int frame) {
     return frame >= options.first && (options.every > 0 ? frame % options.every == 0 : frame == frames - 1);
   };
+  const auto filmed = [&](int frame) { return !options.film.empty() && frame >= options.first && frame % std::max(options.every, 1) == 0; };
+  std::optional<Film> film;
+  if (!options.film.empty()) {
+    const scene::Integer2& size = config.integer2("run.size");
+    film.emplace(options.film, static_cast<int>(size[0]), static_cast<int>(size[1]), film_rate(options, config));
+  }
   capture::HashRecorder recorder;
   std::optional<Capture> capture;
   if (options.capture != RunOptions::none) capture.emplace(*opened.effect().info, options, config, folder / "capture", written);
@@ -195,7 +215,7 @@ int run(const RunOptions& options) {
     Progress progress(config.effect(), frames - begin);
     for (int frame = begin; frame < frames; ++frame) {
       recorder.set_hashing(frame == frames - 1);  // `rainref hash` is for all of them
-      opened.show(written(frame) || frame == frames - 1);
+      opened.show(written(frame) || filmed(frame) || frame == frames - 1);
       opened.simulate(&recorders);
       if (frame < options.first)
         opened.skip(&recorders);
@@ -214,6 +234,7 @@ int run(const RunOptions& options) {
           truth.push_back(of_frame);
         }
       }
+      if (filmed(frame)) film->add(flipped(opened.picture()));
       const int done = frame + 1;
       if (options.checkpoint_every > 0 && done % options.checkpoint_every == 0 && done < frames) {
         forget_older_run();
@@ -226,6 +247,7 @@ int run(const RunOptions& options) {
   nlohmann::ordered_json report = summary(config, opened.inputs().files, executor, recorder, last, seconds, frames);
   report["memory"] = {{"stated", stated}, {"taken", most_memory()}};
   if (options.compare_truth) report["truth"] = truth;
+  if (film) film->finish();
   forget_older_run();
   if (capture) capture->writer.finish();
   write_file(made.summary(), json_text(report) + "\n");
@@ -234,9 +256,12 @@ int run(const RunOptions& options) {
   if (options.json)
     say("{}\n", json_text(report));
   else
-    say("{} in {}{}, {}{} and summary.json in {}\n", counted(frames, "frame"), duration_text(seconds),
+    say("{} in {}{}, {}{} and summary.json in {}{}\n", counted(frames, "frame"), duration_text(seconds),
         left ? fmt::format(", the first {} of them before", begin) : "", counted(pictures, "picture"), capture ? ", capture/" : "",
-        folder.string());
+        folder.string(),
+        film ? fmt::format(", film of {} at {:g} a second: {}", counted(film->pictures(), "picture"),
+                           film_rate(options, config).per_second(), options.film.string())
+             : "");
   return 0;
 }
 

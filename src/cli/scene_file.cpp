@@ -8,8 +8,10 @@
 
 #include "cli/terminal.h"
 #include "rainref/error.h"
+#include "rainref/version.h"
 #include "scene/toml.h"
 #include "simulation/own_scenes.h"
+#include "simulation/picture_notes.h"
 
 namespace rainref::cli {
 namespace {
@@ -62,6 +64,12 @@ std::vector<std::string> known_scenes() {
 
 scene::Config load_scene(const SceneOptions& options) {
   try {
+    if (const auto made = simulation::scene_of_picture(options.scene)) {
+      if (made->golden_generation != std::to_string(golden_generation))
+        complain(fmt::format("warning: '{}' is of golden generation {}, and this is {}: expect other bits", options.scene.string(),
+                             made->golden_generation, golden_generation));
+      return scene::parse(made->toml, options.scene, options.overrides, simulation::effect_table());
+    }
     return scene::load(options.scene, options.overrides, simulation::effect_table());
   } catch (const Error& e) {
     std::error_code none;

@@ -14,7 +14,8 @@ namespace rainref::cli {
 /// built from.
 std::vector<std::string> known_scenes();
 
-/// scene::load of the options' file and overrides. A file that is not there brings the nearest scene that is into the message.
+/// scene::load of the options' file and overrides; of a picture that rainref wrote, the scene in it. A file that is not there brings the
+/// nearest scene that is into the message.
 scene::Config load_scene(const SceneOptions& options);
 
 /// The scene, ready to run; what is doubtful about its files is said on standard error.

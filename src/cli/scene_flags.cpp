@@ -13,7 +13,10 @@
 namespace rainref::cli {
 
 void add_scene_flags(CLI::App& verb, SceneFlags& flags, bool with_frames) {
-  verb.add_option("SCENE", flags.scene, "Scene file (TOML), or a scene of `rainref list`")->type_name("FILE")->required();
+  verb.add_option("SCENE", flags.scene,
+                  "Scene file (TOML), a scene of `rainref list`, or a picture that rainref wrote: the scene in it, up to that frame")
+      ->type_name("FILE")
+      ->required();
   if (with_frames) verb.add_option("--frames", flags.frames, "Number of frames")->type_name("N");
   verb.add_option("--size", flags.size, "Picture size, WxH")->type_name("WxH");
   verb.add_option("--threads", flags.threads, "Threads; the result does not depend on them")->type_name("N");

@@ -2,16 +2,19 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/atomic_file.h"
 #include "base/folders.h"
-#include "cli/port_command.h"
+#include "cli/film.h"
 #include "cli/progress.h"
 #include "cli/sweep.h"
 #include "cli/terminal.h"
+#include "image_io/read.h"
 #include "image_io/write.h"
 #include "rainref/error.h"
 #include "sweep/database.h"
@@ -40,42 +43,35 @@ std::string timings_csv(const OpenPlan& open) {
   return text;
 }
 
-/// A shell's word for a plain path.
-std::string quoted(const fs::path& path) {
-  std::string out = "'";
-  for (const char c : path.string()) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+/// The scene's speed: every K-th frame is kept.
+FilmRate film_rate_of(const OpenPlan& open) {
+  std::int64_t every = 0;
+  for (const sweep::Keep& keep : open.cells.plan().keep)
+    if (keep.what == sweep::Keep::What::picture && keep.every > 0) every = std::gcd(every, keep.every);
+  return {open.cells.config(open.cells.all()[0]).real("run.fps"), static_cast<int>(std::max<std::int64_t>(every, 1))};
 }
 
 /// The pictures of the first run in order, as a film. Says why there is none.
 std::string write_film(const OpenPlan& open, const sweep::Table& table, const fs::path& folder) {
   const std::vector<sweep::Cell>& cells = open.cells.all();
-  std::string list;
-  int pictures = 0;
-  double fps = 60;
+  std::vector<fs::path> pictures;
   for (std::size_t i = 0; i < cells.size() && cells[i].film == cells[0].film && !cells[0].film.empty(); ++i) {
-    if (i == 0) fps = open.cells.config(cells[0]).real("run.fps");
-    for (const sweep::KeptFile& f : table.rows[i].files) {
-      if (!f.path.starts_with("picture.") || !f.path.ends_with(".png")) continue;
-      list += (open.store.cell(cells[i].id) / f.path).string() + "\n";
-      ++pictures;
-    }
+    for (const sweep::KeptFile& f : table.rows[i].files)
+      if (f.path.starts_with("picture.") && f.path.ends_with(".png")) pictures.push_back(open.store.cell(cells[i].id) / f.path);
   }
-  if (pictures < 2) return "no film: the first run has fewer than two pictures";
-  write_file(folder / "film.txt", list);
-  const fs::path made = folder / ".film.mp4";
-  const CommandEnd end = run_command(
-      fmt::format(
-          "command -v ffmpeg >/dev/null || {{ echo ffmpeg is not installed; exit 1; }}; xargs -d '\\n' cat <{} | ffmpeg -loglevel error -y "
-          "-f image2pipe -c:v png -framerate {} -i - -vf pad='ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p -threads 1 -fflags +bitexact "
-          "-flags:v +bitexact {}",
-          quoted(folder / "film.txt"), fps, quoted(made)),
-      std::chrono::hours(24));
-  if (!end.failure.empty()) return fmt::format("no film: {}", end.last_lines.empty() ? end.failure : end.last_lines.back());
-  std::error_code error;
-  fs::rename(made, folder / "film.mp4", error);
-  if (error) throw Error(ExitCode::io, fmt::format("{}: {}", (folder / "film.mp4").string(), error.message()));
-  return fmt::format("film.mp4 of {} pictures", pictures);
+  if (pictures.size() < 2) return "no film: the first run has fewer than two pictures";
+  try {
+    std::optional<Film> film;
+    for (const fs::path& picture : pictures) {
+      const Image image = image_io::read(picture).image;
+      if (!film) film.emplace(folder / "film.mp4", image.width(), image.height(), film_rate_of(open));
+      film->add(image);
+    }
+    film->finish();
+    return fmt::format("film.mp4 of {} pictures", film->pictures());
+  } catch (const Error& e) {
+    return fmt::format("no film: {}", e.what());
+  }
 }
 
 }  // namespace

@@ -56,13 +56,17 @@ Verb run_verb(CLI::App& app) {
     SceneFlags scene;
     RunOptions options;
     std::string image = "png";
-    std::optional<std::string> output, first, every, captured, checkpoint_every;
+    std::optional<std::string> output, film, first, every, captured, checkpoint_every;
   };
   CLI::App& verb = *app.add_subcommand("run", "Simulate and render a scene");
   const auto f = std::make_shared<Flags>();
   add_scene_flags(verb, f->scene);
   verb.add_option("-o,--output", f->output, "Folder for pictures and summary.json (default: out/<effect>/<scene>)")->type_name("DIR");
   verb.add_option("--image", f->image, "Pictures to write")->type_name("exr|png|both|none");
+  verb.add_option("--film", f->film,
+                  "Film of all frames from --first on, of every K-th with --every K, at the scene's speed (run.fps / K pictures a second), "
+                  "made by ffmpeg: .mp4, .webm or .gif; its folder counts from here, not from DIR")
+      ->type_name("FILE");
   verb.add_option("--every", f->every, "Write every K-th frame (default: the last frame only)")->type_name("K");
   verb.add_option("--first", f->first, "First frame of interest: those before it are simulated, and not rendered")->type_name("A");
   verb.add_option("--checkpoint-every", f->checkpoint_every,
@@ -79,7 +83,9 @@ Verb run_verb(CLI::App& app) {
   verb.add_flag("--json", f->options.json, "Print the summary as JSON");
   verb.footer(
       "Example: rainref run scenes/puddle/default.toml --frames 120 --set rain.rate=40 -o out/heavy\n"
-      "A long film, the same command until it ends:\n"
+      "A film:  rainref run scenes/rainy_glass/default.toml --size 960x540 --frames 600 --film rain.mp4\n"
+      "What made a picture, again: rainref run out/heavy/puddle.0119.png\n"
+      "Pictures of a long film, the same command until it ends:\n"
       "         rainref run scenes/windshield/drive.toml --frames 9000 --every 1 -o out/film --checkpoint-every 300 --resume");
   return {&verb, [f] {
             require_word(f->image, "--image", "exr, png, both or none", {"exr", "png", "both", "none"});
@@ -88,6 +94,8 @@ Verb run_verb(CLI::App& app) {
             options.exr = f->image == "exr" || f->image == "both";
             if (f->output) require_text(*f->output, "--output", "a folder");
             options.output = f->output.value_or("");
+            if (f->film) require_text(*f->film, "--film", "a file");
+            options.film = f->film.value_or("");
             if (f->every) options.every = whole_number(*f->every, "--every", 1, 1000000);
             if (f->first) options.first = whole_number(*f->first, "--first", 0, 999999);
             if (f->checkpoint_every) options.checkpoint_every = whole_number(*f->checkpoint_every, "--checkpoint-every", 1, 1000000);

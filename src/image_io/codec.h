@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "image_io/notes.h"
+
 namespace rainref::image_io {
 
 struct StoredChannel {
@@ -27,6 +29,7 @@ struct StoredPicture {
   std::vector<StoredChannel> channels;  ///< in the file's order
   std::string compression;              ///< EXR's method
   std::string colour_space;             ///< "sRGB", "Linear", ..., or "" where the file says nothing
+  Notes notes;                          ///< to be stored in an EXR; not filled in by readers
 
   /// Of the channels from `first` to before `end`, interleaved.
   std::size_t texel_bytes(std::size_t first, std::size_t end) const {
@@ -54,7 +57,7 @@ struct Codec {
   /// The first picture of a file at full resolution, without any conversion of alpha or colour. `bytes` must outlive the reader.
   std::unique_ptr<PictureReader> (*open)(const char* format, std::span<const std::byte> bytes);
   /// The bytes of a file of interleaved texels in the channels' types; the same ones at any time. Of `picture` are stored: size,
-  /// channels, compression and colour space. `name` is for messages.
+  /// channels, compression, colour space and, in an EXR, notes. `name` is for messages.
   std::optional<std::vector<std::byte>> (*encode)(const char* format, const std::string& name, const StoredPicture& picture,
                                                   const std::byte* texels);
 };

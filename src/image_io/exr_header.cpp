@@ -116,28 +116,46 @@ void read_attribute(std::string_view name, std::string_view type, Reader value, 
   }
 }
 
-}  // namespace
-
-ExrHeader parse_exr_header(std::string_view file, std::span<const std::byte> bytes) {
+/// Calls f(name, type, value) for each attribute of the header; gives the version word.
+template <class F>
+std::uint32_t for_each_attribute(std::string_view file, std::span<const std::byte> bytes, F&& f) {
   Reader in(file, bytes);
   in.take(4);  // the signature, which the caller knows
   const auto version = in.number<std::uint32_t>();
-  constexpr std::uint32_t tiled = 0x200, deep = 0x800, several_parts = 0x1000;
+  constexpr std::uint32_t deep = 0x800, several_parts = 0x1000;
   if ((version & 0xff) != 2) in.refuse(fmt::format("EXR version {}; expected 2", version & 0xff));
   if (version & deep) in.refuse("deep pixels are not the content of a buffer");
   if (version & several_parts) in.refuse("several parts; save one image a file");
-  ExrHeader out;
-  out.is_tiled = (version & tiled) != 0;
-  bool has_window = false, has_display = false;
   for (std::string_view name = in.name(); !name.empty(); name = in.name()) {
     const std::string_view type = in.name();
     const auto size = in.number<std::uint32_t>();
-    read_attribute(name, type, Reader(file, in.take(size)), out);
+    f(name, type, in.take(size));
+  }
+  return version;
+}
+
+}  // namespace
+
+ExrHeader parse_exr_header(std::string_view file, std::span<const std::byte> bytes) {
+  constexpr std::uint32_t tiled = 0x200;
+  ExrHeader out;
+  bool has_window = false, has_display = false;
+  const std::uint32_t version = for_each_attribute(file, bytes, [&](auto name, auto type, std::span<const std::byte> value) {
+    read_attribute(name, type, Reader(file, value), out);
     has_window = has_window || name == "dataWindow";
     has_display = has_display || name == "displayWindow";
-  }
-  if (!has_window || !has_display) in.refuse("an EXR header without its windows");
+  });
+  out.is_tiled = (version & tiled) != 0;
+  if (!has_window || !has_display) Reader(file, {}).refuse("an EXR header without its windows");
   return out;
+}
+
+std::optional<std::string> find_exr_text(std::string_view file, std::span<const std::byte> bytes, std::string_view wanted) {
+  std::optional<std::string> found;
+  for_each_attribute(file, bytes, [&](auto name, auto type, std::span<const std::byte> value) {
+    if (!found && name == wanted && type == "string") found.emplace(reinterpret_cast<const char*>(value.data()), value.size());
+  });
+  return found;
 }
 
 std::string_view exr_compression_name(int compression) {

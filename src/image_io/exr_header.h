@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace rainref::image_io {
@@ -21,6 +23,9 @@ struct ExrHeader {
 /// starting with `file` when it is truncated or damaged, when the file has several parts or deep data, or when an
 /// attribute claims more than its own bytes.
 ExrHeader parse_exr_header(std::string_view file, std::span<const std::byte> bytes);
+
+/// The value of the attribute of type string that has this name. Throws as parse_exr_header.
+std::optional<std::string> find_exr_text(std::string_view file, std::span<const std::byte> bytes, std::string_view name);
 
 /// "zip", "dwaa": the name of a compression method, or "unknown".
 std::string_view exr_compression_name(int compression);

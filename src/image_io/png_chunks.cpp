@@ -2,6 +2,10 @@
 
 #include <cstring>
 
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
 namespace rainref::image_io {
 
 namespace {
@@ -41,6 +45,51 @@ std::optional<PngHeader> parse_png_header(std::span<const std::byte> bytes) {
   if (!is(reinterpret_cast<const char*>(&bytes[signature + 4]), "IHDR")) return std::nullopt;
   return PngHeader{big_endian(bytes, data), big_endian(bytes, data + 4), std::to_integer<int>(bytes[data + 8]),
                    std::to_integer<int>(bytes[data + 9]), any_chunk(bytes, [](const char* type, std::size_t) { return is(type, "tRNS"); })};
+}
+
+std::uint32_t png_checksum(std::span<const std::byte> type_and_content) {
+  std::uint32_t crc = ~0u;
+  for (const std::byte byte : type_and_content) {
+    crc ^= std::to_integer<std::uint32_t>(byte);
+    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
+  }
+  return ~crc;
+}
+
+std::optional<std::string> find_png_text(std::string_view file, std::span<const std::byte> bytes, std::string_view keyword) {
+  std::optional<std::string> found;
+  any_chunk(bytes, [&](const char* type, std::size_t at) {
+    if (!is(type, "tEXt") && !is(type, "iTXt")) return false;
+    const std::size_t size = big_endian(bytes, at - length_and_type);
+    std::string_view content(reinterpret_cast<const char*>(bytes.data()) + at, size);
+    if (!content.starts_with(keyword) || content.size() == keyword.size() || content[keyword.size()] != 0) return false;
+    content.remove_prefix(keyword.size() + 1);
+    if (is(type, "iTXt")) {
+      // Two bytes of compression, a language, the keyword in it.
+      if (content.size() < 2 || content[0] != 0) return false;
+      content.remove_prefix(2);
+      for (int k = 0; k < 2; ++k) {
+        const std::size_t end = content.find(char(0));
+        if (end == std::string_view::npos) return false;
+        content.remove_prefix(end + 1);
+      }
+    }
+    if (png_checksum(bytes.subspan(at - 4, size + 4)) != big_endian(bytes, at + size))
+      throw Error(ExitCode::usage, fmt::format("{}: damaged: the checksum of its text '{}' is wrong", file, keyword));
+    found = content;
+    return true;
+  });
+  return found;
+}
+
+std::size_t png_place_of_text(std::span<const std::byte> bytes) {
+  std::size_t place = bytes.size();
+  any_chunk(bytes, [&](const char* type, std::size_t at) {
+    if (!is(type, "IDAT")) return false;
+    place = at - length_and_type;
+    return true;
+  });
+  return place;
 }
 
 }  // namespace rainref::image_io

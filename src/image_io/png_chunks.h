@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace rainref::image_io {
 
@@ -20,5 +22,14 @@ struct PngHeader {
 };
 /// Of a whole file; nothing when its first chunk is no header.
 std::optional<PngHeader> parse_png_header(std::span<const std::byte> bytes);
+
+/// What ends a chunk: the CRC of its type and content. Source: PNG specification, third edition, annex D.
+std::uint32_t png_checksum(std::span<const std::byte> type_and_content);
+
+/// The text of the first tEXt chunk with this keyword, or iTXt chunk that is not compressed. Throws Error(usage) starting with `file` when
+/// its checksum is another one.
+std::optional<std::string> find_png_text(std::string_view file, std::span<const std::byte> bytes, std::string_view keyword);
+/// Where text may go: before the first IDAT, so that a reader meets it before the texels. The file's size when there is none.
+std::size_t png_place_of_text(std::span<const std::byte> bytes);
 
 }  // namespace rainref::image_io

@@ -7,20 +7,13 @@
 #include <string_view>
 
 #include "image_io/deflate.h"
+#include "image_io/png_chunks.h"
 
 namespace rainref::image_io {
 namespace {
 
 using Bytes = std::vector<std::byte>;
 
-std::uint32_t crc32(std::span<const std::byte> data) {
-  std::uint32_t crc = ~0u;
-  for (const std::byte byte : data) {
-    crc ^= std::to_integer<std::uint32_t>(byte);
-    for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1u ? 0xedb88320u : 0u);
-  }
-  return ~crc;
-}
 void put_word(Bytes& out, std::uint32_t word) {
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::byte>(word >> shift));
 }
@@ -29,7 +22,7 @@ void put_chunk(Bytes& out, std::string_view name, std::span<const std::byte> con
   const std::size_t begin = out.size();
   for (const char c : name) out.push_back(static_cast<std::byte>(c));
   out.insert(out.end(), content.begin(), content.end());
-  put_word(out, crc32(std::span(out).subspan(begin)));
+  put_word(out, png_checksum(std::span(out).subspan(begin)));
 }
 
 /// A row less what the filter foretells from the texel to its left and the row above: 0 nothing, 1 the left, 2 the above.
@@ -74,6 +67,23 @@ std::vector<std::byte> png_file(std::size_t width, std::size_t height, std::size
   }
   put_chunk(out, "IDAT", zlib_bytes(rows));
   put_chunk(out, "IEND", {});
+  return out;
+}
+
+std::vector<std::byte> with_png_text(std::span<const std::byte> file, const Notes& notes) {
+  Bytes chunks;
+  for (const Note& note : notes) {
+    const bool is_ascii = std::all_of(note.value.begin(), note.value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    // Latin-1 and UTF-8 agree in ASCII. Behind iTXt's keyword: not compressed (two bytes), no language, no translated keyword.
+    std::string content = note.key + '\0';
+    if (!is_ascii) content.append(4, '\0');
+    content += note.value;
+    put_chunk(chunks, is_ascii ? "tEXt" : "iTXt", std::as_bytes(std::span(content)));
+  }
+  const std::size_t place = png_place_of_text(file);
+  Bytes out(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(place));
+  out.insert(out.end(), chunks.begin(), chunks.end());
+  out.insert(out.end(), file.begin() + static_cast<std::ptrdiff_t>(place), file.end());
   return out;
 }
 

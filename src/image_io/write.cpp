@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "image_io/codec.h"
+#include "image_io/png_write.h"
 #include "rainref/error.h"
 
 namespace rainref::image_io {
@@ -41,7 +42,7 @@ void interleave(const Image& in, std::size_t bytes, std::size_t step, std::byte*
   }
 }
 
-std::vector<std::byte> encoded_png(const std::string& name, const Image& image, PngChannels channels) {
+std::vector<std::byte> encoded_png(const std::string& name, const Image& image, PngChannels channels, const Notes& notes) {
   require(image.format() == Format::rgba8 || image.format() == Format::rgba8_srgb, "a PNG is made of rgba8");
   const int count = channels == PngChannels::rgb ? 3 : 4;
   StoredPicture picture;
@@ -51,7 +52,8 @@ std::vector<std::byte> encoded_png(const std::string& name, const Image& image, 
   if (image.format() == Format::rgba8_srgb) picture.colour_space = "sRGB";
   std::vector<std::byte> texels(static_cast<std::size_t>(count) * image.width() * image.height());
   interleave(image, count, count, texels.data());
-  return encoded(name, "png", picture, texels);
+  // Text is added here: with OpenImageIO and without it the same, in iTXt where it must be.
+  return with_png_text(encoded(name, "png", picture, texels), notes);
 }
 
 std::string channel_type(Format format) {
@@ -72,13 +74,15 @@ void add_channels(const Layer& layer, std::set<std::string>& taken, StoredPictur
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels) {
-  write_file(path, encoded_png(path.string(), image, channels));
+void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels, const Notes& notes) {
+  write_file(path, encoded_png(path.string(), image, channels, notes));
 }
 
-std::vector<std::byte> png_bytes(const Image& image, PngChannels channels) { return encoded_png("picture.png", image, channels); }
+std::vector<std::byte> png_bytes(const Image& image, PngChannels channels, const Notes& notes) {
+  return encoded_png("picture.png", image, channels, notes);
+}
 
-void write_exr(const std::filesystem::path& path, const std::vector<Layer>& layers) {
+void write_exr(const std::filesystem::path& path, const std::vector<Layer>& layers, const Notes& notes) {
   require(!layers.empty(), "an EXR needs a layer");
   StoredPicture picture;
   std::set<std::string> taken;
@@ -94,6 +98,7 @@ void write_exr(const std::filesystem::path& path, const std::vector<Layer>& laye
   picture.width = layers.front().image->width();
   picture.height = layers.front().image->height();
   picture.compression = "zip";
+  picture.notes = notes;
 
   const std::size_t texel_bytes = picture.texel_bytes();
   std::vector<std::byte> texels(texel_bytes * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));

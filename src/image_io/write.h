@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "image_io/notes.h"
 #include "rainref/image.h"
 
 namespace rainref::image_io {
@@ -15,10 +16,10 @@ enum class PngChannels : std::uint8_t { rgb, rgba };
 
 /// Writes an rgba8 or rgba8_srgb image as an 8-bit PNG, row 0 on top; rgb leaves alpha out. Codes are stored as they
 /// are; rgba8_srgb also marks the file as sRGB. Throws Error(io) naming the file; nothing half-written stays behind.
-void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels = PngChannels::rgb);
+void write_png(const std::filesystem::path& path, const Image& image, PngChannels channels = PngChannels::rgb, const Notes& notes = {});
 
 /// The bytes of such a file, for a page that holds its pictures.
-std::vector<std::byte> png_bytes(const Image& image, PngChannels channels = PngChannels::rgb);
+std::vector<std::byte> png_bytes(const Image& image, PngChannels channels = PngChannels::rgb, const Notes& notes = {});
 
 /// Channels of an EXR file that come from one image.
 struct Layer {
@@ -29,6 +30,6 @@ struct Layer {
 
 /// Writes the layers as one EXR, ZIP-compressed (lossless), row 0 on top; bits are stored as they are, NaN and infinity
 /// too. Throws Error(io) naming the file; nothing half-written stays behind.
-void write_exr(const std::filesystem::path& path, const std::vector<Layer>& layers);
+void write_exr(const std::filesystem::path& path, const std::vector<Layer>& layers, const Notes& notes = {});
 
 }  // namespace rainref::image_io

@@ -9,6 +9,7 @@
 #include "image_io/write.h"
 #include "rainref/error.h"
 #include "registry/registry.h"
+#include "simulation/picture_notes.h"
 
 namespace rainref::simulation {
 namespace {
@@ -20,11 +21,11 @@ const effect::Effect& fitting(const scene::Config& config) {
   return *registry::find(config.effect());
 }
 
-void write_top_first(const std::filesystem::path& path, std::vector<image_io::Layer> layers) {
+void write_top_first(const std::filesystem::path& path, std::vector<image_io::Layer> layers, const image_io::Notes& notes = {}) {
   std::vector<Image> turned;
   turned.reserve(layers.size());
   for (image_io::Layer& layer : layers) layer.image = &turned.emplace_back(flipped(*layer.image));
-  image_io::write_exr(path, layers);
+  image_io::write_exr(path, layers, notes);
 }
 
 void write_map(const std::filesystem::path& folder, const effect::Map& map) {
@@ -96,11 +97,18 @@ std::vector<PassOutput> Opened::buffers() const {
   return instance_->buffers();
 }
 
-void Opened::write_png(const std::filesystem::path& path) const { image_io::write_png(path, flipped(picture())); }
+image_io::Notes Opened::notes() const {
+  const FloatingPointGuard guard;
+  return picture_notes(config_, inputs_, frame() - 1, picture());
+}
+std::vector<std::byte> Opened::png_bytes() const { return image_io::png_bytes(flipped(picture()), image_io::PngChannels::rgb, notes()); }
+void Opened::write_png(const std::filesystem::path& path) const {
+  image_io::write_png(path, flipped(picture()), image_io::PngChannels::rgb, notes());
+}
 
 void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
-  if (is_traced_) return write_top_first(path, tracing_->layers());
-  write_top_first(path, instance_->layers());
+  if (is_traced_) return write_top_first(path, tracing_->layers(), notes());
+  write_top_first(path, instance_->layers(), notes());
   if (!with_maps || std::exchange(has_written_maps_, true)) return;
   for (const effect::Map& map : instance_->maps()) write_map(path.parent_path(), map);
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "effect/effect.h"
+#include "image_io/notes.h"
 #include "scene/config.h"
 #include "scene/effect_table.h"
 #include "state/file.h"
@@ -51,6 +53,9 @@ class Opened {
 
   const Image& picture() const { return is_traced_ ? tracing_->shown() : instance_->picture(); }
   std::vector<PassOutput> buffers() const;
+  /// What the files of the picture say of it.
+  image_io::Notes notes() const;
+  std::vector<std::byte> png_bytes() const;
   /// Throws Error(io); the second one also writes, once, the maps beside the picture.
   void write_png(const std::filesystem::path& path) const;
   void write_exr(const std::filesystem::path& path, bool with_maps);

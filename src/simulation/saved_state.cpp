@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "rainref/error.h"
 #include "simulation/opened.h"
+#include "simulation/picture_notes.h"
 #include "state/load.h"
 
 namespace rainref::simulation {
@@ -39,12 +40,6 @@ void require_same(const state::Saved& saved, std::string_view theirs, std::strin
     throw Error(ExitCode::usage,
                 fmt::format("{}: of another {}: expected '{}', found '{}'", saved.origin(), what, line(here, i), line(there, i)));
   }
-}
-
-std::string inputs_text(const effect::Inputs& inputs) {
-  std::string text;
-  for (const effect::InputFile& f : inputs.files) text += fmt::format("{} {} {} {}\n", f.key, f.hash, f.first, f.count);
-  return text;
 }
 
 state::Items items_of(effect::Instance& instance) {

@@ -14,6 +14,7 @@
 #include "scene/toml.h"
 #include "simulation/opened.h"
 #include "simulation/own_scenes.h"
+#include "simulation/picture_notes.h"
 
 namespace rainref {
 
@@ -35,6 +36,7 @@ struct Simulation::State {
 SceneText read_scene(const std::filesystem::path& file, std::vector<std::string> set) {
   const FloatingPointGuard guard;
   const std::filesystem::path found = simulation::find_scene(file);
+  if (auto scene = simulation::scene_of_picture(found)) return {std::move(scene->toml), std::move(set), found.string()};
   const std::vector<std::byte> bytes = read_file(found);
   return {std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::move(set), found.string()};
 }

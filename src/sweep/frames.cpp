@@ -11,8 +11,6 @@
 #include "capture/capture_recorder.h"
 #include "capture/hashing.h"
 #include "capture/npy_write.h"
-#include "image/flipped.h"
-#include "image_io/write.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
 #include "effect/inputs.h"
@@ -107,7 +105,7 @@ class Keeping {
     for (const Keep& keep : plan_.keep) {
       if (keep.what == Keep::What::hash || !keep.wanted(frame, cell_.frames)) continue;
       if (keep.what == Keep::What::picture) {
-        writer_.write(fmt::format("picture.{:06}.png", frame), image_io::png_bytes(flipped(opened_.picture())));
+        writer_.write(fmt::format("picture.{:06}.png", frame), opened_.png_bytes());
       } else if (keep.what == Keep::What::exr) {
         const std::string name = fmt::format("picture.{:06}.exr", frame);
         opened_.write_exr(writer_.folder() / name, false);

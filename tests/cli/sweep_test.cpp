@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/running.h"
+#include "image_io/read.h"
 
 namespace rainref::cli {
 namespace {
@@ -198,7 +199,7 @@ TEST_F(Sweep, AFilmIsMadeOfAllPicturesInOrder) {
   ASSERT_EQ(sweep({"run", "plan.toml"}).code, 0);
   ASSERT_EQ(rainref({"run", "published.toml", "--frames", "7", "--every", "1", "-o", "one"}).code, 0);
   fs::create_directory(folder / "bin");
-  put(folder / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\ncat >\"$last\"\n");
+  put(folder / "bin/ffmpeg", "#!/bin/sh\nprintf '%s\\n' \"$@\" >asked\nfor last; do :; done\ncat >\"${last#file:}\"\n");
   fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
@@ -207,8 +208,33 @@ TEST_F(Sweep, AFilmIsMadeOfAllPicturesInOrder) {
   EXPECT_EQ(o.code, 0);
   EXPECT_THAT(o.out, HasSubstr(", film.mp4 of 7 pictures in "));
   std::string all;
-  for (int frame = 0; frame < 7; ++frame) all += contents(folder / fmt::format("one/puddle.{:04}.png", frame));
+  for (int frame = 0; frame < 7; ++frame) {
+    const Image image = image_io::read(folder / fmt::format("one/puddle.{:04}.png", frame)).image;
+    for (int i = 0; i < image.width() * image.height(); ++i)
+      all.append(reinterpret_cast<const char*>(image.row_bytes(i / image.width())) + 4 * (i % image.width()), 3);
+  }
   EXPECT_TRUE(contents(folder / "out/plans/plan/film.mp4") == all);
+  EXPECT_THAT(contents(folder / "asked"), HasSubstr("\n60/1\n"));
+}
+
+// What is kept of a run may be each K-th frame: the film is as slow as the scene. Without ffmpeg the tables are whole all the same.
+TEST_F(Sweep, AFilmOfSomeFramesKeepsTheScenesSpeed) {
+  put(folder / "plan.toml", "verb='run'\nscene='published.toml'\nframes=7\nkeep=['picture@every=3']\n");
+  ASSERT_EQ(sweep({"run", "plan.toml"}).code, 0);
+  fs::create_directory(folder / "bin");
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (folder / "bin").c_str(), 1);
+  Outcome o = sweep({"collect", "plan.toml", "--film"});
+  EXPECT_EQ(o.code, 0);
+  EXPECT_THAT(o.out, HasSubstr("film.mp4': ffmpeg, which makes films, is in no folder of PATH"));
+  EXPECT_FALSE(fs::exists(folder / "out/plans/plan/film.mp4"));
+  put(folder / "bin/ffmpeg", "#!/bin/sh\nprintf '%s\\n' \"$@\" >asked\ncat >/dev/null\n");
+  fs::permissions(folder / "bin/ffmpeg", fs::perms::owner_all);
+  ::setenv("PATH", ((folder / "bin").string() + ":" + path).c_str(), 1);
+  o = sweep({"collect", "plan.toml", "--film"});
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(o.out, HasSubstr(", film.mp4 of 3 pictures in "));
+  EXPECT_THAT(contents(folder / "asked"), HasSubstr("\n60/3\n"));
 }
 
 TEST_F(Sweep, ScriptsAndShards) {

@@ -143,6 +143,14 @@ TEST(Simulation, ReadsSceneFilesAndWritesPictures) {
   EXPECT_EQ(start("a.png"), "\x89PNG");
   EXPECT_EQ(start("a.exr"), "\x76\x2f\x31\x01");
   EXPECT_THROW(read_scene(folder / "none.toml"), Error);
+  // A picture is a scene too.
+  for (const char* name : {"a.png", "a.exr"}) {
+    Simulation again(read_scene(folder / name), executor);
+    EXPECT_EQ(again.frames(), 1);
+    again.next_frame();
+    again.write_png(folder / "again.png");
+    EXPECT_TRUE(contents(folder / "again.png") == contents(folder / "a.png")) << name;
+  }
 }
 
 }  // namespace

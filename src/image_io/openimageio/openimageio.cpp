@@ -105,6 +105,7 @@ OIIO::ImageSpec spec_of(const StoredPicture& picture) {
   spec.attribute("png:compressionLevel", 6);
   // An empty date: without one, OpenImageIO stores the time of day in an EXR, and no two files would be equal.
   spec.attribute("DateTime", "");
+  for (const Note& note : picture.notes) spec.attribute(note.key, note.value);
   return spec;
 }
 

@@ -1,0 +1,98 @@
+#include "cli/film_command.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "rainref/error.h"
+
+namespace rainref::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FilmFormat {
+  std::string_view suffix;
+  const char* muxer;
+  const char* filter;
+  std::vector<std::string> encoder;
+  double most_per_second;  ///< 0: any
+};
+
+// YUV with half the colour needs even sides: an odd picture gets a black line. The pictures are sRGB; the matrix is BT.709's, as players
+// expect of films of this size, and the file says so.
+constexpr const char* to_yuv =
+    "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
+    "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=yuv420p";
+std::vector<std::string> with_colours(std::vector<std::string> encoder) {
+  for (const char* word : {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-color_range", "tv"})
+    encoder.emplace_back(word);
+  return encoder;
+}
+
+const std::array<FilmFormat, 3>& formats() {
+  static const std::array<FilmFormat, 3> all{{
+      // Rain at night is small bright things on dark: 18 keeps them, where the default of 23 smears.
+      {".mp4", "mp4", to_yuv, with_colours({"-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"}), 0},
+      {".webm", "webm", to_yuv, with_colours({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4"}), 0},
+      // One palette for the whole film, so that what rests does not flicker; ffmpeg holds all pictures until it knows it. Not of
+      // what moves alone (stats_mode=diff): that leaves out the last picture's colours. Times are
+      // hundredths of a second, and browsers take 1 for 10.
+      {".gif",
+       "gif",
+       "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+       {"-c:v", "gif", "-loop", "0"},
+       50},
+  }};
+  return all;
+}
+
+const FilmFormat& format_of(const fs::path& film, FilmRate rate) {
+  std::string suffix = film.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
+  for (const FilmFormat& f : formats()) {
+    if (suffix != f.suffix) continue;
+    if (f.most_per_second > 0 && rate.per_second() > f.most_per_second)
+      throw Error(ExitCode::usage,
+                  fmt::format("--film '{}': expected at most {:g} pictures a second, which is what a GIF can show, found {:g}: --every {} "
+                              "gives fewer",
+                              film.string(), f.most_per_second, rate.per_second(), 2 * rate.every));
+    return f;
+  }
+  throw Error(ExitCode::usage, fmt::format("--film '{}': expected a name that ends in .mp4, .webm or .gif", film.string()));
+}
+
+}  // namespace
+
+fs::path program_in_path(const std::string& name) {
+  const char* const variable = std::getenv("PATH");
+  const std::string all = variable ? variable : "/usr/local/bin:/usr/bin:/bin";
+  for (std::size_t begin = 0; begin <= all.size();) {
+    const std::size_t end = std::min(all.find(':', begin), all.size());
+    const std::string folder = all.substr(begin, end - begin);
+    const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
+    std::error_code none;
+    if (fs::is_regular_file(program, none) && ::access(program.c_str(), X_OK) == 0) return program;
+    begin = end + 1;
+  }
+  return {};
+}
+
+std::vector<std::string> film_arguments(const fs::path& film, int width, int height, FilmRate rate, const fs::path& output) {
+  const FilmFormat& f = format_of(film, rate);
+  std::vector<std::string> all{"-nostdin", "-loglevel", "error", "-y", "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size"};
+  const auto add = [&](std::vector<std::string> more) { all.insert(all.end(), more.begin(), more.end()); };
+  add({fmt::format("{}x{}", width, height), "-framerate", fmt::format("{}/{}", rate.fps, rate.every), "-i", "pipe:0"});
+  add({"-vf", f.filter, "-an", "-threads", "1", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
+  add(f.encoder);
+  // "file:", for a name may begin with a dash or have a colon.
+  add({"-f", f.muxer, "file:" + output.string()});
+  return all;
+}
+
+}  // namespace rainref::cli

@@ -1,0 +1,120 @@
+// docs/gallery holds every scene, with commands that rainref takes and the parameters that they have.
+#include <map>
+#include <regex>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/scene_file.h"
+#include "cli/support.h"
+#include "cli/verbs.h"
+#include "simulation/picture_notes.h"
+#include "source_folder.h"
+
+namespace rainref::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Section {
+  std::string text, picture, parameters, command;
+};
+
+class Gallery : public testing::Test {
+ protected:
+  Gallery() {
+    const std::string page = contents(folder / "README.md");
+    const std::regex heading("(?:^|\n)### ([^\n]+)\n");
+    std::vector<std::pair<std::size_t, std::string>> at;
+    for (std::sregex_iterator i(page.begin(), page.end(), heading), end; i != end; ++i) at.emplace_back(i->position(), (*i)[1]);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const std::size_t end = k + 1 < at.size() ? at[k + 1].first : page.size();
+      Section s;
+      s.text = page.substr(at[k].first, end - at[k].first);
+      const auto between = [&](const std::string& from, const std::string& to) {
+        const std::size_t begin = s.text.find(from);
+        return begin == std::string::npos ? ""
+                                          : s.text.substr(begin + from.size(), s.text.find(to, begin + from.size()) - begin - from.size());
+      };
+      s.picture = between("](", ")");
+      s.parameters = between("```toml\n", "```");
+      s.command = between("```sh\n", "\n```");
+      EXPECT_TRUE(sections.emplace(at[k].second, s).second) << at[k].second << " is there twice";
+    }
+  }
+  fs::path root = test::source_folder(), folder = root / "docs/gallery";
+  std::map<std::string, Section> sections;
+};
+
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+TEST_F(Gallery, HasEverySceneOnceAndNoOther) {
+  std::set<std::string> scenes, shown;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "scenes"))
+    if (entry.path().extension() == ".toml") scenes.insert(fs::relative(entry.path(), root / "scenes").replace_extension().string());
+  for (const auto& [name, section] : sections) shown.insert(name);
+  EXPECT_EQ(shown, scenes) << "scripts/gallery makes the page";
+  EXPECT_GT(scenes.size(), 30u);
+}
+
+TEST_F(Gallery, SaysWhatTheScenesSay) {
+  for (const auto& [name, section] : sections) {
+    const std::string first = lines_of(contents(root / ("scenes/" + name + ".toml"))).at(0);
+    ASSERT_TRUE(first.starts_with("# ")) << name;
+    EXPECT_THAT(section.text, testing::HasSubstr(first.substr(2))) << name;
+  }
+}
+
+// The command line's own parser takes each command, and the scene that it then loads differs from the defaults as the page says.
+TEST_F(Gallery, CommandsParseAndHaveTheParametersOnThePage) {
+  for (const auto& [name, section] : sections) {
+    SCOPED_TRACE(section.command);
+    std::vector<std::string> words = words_in(section.command);
+    ASSERT_GE(words.size(), 3u);
+    EXPECT_EQ(words[0], "rainref");
+    EXPECT_EQ(words[1], "run");
+    EXPECT_EQ(words[2], "scenes/" + name + ".toml");
+    CLI::App app;
+    const std::vector<Verb> verbs = add_verbs(app, "");
+    std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);
+    EXPECT_NO_THROW(app.parse(reversed));
+    const auto value = [&](const char* option) {
+      const auto at = std::find(words.begin(), words.end(), option);
+      return at == words.end() ? std::string() : *(at + 1);
+    };
+    SceneOptions options;
+    options.scene = root / words[2];
+    if (const std::string frames = value("--frames"); !frames.empty()) options.overrides.push_back("run.frames=" + frames);
+    const scene::Config config = load_scene(options);
+    const int frames = static_cast<int>(config.integer("run.frames"));
+    if (frames > 1) {
+      EXPECT_EQ(value("--first"), std::to_string(frames - 1));
+    }
+    std::string expected;
+    for (const image_io::Note& note : simulation::picture_notes(config, {}, frames - 1, Image(Format::rgba8, 1, 1))) {
+      if (note.key != "rainref:scene") continue;
+      for (const std::string& line : lines_of(note.value))
+        if (!line.starts_with("effect = ") && !line.starts_with("run.frames = ")) expected += line + "\n";
+    }
+    EXPECT_EQ(section.parameters, expected) << "scripts/gallery " << name << " makes it anew";
+  }
+}
+
+TEST_F(Gallery, PicturesAreThereAndFitIntoARepository) {
+  std::set<std::string> shown{"README.md", "sheet.jpg"}, there;
+  for (const auto& [name, section] : sections) shown.insert(section.picture);
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    there.insert(entry.path().filename());
+    bytes += entry.file_size();
+  }
+  EXPECT_EQ(there, shown);
+  EXPECT_LT(bytes, 6u << 20);
+}
+
+}  // namespace
+}  // namespace rainref::cli
