@@ -16,6 +16,7 @@
 namespace rainref::faults {
 
 using capture::Array;
+using capture::PassCase;
 using judge::Cause;
 using judge::extents_of;
 using judge::judge_keyed;
@@ -23,19 +24,6 @@ using judge::KeyedJudgement;
 using scene::UniformBlock;
 
 namespace {
-
-using ById = std::map<std::uint32_t, Records>;
-
-ById by_id(const Array& list) {
-  ById out;
-  for (std::vector<std::byte>& r : records_of(list)) out[id_of(r, list.record)].push_back(std::move(r));
-  return out;
-}
-const Records& of(const ById& list, std::uint32_t id) {
-  static const Records none;
-  const auto found = list.find(id);
-  return found == list.end() ? none : found->second;
-}
 
 /// The reference's records in the order in which the port has their ids: a slot's neighbour is the one that the port saw.
 /// Those that it lost follow.
@@ -161,6 +149,7 @@ std::vector<Fault> ListReplay::uniforms_read_off() const {
   }
   std::vector<Fault> out;
   add_uniforms_of_values(out, {pass_, c_, nullptr, *model_}, stored);
+  for (const scene::Member& m : reference_.record.members) add_scale(out, m);
   return out;
 }
 
