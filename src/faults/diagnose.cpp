@@ -119,7 +119,7 @@ int far_fetched(const Cause& c) {
                                                               {"min for sum", 3},
                                                               {"sum for max", 3},
                                                               {"sum for min", 3},
-                                                              {"choice left out", 2},
+                                                              {"choice left out", 1},
                                                               {"value of before", 2},
                                                               {"division left out", 1},
                                                               {"complement left out", 2},
@@ -127,7 +127,7 @@ int far_fetched(const Cause& c) {
                                                               {"half as large", 1},
                                                               {"squared: ", 2},
                                                               {"root for square", 2},
-                                                              {"the literal ", 1},
+                                                              {"the literal ", 2},
                                                               {"cube for square", 2},
                                                               {"min for max", 1},
                                                               {"max for min", 1},
@@ -136,7 +136,7 @@ int far_fetched(const Cause& c) {
                                                               {"divided for", 1},
                                                               {"another value of", 4}};
   for (const auto& [start, weight] : rare)
-    if (c.name.starts_with(start)) return weight + (parts > 3);
+    if (c.name.starts_with(start)) return weight < 0 && parts > 0 ? 1 : weight + (parts > 3);
   return parts > 3;
 }
 

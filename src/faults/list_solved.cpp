@@ -27,63 +27,62 @@ const Records& of(const ById& list, std::uint32_t id) {
   return found == list.end() ? none : found->second;
 }
 
-std::vector<Fault> ListReplay::solved() {
+void ListReplay::find_alone() {
   const std::string& name = c_.outputs[output_].name;
-  if (!evaluations_->bind || !model_->keyed(name)) return {};
-  std::vector<float> known = constants_of_lists(*model_, c_);
-  std::sort(known.begin(), known.end());
-  known.erase(std::unique(known.begin(), known.end()), known.end());
+  if (!evaluations_->bind || !model_->keyed(name)) return;
   const capture::CaseInput* taken = c_.input(name);
   const ById before = taken ? by_id(taken->array) : ById();
-  // Each record as a list of its own, where it is treated by itself.
-  struct Alone {
-    PassCase c;
-    std::unique_ptr<capture::PassModel> model;
-    Probe probe;
-  };
-  std::vector<std::unique_ptr<Alone>> alone;
-  std::vector<Solvable> out_of;
-  constexpr std::size_t most = 4;
-  std::vector<std::uint32_t> some;
-  for (std::size_t k = 0; k < failing_.size(); k += std::max<std::size_t>(1, failing_.size() / (2 * most))) some.push_back(failing_[k]);
-  for (const std::uint32_t id : some) {
+  constexpr std::size_t most = 6;
+  for (std::size_t k = 0; k < failing_.size() && alone_.size() < most; k += std::max<std::size_t>(1, failing_.size() / (2 * most))) {
+    const std::uint32_t id = failing_[k];
     const Records &port = of(got_, id), &right = of(right_, id), &old = of(before, id);
-    if (alone.size() >= most || port.size() != 1 || right.size() != 1 || (taken && old.size() != 1)) continue;
-    auto one = std::make_unique<Alone>(Alone{c_, nullptr, {}});
+    if (port.size() != 1 || right.size() != 1 || (taken && old.size() != 1)) continue;
+    auto one = std::make_shared<Alone>(Alone{c_, nullptr, id, port[0], right[0]});
     for (capture::CaseInput& input : one->c.inputs)
       if (taken && input.name == name) input.array = array_of(old, input.array);
     try {
       one->model = evaluations_->bind(one->c);
     } catch (const Error&) {
-      continue;
+      continue;  // it cannot be alone
     }
     const capture::KeyedModel* keyed = one->model->keyed(name);
     const auto bytes = keyed ? keyed->reference() : std::nullopt;
-    if (!bytes || *bytes != right[0]) continue;
+    if (bytes && *bytes == right[0]) alone_.push_back(std::move(one));
+  }
+}
+
+std::vector<Fault> ListReplay::solved() {
+  const std::string& name = c_.outputs[output_].name;
+  std::vector<float> known = constants_of_lists(*model_, c_);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  std::vector<std::unique_ptr<Probe>> probes;
+  std::vector<Solvable> texels;
+  for (const std::shared_ptr<Alone>& one : alone_) {
     const Probed p{pass_, one->c, evaluations_->bind, *one->model};
-    std::vector<Probe> probes = probes_of_list(p, name, known);
-    one->probe = std::move(probes[0]);
-    Solvable& s = out_of.emplace_back(Solvable{one->probe, {}, {}, {}});
+    probes.push_back(std::make_unique<Probe>(std::move(probes_of_list(p, name, known)[0])));
+    Solvable& s = texels.emplace_back(Solvable{*probes.back(), {}, {}, {}});
+    const std::vector<double>* const own = own_leeway(one->id);
     std::vector<std::size_t> floats;
-    for (const Word& w : words_) {
-      if (!w.is_float) continue;
+    for (std::size_t k = 0; k < words_.size(); ++k) {
+      if (!words_[k].is_float) continue;
       float v;
-      std::memcpy(&v, &port[0][w.offset], 4);
-      floats.push_back(w.offset);
+      std::memcpy(&v, &one->port[words_[k].offset], 4);
+      floats.push_back(words_[k].offset);
       s.port.push_back(v);
-      s.leeway.push_back(std::max(w.leeway, std::abs(static_cast<double>(v)) * 0x1p-21 + 0x1p-40));
+      s.leeway.push_back(
+          std::max(own && (*own)[k] > 0 ? (*own)[k] : words_[k].leeway, std::abs(static_cast<double>(v)) * 0x1p-21 + 0x1p-40));
     }
-    s.evaluate = [keyed, floats] {
+    s.evaluate = [keyed = one->model->keyed(name), floats] {
       const auto given = keyed->perturbed();
       std::vector<float> numbers;
       for (const std::size_t at : floats)
         if (given && at + 4 <= given->size()) std::memcpy(&numbers.emplace_back(), given->data() + at, 4);
       return numbers;
     };
-    alone.push_back(std::move(one));
   }
   std::vector<Fault> out;
-  add_solved_substitutions(out, {pass_, c_, evaluations_->bind, *model_}, out_of, known);
+  add_solved_substitutions(out, {pass_, c_, evaluations_->bind, *model_}, texels, known);
   return out;
 }
 

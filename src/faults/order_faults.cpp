@@ -85,6 +85,11 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
           fmt::format("in {} stands {} where {} is meant: it is not held between its ends", words(p, at), wrong, right));
       return;
     }
+    if (op == Op::floor) {
+      add(p, site, {RewriteKind::part, 0, -1, k, path}, "floor left out: " + right,
+          fmt::format("in {} stands {} where {} is meant: it is not rounded down", words(p, at), wrong, right));
+      return;
+    }
     add(p, site, {RewriteKind::part, 0, -1, k, path}, fmt::format("value of before: {} for {}", wrong, right),
         fmt::format("in {} stands {} where {} is meant: the value of before a step", words(p, at), wrong, right));
   };
@@ -152,6 +157,7 @@ void add_functions(Adder& add, const Probe& p, const Site& site) {
   if (!*name_of(n.op) || (inner != Op::sum && inner != Op::difference)) return;
   for (const RewriteKind kind : {RewriteKind::function_of_first, RewriteKind::function_of_second}) {
     const std::int32_t term = node_of(p, n.of[0]).of[kind == RewriteKind::function_of_first ? 0 : 1];
+    if (n.op == Op::floor && op_of(term) == Op::fract) continue;  // nothing is left of it: the floor is left out with it
     add(p, site, {kind, 0, -1, 0, {-1, -1}}, fmt::format("{} of one term: {}", name_of(n.op), words(p, term)),
         fmt::format("{} is taken of {} alone, where it should be of all of {}", name_of(n.op), words(p, term), words(p, n.of[0])));
   }

@@ -205,7 +205,8 @@ std::string Probe::text(std::int32_t node, int depth) const {
   if (n.op == Op::sum && is_of_column(n)) return text(n.of[0], depth) + " + 0.5";
   if (const char* sign = sign_of(n.op); *sign) {
     const auto side = [&](std::int32_t of) {
-      const bool is_compound = of >= 0 && *sign_of(trace.nodes[static_cast<std::size_t>(of)].op) && depth > 1;
+      const Node* const below = of < 0 ? nullptr : &trace.nodes[static_cast<std::size_t>(of)];
+      const bool is_compound = below && *sign_of(below->op) && (depth > 1 || is_of_column(*below));
       return is_compound ? fmt::format("({})", text(of, depth - 1)) : text(of, depth - 1);
     };
     return side(n.of[0]) + sign + side(n.of[1]);

@@ -134,10 +134,12 @@ void say_one_of(Cause& first, std::vector<Tried> causes, std::set<std::string> o
 }  // namespace
 
 bool is_solved(const std::string& name) {
-  return name.starts_with("wrong value: ") || name.starts_with("wrong texel: ") || name.starts_with("factor too many: ") ||
-         name.starts_with("term too many: ");
+  for (const char* const start : {"wrong value: ", "wrong texel: ", "factor too many: ", "term too many: ", "max too many: ",
+                                  "min too many: ", "precision: ", "rounded: ", "clamp too many: "})
+    if (name.starts_with(start)) return true;
+  return false;
 }
-bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
+bool is_fitted(const std::string& name) { return name.starts_with("another value of ") || name.starts_with("another scale of "); }
 
 std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const Cause& none,
                          const std::function<Tried(const Fault&)>& try_one) {

@@ -91,11 +91,11 @@ Said said(const Probe& p, const Target& t, const Source& s, Put how, Change chan
         break;
     }
   }
-  if (source >= 0 && change == Change::none && s.nodes.size() == 1) {
+  if (source >= 0 && source != value && change == Change::none && s.nodes.size() == 1) {
     if (how == Put::divided_by && is_part(p, value, source, true))
-      return {"factor left out: " + wrong, fmt::format("of {} the factor {} is left out", right, wrong)};
+      return {"factor too many: 1 / " + wrong, fmt::format("of {} the factor {} is left out", right, wrong)};
     if (how == Put::minus && is_part(p, value, source, false))
-      return {"term left out: " + wrong, fmt::format("of {} the term {} is left out", right, wrong)};
+      return {"term too many: -" + wrong, fmt::format("of {} the term {} is left out", right, wrong)};
   }
   switch (how) {
     case Put::instead:

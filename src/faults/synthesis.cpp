@@ -108,6 +108,7 @@ class Search {
       for (const Put how : puts)
         for (const Change change : changes) {
           const bool is_itself = how == Put::instead && !s.nodes.empty() && s.nodes[0] == t.value_at(first_, 0);
+          if (s.nodes.size() == 1 && n == 1 && s.nodes[0] == t.value_at(first_, 0) && how != Put::instead) continue;  // of itself
           if ((change == Change::as_half || change == Change::as_code) && !is_itself) continue;
           if (!is_plain(how, change) || (is_number && s.effort > 2 && (change != Change::none || how == Put::larger))) continue;
           bool is_same = true, is_trivial = true;
