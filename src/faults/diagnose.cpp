@@ -136,7 +136,11 @@ int far_fetched(const Cause& c) {
                                                               {"divided for", 1},
                                                               {"another value of", 4}};
   for (const auto& [start, weight] : rare)
-    if (c.name.starts_with(start)) return weight < 0 && parts > 0 ? 1 : weight + (parts > 3);
+    if (c.name.starts_with(start)) {
+      // Of a number as it is, a condition is plain; of what is computed there is rather another reason.
+      const bool is_plain = parts == 0 && c.name.find('(') == std::string::npos && c.name.find(" or ") == std::string::npos;
+      return weight < 0 && !is_plain ? 1 : weight + (parts > 3);
+    }
   return parts > 3;
 }
 
