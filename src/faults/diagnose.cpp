@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include "faults/bits_replay.h"
 #include "faults/list_replay.h"
@@ -98,6 +100,50 @@ std::vector<Cause> diagnose_lists(const capture::PackPass& pass, const capture::
   return found;
 }
 
+int far_fetched(const Cause& c) {
+  int parts = 0;
+  for (std::size_t at = c.name.find("..."); at != std::string::npos; at = c.name.find("...", at + 3)) ++parts;
+  if (c.of_records && (c.name.ends_with("without a record") || c.name.ends_with("not written"))) return 8;
+  if (c.of_records && c.name.ends_with("one step late")) return 4;
+  static constexpr std::pair<std::string_view, int> rare[] = {{"condition left out", -1},
+                                                              {"condition never holds", -1},
+                                                              {"wrong value", 2},
+                                                              {"factor too many", 2},
+                                                              {"term too many", 2},
+                                                              {"precision", 2},
+                                                              {"rounded", 2},
+                                                              {"clamp too many", 2},
+                                                              {"max too many", 3},
+                                                              {"min too many", 3},
+                                                              {"max for sum", 3},
+                                                              {"min for sum", 3},
+                                                              {"sum for max", 3},
+                                                              {"sum for min", 3},
+                                                              {"choice left out", 1},
+                                                              {"value of before", 2},
+                                                              {"division left out", 1},
+                                                              {"complement left out", 2},
+                                                              {"twice as large", 1},
+                                                              {"half as large", 1},
+                                                              {"squared: ", 2},
+                                                              {"root for square", 2},
+                                                              {"the literal ", 2},
+                                                              {"cube for square", 2},
+                                                              {"min for max", 1},
+                                                              {"max for min", 1},
+                                                              {"quotient upside", 1},
+                                                              {"multiplied for", 1},
+                                                              {"divided for", 1},
+                                                              {"another value of", 4}};
+  for (const auto& [start, weight] : rare)
+    if (c.name.starts_with(start)) {
+      // Of a number as it is, a condition is plain; of what is computed there is rather another reason.
+      const bool is_plain = parts == 0 && c.name.find('(') == std::string::npos && c.name.find(" or ") == std::string::npos;
+      return weight < 0 && !is_plain ? 1 : weight + (parts > 3);
+    }
+  return parts > 3;
+}
+
 std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // A fault that explains some texels of many explains nothing; a wrong cause would be worse than none.
   std::erase_if(causes, [](const Cause& c) { return c.inside * 2 < c.of && c.explained * 4 < c.of; });
@@ -121,7 +167,10 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // An envelope may be wide enough for several; the one that is meant leaves hardly anything.
   const auto is_best = [&](const Tried& c) { return explains_most(c) && c.misfit <= 2 * least + 0.02; };
   const auto rank = [&](const Tried& c) { return is_best(c) ? 3.0 : score(c); };
-  std::stable_sort(causes.begin(), causes.end(), [&](const Tried& a, const Tried& b) { return rank(a) > rank(b); });
+  std::stable_sort(causes.begin(), causes.end(), [&](const Tried& a, const Tried& b) {
+    if (rank(a) != rank(b)) return rank(a) > rank(b);
+    return is_best(a) && is_best(b) && far_fetched(a) < far_fetched(b);
+  });
   std::vector<Cause> out;
   for (const Tried& c : causes)
     if (score(c) > 0 && out.size() < 3 && std::none_of(out.begin(), out.end(), [&](const Cause& o) { return o.name == c.name; }))

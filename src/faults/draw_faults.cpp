@@ -1,6 +1,7 @@
 #include "faults/draw_faults.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -67,6 +68,24 @@ void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>
              fmt::format("the second counter of a block of random words, as the number of a record, is one {} than it should be", more)
                  .c_str());
     }
+    using Strides = std::array<std::uint32_t, 2>;
+    for (const std::uint32_t stride : {2u, 3u, 4u, 8u, 16u})
+      for (const bool is_first : {true, false}) {
+        const char* const counter = is_first ? "first" : "second";
+        set_in(&Draws::strides, is_first ? Strides{stride, 1} : Strides{1, stride},
+               fmt::format("random {} counter without its factor {}", counter, stride).c_str(),
+               fmt::format("the {} counter of a block of random words is a sum whose first term lacks its factor {}", counter, stride)
+                   .c_str());
+      }
+    using Zero = std::array<bool, 2>;
+    set_in(&Draws::is_counter_0, Zero{true, false}, "random first counter left out", "the first counter of a block of random words is 0");
+    set_in(&Draws::is_counter_0, Zero{false, true}, "random second counter left out", "the second counter of a block of random words is 0");
+    // The purpose of another block of the pass.
+    for (const random::Purpose other : drawn)
+      if (only != random::Purpose{} && other != only && std::abs(static_cast<int>(other) - static_cast<int>(only)) > 1)
+        set_in(&Draws::purpose_off, static_cast<int>(other) - static_cast<int>(only),
+               fmt::format("random purpose {}", static_cast<int>(other)).c_str(),
+               fmt::format("the number of what random words are for is {}, that of others", static_cast<int>(other)).c_str());
     set_in(&Draws::are_seeds_swapped, true, "random seed's words exchanged", "the low and the high word of the seed are exchanged");
     set_in(&Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
     set_in(&Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");

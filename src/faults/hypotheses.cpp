@@ -1,6 +1,10 @@
 #include "faults/hypotheses.h"
 
+#include <array>
 #include <cmath>
+#include <map>
+
+#include <fmt/format.h>
 
 #include "faults/draw_faults.h"
 #include "faults/failing_texels.h"
@@ -64,6 +68,60 @@ std::vector<Texel> inner(const std::vector<Texel>& failing, const capture::PassM
     if (!out.empty()) return out;
   }
   return failing;
+}
+
+/// Constants that are compared with, so far off that each failing texel has a number between: which side is taken jumps there.
+void add_fitted_thresholds(std::vector<Fault>& out, const Probed& p, const Constants& constants, const std::vector<Texel>& failing) {
+  struct Range {
+    float above = 0, below = 0;  ///< how far the constant must go at least so that every texel fails
+    std::size_t has_above = 0, has_below = 0;
+  };
+  std::map<float, Range> ranges;
+  std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(p.model.values()));
+  for (const Texel at : failing) {
+    perturbed::Trace trace;
+    perturbed::Behaviour following;
+    following.trace = &trace;
+    {
+      const perturbed::Scope scope(following);
+      p.model.evaluate(at.x, at.y, unused.data());
+    }
+    std::map<float, std::array<float, 2>> nearest;  // of what is compared with it: above, below
+    for (const perturbed::Trace::Node& n : trace.nodes)
+      for (const std::size_t k : {0u, 1u}) {
+        if (n.op != perturbed::Op::comparison || n.of[k] < 0 ||
+            trace.nodes[static_cast<std::size_t>(n.of[k])].op != perturbed::Op::constant)
+          continue;
+        const float constant = n.with[k], other = n.with[1 - k];
+        auto& [above, below] = nearest.try_emplace(constant, std::array<float, 2>{HUGE_VALF, -HUGE_VALF}).first->second;
+        if (other >= constant) above = std::min(above, other);
+        if (other <= constant) below = std::max(below, other);
+      }
+    for (const auto& [constant, sides] : nearest) {
+      Range& r = ranges.try_emplace(constant, Range{constant, constant}).first->second;
+      if (std::isfinite(sides[0])) ++r.has_above, r.above = std::max(r.above, sides[0]);
+      if (std::isfinite(sides[1])) ++r.has_below, r.below = std::min(r.below, sides[1]);
+    }
+  }
+  for (const auto& [value, name, is_literal] : constants) {
+    const auto found = ranges.find(value);
+    if (found == ranges.end() || value == 0) continue;
+    const auto add = [&](float bound, const char* side) {
+      const float other = bound + (bound - value) * 1e-3f;
+      if (other == value) return;
+      Fault d;
+      d.name = fmt::format("another value of {}", name);
+      d.sentence = fmt::format("{}, which is compared with, is {} {:.5g} in the port, {} in the reference", name, side, bound, value);
+      d.behaviour.fault = perturbed::Fault::constant;
+      d.behaviour.constant = value;
+      d.behaviour.replacement = other;
+      d.for_diagnosis = true;
+      out.push_back(std::move(d));
+    };
+    const Range& r = found->second;
+    if (r.has_above == failing.size()) add(r.above, "at least");
+    if (r.has_below == failing.size()) add(r.below, "at most");
+  }
 }
 
 }  // namespace
@@ -134,6 +192,7 @@ std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::
   };
   std::vector<Fault> out;
   add_fitted_constants(out, evaluate, constants, telling(wanted_at(p.c, port, reference, spread(failing, 100)), 12));
+  add_fitted_thresholds(out, p, constants, spread(failing, 100));
   return out;
 }
 

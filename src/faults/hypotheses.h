@@ -25,7 +25,8 @@ std::vector<Fault> fits(const Probed& p, const Constants& constants, const std::
 /// The same for keyed lists, whose evaluation takes longer: what is asked first, and what only where that explains little. p.bind may
 /// be null.
 std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCase* before);
-Hypotheses list_hypotheses(const Probed& p, const std::string& list);
+/// `stand_alone`: whether some records can be evaluated by themselves.
+Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_alone);
 
 /// What is wrong with a uniform itself. A mistake in the text that gives the same is believed first.
 bool is_of_uniform(const Fault& d);

@@ -29,7 +29,7 @@ std::vector<Fault> plain_list_hypotheses(const Probed& p, const capture::PassCas
   return all;
 }
 
-Hypotheses list_hypotheses(const Probed& p, const std::string& list) {
+Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_alone) {
   std::vector<Fault> all;
   add_input_mixups(all, p, false);
   std::vector<float> known = constants_of_lists(p.model, p.c);
@@ -53,8 +53,10 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list) {
   add_named_constants(all, constants, true);
   add_place_faults(all, alike, {}, PlaceKind::multiple);
   add_odd_constants(all, p, constants);
-  // All records are evaluated for each: fewer where they are many.
-  const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size(), most = std::min<std::size_t>(600, 1 + 2000000 / nodes);
+  // Where records stand alone most are none after a few of them; else all are evaluated for each, so that fewer are asked where they
+  // are many.
+  const std::size_t nodes = probes.empty() ? 1 : probes[0].trace.nodes.size();
+  const std::size_t most = std::min<std::size_t>(600, 1 + (stand_alone ? 40000000 : 2000000) / nodes);
   add_order_faults(all, probes, known, most);
   add_order_faults(all, alike, {}, most);
   if (!probes.empty()) add_vector_substitutions(all, probes[0], known, most);

@@ -16,6 +16,7 @@
 namespace rainref::faults {
 
 using capture::Array;
+using capture::PassCase;
 using judge::Cause;
 using judge::extents_of;
 using judge::judge_keyed;
@@ -23,19 +24,6 @@ using judge::KeyedJudgement;
 using scene::UniformBlock;
 
 namespace {
-
-using ById = std::map<std::uint32_t, Records>;
-
-ById by_id(const Array& list) {
-  ById out;
-  for (std::vector<std::byte>& r : records_of(list)) out[id_of(r, list.record)].push_back(std::move(r));
-  return out;
-}
-const Records& of(const ById& list, std::uint32_t id) {
-  static const Records none;
-  const auto found = list.find(id);
-  return found == list.end() ? none : found->second;
-}
 
 /// The reference's records in the order in which the port has their ids: a slot's neighbour is the one that the port saw.
 /// Those that it lost follow.
@@ -63,8 +51,9 @@ std::vector<Word> words_of(const UniformBlock& layout) {
     }
   return out;
 }
-/// The widest envelope of each float, among those that are a bound.
-void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, const UniformBlock& record, const enclosed::Profile& profile) {
+/// The widest envelope of each float, among those that are a bound, and those of each record by its id.
+void set_leeway(std::vector<Word>& words, std::map<std::uint32_t, std::vector<double>>& own, const capture::KeyedModel* model,
+                const UniformBlock& record, const enclosed::Profile& profile) {
   if (!model) return;
   const std::vector<double> extents = extents_of(record, *model);
   const enclosed::ProfileScope scope(profile);
@@ -77,8 +66,11 @@ void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, cons
       for (const capture::KeyedRecord& r : records)
         for (std::size_t k = 0; k < r.floats.size() && k < words.size(); ++k)
           if (const double width = static_cast<double>(r.floats[k].hi) - r.floats[k].lo;
-              r.lives && !r.floats[k].is_vacuous() && width < std::max(extents[k], r.floats[k].magnitude()) / 64)
+              r.lives && !r.floats[k].is_vacuous() && width < std::max(extents[k], r.floats[k].magnitude()) / 64) {
             words[k].leeway = std::max(words[k].leeway, width);
+            double& widest = own.try_emplace(r.id, std::vector<double>(words.size(), 0.0)).first->second[k];
+            widest = std::max(widest, width);
+          }
     });
   }
 }
@@ -87,19 +79,29 @@ void set_leeway(std::vector<Word>& words, const capture::KeyedModel* model, cons
 struct Match {
   bool exact = true;  ///< the same bits
   bool near = true;   ///< within the leeway
+  double off = 0;     ///< how far off all is, in leeways
 };
-Match compare(const Records& guess, const Records& got, const std::vector<Word>& words) {
+/// Whether a mistake comes near where the reference does not, or much nearer: a port may be outside of what is accepted by less than
+/// the leeway is wide.
+bool is_nearer(const Match& with, const Match& without) {
+  return with.near && !without.exact && (!without.near || 4 * with.off <= without.off);
+}
+/// `own`: leeways of this record, or null.
+Match compare(const Records& guess, const Records& got, const std::vector<Word>& words, const std::vector<double>* own) {
   if (guess.size() != got.size()) return {false, false};
   Match m;
   for (std::size_t i = 0; i < got.size(); ++i) {
-    for (const Word& w : words) {
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      const Word& w = words[k];
       if (std::memcmp(&guess[i][w.offset], &got[i][w.offset], 4) == 0) continue;
       float a, b;
       std::memcpy(&a, &guess[i][w.offset], 4);
       std::memcpy(&b, &got[i][w.offset], 4);
       if (w.is_float && a == b) continue;  // zeros
       m.exact = false;
-      m.near &= w.is_float && std::abs(static_cast<double>(a) - b) <= w.leeway;
+      const double leeway = own && (*own)[k] > 0 ? (*own)[k] : w.leeway, off = std::abs(static_cast<double>(a) - b);
+      m.near &= w.is_float && off <= leeway;
+      m.off += off / std::max(leeway, 1e-30);
     }
   }
   return m;
@@ -135,13 +137,15 @@ ListReplay::ListReplay(const capture::PackPass& pass, const capture::PassCase& c
   for (const auto* ids : {&judged.events.missing, &judged.events.extra, &judged.events.duplicate, &judged.events.outside})
     failing.insert(ids->begin(), ids->end());
   failing_.assign(failing.begin(), failing.end());
-  if (fails()) set_leeway(words_, keyed, expected.array.record, profile);
+  if (!fails()) return;
+  set_leeway(words_, own_leeway_, keyed, expected.array.record, profile);
+  find_alone();
 }
 
 std::vector<Fault> ListReplay::plain() { return plain_list_hypotheses({pass_, c_, evaluations_->bind, *model_}, before_); }
 
 std::vector<Fault> ListReplay::deeper() {
-  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, c_.outputs[output_].name);
+  Hypotheses all = list_hypotheses({pass_, c_, evaluations_->bind, *model_}, c_.outputs[output_].name, !alone_.empty());
   constants_ = std::move(all.constants);
   return std::move(all.faults);
 }
@@ -161,6 +165,7 @@ std::vector<Fault> ListReplay::uniforms_read_off() const {
   }
   std::vector<Fault> out;
   add_uniforms_of_values(out, {pass_, c_, nullptr, *model_}, stored);
+  for (const scene::Member& m : reference_.record.members) add_scale(out, m);
   return out;
 }
 
@@ -211,24 +216,43 @@ std::vector<Fault> ListReplay::fitted() {
   return out;
 }
 
+const std::vector<double>* ListReplay::own_leeway(std::uint32_t id) const {
+  const auto found = own_leeway_.find(id);
+  return found == own_leeway_.end() ? nullptr : &found->second;
+}
+
+bool ListReplay::is_none_alone(const Fault& d) const {
+  if (!d.is_evaluated() || d.alter_case || d.alter_outputs || alone_.empty()) return false;
+  for (const std::shared_ptr<Alone>& one : alone_) {
+    const std::optional<Array> list = faulty_list(d, one->c, output_, *evaluations_, one->model.get(), array_of({one->right}, reference_));
+    if (!list) return false;
+    const Match with = compare(of(by_id(*list), one->id), {one->port}, words_, own_leeway(one->id)),
+                without = compare({one->right}, {one->port}, words_, own_leeway(one->id));
+    if ((with.exact && !without.exact) || is_nearer(with, without)) return false;
+  }
+  return true;
+}
+
 Tried ListReplay::cause(const Fault& d) const {
   Tried cause{{d.name, d.sentence, 0, static_cast<std::int64_t>(failing_.size()), 0, true}};
+  if (is_none_alone(d)) return cause;
   const std::optional<Array> list = faulty_list(d, c_, output_, *evaluations_, model_, reference_, failing_, &stored_);
   if (!list) return cause;
   const ById guess = by_id(*list);
   bool are_same_ids = true;
   for (const std::uint32_t id : failing_) {
     are_same_ids &= of(guess, id).size() == of(got_, id).size();
-    const Match with = compare(of(guess, id), of(got_, id), words_), without = compare(of(right_, id), of(got_, id), words_);
+    const Match with = compare(of(guess, id), of(got_, id), words_, own_leeway(id)),
+                without = compare(of(right_, id), of(got_, id), words_, own_leeway(id));
     cause.explained += with.exact && !without.exact;
-    cause.inside += with.near && !without.near;
+    cause.inside += is_nearer(with, without);
   }
   // A cause must not break about as many records as it explains.
   std::int64_t broken = 0;
   for (const auto* ids : {&got_, &guess})
     for (const auto& [id, records] : *ids) {
       if (std::binary_search(failing_.begin(), failing_.end(), id) || (ids == &guess && got_.contains(id))) continue;
-      broken += !compare(of(guess, id), of(right_, id), words_).near;
+      broken += !compare(of(guess, id), of(right_, id), words_, nullptr).near;
     }
   if (broken * 4 > cause.of) cause.explained = cause.inside = 0;
   // That a list stays empty is no cause where one record is there.

@@ -42,7 +42,7 @@ class Adder {
     std::uint32_t key = 0;
     for (std::size_t k = 0; k < site.nodes.size(); ++k) {
       all[k] = r;
-      all[k].shape = p.trace.nodes[site.nodes[k]].shape;
+      all[k].shape = r.kind == RewriteKind::first_wins ? 0 : p.trace.nodes[site.nodes[k]].shape;
       all[k].occurrence = site.occurrence;
       key = key * 5 ^ all[k].shape;
     }
@@ -83,6 +83,11 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
     if (is_held) {
       add(p, site, {RewriteKind::part, 0, -1, k, path}, "clamp left out: " + right,
           fmt::format("in {} stands {} where {} is meant: it is not held between its ends", words(p, at), wrong, right));
+      return;
+    }
+    if (op == Op::floor) {
+      add(p, site, {RewriteKind::part, 0, -1, k, path}, "floor left out: " + right,
+          fmt::format("in {} stands {} where {} is meant: it is not rounded down", words(p, at), wrong, right));
       return;
     }
     add(p, site, {RewriteKind::part, 0, -1, k, path}, fmt::format("value of before: {} for {}", wrong, right),
@@ -152,8 +157,63 @@ void add_functions(Adder& add, const Probe& p, const Site& site) {
   if (!*name_of(n.op) || (inner != Op::sum && inner != Op::difference)) return;
   for (const RewriteKind kind : {RewriteKind::function_of_first, RewriteKind::function_of_second}) {
     const std::int32_t term = node_of(p, n.of[0]).of[kind == RewriteKind::function_of_first ? 0 : 1];
+    if (n.op == Op::floor && op_of(term) == Op::fract) continue;  // nothing is left of it: the floor is left out with it
     add(p, site, {kind, 0, -1, 0, {-1, -1}}, fmt::format("{} of one term: {}", name_of(n.op), words(p, term)),
         fmt::format("{} is taken of {} alone, where it should be of all of {}", name_of(n.op), words(p, term), words(p, n.of[0])));
+  }
+}
+
+bool bends(Op op) { return *name_of(op) || op == Op::minimum || op == Op::maximum || op == Op::sine || op == Op::cosine; }
+bool scales(Op op) { return op == Op::product || op == Op::quotient; }
+const char* verb_of(Op op) { return op == Op::quotient ? "divides" : op == Op::product ? "multiplies" : "bounds"; }
+std::string function_words(const Probe& p, const Node& n, bool is_clamp) {
+  if (is_clamp) return "the clamp";
+  if (n.op == Op::minimum || n.op == Op::maximum) return fmt::format("{} with {}", n.op == Op::minimum ? "min" : "max", words(p, n.of[1]));
+  return n.op == Op::sine ? "sin" : n.op == Op::cosine ? "cos" : name_of(n.op);
+}
+/// An operation and that of its operand in the other order, where that is another number: a factor before a function or after it.
+void add_commuted(Adder& add, const Probe& p, const Site& site) {
+  const auto at = static_cast<std::int32_t>(site.nodes[0]);
+  const Node& n = node_of(p, at);
+  const std::string all = words(p, at);
+  const auto is_clamp = [&](const Node& outer) {
+    if ((outer.op != Op::minimum && outer.op != Op::maximum) || outer.of[0] < 0) return false;
+    const Op below = node_of(p, outer.of[0]).op;
+    return below != outer.op && (below == Op::minimum || below == Op::maximum);
+  };
+  const bool outer_is_clamp = is_clamp(n);
+  for (std::int8_t k = 0; k < 2; ++k) {
+    const std::int32_t of = n.of[static_cast<std::size_t>(k)];
+    if (of < 0) continue;
+    const Node& operand = node_of(p, of);
+    const auto after = [&](RewriteKind kind, const Node& inner, std::int8_t j) {
+      const std::int32_t other = inner.of[static_cast<std::size_t>(1 - j)];
+      const std::string factor = words(p, other), function = function_words(p, n, kind == RewriteKind::commuted_outer_2);
+      add(p, site, {kind, 0, -1, k, {j, -1}}, fmt::format("too late: {} after {}", factor, function),
+          fmt::format("in {} {} {} what {} gives; it should be taken before, inside of {}", all, factor, verb_of(inner.op), function,
+                      function));
+    };
+    const auto before = [&](RewriteKind kind, const Node& inner, std::int8_t j) {
+      const std::string factor = words(p, n.of[static_cast<std::size_t>(1 - k)]);
+      const std::string function = function_words(p, inner, kind == RewriteKind::commuted_inner_2);
+      add(p, site, {kind, 0, -1, k, {j, -1}}, fmt::format("too early: {} before {}", factor, function),
+          fmt::format("in {} {} {} what {} is taken of; it should be taken after, outside of {}", all, factor, verb_of(n.op), function,
+                      function));
+    };
+    if (bends(n.op) && scales(operand.op))
+      for (std::int8_t j = 0; j < (operand.op == Op::quotient ? 1 : 2); ++j) after(RewriteKind::commuted, operand, j);
+    if (scales(n.op) && bends(operand.op) && (n.op == Op::product || k == 0)) {
+      before(RewriteKind::commuted, operand, 0);
+      if (is_clamp(operand)) before(RewriteKind::commuted_inner_2, operand, 0);
+    }
+    if (k == 0 && outer_is_clamp && operand.of[0] >= 0 && scales(node_of(p, operand.of[0]).op)) {
+      const Node& inner = node_of(p, operand.of[0]);
+      for (std::int8_t j = 0; j < (inner.op == Op::quotient ? 1 : 2); ++j) after(RewriteKind::commuted_outer_2, inner, j);
+    }
+    // (a + b) / c for a / c + b.
+    if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::quotient)
+      add(p, site, {RewriteKind::commuted, 0, -1, k, {0, -1}}, "divisor of the whole sum: " + words(p, operand.of[1]),
+          fmt::format("{} divides all of {}, after the sum, where it should divide one term", words(p, operand.of[1]), all));
   }
 }
 
@@ -178,7 +238,17 @@ void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
     for (const Site& site : sites) {
       add_factors(add, p, site);
       add_functions(add, p, site);
+      add_commuted(add, p, site);
     }
+    for (const Node& n : p.trace.nodes)
+      if (n.op == Op::choice)
+        for (std::int8_t k = 0; k < 2; ++k)
+          if (n.of[static_cast<std::size_t>(k)] >= 0 && node_of(p, n.of[static_cast<std::size_t>(k)]).op == Op::choice) {
+            const auto at = static_cast<std::size_t>(&n - p.trace.nodes.data());
+            add(p, {{at}, -1}, {RewriteKind::first_wins, 0, -1, k, {-1, -1}}, "order of choices reversed",
+                "of several that hold in a loop another one stays: the loop runs in the other order, so that the last of them, "
+                "which should lie on top, lies below");
+          }
     for (const Site& site : sites)
       for (std::int8_t k = 0; k < 3; ++k)
         if (p.trace.nodes[site.nodes[0]].of[static_cast<std::size_t>(k)] >= 0) add_parts(add, p, site, k, uses);

@@ -68,17 +68,21 @@ bool is_multiple(PlaceFault fault, Op op) {
 std::string with_columns(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t n = text.compare(at, 6, "column") == 0 ? 6 : text.compare(at, 3, "row") == 0 ? 3 : 0;
+    const std::size_t n = text.compare(at, 14, "(column + 0.5)") == 0 ? 14
+                          : text.compare(at, 12, "column + 0.5") == 0 ? 12
+                          : text.compare(at, 6, "column") == 0        ? 6
+                          : text.compare(at, 3, "row") == 0           ? 3
+                                                                      : 0;
     out.push_back(n > 0 ? 'x' : text[at]);
     at += n > 0 ? n : 1;
   }
   return out;
 }
-/// A text in which the components of vectors have one name.
-std::string of_any_component(std::string text) {
+/// A text in which the components of vectors, which are letters from `first` to `last`, have one name.
+std::string of_any_component(std::string text, char first = 'x', char last = 'z') {
   const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
   for (std::size_t at = 0; at < text.size(); ++at)
-    if (text[at] >= 'x' && text[at] <= 'z' && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = 'x';
+    if (text[at] >= first && text[at] <= last && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = first;
   return text;
 }
 
@@ -86,12 +90,16 @@ std::string of_any_component(std::string text) {
 template <class Wanted>
 std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wanted) {
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_text;
+  std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_axis;  // e_u.z and e_v.z
   for (std::size_t at = 0; at < p.trace.nodes.size(); ++at) {
     const Node& n = p.trace.nodes[at];
     if (!wanted(n.op) || n.occurrence != 0) continue;
     const std::string text = p.text(static_cast<std::int32_t>(at), 3);
-    if (text != "...") by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
+    if (text == "...") continue;
+    by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
+    by_axis[{n.op, "axis " + of_any_component(text, 'u', 'v')}][n.shape] = at;
   }
+  by_text.merge(by_axis);
   std::vector<std::vector<std::size_t>> out;
   for (const auto& [text, places] : by_text) {
     if (places.size() < 2 || places.size() > 3) continue;
@@ -105,13 +113,29 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
   return out;
 }
 
+/// The components that a refraction or reflection is given, and those that it gives, which stand side by side whatever they are made of.
+std::vector<std::vector<std::size_t>> arguments_of(const Probe& p) {
+  std::vector<std::vector<std::size_t>> out;
+  const std::vector<Node>& nodes = p.trace.nodes;
+  const auto is_one = [&](std::size_t at) { return nodes[at].op == Op::argument || nodes[at].op == Op::bent; };
+  for (std::size_t at = 0; at + 2 < nodes.size(); ++at) {
+    if (!is_one(at) || nodes[at + 1].op != nodes[at].op || nodes[at + 2].op != nodes[at].op) continue;
+    out.push_back({at, at + 1, at + 2});
+    at += 2;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p) {
-  return groups_of(p, [](Op op) {
-    return op == Op::sum || op == Op::difference || op == Op::product || op == Op::quotient || op == Op::minimum || op == Op::maximum ||
-           op == Op::mix || op == Op::negation;
-  });
+  std::vector<std::vector<std::size_t>> out = arguments_of(p);
+  for (std::vector<std::size_t>& v : groups_of(p, [](Op op) {
+         return op == Op::sum || op == Op::difference || op == Op::product || op == Op::quotient || op == Op::minimum ||
+                op == Op::maximum || op == Op::mix || op == Op::negation || op == Op::choice;
+       }))
+    out.push_back(std::move(v));
+  return out;
 }
 std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p) {
   return groups_of(p, [](Op op) { return op != Op::comparison && op != Op::lookup; });
@@ -226,6 +250,8 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::swapped, "mix ends swapped: " + all, fmt::format("the ends of {} are exchanged", all));
       add(PlaceFault::first, "mix left out: " + all, fmt::format("for {} stands {}", all, a));
       add(PlaceFault::second, "mix left out: " + all, fmt::format("for {} stands {}", all, b));
+      add(PlaceFault::premultiplied, "added whole: " + b,
+          fmt::format("in {} {} is added whole, where it should be multiplied by the weight: as if it were premultiplied", all, b));
       add(PlaceFault::added, "added for mixed: " + all, fmt::format("in {} the second is added to the first", all));
       add(PlaceFault::in_gamma, "blended in gamma space: " + all, fmt::format("{} mixes numbers encoded by a power of 1/2.2", all));
       break;
@@ -234,6 +260,10 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::other, "linear for smoothstep: " + all, fmt::format("{} is a linear ramp", all));
       break;
     case Op::choice:
+      add(PlaceFault::first, "choice left out: " + all,
+          fmt::format("{} stands everywhere, where it should where a condition holds; else {}", a, b));
+      add(PlaceFault::second, "choice left out: " + all,
+          fmt::format("{} stands everywhere, where it should unless a condition holds; then {}", b, a));
       add(PlaceFault::swapped, "select the other way: " + all, fmt::format("of {} the other side is taken", all));
       break;
     case Op::comparison:
@@ -257,6 +287,13 @@ std::vector<Words> words_of(const Probe& p, std::size_t at) {
       add(PlaceFault::zero, "mip level 0: " + image, fmt::format("a lookup of {} takes level 0", image));
       break;
     }
+    case Op::argument:
+      add(PlaceFault::negated, "sign of an argument: " + all,
+          fmt::format("{} has the other sign where a refraction or reflection takes it", all));
+      break;
+    case Op::bent:
+      add(PlaceFault::second, "refraction left out: " + b, fmt::format("the ray {} goes on straight where it should be refracted", b));
+      break;
     case Op::lookup:
       add(PlaceFault::zero, "lookup left out: " + a, fmt::format("{} counts as 0", all));
       break;
@@ -291,7 +328,9 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       for (std::size_t k = 0; k < at.size(); ++k) {
         const Node& n = p.trace.nodes[at[k]];
         places[k].shape = n.shape;
-        key = key * 5 ^ n.shape;
+        // Of the arguments of one call each is a place of its own.
+        if ((n.op == Op::argument || n.op == Op::bent) && p.trace.met.at(n.shape) > 1) places[k].occurrence = n.occurrence;
+        key = (key * 5 ^ n.shape) + static_cast<std::uint32_t>(places[k].occurrence + 1);
         words.push_back(words_of(p, at[k]));
       }
       if (!done.insert({key, 0}).second) continue;

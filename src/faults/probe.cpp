@@ -30,22 +30,27 @@ struct Evaluation {
   Texel at;
   std::string list;  ///< "": the texel
 
-  void run(const capture::PassModel& model) const {
+  std::vector<std::int32_t> run(const capture::PassModel& model) const {
+    std::vector<std::int32_t> nodes;
     if (const capture::KeyedModel* keyed = list.empty() ? nullptr : model.keyed(list)) {
       static_cast<void>(keyed->perturbed());
-      return;
+      return nodes;
     }
-    std::vector<perturbed::Perturbed> unused(static_cast<std::size_t>(model.values()));
-    model.evaluate(at.x, at.y, unused.data());
+    std::vector<perturbed::Perturbed> given(static_cast<std::size_t>(model.values()));
+    model.evaluate(at.x, at.y, given.data());
+    for (const perturbed::Perturbed& v : given) nodes.push_back(v.node());
+    return nodes;
   }
 };
-Trace traced(const capture::PassModel& model, const Evaluation& evaluation, const std::vector<float>& known) {
+Trace traced(const capture::PassModel& model, const Evaluation& evaluation, const std::vector<float>& known,
+             std::vector<std::int32_t>* outputs = nullptr) {
   Trace trace;
   perturbed::Behaviour following;
   following.trace = &trace;
   following.known = &known;
   const perturbed::Scope scope(following);
-  evaluation.run(model);
+  std::vector<std::int32_t> nodes = evaluation.run(model);
+  if (outputs) *outputs = std::move(nodes);
   return trace;
 }
 
@@ -182,19 +187,26 @@ const char* sign_of(Op op) {
 
 }  // namespace
 
+bool Probe::is_of_column(const perturbed::Trace::Node& n) const {
+  const auto op = [&](std::int32_t i) { return i < 0 ? Op::lookup : trace.nodes[static_cast<std::size_t>(i)].op; };
+  return op(n.of[0]) == Op::index && op(n.of[1]) == Op::constant && n.with[1] == 0.5f;
+}
 std::string Probe::text(std::int32_t node, int depth) const {
   if (node < 0) return "...";
   const Node& n = trace.nodes[static_cast<std::size_t>(node)];
   if (is_leaf(n.op)) return names[static_cast<std::size_t>(node)];
   if (n.op == Op::lookup) return text(n.of[2], depth);
-  if (n.op == Op::level || n.op == Op::coordinate) return text(n.of[0], depth);
-  if (depth == 0) return "...";
+  if (n.op == Op::level || n.op == Op::coordinate || n.op == Op::argument || n.op == Op::bent) return text(n.of[0], depth);
+  if (depth == 0) return n.op == Op::sum && is_of_column(n) ? text(n.of[0], depth) + " + 0.5" : "...";
   // One deeper with each choice too: the steps of a march choose between each other, and twice as many texts with each step.
   if (n.op == Op::choice) return fmt::format("{} or {}", text(n.of[0], depth - 1), text(n.of[1], depth - 1));
   if (n.op == Op::negation) return "-" + text(n.of[0], depth);
+  // The pixel's centre is as deep as its row, which is one number.
+  if (n.op == Op::sum && is_of_column(n)) return text(n.of[0], depth) + " + 0.5";
   if (const char* sign = sign_of(n.op); *sign) {
     const auto side = [&](std::int32_t of) {
-      const bool is_compound = of >= 0 && *sign_of(trace.nodes[static_cast<std::size_t>(of)].op) && depth > 1;
+      const Node* const below = of < 0 ? nullptr : &trace.nodes[static_cast<std::size_t>(of)];
+      const bool is_compound = below && *sign_of(below->op) && (depth > 1 || is_of_column(*below));
       return is_compound ? fmt::format("({})", text(of, depth - 1)) : text(of, depth - 1);
     };
     return side(n.of[0]) + sign + side(n.of[1]);
@@ -233,7 +245,8 @@ std::vector<Probe> probed(const Probed& p, const std::vector<Evaluation>& evalua
   std::vector<Probe> probes;
   std::vector<std::vector<double>> least;
   for (const Evaluation& e : evaluations) {
-    Probe& probe = probes.emplace_back(Probe{e.at, traced(p.model, e, known), {}});
+    Probe& probe = probes.emplace_back(Probe{e.at, {}, {}});
+    probe.trace = traced(p.model, e, known, &probe.outputs);
     probe.names.resize(probe.trace.nodes.size());
     least.emplace_back(probe.trace.nodes.size(), HUGE_VAL);
   }
@@ -281,7 +294,8 @@ std::vector<Probe> probes_again(const capture::PassModel& model, const std::vect
                                 const std::string& list) {
   std::vector<Probe> out;
   for (const Probe& p : probes) {
-    Probe again{p.at, traced(model, {p.at, list}, known), p.names};
+    Probe again{p.at, {}, p.names};
+    again.trace = traced(model, {p.at, list}, known, &again.outputs);
     if (again.trace.nodes.size() == p.trace.nodes.size()) out.push_back(std::move(again));
   }
   return out;

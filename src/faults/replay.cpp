@@ -17,7 +17,9 @@ using judge::Cause;
 
 double score(const Cause& c) { return static_cast<double>(c.explained + c.inside) / static_cast<double>(std::max<std::int64_t>(c.of, 1)); }
 bool is_explained(const std::vector<Tried>& causes) {
-  return std::any_of(causes.begin(), causes.end(), [](const Tried& c) { return c.is_likely && score(c) >= 1.9; });
+  // What is fitted to the records that a port lost, or says that nothing was done, may have a reason in the text.
+  const auto is_symptom = [](const Tried& c) { return c.name.ends_with("without a record") || c.name.ends_with("one step late"); };
+  return std::any_of(causes.begin(), causes.end(), [&](const Tried& c) { return c.is_likely && score(c) >= 1.9 && !is_symptom(c); });
 }
 
 /// Those of these names that a run may have.
@@ -112,13 +114,19 @@ bool has_rival(const Replay& run, const std::string& first, const std::set<std::
 }
 
 /// Mistakes that give the same wherever it was looked, in the order in which they are to be believed: the port has one of them.
-void say_one_of(Cause& first, const std::vector<Tried>& causes, std::set<std::string> others) {
-  constexpr int most = 2;
+void say_one_of(Cause& first, std::vector<Tried> causes, std::set<std::string> others, int most = 2,
+                const char* word = "; or, which gives the same, ") {
+  std::stable_sort(causes.begin(), causes.end(), [](const Tried& a, const Tried& b) { return far_fetched(a) < far_fetched(b); });
+  // One of each kind, which is what its name begins with.
+  const auto kind = [](const std::string& name) { return name.substr(0, name.find_first_of(name.find(':') == name.npos ? " " : ":")); };
   int said = 0;
   const std::string own = first.sentence;
-  for (const Tried& c : causes)
-    if (said < most && c.sentence != own && others.erase(c.name) > 0) {
-      first.sentence += (said == 0 ? "; or, which gives the same, " : "; or ") + c.sentence;
+  std::set<std::string> kinds{kind(first.name)};
+  for (const bool is_new_kind : {true, false})
+    for (const Tried& c : causes) {
+      if (said >= most || c.sentence == own || !others.contains(c.name) || (is_new_kind && !kinds.insert(kind(c.name)).second)) continue;
+      others.erase(c.name);
+      first.sentence += (said == 0 ? word : "; or ") + c.sentence;
       ++said;
     }
 }
@@ -126,10 +134,12 @@ void say_one_of(Cause& first, const std::vector<Tried>& causes, std::set<std::st
 }  // namespace
 
 bool is_solved(const std::string& name) {
-  return name.starts_with("wrong value: ") || name.starts_with("wrong texel: ") || name.starts_with("factor too many: ") ||
-         name.starts_with("term too many: ");
+  for (const char* const start : {"wrong value: ", "wrong texel: ", "factor too many: ", "term too many: ", "max too many: ",
+                                  "min too many: ", "precision: ", "rounded: ", "clamp too many: "})
+    if (name.starts_with(start)) return true;
+  return false;
 }
-bool is_fitted(const std::string& name) { return name.starts_with("another value of "); }
+bool is_fitted(const std::string& name) { return name.starts_with("another value of ") || name.starts_with("another scale of "); }
 
 std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const Cause& none,
                          const std::function<Tried(const Fault&)>& try_one) {
@@ -158,13 +168,25 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
       for (Tried& c : run.causes((run.*more)())) causes.push_back(std::move(c));
   if (other) check_in(*other, causes);
   std::vector<Cause> best = best_causes(causes);
-  if (best.empty() || !best.front().is_likely) return best;
+  if (best.empty()) return best;
+  static constexpr const char* as_much = "; or, which explains as much here, ";
+  if (!best.front().is_likely) {
+    // What cannot be told apart here is said beside it.
+    std::set<std::string> same;
+    for (const Tried& c : causes)
+      if (c.of > 0 && score(c) >= score(best.front()) - 0.005 && c.name != best.front().name && !is_fitted(c.name)) same.insert(c.name);
+    say_one_of(best.front(), causes, same, 4, as_much);
+    return best;
+  }
   std::set<std::string> others;
   const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
   for (const Tried& c : causes)
     if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && c.name != best.front().name && !is_fitted(c.name)) others.insert(c.name);
   best.front().is_likely = !has_rival(run, best.front().name, others);
-  if (best.front().is_likely) say_one_of(best.front(), causes, others);
+  if (best.front().is_likely)
+    say_one_of(best.front(), causes, others);
+  else
+    say_one_of(best.front(), causes, others, 4, as_much);
   return best;
 }
 

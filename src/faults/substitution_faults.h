@@ -6,17 +6,13 @@
 
 #include "faults/place_faults.h"
 #include "faults/probe.h"
+#include "faults/solver.h"
 
 namespace rainref::faults {
 
-/// A failing texel, what a port stored there, and how far off that a number may be.
-struct Solvable {
-  const Probe& probe;
-  std::vector<float> port;
-  std::vector<double> leeway;
-};
-/// Adds what explains all of a few texels. An operand is first solved for: the number that it would need to have for what the port
-/// stored, if any; then each value of the invocation is compared with it. `known`: as the probes were made with.
+/// Adds what explains all of a few texels. An operand, a result or the components of a vector are first solved for: the numbers that
+/// they would need to be for what the port stored, if any; then what can be made of the values of the invocation, of uniforms and of
+/// small numbers is compared with them. `known`: as the probes were made with.
 void add_solved_substitutions(std::vector<Fault>& out, const Probed& p, const std::vector<Solvable>& texels,
                               const std::vector<float>& known);
 

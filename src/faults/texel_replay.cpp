@@ -160,14 +160,19 @@ std::vector<Fault> TexelReplay::plain() {
 }
 std::vector<Fault> TexelReplay::solved() {
   std::vector<Solvable> texels;
-  for (const Probe& probe : probes_) {
-    const auto same = [&](Texel t) { return t.x == probe.at.x && t.y == probe.at.y; };
-    const auto number = static_cast<std::size_t>(std::find_if(failing_.begin(), failing_.end(), same) - failing_.begin());
-    if (number >= leeway_.values.size()) continue;
-    Solvable& one = texels.emplace_back(Solvable{probe, {}, {}});
+  const auto add = [&](const Probe& probe, std::size_t number) {
+    const Texel t = failing_[number];
+    Solvable& one = texels.emplace_back(Solvable{probe, {}, {}, {}});
+    one.evaluate = [this, t] {
+      std::vector<perturbed::Perturbed> values(slots_.size());
+      probed_.model.evaluate(t.x, t.y, values.data());
+      std::vector<float> out;
+      for (const perturbed::Perturbed& v : values) out.push_back(v.v);
+      return out;
+    };
     for (std::size_t v = 0; v < slots_.size(); ++v) {
       const Slot& s = slots_[v];
-      const float stored = stored_value(s, s.at(port_[static_cast<std::size_t>(s.output)], probe.at.x, probe.at.y));
+      const float stored = stored_value(s, s.at(port_[static_cast<std::size_t>(s.output)], t.x, t.y));
       // Half a step is the store's own rounding.
       const double step = s.kind == FormatInfo::unorm8    ? 1 / 255.0
                           : s.kind == FormatInfo::float16 ? std::abs(stored) * 0x1p-10 + 0x1p-24
@@ -176,7 +181,16 @@ std::vector<Fault> TexelReplay::solved() {
       one.leeway.push_back(std::max(0.75 * step, leeway_.values[number][v] + 0.5 * step));
       if (probed_.model.is_free(static_cast<int>(v))) one.leeway.back() = HUGE_VAL;
     }
+  };
+  for (const Probe& probe : probes_) {
+    const auto same = [&](Texel t) { return t.x == probe.at.x && t.y == probe.at.y; };
+    const auto number = static_cast<std::size_t>(std::find_if(failing_.begin(), failing_.end(), same) - failing_.begin());
+    if (number < leeway_.values.size()) add(probe, number);
   }
+  // Others, so that what suits all by chance is rare.
+  constexpr std::size_t most = 10;
+  const std::size_t step = std::max<std::size_t>(1, failing_.size() / most);
+  for (std::size_t k = step / 2; !texels.empty() && k < failing_.size(); k += step) add(probes_[0], k);
   std::vector<Fault> out;
   add_solved_substitutions(out, probed_, texels, known_);
   return out;

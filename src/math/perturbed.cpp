@@ -389,15 +389,27 @@ scalar::Vec3<Perturbed> normalize(const scalar::Vec3<Perturbed>& a) {
   }
   return scalar::normalize<Perturbed>(a);
 }
-scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n) {
+/// As it is, or as a mistake has it in this call alone.
+scalar::Vec3<Perturbed> as_argument(const scalar::Vec3<Perturbed>& a) {
+  const auto part = [](const Perturbed& x) { return Perturbed::met(Op::argument, x, x); };
+  return {part(a.x), part(a.y), part(a.z)};
+}
+scalar::Vec3<Perturbed> reflect(const scalar::Vec3<Perturbed>& given_v, const scalar::Vec3<Perturbed>& given_n) {
+  const scalar::Vec3<Perturbed> v = as_argument(given_v), n = as_argument(given_n);
   if (is(Fault::reflect_doubled_missing)) return v - scalar::dot(n, v) * n;
   return scalar::reflect<Perturbed>(v, n);
 }
-scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& v, const scalar::Vec3<Perturbed>& n, float eta, const char* file, int line) {
+scalar::Vec3<Perturbed> refract(const scalar::Vec3<Perturbed>& given_v, const scalar::Vec3<Perturbed>& given_n, float eta, const char* file,
+                                int line) {
+  const scalar::Vec3<Perturbed> v = as_argument(given_v), n = as_argument(given_n);
   const float along = n.x.v * v.x.v + n.y.v * v.y.v + n.z.v * v.z.v;
   Perturbed::decided(file, line, DecisionKind::total_reflection, eta * eta * (1 - along * along) > 1);
-  const Counted parts;
-  return scalar::refract<Perturbed>(v, n, is(Fault::refract_ratio_inverted) ? 1.0f / eta : eta);
+  const auto bent = [&] {
+    const Counted parts;
+    return scalar::refract<Perturbed>(v, n, is(Fault::refract_ratio_inverted) ? 1.0f / eta : eta);
+  }();
+  const auto part = [](const Perturbed& after, const Perturbed& before) { return Perturbed::met(Op::bent, after, after, before); };
+  return {part(bent.x, v.x), part(bent.y, v.y), part(bent.z, v.z)};
 }
 Perturbed nearest_octave(Perturbed x) {
   const Perturbed level = scalar::nearest_octave<Perturbed>(x);

@@ -212,6 +212,9 @@ class Perturbed {
   }
   static bool met(bool result, const Perturbed& a, const Perturbed& b) { return behaviour().follows() ? follow(result, a, b) : result; }
 
+  /// Its place in Behaviour::trace; -1: none.
+  std::int32_t node() const { return node_; }
+
   /// Counts a side of a decision of the pass text, where that is asked for.
   static void decided(const char* file, int line, DecisionKind kind, int side) {
     if (behaviour().coverage) count(file, line, kind, side);

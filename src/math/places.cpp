@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "math/half.h"
 #include "math/perturbed.h"
 #include "math/rewrites.h"
+#include "math/unorm.h"
 
 namespace rainref::perturbed {
 namespace {
@@ -74,12 +76,47 @@ Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
       return c.v != 0 ? a : b;
     case Op::coordinate:
     case Op::level:
+    case Op::argument:
+    case Op::bent:
       return a;
     case Op::comparison:
       return a.v < b.v ? Perturbed::of(1.0f) : b.v < a.v ? Perturbed::of(0.0f) : r;
     default:
       return r;
   }
+}
+/// The operands of a node, as they were.
+std::array<Perturbed, 4> operands_of(const Trace::Node& n) {
+  std::array<Perturbed, 4> out;
+  std::transform(n.with.begin(), n.with.end(), out.begin(), [](float v) { return Perturbed::of(v); });
+  return out;
+}
+/// Inner operation after outer, where one or both are two operations in a row.
+Perturbed commuted(const Rewrite& rewriting, Op op, const Perturbed& r, std::array<Perturbed, 4> of, const Trace::Node& operand,
+                   const Trace& trace) {
+  const auto k = static_cast<std::size_t>(rewriting.operand), j = static_cast<std::size_t>(rewriting.path[0]);
+  const auto below = [&](const Trace::Node& n, std::size_t at) {
+    return n.of[at] < 0 ? nullptr : &trace.nodes[static_cast<std::size_t>(n.of[at])];
+  };
+  if (rewriting.kind == RewriteKind::commuted) {
+    std::array<Perturbed, 4> inner = operands_of(operand);
+    of[k] = inner[j];
+    inner[j] = again(op, r, of);
+    return again(operand.op, r, inner);
+  }
+  const Trace::Node* const lower = below(operand, 0);
+  if (!lower) return r;
+  std::array<Perturbed, 4> middle = operands_of(operand), inner = operands_of(*lower);
+  if (rewriting.kind == RewriteKind::commuted_outer_2) {
+    middle[0] = inner[j];
+    of[k] = again(operand.op, r, middle);
+    inner[j] = again(op, r, of);
+    return again(lower->op, r, inner);
+  }
+  of[k] = inner[j];
+  inner[j] = again(op, r, of);
+  middle[0] = again(lower->op, r, inner);
+  return again(operand.op, r, middle);
 }
 /// What a rewrite makes of an operation, whose operands are these nodes of the trace.
 Perturbed rewritten(const Rewrite& rewriting, Op op, const Perturbed& r, std::array<Perturbed, 4> of,
@@ -132,6 +169,21 @@ Perturbed rewritten(const Rewrite& rewriting, Op op, const Perturbed& r, std::ar
       term = again(op, r, of);
       return again(operand.op, r, terms);
     }
+    case RewriteKind::commuted:
+    case RewriteKind::commuted_outer_2:
+    case RewriteKind::commuted_inner_2:
+      return commuted(rewriting, op, r, of, operand, trace);
+    case RewriteKind::first_wins: {
+      // The choices before this one, along the side that keeps: one of them that held stays.
+      const Trace::Node* kept = &operand;
+      for (int round = 0; round < 64 && kept->op == Op::choice; ++round) {
+        if (kept->with[2] != 0) return value(nodes[k]);
+        const std::int32_t next = child(*kept, static_cast<int>(k));
+        if (next < 0) break;
+        kept = &trace.nodes[static_cast<std::size_t>(next)];
+      }
+      return r;
+    }
   }
   return r;
 }
@@ -158,6 +210,24 @@ float changed(float v, Change change) {
       return 2 * v;
     case Change::halved:
       return v / 2;
+    case Change::floored:
+      return __builtin_floorf(v);
+    case Change::rounded:
+      return __builtin_floorf(v + 0.5f);
+    case Change::truncated:
+      return __builtin_truncf(v);
+    case Change::fraction:
+      return v - __builtin_floorf(v);
+    case Change::saturated:
+      return v > 0 ? v < 1 ? v : 1 : 0;
+    case Change::as_half:
+      return to_float(to_half(v));
+    case Change::as_code:
+      return to_float(to_unorm8(v));
+    case Change::cubed:
+      return v * v * v;
+    case Change::smoothed:
+      return v * v * (3 - 2 * v);
   }
   return v;
 }
@@ -173,23 +243,37 @@ float put(float right, float value, Put how) {
       return right + value;
     case Put::minus:
       return right - value;
+    case Put::from:
+      return value - right;
+    case Put::over:
+      return right != 0 ? value / right : right;
+    case Put::larger:
+      return right < value ? value : right;
+    case Put::smaller:
+      return value < right ? value : right;
   }
   return right;
 }
 
 void Substitutions::start() {
   seen.assign(all.size(), 0);
-  met.assign(all.size(), {});
+  met.resize(all.size());
+  for (auto& of : met)
+    for (std::vector<float>& values : of) values.clear();  // their room is kept: this is done for each invocation
 }
 void Substitutions::meet(std::uint32_t shape, float value) {
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (all[k].back > 0 && all[k].source == shape) met[k].push_back(value);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].back > 0 && all[k].source == shape) met[k][0].push_back(value);
+    if (all[k].second.back > 0 && all[k].second.source == shape) met[k][1].push_back(value);
+  }
 }
 float Substitutions::value_for(std::size_t k, float right) const {
   const Substitution& s = all[k];
-  const auto back = static_cast<std::size_t>(s.back);
-  if (back > met[k].size()) return right;
-  return put(right, changed(back == 0 ? s.number : met[k][met[k].size() - back], s.change), s.how);
+  const auto back = static_cast<std::size_t>(s.back), second = static_cast<std::size_t>(s.second.back);
+  if (back > met[k][0].size() || second > met[k][1].size()) return right;
+  float v = put(right, changed(back == 0 ? s.number : met[k][0][met[k][0].size() - back], s.change), s.how);
+  if (second > 0) v = put(v, changed(met[k][1][met[k][1].size() - second], s.second.change), s.second.how);
+  return changed(v, s.last);
 }
 
 RewriteScope::RewriteScope(const Rewrites& r) : saved_(rewrites) { rewrites = r; }
@@ -230,14 +314,21 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
     if (other.occurrence >= 0 && other.occurrence != occurrence) continue;
     std::array<Perturbed, 4> operands;
     std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
-    Perturbed& operand = operands[static_cast<std::size_t>(other.operand)];
     const Unseen parts;
+    if (other.operand == Substitution::result) {
+      r = Perturbed::of(b.substitutions->value_for(s, r.v));
+      continue;
+    }
+    Perturbed& operand = operands[static_cast<std::size_t>(other.operand)];
     operand = Perturbed::of(b.substitutions->value_for(s, operand.v));
     r = again(op, r, operands);
   }
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
-    if (rewriting.shape != shape || (rewriting.occurrence >= 0 && rewriting.occurrence != b.trace->met[shape])) continue;
+    const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it concerns every choice, whatever its shape is
+    if ((is_wild ? op != Op::choice : rewriting.shape != shape) ||
+        (!is_wild && rewriting.occurrence >= 0 && rewriting.occurrence != b.trace->met[shape]))
+      continue;
     std::array<Perturbed, 4> operands;
     std::array<std::int32_t, 4> nodes{-1, -1, -1, -1};
     std::transform(of.begin(), of.end(), operands.begin(), [](const Perturbed* operand) { return *operand; });
@@ -249,6 +340,7 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   if (!b.trace) return r;
   Trace::Node node{op, r.v, shape, b.trace->met[shape]++};
   std::transform(of.begin(), of.end(), node.of.begin(), [](const Perturbed* operand) { return operand->node_; });
+  std::transform(of.begin(), of.end(), node.with.begin(), [](const Perturbed* operand) { return operand->v; });
   r.node_ = static_cast<std::int32_t>(b.trace->nodes.size());
   b.trace->nodes.push_back(node);
   return r;
@@ -322,6 +414,8 @@ Perturbed Perturbed::with_fault(Op op, const Perturbed& r, std::initializer_list
       return one + a;
     case PlaceFault::added:
       return op == Op::mix ? a + b * c : a + b;
+    case PlaceFault::premultiplied:
+      return a * (one - c) + b;
     case PlaceFault::in_gamma: {
       const Perturbed gamma = of(2.2f), encoding = of(1 / 2.2f);
       return pow(mix(pow(max(a, zero), encoding), pow(max(b, zero), encoding), c), gamma);

@@ -43,7 +43,9 @@ enum class Op : std::uint8_t {
   comparison,
   coordinate,  ///< of a lookup, in texels
   lookup,
-  level  ///< of detail
+  level,     ///< of detail
+  argument,  ///< a component of a vector that a named function of several is given
+  bent       ///< of a refracted ray, and the same of the ray before
 };
 
 /// What one mistake makes of the operation at a place.
@@ -64,9 +66,10 @@ enum class PlaceFault : std::uint8_t {
   halved,
   squared,
   rooted,
-  linear,    ///< 1 + x for an exponential
-  added,     ///< a + b t for a mix
-  in_gamma,  ///< a mix of numbers encoded by a power of 1/2.2, decoded again
+  linear,         ///< 1 + x for an exponential
+  added,          ///< a + b t for a mix
+  premultiplied,  ///< a (1 - t) + b for a mix
+  in_gamma,       ///< a mix of numbers encoded by a power of 1/2.2, decoded again
   saturated,
   larger,  ///< the larger operand for a sum
   smaller,
@@ -88,29 +91,59 @@ struct Place {
 };
 
 /// What becomes of a value before it stands in place of another.
-enum class Change : std::uint8_t { none, negated, from_one, magnitude, squared, rooted, inverted, doubled, halved };
+enum class Change : std::uint8_t {
+  none,
+  negated,
+  from_one,
+  magnitude,
+  squared,
+  rooted,
+  inverted,
+  doubled,
+  halved,
+  floored,
+  rounded,    ///< to the nearest whole number
+  truncated,  ///< toward zero
+  fraction,
+  saturated,
+  as_half,  ///< rounded to binary16
+  as_code,  ///< rounded to 8 bits
+  cubed,
+  smoothed  ///< x x (3 - 2 x)
+};
 /// How it is put there.
-enum class Put : std::uint8_t { instead, times, divided_by, plus, minus };
+enum class Put : std::uint8_t { instead, times, divided_by, plus, minus, from, over, larger, smaller };
 
 float changed(float value, Change change);
 float put(float right, float value, Put how);
 
-/// Another value for one operand at a place: one that was met before in the invocation, or a number.
+/// A further value that is put to the first.
+struct Second {
+  std::uint32_t source = 0;  ///< as Substitution's
+  std::int32_t back = 0;     ///< 0: there is none
+  Change change = Change::none;
+  Put how = Put::times;
+};
+/// Another value for one operand at a place, or for its result: one that was met before in the invocation, or a number.
 struct Substitution {
   std::uint32_t shape = 0;
   std::int32_t occurrence = -1;  ///< of this shape in an invocation; -1: each
-  std::int8_t operand = 0;
-  std::uint32_t source = 0;  ///< shape of what was met
-  std::int32_t back = 0;     ///< the last one of it is 1, the one before 2; 0: `number`
+  std::int8_t operand = 0;       ///< result: of the place itself
+  std::uint32_t source = 0;      ///< shape of what was met
+  std::int32_t back = 0;         ///< the last one of it is 1, the one before 2; 0: `number`
   float number = 0;
   Change change = Change::none;
   Put how = Put::instead;
+  Second second = {};
+  Change last = Change::none;  ///< of all of it
+
+  static constexpr std::int8_t result = -1;
 };
 /// Those of one mistake, and what is met for them in an invocation.
 struct Substitutions {
   std::vector<Substitution> all;
-  std::vector<std::int32_t> seen = {};       ///< of each place so far
-  std::vector<std::vector<float>> met = {};  ///< of each source, in order
+  std::vector<std::int32_t> seen = {};                      ///< of each place so far
+  std::vector<std::array<std::vector<float>, 2>> met = {};  ///< of each source and second source, in order
 
   /// Before each invocation.
   void start();
@@ -127,6 +160,7 @@ struct Trace {
     std::uint32_t shape;
     std::int32_t occurrence;
     std::array<std::int32_t, 4> of{-1, -1, -1, -1};  ///< nodes; -1: none, or a number of unknown origin
+    std::array<float, 4> with{};                     ///< the operands themselves
   };
   std::vector<Node> nodes;
   std::map<std::uint32_t, std::int32_t> met;  ///< of each shape so far

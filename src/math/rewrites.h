@@ -14,7 +14,11 @@ enum class RewriteKind : std::uint8_t {
   over_second,
   function_of_all,    ///< a function of one term is taken of the whole sum
   function_of_first,  ///< a function of a sum is taken of its first term alone
-  function_of_second
+  function_of_second,
+  commuted,          ///< an operation and the one of its operand are done in the other order: e clamp(x) for clamp(e x)
+  commuted_outer_2,  ///< likewise two operations, both ends of a clamp, and the one below them
+  commuted_inner_2,  ///< likewise an operation and the two below it
+  first_wins         ///< of choices that follow each other the first that holds stays: a loop runs the other way
 };
 
 /// It needs Behaviour::trace, where the values of before stand.
@@ -23,7 +27,8 @@ struct Rewrite {
   std::uint32_t shape = 0;                  ///< of the place, as Place::shape
   std::int32_t occurrence = -1;             ///< of this shape in an invocation; -1: each
   std::int8_t operand = 0;                  ///< which one is other; of ..._all the term, of ..._first and ..._second the sum
-  std::array<std::int8_t, 2> path{-1, -1};  ///< of part: which operand of the operand, and which of that; of over_all [0]: the factor
+  std::array<std::int8_t, 2> path{-1, -1};  ///< of part: which operand of the operand, and which of that; of over_all [0]: the factor;
+                                            ///< of commuted [0]: the operand of the inner one that the outer one takes
 };
 
 /// One rewrite, or those of the components of a vector: the first of kind none ends them.

@@ -25,6 +25,9 @@ struct Draws {
 
   std::vector<Purpose>* met = nullptr;  ///< collects what words are drawn for
 
+  std::array<std::uint32_t, 2> strides{1, 1};  ///< a counter that is s a + b has lost the factor s: it is a + b
+  std::array<bool, 2> is_counter_0{};          ///< a counter is left out
+
   Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) const;
   /// The upper bits of a word, as the place of something.
   std::uint32_t place(std::uint32_t word, int bits) const { return upper(word, bits, is_place_of_low_bits); }
@@ -36,6 +39,7 @@ struct Draws {
   std::uint32_t count(std::uint32_t passed, std::uint32_t all) const { return counts_above ? all - passed : passed; }
 
  private:
+  std::uint32_t other_counter(std::uint32_t counter, std::size_t k) const;
   static std::uint32_t upper(std::uint32_t word, int bits, bool is_low) { return is_low ? word & ((1u << bits) - 1) : word >> (32 - bits); }
 };
 

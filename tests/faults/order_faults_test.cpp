@@ -77,6 +77,22 @@ TEST(OrderFaults, AClampIsLeftOutWhole) {
   EXPECT_EQ(rewritten(held, Op::product, {}), 2);
   EXPECT_EQ(rewritten(held, Op::product, {RewriteKind::part, 0, -1, 0, {0, 0}}), 18);
 }
+/// 3 * sqrt(16) and sqrt(3 * 16), min(max(4 * 2, 0), 1), and a loop of two choices that both hold.
+TEST(OrderFaults, AnOperationAndThatOfItsOperandAreExchanged) {
+  const auto late = [] { return sqrt(Perturbed(4.0f) * Perturbed(16.0f)); };
+  EXPECT_EQ(rewritten(late, Op::root, {RewriteKind::commuted, 0, -1, 0, {1, -1}}), 4 * 4);
+  const auto held = [] { return min(max(Perturbed(4.0f) * Perturbed(2.0f), Perturbed(0.0f)), Perturbed(1.0f)); };
+  EXPECT_EQ(rewritten(held, Op::minimum, {RewriteKind::commuted_outer_2, 0, -1, 0, {1, -1}}), 4 * 1);
+  const auto scaled = [] { return Perturbed(0.5f) * min(max(Perturbed(4.0f), Perturbed(0.0f)), Perturbed(1.0f)); };
+  EXPECT_EQ(rewritten(scaled, Op::product, {RewriteKind::commuted_inner_2, 0, -1, 1, {0, -1}}), 1);
+  const auto last = [] {
+    const Perturbed one = select(Perturbed(0.0f) < Perturbed(1.0f), Perturbed(7.0f), Perturbed(5.0f));
+    return select(Perturbed(0.0f) < Perturbed(2.0f), Perturbed(9.0f), one);
+  };
+  EXPECT_EQ(rewritten(last, Op::choice, {}), 9);
+  EXPECT_EQ(rewritten(last, Op::choice, {RewriteKind::first_wins, 0, -1, 1, {-1, -1}}), 7);
+}
+
 /// The faults of a pass that the order of steps makes, at some texels of a case of a small pack.
 std::vector<Fault> orders_of(const std::string& pack_name, const std::string& pass, std::vector<Probe>& probes) {
   const capture::Pack pack(judge::test::pack_folder(pack_name));

@@ -1,0 +1,320 @@
+// What stands at a place of the text in place of what is meant: found from the numbers that the place would need to be.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "faults/substitution_faults.h"
+#include "faults/targets.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Change;
+using perturbed::Op;
+using perturbed::Put;
+using perturbed::Substitution;
+using Node = perturbed::Trace::Node;
+
+constexpr std::size_t most_verified = 60, most_found = 160;
+
+constexpr std::array<Put, 9> puts{Put::instead, Put::times, Put::divided_by, Put::plus,   Put::minus,
+                                  Put::from,    Put::over,  Put::larger,     Put::smaller};
+constexpr std::array<Change, 18> changes{Change::none,    Change::negated,   Change::from_one, Change::magnitude, Change::squared,
+                                         Change::rooted,  Change::inverted,  Change::doubled,  Change::halved,    Change::floored,
+                                         Change::rounded, Change::truncated, Change::fraction, Change::saturated, Change::as_half,
+                                         Change::as_code, Change::cubed,     Change::smoothed};
+/// How many steps off a change and a put are.
+int effort_of(Put how, Change change) {
+  const int put = how == Put::instead ? 0 : how <= Put::minus ? 3 : 4;
+  const int by = change == Change::none ? 0 : change == Change::negated || change == Change::from_one ? 1 : 2;
+  return put + by;
+}
+/// A term of the other sign and a factor upside down are those of the other kind; bounds and whole numbers are made of what is there.
+bool is_plain(Put how, Change change) {
+  if (how == Put::plus || how == Put::minus) return change != Change::negated;
+  if (how == Put::times || how == Put::divided_by) return change != Change::inverted;
+  if (how == Put::over) return change == Change::none;
+  return (how <= Put::from && change <= Change::halved) || change == Change::none || how == Put::instead;
+}
+
+class Search {
+ public:
+  Search(const Probed& p, const std::vector<Solvable>& texels, const std::vector<float>& known)
+      : texels_(texels), first_(texels[0].probe), known_(std::make_shared<const std::vector<float>>(known)) {
+    for (const Solvable& t : texels) solvers_.emplace_back(t, *known_);
+    for (const std::size_t n : {1u, 2u, 3u}) numbers_[n] = numbers_of(p, n);
+    p_ = &p;
+    groups_ = vectors_in(first_);
+  }
+  void run(std::vector<Fault>& out) {
+    std::vector<std::pair<Target, Solution>> solved;
+    for (const Target& t : targets_of(first_)) {
+      std::vector<float> now;
+      for (std::size_t c = 0; c < t.nodes.size(); ++c) now.push_back(t.now(first_, c));
+      for (Solution& s : solvers_[0].solutions(t.places(first_), now)) {
+        one_source(t, s);
+        solved.emplace_back(t, std::move(s));
+      }
+    }
+    if (found_.empty()) slot_by_slot();
+    if (found_.empty()) everywhere();
+    if (found_.empty())
+      for (const auto& [t, s] : solved) two_sources(t, s);
+    for (const auto& [t, s] : solved) number(t, s);
+    std::stable_sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t k = 0; k < std::min(found_.size(), most_found); ++k) out.push_back(std::move(found_[k].second));
+  }
+
+ private:
+  /// Whether it gives what was stored at these texels, but for one in eight: where a mistake takes another way through the pass.
+  bool suits(const std::vector<Substitution>& places) const {
+    std::size_t misses = 0;
+    for (const Solver& at : solvers_)
+      if (!at.is_near(places) && ++misses * 8 > solvers_.size()) return false;
+    return true;
+  }
+  void keep(int effort, std::vector<Substitution> places, Said words) {
+    if (words.name.find("...") != std::string::npos) effort += 2;  // what cannot be said in full is rather something else
+    if (places.size() > 1) {
+      const bool three = places.size() > 2;
+      words.name += three ? ", in all components" : ", in both components";
+      words.sentence += three ? ", and so in the other components" : ", and so in the other component";
+    }
+    Fault d;
+    d.name = std::move(words.name);
+    d.sentence = std::move(words.sentence);
+    d.substitutions = std::move(places);
+    d.at_texel = [known = known_](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
+    d.for_diagnosis = true;
+    found_.emplace_back(effort, std::move(d));
+  }
+
+  void one_source(const Target& t, const Solution& solution) {
+    std::vector<Substitution> places = t.places(first_);
+    const std::size_t n = t.nodes.size();
+    std::vector<float> now, numbers(n);
+    for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
+    std::size_t verified = 0;
+    std::set<std::pair<std::string, std::pair<Put, Change>>> done;
+    for (const Source& s : sources_for(first_, t, groups_, numbers_.at(n))) {
+      if (s.text == "...") continue;
+      const bool is_number = s.nodes.empty();
+      for (const Put how : puts)
+        for (const Change change : changes) {
+          const bool is_itself = how == Put::instead && !s.nodes.empty() && s.nodes[0] == t.value_at(first_, 0);
+          if (s.nodes.size() == 1 && n == 1 && s.nodes[0] == t.value_at(first_, 0) && how != Put::instead) continue;  // of itself
+          if ((change == Change::as_half || change == Change::as_code) && !is_itself) continue;
+          if (!is_plain(how, change) || (is_number && s.effort > 2 && (change != Change::none || how == Put::larger))) continue;
+          bool is_same = true, is_trivial = true;
+          for (std::size_t c = 0; c < n; ++c) {
+            const float other = perturbed::changed(number_of(first_, s, c), change);
+            // What happens to be 0 or 1 makes nothing of a term, or leaves it as it is: that has plainer names.
+            is_trivial &= (other == 0 || other == 1 || other == -1) && !(is_number && how == Put::instead);
+            numbers[c] = perturbed::put(now[c], other, how);
+            is_same &= numbers[c] == now[c];
+          }
+          if (is_same || is_trivial || verified >= most_verified || !solvers_[0].may_be(solution, numbers)) continue;
+          if (done.contains({s.text, {how, change}})) continue;
+          take(first_, s, t, places);
+          for (Substitution& place : places) place.change = change, place.how = how;
+          ++verified;
+          if (!suits(places)) continue;
+          done.insert({s.text, {how, change}});
+          keep(s.effort + effort_of(how, change), places, said(first_, t, s, how, change));
+        }
+    }
+  }
+
+  /// Where two slots or three fail whose places look unlike each other, (-y, x) turned: each slot by itself, and what is said alike of
+  /// all of them but for the component.
+  void slot_by_slot() {
+    const std::vector<float> right = solvers_[0].values({});
+    std::vector<std::size_t> failing;
+    for (std::size_t k = 0; k < right.size(); ++k)
+      if (!(std::abs(static_cast<double>(right[k]) - texels_[0].port[k]) <= texels_[0].leeway[k])) failing.push_back(k);
+    if (failing.size() < 2 || failing.size() > 3) return;
+    std::vector<std::vector<std::pair<int, Fault>>> of_slots;
+    for (const std::size_t slot : failing) {
+      std::vector<Solvable> alone = texels_;
+      for (Solvable& t : alone)
+        for (const std::size_t other : failing)
+          if (other != slot) t.leeway[other] = HUGE_VAL;
+      Search search(*p_, alone, *known_);
+      for (const Target& t : targets_of(first_))
+        if (t.nodes.size() == 1)
+          for (const Solution& s : search.solvers_[0].solutions(t.places(first_), {t.now(first_, 0)})) search.one_source(t, s);
+      std::stable_sort(search.found_.begin(), search.found_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      constexpr std::size_t most = 80;
+      if (search.found_.size() > most) search.found_.erase(search.found_.begin() + most, search.found_.end());
+      of_slots.push_back(std::move(search.found_));
+    }
+    for (const auto& [effort, one] : of_slots[0]) {
+      std::vector<Substitution> places = one.substitutions;
+      for (std::size_t k = 1; k < of_slots.size(); ++k) {
+        const auto like = std::find_if(of_slots[k].begin(), of_slots[k].end(), [&, &effort = effort, &one = one](const auto& other) {
+          return other.first == effort && of_any_axis(other.second.name) == of_any_axis(one.name);
+        });
+        if (like == of_slots[k].end()) break;
+        places.push_back(like->second.substitutions[0]);
+      }
+      if (places.size() == of_slots.size() && suits(places)) keep(effort, places, {one.name, one.sentence});
+    }
+  }
+
+  /// Where numbers cannot be solved for, at places met again and again or that decide by steps: each value that stands near, and the
+  /// number itself cut, rounded or held, are tried.
+  void everywhere() {
+    std::vector<Target> all;
+    std::set<std::uint32_t> done;
+    const auto add = [&](const std::vector<std::int32_t>& nodes) {
+      const Node& n = node_of(first_, nodes[0]);
+      if (is_leaf(n.op)) return;
+      if (n.op != Op::lookup)
+        for (std::int8_t k = 0; k < (n.op == Op::choice ? 2 : 4); ++k)
+          if (n.of[static_cast<std::size_t>(k)] >= 0) all.push_back({nodes, k});
+      if (n.op != Op::comparison) all.push_back({nodes, Substitution::result});
+    };
+    for (std::int32_t at = static_cast<std::int32_t>(first_.trace.nodes.size()); at-- > 0;)
+      if (done.insert(node_of(first_, at).shape).second && node_of(first_, at).occurrence >= 0) add({first_of(at)});
+    for (const std::vector<std::size_t>& v : vector_values_of(first_)) add({v.begin(), v.end()});
+    const std::size_t nodes = std::max<std::size_t>(first_.trace.nodes.size(), 1);
+    std::size_t left = std::min<std::size_t>(20000, most_steps / 2 / nodes);
+    const std::vector<float> right = solvers_[0].values({});
+    const std::vector<Source> none;
+    for (const Target& t : all) {
+      std::vector<Substitution> places = t.places(first_);
+      for (Substitution& place : places) place.occurrence = -1;
+      bool counts = false;
+      for (const float number : {0.11f, -7.0f}) {
+        for (Substitution& place : places) place.how = Put::plus, place.back = 0, place.number = number;
+        counts |= solvers_[0].values(places) != right;
+      }
+      if (!counts) continue;
+      const std::int32_t value = t.value_at(first_, 0);
+      for (const Change change : {Change::as_half, Change::as_code, Change::floored, Change::rounded, Change::truncated, Change::fraction,
+                                  Change::saturated, Change::magnitude, Change::cubed, Change::from_one}) {
+        for (Substitution& place : places) place.how = Put::times, place.back = 0, place.number = 1, place.last = change;
+        if (left == 0 || value < 0) break;
+        --left;
+        if (suits(places)) keep(1, places, said(first_, t, {t.values(first_), {}, words_for(first_, value), 0}, Put::instead, change));
+      }
+      for (Substitution& place : places) place.last = place.change = Change::none;
+      std::size_t tried = 0;
+      for (const Source& s : sources_for(first_, t, groups_, none)) {
+        if (left < 2 || ++tried > 120) break;
+        if (s.text == "..." || (value >= 0 && s.nodes[0] == value)) continue;
+        take(first_, s, t, places);
+        for (const Change change : {Change::none, Change::smoothed}) {
+          if (change == Change::smoothed && tried > 30) break;
+          for (Substitution& place : places) place.how = Put::instead, place.change = change;
+          --left;
+          if (suits(places)) keep(s.effort, places, said(first_, t, s, Put::instead, change));
+        }
+      }
+    }
+  }
+  /// The first place of a node's shape.
+  std::int32_t first_of(std::int32_t node) const {
+    std::int32_t at = 0;
+    while (node_of(first_, at).shape != node_of(first_, node).shape) ++at;
+    return at;
+  }
+
+  /// Of two sources that stand near: what is made of right by both.
+  void two_sources(const Target& t, const Solution& solution) {
+    std::vector<Substitution> places = t.places(first_);
+    const std::size_t n = t.nodes.size();
+    std::vector<Source> sources;
+    for (Source& s : sources_for(first_, t, groups_, {}))
+      if (s.text.find("...") == std::string::npos && sources.size() < 60) sources.push_back(std::move(s));
+    std::vector<float> now, numbers(n);
+    for (std::size_t c = 0; c < n; ++c) now.push_back(t.now(first_, c));
+    std::size_t verified = 0;
+    for (const Source& a : sources)
+      for (const Put how : {Put::instead, Put::times, Put::divided_by, Put::plus, Put::minus})
+        for (const Source& b : sources)
+          for (const Put then : {Put::times, Put::divided_by, Put::plus, Put::minus, Put::larger, Put::smaller}) {
+            if (&a == &b || verified >= most_verified) continue;
+            for (std::size_t c = 0; c < n; ++c)
+              numbers[c] = perturbed::put(perturbed::put(now[c], number_of(first_, a, c), how), number_of(first_, b, c), then);
+            if (!solvers_[0].may_be(solution, numbers)) continue;
+            take(first_, a, t, places);
+            take_second(first_, b, t, places);
+            for (Substitution& place : places) place.change = Change::none, place.how = how, place.second.how = then;
+            ++verified;
+            if (!suits(places)) continue;
+            const std::string right = words_for(first_, t.value_at(first_, 0));
+            const std::string first = how == Put::instead ? a.text : fmt::format("({}) {} {}", right, sign(how), a.text);
+            const std::string wrong = then == Put::larger    ? fmt::format("max({}, {})", first, b.text)
+                                      : then == Put::smaller ? fmt::format("min({}, {})", first, b.text)
+                                                             : fmt::format("({}) {} {}", first, sign(then), b.text);
+            keep(8 + a.effort + b.effort + effort_of(how, Change::none), places,
+                 {fmt::format("wrong value: {} for {}", wrong, right),
+                  fmt::format("{} stands {} where {} is meant", t.operand < 0 ? "there" : "in " + words_for(first_, t.nodes[0]), wrong,
+                              right)});
+          }
+  }
+  static const char* sign(Put how) { return how == Put::times ? "*" : how == Put::divided_by ? "/" : how == Put::plus ? "+" : "-"; }
+
+  /// A number in its place, or a factor or a term that is one, where the operand itself is none.
+  void number(const Target& t, const Solution& solution) {
+    const std::int32_t value = t.value_at(first_, 0);
+    if (value >= 0 && node_of(first_, value).op == Op::constant) return;
+    const std::size_t n = t.nodes.size();
+    std::vector<Substitution> places = t.places(first_);
+    for (const Put how : {Put::instead, Put::times, Put::plus}) {
+      const float now = t.now(first_, 0);
+      const double at = solution.at[0];
+      if (how == Put::instead && n > 1) continue;
+      const auto number = static_cast<float>(how == Put::instead ? at : how == Put::times ? at / now : at - now);
+      if (!std::isfinite(number)) continue;
+      for (Substitution& place : places) place.how = how, place.number = number, place.back = 0, place.change = Change::none;
+      if (!suits(places)) continue;
+      for (int digits = 1; digits < 6; ++digits) {
+        std::vector<Substitution> rounded = places;
+        const float nice = std::strtof(fmt::format("{:.{}g}", number, digits).c_str(), nullptr);
+        for (Substitution& place : rounded) place.number = nice;
+        if (suits(rounded)) {
+          places = rounded;
+          break;
+        }
+      }
+      const std::string right = words_for(first_, value), where = words_for(first_, t.nodes[0]);
+      keep(20, places,
+           {fmt::format("another value of {}", right),
+            how == Put::instead ? fmt::format("in {} stands about {:.5g} in place of {}", where, places[0].number, right)
+            : how == Put::times ? fmt::format("in {} the term {} counts about {:.5g} times", where, right, places[0].number)
+                                : fmt::format("in {} about {:.5g} is added to {}", where, places[0].number, right)});
+    }
+  }
+
+  const Probed* p_ = nullptr;
+  const std::vector<Solvable>& texels_;
+  const Probe& first_;
+  std::shared_ptr<const std::vector<float>> known_;
+  std::vector<Solver> solvers_;
+  std::map<std::size_t, std::vector<Source>> numbers_;
+  std::vector<std::vector<std::int32_t>> groups_;
+  std::vector<std::pair<int, Fault>> found_;
+};
+
+}  // namespace
+
+void add_solved_substitutions(std::vector<Fault>& out, const Probed& p, const std::vector<Solvable>& texels,
+                              const std::vector<float>& known) {
+  // Where the pass as it is comes near, anything that changes nothing would explain it.
+  std::vector<Solvable> failing;
+  for (const Solvable& t : texels)
+    if (!Solver(t, known).is_near(std::vector<perturbed::Substitution>())) failing.push_back(t);
+  // What one texel of a few numbers stores is given by too much.
+  if (failing.empty() || (failing.size() < 2 && failing[0].port.size() < 6)) return;
+  Search(p, failing, known).run(out);
+}
+
+}  // namespace rainref::faults

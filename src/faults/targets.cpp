@@ -1,0 +1,195 @@
+#include "faults/targets.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "faults/place_faults.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Op;
+using perturbed::Substitution;
+using Node = perturbed::Trace::Node;
+
+constexpr std::size_t most_targets = 400, most_sources = 400;
+constexpr std::int32_t most_alike = 6;  // of one shape that are solved for one by one
+constexpr std::int32_t most_back = 64;
+
+/// What has a name of its own.
+bool is_named(Op op) { return is_leaf(op) || op == Op::lookup; }
+/// What the first two or three slots are made of side by side, as far as it is by the same operations.
+void add_below_outputs(const Probe& p, std::vector<std::vector<std::int32_t>>& out) {
+  std::set<std::vector<std::int32_t>> done(out.begin(), out.end());
+  for (std::size_t first = 0; first < p.outputs.size() && first < 8; ++first)
+    for (const std::size_t n : {3u, 2u}) {
+      if (first + n > p.outputs.size()) continue;
+      std::vector<std::vector<std::int32_t>> open{
+          {p.outputs.begin() + static_cast<std::ptrdiff_t>(first), p.outputs.begin() + static_cast<std::ptrdiff_t>(first + n)}};
+      constexpr std::size_t most = 60;
+      for (std::size_t at = 0; at < open.size() && open.size() < most; ++at) {
+        const std::vector<std::int32_t> v = open[at];
+        const bool is_none = std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; });
+        if (is_none || std::set<std::int32_t>(v.begin(), v.end()).size() < n) continue;
+        if (std::any_of(v.begin(), v.end(), [&](std::int32_t i) { return node_of(p, i).op != node_of(p, v[0]).op; })) continue;
+        if (done.insert(v).second) out.push_back(v);
+        for (std::size_t k = 0; k < 4; ++k) {
+          std::vector<std::int32_t>& below = open.emplace_back();
+          for (const std::int32_t i : v) below.push_back(node_of(p, i).of[k]);
+        }
+      }
+    }
+}
+
+}  // namespace
+
+bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
+
+/// A text in which all components and axes have one name.
+std::string of_any_axis(std::string text) {
+  for (const std::string_view place : {"(column + 0.5)", "column + 0.5", "column", "row"})
+    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + 1)) text.replace(at, place.size(), "x");
+  const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (text[at] >= 'u' && text[at] <= 'z' && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = 'x';
+  std::erase(text, '-');  // a turned vector has another sign in one component
+  return text;
+}
+/// The components of vectors: of different shapes and one text, or two or three of one shape.
+std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p) {
+  std::vector<std::vector<std::int32_t>> out;
+  for (const std::vector<std::size_t>& v : vector_values_of(p))
+    if (p.trace.met.at(p.trace.nodes[v[0]].shape) == 1) out.emplace_back(v.begin(), v.end());
+  std::map<std::uint32_t, std::vector<std::int32_t>> alike;
+  for (std::int32_t at = 0; at < static_cast<std::int32_t>(p.trace.nodes.size()); ++at)
+    if (const std::int32_t count = p.trace.met.at(node_of(p, at).shape); count == 2 || count == 3)
+      if (node_of(p, at).op != Op::comparison) alike[node_of(p, at).shape].push_back(at);
+  for (auto& [shape, nodes] : alike) out.push_back(std::move(nodes));
+  add_below_outputs(p, out);
+  return out;
+}
+
+std::vector<Target> targets_of(const Probe& p) {
+  std::vector<Target> out;
+  std::vector<int> uses(p.trace.nodes.size());
+  for (const Node& n : p.trace.nodes)
+    for (const std::int32_t of : n.of)
+      if (of >= 0) ++uses[static_cast<std::size_t>(of)];
+  const auto add = [&](const std::vector<std::int32_t>& nodes) {
+    const Node& n = node_of(p, nodes[0]);
+    if (is_leaf(n.op)) return;
+    if (n.op != Op::lookup)
+      for (std::int8_t k = 0; k < (n.op == Op::choice ? 2 : 4); ++k)
+        if (std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t at) { return node_of(p, at).of[static_cast<std::size_t>(k)] >= 0; }))
+          out.push_back({nodes, k});
+    // What is used once is the operand there.
+    if (n.op != Op::comparison && uses[static_cast<std::size_t>(nodes[0])] != 1) out.push_back({nodes, Substitution::result});
+  };
+  std::vector<std::vector<std::int32_t>> together = vectors_in(p);
+  std::sort(together.begin(), together.end(), [](const auto& a, const auto& b) { return a[0] > b[0]; });
+  for (const auto& v : together) add(v);
+  for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;)
+    if (p.trace.met.at(node_of(p, at).shape) <= most_alike) add({at});
+  // Each is solved for with about a hundred evaluations.
+  const std::size_t most = std::clamp<std::size_t>(most_steps / 100 / std::max<std::size_t>(p.trace.nodes.size(), 1), 20, most_targets);
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
+/// Uniforms by their names, whether the pass uses them or not, and small numbers.
+std::vector<Source> numbers_of(const Probed& p, std::size_t components) {
+  std::vector<Source> out;
+  for (const scene::Member& m : p.pass.block.members) {
+    if (m.scalar != scene::Scalar::float32 || m.name.starts_with("padding")) continue;
+    std::vector<float> all(static_cast<std::size_t>(m.components));
+    std::memcpy(all.data(), p.c.uniforms.data() + m.offset, 4 * all.size());
+    if (components > 1 && all.size() >= components)
+      out.push_back({{}, {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(components)}, m.name, 0});
+    for (std::size_t k = 0; k < all.size() && all.size() <= 4; ++k)
+      out.push_back({{}, {all[k]}, all.size() == 1 ? m.name : fmt::format("{}.{}", m.name, "xyzw"[k]), 0});
+  }
+  // The same component of two uniforms that differ by their axis: e_u.y and e_v.y.
+  if (components == 2)
+    for (const scene::Member& a : p.pass.block.members)
+      for (const scene::Member& b : p.pass.block.members) {
+        if (a.scalar != scene::Scalar::float32 || b.scalar != a.scalar || a.components != b.components || !a.name.ends_with("_u") ||
+            b.name != a.name.substr(0, a.name.size() - 1) + "v")
+          continue;
+        for (int k = 0; k < a.components; ++k) {
+          std::vector<float> both(2);
+          std::memcpy(&both[0], p.c.uniforms.data() + a.offset + 4 * static_cast<std::size_t>(k), 4);
+          std::memcpy(&both[1], p.c.uniforms.data() + b.offset + 4 * static_cast<std::size_t>(k), 4);
+          out.push_back({{}, both, fmt::format("{}.{}", a.name, "xyzw"[k & 3]), 0});
+        }
+      }
+  for (const float number : {2.0f, 3.0f, 4.0f, 0.5f, 0.25f, 3.14159265f, 6.2831853f, 255.0f, 57.29578f, 0.017453293f, 1.0f, -1.0f})
+    out.push_back({{}, {number}, fmt::format("{:.5g}", number), 3});
+  return out;
+}
+
+/// Values met before a target, nearest first, and numbers.
+std::vector<Source> sources_for(const Probe& p, const Target& t, const std::vector<std::vector<std::int32_t>>& groups,
+                                const std::vector<Source>& numbers) {
+  std::vector<Source> out;
+  const std::int32_t before = *std::min_element(t.nodes.begin(), t.nodes.end());
+  const auto effort = [&](std::int32_t node) { return is_named(node_of(p, node).op) ? 0 : 1; };
+  if (t.nodes.size() > 1)
+    for (const auto& group : groups) {
+      if (group.size() != t.nodes.size() || *std::max_element(group.begin(), group.end()) >= before) continue;
+      out.push_back({group, {}, words_for(p, group[0]), effort(group[0])});
+      std::vector<std::size_t> order(group.size());
+      for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+      while (std::next_permutation(order.begin(), order.end())) {
+        std::vector<std::int32_t> other;
+        std::string text;
+        for (const std::size_t k : order) {
+          other.push_back(group[k]);
+          text += (text.empty() ? "(" : ", ") + words_for(p, group[k]);
+        }
+        out.push_back({other, {}, text + ")", effort(group[0]) + 1});
+      }
+    }
+  std::map<std::uint32_t, std::int32_t> after;
+  for (std::int32_t m = before; m-- > 0 && out.size() < most_sources;) {
+    const std::int32_t back = ++after[node_of(p, m).shape];
+    if (back > most_back || node_of(p, m).op == Op::comparison || node_of(p, m).op == Op::coordinate) continue;
+    out.push_back({{m}, {}, words_for(p, m), effort(m)});
+  }
+  out.insert(out.end(), numbers.begin(), numbers.end());
+  return out;
+}
+
+float number_of(const Probe& p, const Source& s, std::size_t c) {
+  if (s.nodes.empty()) return s.numbers[s.numbers.size() == 1 ? 0 : c];
+  return node_of(p, s.nodes[s.nodes.size() == 1 ? 0 : c]).value;
+}
+/// Puts a source into the places of a target.
+void take(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    if (s.nodes.empty()) {
+      places[c].back = 0;
+      places[c].number = number_of(p, s, c);
+      continue;
+    }
+    const std::int32_t node = s.nodes[s.nodes.size() == 1 ? 0 : c];
+    places[c].source = node_of(p, node).shape;
+    places[c].back = 0;
+    for (std::int32_t m = node; m < t.nodes[c]; ++m) places[c].back += node_of(p, m).shape == places[c].source;
+  }
+}
+void take_second(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    const std::int32_t node = s.nodes[s.nodes.size() == 1 ? 0 : c];
+    places[c].second.source = node_of(p, node).shape;
+    places[c].second.back = 0;
+    for (std::int32_t m = node; m < t.nodes[c]; ++m) places[c].second.back += node_of(p, m).shape == places[c].second.source;
+  }
+}
+
+}  // namespace rainref::faults
