@@ -13,6 +13,8 @@ RAINREF_TARGET_BEGIN(edge_splash)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
+#include "math/half_turn-inl.h"
+#include "math/half_turn_lanes-inl.h"
 #include "edge_splash/splash.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
