@@ -1,4 +1,5 @@
 // A drop as the passes compute with it. Text, for every number; before the passes that need it.
+#include "math/cube_root-inl.h"
 
 /// The floats of the record Drop, in its order.
 template <class N>
@@ -19,5 +20,5 @@ struct DropState {
 /// The cube root of a mass that counts as `least` at least: 1 makes it that of a live drop, of which the mass is whole.
 template <class N>
 RAINREF_FN N cube_root_of_mass(N mass, float least) {
-  return pow(max(mass, N(least)), N(1.0f / 3.0f));
+  return cube_root(max(mass, N(least)));
 }

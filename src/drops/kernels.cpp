@@ -5,11 +5,13 @@
 
 #define RAINREF_KERNELS "drops/kernels.cpp"
 #include "math/foreach_target.h"
+#include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
 #include "pass/records-inl.h"
 
 RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
+#include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
 #include "drops/integrate.pass.h"
 #include "drops/merge.pass.h"
@@ -40,14 +42,20 @@ HWY_INLINE std::int64_t whole_sum(Lanes x, int count) {
   for_lanes(x, count, [&](int, float one) { sum += static_cast<std::int64_t>(one); });
   return sum;
 }
+HWY_INLINE std::int64_t whole_sum(const LanePair& x, int count) {
+  if (!any(x > LanePair(0.0f))) return 0;
+  constexpr int n = Lanes::size();
+  return whole_sum(x.a, std::min(count, n)) + whole_sum(x.b, std::max(count - n, 0));
+}
 
 MassBalance IntegrateRange(const IntegrateUniforms& uniforms, bool corrected, const pass::HostIo<IntegratePass>& io, std::int64_t begin,
                            std::int64_t end) {
   MassBalance balance;
   const std::vector<float*>& columns = io.drops.columns;
   if (corrected) {
-    change_records<IntegratePass, IntegratePassText, true>(
-        uniforms, io, columns, begin, end, [&](std::int64_t, int count, const DropState<Lanes>&, const Integrated<Lanes>& after) HWY_ATTR {
+    change_records<IntegratePass, IntegratePassText, true, LanePair>(
+        uniforms, io, columns, begin, end,
+        [&](std::int64_t, int count, const DropState<LanePair>&, const Integrated<LanePair>& after) HWY_ATTR {
           balance.evaporated += whole_sum(after.evaporated, count);
           balance.removed += whole_sum(after.removed, count);
         });

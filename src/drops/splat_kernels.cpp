@@ -10,11 +10,13 @@
 
 #define RAINREF_KERNELS "drops/splat_kernels.cpp"
 #include "math/foreach_target.h"
+#include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(drops)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
+#include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
 #include "drops/splat.pass.h"
 #undef RAINREF_FN

@@ -1,4 +1,7 @@
 // splash in lanes; compiled once for each SIMD target.
+#include <concepts>
+#include <cstdint>
+
 #include "edge_splash/splash.pass.h"
 #include "image/texture.h"
 #include "pass/run.h"
@@ -13,6 +16,9 @@ RAINREF_TARGET_BEGIN(edge_splash)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_lanes-inl.h"
+#include "math/half_turn-inl.h"
+#include "math/half_turn_lanes-inl.h"
 #include "edge_splash/splash.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

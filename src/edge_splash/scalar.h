@@ -15,6 +15,7 @@ using namespace rainref::scalar;
 
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
+#include "math/half_turn-inl.h"
 #include "math/optics-inl.h"
 #include "image/sampling_perturbed-inl.h"
 #include "image/sampling-inl.h"

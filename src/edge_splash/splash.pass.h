@@ -150,8 +150,7 @@ struct EdgeMasks {
 template <class N, class T>
 RAINREF_FN EdgeMasks<N> edge_masks(const PublishedSplashUniforms& u, const T& depth, N x, N y) {
   const Gradient<N> g = gradient_as_published(u, depth, x, y);
-  const N pi(3.14159265f);
-  return {one_where<N>(length(g.x, g.y) >= N(u.edge_threshold)), one_where<N>((atan2(g.y, g.x) + pi) / N(2.0f * 3.14159265f) <= N(0.5f))};
+  return {one_where<N>(length(g.x, g.y) >= N(u.edge_threshold)), one_where<N>(is_at_most_half_turn(g.y, g.x))};
 }
 template <class N, class T>
 RAINREF_FN N noise_mask(const PublishedSplashUniforms& u, const T& noise_map, N x, N y) {

@@ -6,14 +6,21 @@
 struct WordPair {
   hn::Vec<Lanes::DI> first, second;
 };
-/// Two neighbouring 32-bit words from each byte offset on.
+/// Two neighbouring 32-bit words from each byte offset on: loads of 8 bytes, because some processors gather more slowly.
 RAINREF_FN WordPair gather_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   const Lanes::DI d;
-  const hn::RepartitionToWide<Lanes::DI> wide;
-  const hn::Half<Lanes::DI> half;
-  const auto* base = static_cast<const std::int64_t*>(from);
-  const auto low = hn::BitCast(d, hn::GatherOffset(wide, base, hn::PromoteTo(wide, hn::LowerHalf(half, bytes))));
-  const auto high = hn::BitCast(d, hn::GatherOffset(wide, base, hn::PromoteTo(wide, hn::UpperHalf(half, bytes))));
+  HWY_ALIGN std::int32_t at[HWY_MAX_BYTES / sizeof(std::int32_t)];
+  hn::Store(bytes, d, at);
+  const auto one = [&](int i) RAINREF_LAMBDA {
+    return hn::LoadU(hn::Full64<std::int32_t>(), reinterpret_cast<const std::int32_t*>(static_cast<const char*>(from) + at[i]));
+  };
+  const auto two = [&](int i) RAINREF_LAMBDA { return hn::Combine(hn::Full128<std::int32_t>(), one(i + 1), one(i)); };
+  const auto four = [&](int i) RAINREF_LAMBDA { return hn::Combine(hn::Full256<std::int32_t>(), two(i + 2), two(i)); };
+#if HWY_TARGET <= HWY_AVX3
+  const auto low = hn::Combine(d, four(4), four(0)), high = hn::Combine(d, four(12), four(8));
+#else
+  const auto low = four(0), high = four(4);
+#endif
   return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
 }
 /// The halves in the low and in the high 16 bits of each word.
@@ -129,6 +136,37 @@ requires(std::same_as<N, Lanes>&& Pitched<T>&& T::channels == 1 && T::address_u 
   const TexelPair low = load_pair(t, left, right, texel_row<N>(t, l, yi)), high = load_pair(t, left, right, texel_row<N>(t, l, yi + 1));
   Channels<N, Count> out;
   out[0] = blend(t.precision, low.left, low.right, high.left, high.right, x - x0, y - y0);
+  return out;
+}
+/// Of a texture that nothing need follow: the pair ends at the last column.
+template <int First, int Count, class N, class T>
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 &&
+         (T::address_u == Address::clamp || T::address_u == Address::repeat) && T::address_v != Address::border && Count == 1 &&
+         First == 0) RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
+  const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
+  const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0;
+  const auto xi = to_int(x0), yi = to_int(y0);
+  const auto low = texel_row<N>(t, l, yi), high = texel_row<N>(t, l, yi + 1);
+  Channels<N, Count> out;
+  if (t.levels == 1 && t.width[0] >= 2) {
+    const auto column = texel_column<N>(t, l, xi).place, before_last = l.width + -2;
+    const auto first = hn::Min(column.i, before_last.i);
+    const Lanes::Mask at_last{hn::RebindMask(Lanes::D(), hn::Gt(column.i, before_last.i))};
+    const bool wraps = T::address_u == Address::repeat && any(at_last);
+    const auto pair = [&](const auto& row) RAINREF_LAMBDA {
+      const WordPair words = gather_words(t.texels, hn::ShiftLeft<2>(hn::Add(row.place.i, first)));
+      const Lanes second(hn::BitCast(Lanes::D(), words.second));
+      // The neighbour of the last column is itself or, by repeat, the first one.
+      const Lanes right = wraps ? select(at_last, fetch(t.texels, row.place, N()), second) : second;
+      return TexelPair{select(at_last, second, Lanes(hn::BitCast(Lanes::D(), words.first))), right};
+    };
+    const TexelPair a = pair(low), b = pair(high);
+    out[0] = blend(t.precision, a.left, a.right, b.left, b.right, fx, fy);
+  } else {
+    const auto left = texel_column<N>(t, l, xi), right = texel_column<N>(t, l, xi + 1);
+    const auto texel = [&](const auto& column, const auto& row) RAINREF_LAMBDA { return load_texel<0, 1, N>(t, column, row)[0]; };
+    out[0] = blend(t.precision, texel(left, low), texel(right, low), texel(left, high), texel(right, high), fx, fy);
+  }
   return out;
 }
 

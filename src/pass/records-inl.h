@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "math/lane_pair-inl.h"
 #include "pass/rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,25 +24,33 @@ HWY_INLINE HWY_ATTR Lanes load_some(const float* p, int count) {
   std::copy_n(p, count, block);
   return Lanes::load(block);
 }
+template <class N>
+HWY_INLINE HWY_ATTR N load_some_of(const float* p, int count) {
+  constexpr int n = Lanes::size();
+  if constexpr (N::size() == n)
+    return load_some(p, count);
+  else
+    return N(load_some(p, std::min(count, n)), load_some(p + n, std::max(count - n, 0)));
+}
 /// Records [begin, end) of the columns, in place; a vector that holds none is left as it is. then(first, count, before, given) sees what
-/// the text gives of `count` records from `first` on, whatever it is beside the record.
-template <class P, class Text, bool corrected, class Then>
+/// the text gives of `count` records from `first` on, whatever it is beside the record. N: Lanes, or LanePair where the text is long.
+template <class P, class Text, bool corrected, class N = Lanes, class Then>
 HWY_INLINE HWY_ATTR void change_records(const typename P::Uniforms& uniforms, const pass::HostIo<P>& host,
                                         const std::vector<float*>& columns, std::int64_t begin, std::int64_t end, const Then& then) {
-  using State = typename Text::template State<Lanes>;
+  using State = typename Text::template State<N>;
   const typename P::Uniforms u = uniforms;  // no store to a column may change it
   typename P::template Io<LaneCursors> io;
   pass::begin_row<P>(host, io, 0, Rounding::rne);
   float* const* const column = columns.data();
-  for (std::int64_t i = begin; i < end; i += Lanes::size()) {
-    const int count = static_cast<int>(std::min<std::int64_t>(Lanes::size(), end - i));
+  for (std::int64_t i = begin; i < end; i += N::size()) {
+    const int count = static_cast<int>(std::min<std::int64_t>(N::size(), end - i));
     State before;
     int k = 0;
-    State::each(before, [&](Lanes& number) HWY_ATTR { number = load_some(column[k++] + i, count); });
+    State::each(before, [&](N& number) HWY_ATTR { number = load_some_of<N>(column[k++] + i, count); });
     if (!any(before.lives())) continue;
-    const auto given = Text::template run_record<Lanes, corrected>(u, io, before);
+    const auto given = Text::template run_record<N, corrected>(u, io, before);
     k = 0;
-    State::each(given, [&](const Lanes& number) HWY_ATTR {
+    State::each(given, [&](const N& number) HWY_ATTR {
       if (Text::template gives<corrected>(k)) store(column[k] + i, number, Rounding::rne, count);
       ++k;
     });

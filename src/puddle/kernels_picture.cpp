@@ -1,4 +1,7 @@
 // surface_hit, ground_noise, shade and display in lanes; compiled once for each SIMD target.
+#include <concepts>
+#include <cstdint>
+
 #include "pass/run.h"
 #include "puddle/display.pass.h"
 #include "puddle/shade.pass.h"
@@ -6,6 +9,7 @@
 
 #define RAINREF_KERNELS "puddle/kernels_picture.cpp"
 #include "math/foreach_target.h"
+#include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
 #include "pass/rows-inl.h"
 
@@ -14,13 +18,72 @@ RAINREF_TARGET_BEGIN(puddle)
 #define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "math/optics-inl.h"
 #include "image/sampling-inl.h"
+#include "image/sampling_lanes-inl.h"
 #include "image/environment-inl.h"
+// Several vectors are sampled one after the other.
+template <int First, int Count, class N, class T>
+requires(N::size() > Lanes::size()) RAINREF_FN Channels<N, Count> sample_bilinear(const T& t, N u, N v, int level = 0) {
+  using Part = decltype(u.a);
+  const auto a = sample_bilinear<First, Count, Part>(t, u.a, v.a, level), b = sample_bilinear<First, Count, Part>(t, u.b, v.b, level);
+  Channels<N, Count> out;
+  RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = N(a[k], b[k]);
+  return out;
+}
 #include "puddle/surface_hit.pass.h"
 #include "puddle/shade.pass.h"
 #include "puddle/display.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
-RAINREF_PASS_ROWS(SurfaceHitPass)
+
+using HitIo = SurfaceHitPass::Io<LaneCursors>;
+HWY_INLINE HWY_ATTR void give_hit(const HitIo& io, const Vec3<Lanes>& position, Lanes iterations, const Vec3<Lanes>& normal, Lanes flag) {
+  io.hit(position, iterations);
+  io.normal(normal, flag);
+}
+/// Part of a hit of several vectors: the vectors from x on.
+template <class N>
+HWY_INLINE HWY_ATTR void give_hits(HitIo& io, int x, const Vec3<N>& p, N iterations, const Vec3<N>& n, N flag) {
+  if constexpr (std::same_as<N, Lanes>) {
+    pass::move_to<SurfaceHitPass>(io, x, Lanes::size());
+    give_hit(io, p, iterations, n, flag);
+  } else {
+    using Part = decltype(p.x.a);
+    give_hits<Part>(io, x, Vec3<Part>(p.x.a, p.y.a, p.z.a), iterations.a, Vec3<Part>(n.x.a, n.y.a, n.z.a), flag.a);
+    give_hits<Part>(io, x + Part::size(), Vec3<Part>(p.x.b, p.y.b, p.z.b), iterations.b, Vec3<Part>(n.x.b, n.y.b, n.z.b), flag.b);
+  }
+}
+// As published a round of the march waits for the one before: for quotients, a lookup, a root. Four rays of a row side by side, in each
+// lane, keep the processor busy meanwhile.
+template <Address edge>
+HWY_ATTR void published_hit_rows(const SurfaceHitUniforms& uniforms, Rounding rounding, const pass::HostIo<SurfaceHitPass>& host,
+                                 const parallel::Tile& tile) {
+  const SurfaceHitUniforms u = uniforms;
+  const Texture& texture = *host.wave.texture;
+  const auto wave = fixed_texture<edge, edge, 1>(texture);
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    HitIo io;
+    pass::begin_row<SurfaceHitPass>(host, io, y, rounding);
+    int x = tile.x0;
+    for (; x + LanePair::size() <= tile.x1; x += LanePair::size()) {
+      const SurfaceHit<LanePair> s = surface_hit_as_published<LanePair>(u, wave, x, y);
+      give_hits<LanePair>(io, x, s.position, s.iterations, s.normal, s.flag);
+    }
+    for (; x < tile.x1; x += Lanes::size()) {
+      pass::move_to<SurfaceHitPass>(io, x, tile.x1 - x < Lanes::size() ? tile.x1 - x : Lanes::size());
+      SurfaceHitPassText::run<Lanes, false>(u, io, x, y);
+    }
+  }
+}
+HWY_ATTR void SurfaceHitPassRows(const SurfaceHitUniforms& u, bool corrected, Rounding rounding, const pass::HostIo<SurfaceHitPass>& io,
+                                 const parallel::Tile& tile) {
+  const Texture& wave = *io.wave.texture;
+  if (corrected) return rows_of<SurfaceHitPass, SurfaceHitPassText, true>(u, rounding, io, tile);
+  if (wave.address_u == Address::clamp && wave.address_v == Address::clamp)
+    return published_hit_rows<Address::clamp>(u, rounding, io, tile);
+  if (wave.address_u == Address::repeat && wave.address_v == Address::repeat)
+    return published_hit_rows<Address::repeat>(u, rounding, io, tile);
+  rows_of<SurfaceHitPass, SurfaceHitPassText, false>(u, rounding, io, tile);
+}
 RAINREF_PASS_ROWS(GroundNoisePass)
 RAINREF_PASS_ROWS(ShadePass)
 RAINREF_PASS_ROWS(DisplayPass)

@@ -69,8 +69,8 @@ struct SurfaceHit {
 // ---- as published --------------------------------------------------------------------------------------------------
 // Sphere tracing of a box whose top is displaced by the previous level, still encoded and with the sign that the
 // article prints. `wave` holds that one channel.
-template <class N>
-RAINREF_FN N scene_distance(const SurfaceHitUniforms& u, const Texture& wave, const Vec3<N>& p) {
+template <class N, class T>
+RAINREF_FN N scene_distance(const SurfaceHitUniforms& u, const T& wave, const Vec3<N>& p) {
   const N s = N(0.5f) * (p.x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (p.z / N(u.half_size[2]) + N(1.0f));
   const N d = sample_bilinear<0, 1, N>(wave, s, t)[0], zero(0.0f);
   return length(Vec3<N>(max(abs(p.x) - N(u.half_size[0]), zero), max(abs(p.y + d) - N(u.half_size[1]), zero),
@@ -88,8 +88,8 @@ struct MarchState {
 };
 
 /// The normal at a position, by differences of the wave, as published.
-template <class N>
-RAINREF_FN Vec3<N> normal_as_published(const SurfaceHitUniforms& u, const Texture& wave, const Vec3<N>& p) {
+template <class N, class T>
+RAINREF_FN Vec3<N> normal_as_published(const SurfaceHitUniforms& u, const T& wave, const Vec3<N>& p) {
   const N s = N(0.5f) * (p.x / N(u.half_size[0]) + N(1.0f)), t = N(0.5f) * (p.z / N(u.half_size[2]) + N(1.0f));
   const N du(u.texel[0]), dv(u.texel[1]);
   const N left = sample_bilinear<0, 1, N>(wave, s - du, t)[0], right = sample_bilinear<0, 1, N>(wave, s + du, t)[0];
@@ -97,8 +97,8 @@ RAINREF_FN Vec3<N> normal_as_published(const SurfaceHitUniforms& u, const Textur
   return normalize(Vec3<N>((left - right) * N(u.normal_gain), N(1.0f), (down - up) * N(u.normal_gain)));
 }
 
-template <class N>
-RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, const Texture& wave, int px, int py) {
+template <class N, class T>
+RAINREF_FN SurfaceHit<N> surface_hit_as_published(const SurfaceHitUniforms& u, const T& wave, int px, int py) {
   const Vec3<N> origin(u.camera.position);
   const Vec3<N> direction = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N epsilon(u.epsilon);
@@ -283,10 +283,16 @@ struct SurfaceHitPassText {
   template <class N, bool corrected, class Io>
   static RAINREF_FN void run(const SurfaceHitUniforms& u, const Io& io, int px, int py) {
     SurfaceHit<N> s;
+    const Texture& wave = io.wave;
+    constexpr Address edge = Address::clamp, periodic = Address::repeat;
     if constexpr (corrected)
-      s = surface_hit_corrected<N>(u, io.wave, io.bounds, px, py);
+      s = surface_hit_corrected<N>(u, wave, io.bounds, px, py);
+    else if (wave.address_u == edge && wave.address_v == edge)
+      s = surface_hit_as_published<N>(u, fixed_texture<edge, edge, 1>(wave), px, py);
+    else if (wave.address_u == periodic && wave.address_v == periodic)
+      s = surface_hit_as_published<N>(u, fixed_texture<periodic, periodic, 1>(wave), px, py);
     else
-      s = surface_hit_as_published<N>(u, io.wave, px, py);
+      s = surface_hit_as_published<N>(u, wave, px, py);
     io.hit(s.position, s.iterations);
     io.normal(s.normal, s.flag);
   }

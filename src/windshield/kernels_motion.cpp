@@ -7,11 +7,13 @@
 
 #define RAINREF_KERNELS "windshield/kernels_motion.cpp"
 #include "math/foreach_target.h"
+#include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
 #include "pass/records-inl.h"
 
 RAINREF_TARGET_BEGIN(windshield)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
+#include "math/cube_root_lanes-inl.h"
 #include "drops/drop-inl.h"
 #include "windshield/windshield_frame.pass.h"
 #include "windshield/wipe_drops.pass.h"

@@ -5,12 +5,17 @@
 
 #define RAINREF_KERNELS "math/lanes_kernels.cpp"
 #include "math/foreach_target.h"
+#include "math/lane_pair-inl.h"
 #include "math/lanes-inl.h"
 
 RAINREF_TARGET_BEGIN(test)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
 #define RAINREF_LAMBDA HWY_ATTR
 #include "math/optics-inl.h"
+#include "math/half_turn-inl.h"
+#include "math/half_turn_lanes-inl.h"
+#include "math/cube_root_lanes-inl.h"
+#include "math/cube_root-inl.h"
 #include "math/lanes_operations-inl.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

@@ -39,6 +39,8 @@ using namespace rainref::scalar;
 #define RAINREF_FN inline
 #define RAINREF_LAMBDA
 #include "math/optics-inl.h"
+#include "math/half_turn-inl.h"
+#include "math/cube_root-inl.h"
 #include "math/lanes_operations-inl.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA

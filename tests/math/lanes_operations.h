@@ -70,6 +70,13 @@
   X(sin_of, any, sin(a))                                                                                                     \
   X(cos_of, any, cos(a))                                                                                                     \
   X(atan2_of, any, atan2(a, b))                                                                                              \
+  X(half_turn, any, select(is_at_most_half_turn(a, b), N(1.0f), N(2.0f)))                                                    \
+  X(half_turn_axis, any, select(is_at_most_half_turn(min(abs(a), N(0.0f)) * b, c), N(1.0f), N(2.0f)))                        \
+  X(half_turn_narrow, moved, select(is_at_most_half_turn(b* N(0x1p-23f), a), N(1.0f), N(2.0f)))                              \
+  X(half_turn_wide, moved, select(is_at_most_half_turn(b* N(0x1p-22f), a), N(1.0f), N(2.0f)))                                \
+  X(cube_root_any, any, cube_root(a))                                                                                        \
+  X(cube_root_small, small, cube_root(abs(a) + N(0x1p-12f)))                                                                 \
+  X(cube_root_whole, small, cube_root(floor(abs(a)) + N(1.0f)))                                                              \
   X(vector_length, small, length(Vec3<N>(a, b, c)))                                                                          \
   X(dot_of, any, dot(Vec3<N>(a, b, c), Vec3<N>(c, a, b)))                                                                    \
   X(normalized_x, small, normalize(Vec3<N>(a, b, N(0.5f))).x)                                                                \

@@ -1,0 +1,247 @@
+"""scripts/bench --bounds: what holds a row of one thread. A call of its kernel is stepped through, instruction by instruction, so that what is
+counted is what was executed, with any vectors; llvm-mca says which ports each instruction may take. The bound is the time that the busiest
+set of ports needs for all of them: no cache miss, no wrong branch, no wait for a result."""
+import collections
+import ctypes
+import itertools
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+
+STEPS = 150_000  # instructions of a call that are enough
+# Row of the bench, kernel (demangled, after the namespace of the target), elements of its unit in a round of its loop, in vectors of floats,
+# and the call that is stepped through: in the middle of the picture.
+ROWS = (
+    ("edge_splash.splash/as-published/1920x1080", r"rows_of<.*PublishedSplashPass,", 1, 67),
+    ("edge_splash.splash/corrected/1920x1080", r"rows_of<.*::SplashPass,", 1, 67),
+    ("composite/as-published/1920x1080", r"rows_of<.*CompositePass,.*false>", 1, 67),
+    ("composite/corrected/1920x1080", r"rows_of<.*CompositePass,.*true>", 1, 67),
+    ("integrate/corrected/100000", r"drops::\w+::IntegrateRange\(", 2, 3),
+    ("surface_hit/as-published/1280x720", r"published_hit_rows<\(rainref::Address\)0>", 2, 40),
+    ("shade/as-published/1280x720", r"rows_of<.*ShadePass,.*false>", 1, 40),
+    ("shade/corrected/1280x720", r"rows_of<.*ShadePass,.*true>", 1, 40),
+    ("rain_on_glass/as-published/pane/1080p", r"RainOnGlassPassRows", 1, 67),
+    ("rain_on_glass/corrected/pane/1080p", r"RainOnGlassPassRows", 1, 67),
+    ("screen_drops.drops/as-published/1080p", r"rows_of<.*PublishedDropsPass,", 1, 67),
+    ("screen_drops.drops/corrected/still/1080p", r"screen_drops::\w+::DropsPassRows", 1, 67),
+)
+TARGETS = (("avx512f", "AVX3", 16, "icelake-server"), ("avx2", "AVX2", 8, "haswell"))
+TRACEME, PEEKTEXT, PEEKUSER, POKETEXT, POKEUSER, CONT, SINGLESTEP = 0, 1, 3, 4, 6, 7, 9
+RSP, RIP = 19 * 8, 16 * 8
+
+libc = ctypes.CDLL(None, use_errno=True)
+libc.ptrace.restype = ctypes.c_long
+libc.ptrace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
+
+
+class CannotStep(Exception):
+    pass
+
+
+def ptrace(request, pid, address=0, data=0):
+    return libc.ptrace(request, pid, ctypes.c_void_p(address), ctypes.c_void_p(data)) & (1 << 64) - 1
+
+
+def wait_for_trap(pid):
+    _, status = os.waitpid(pid, 0)
+    while os.WIFSTOPPED(status) and os.WSTOPSIG(status) != signal.SIGTRAP:
+        ptrace(CONT, pid, 0, os.WSTOPSIG(status))
+        _, status = os.waitpid(pid, 0)
+    if not os.WIFSTOPPED(status):
+        raise CannotStep("the program ended before the kernel was called so often")
+
+
+def stepped(program, row, entry, skipped):
+    """How often each address of the program was executed in one call of the function at `entry`, the one after `skipped` others."""
+    pid = os.fork()
+    if pid == 0:
+        libc.personality(0x0040000)  # the same addresses in every run
+        ptrace(TRACEME, 0)
+        nothing = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nothing, 1)
+        os.dup2(nothing, 2)
+        os.execv(program, [program, f"--benchmark_filter=^{row.replace('.', '[.]')}/threads:1/", "--benchmark_min_time=0.0000001"])
+    try:
+        wait_for_trap(pid)
+        with open(f"/proc/{pid}/maps", encoding="ascii") as maps:
+            base = min(int(line.split("-")[0], 16) for line in maps if line.rstrip().endswith(os.path.basename(program)))
+        place = base + entry
+        whole = ptrace(PEEKTEXT, pid, place)
+        for call in range(skipped + 1):
+            ptrace(POKETEXT, pid, place, whole & ~0xff | 0xcc)
+            ptrace(CONT, pid)
+            wait_for_trap(pid)
+            if ptrace(PEEKUSER, pid, RIP) != place + 1:
+                raise CannotStep("the program stopped elsewhere")
+            ptrace(POKETEXT, pid, place, whole)
+            ptrace(POKEUSER, pid, RIP, place)
+            if call < skipped:
+                ptrace(SINGLESTEP, pid)
+                wait_for_trap(pid)
+        back = ptrace(PEEKTEXT, pid, ptrace(PEEKUSER, pid, RSP))
+        counts = collections.Counter()
+        at = place
+        for _ in range(STEPS):
+            counts[at - base] += 1
+            ptrace(SINGLESTEP, pid)
+            wait_for_trap(pid)
+            at = ptrace(PEEKUSER, pid, RIP)
+            if at == back:
+                break
+        return counts
+    finally:
+        try:
+            os.kill(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+        except (ProcessLookupError, ChildProcessError):
+            pass
+
+
+def kernel_addresses(program, namespace):
+    text = subprocess.run(["nm", "-C", program], capture_output=True, text=True, check=True).stdout
+    return [(int(line[:16], 16), line[19:]) for line in text.splitlines() if namespace in line and line[17] in "tTwWu"]
+
+
+def disassembly(program, addresses):
+    """The text of each address, as llvm-mca reads it."""
+    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program], capture_output=True, text=True, check=True).stdout
+    out = {}
+    for line in text.splitlines():
+        match = re.match(r" *([0-9a-f]+):\s+(.*)", line)
+        if match and int(match[1], 16) in addresses:
+            out[int(match[1], 16)] = re.sub(r"\s*(<.*|#.*)", "", match[2]).strip()
+    return out
+
+
+def kind_of(text):
+    """Gathers, divisions, roots, loads, stores, other vector operations, or the rest."""
+    name = text.split()[0]
+    if "gather" in name:
+        return "gathers"
+    if name.startswith("vdiv"):
+        return "divisions"
+    if name.startswith("vsqrt"):
+        return "roots"
+    if "(" in text and not name.startswith(("lea", "nop", "prefetch")):
+        return "stores" if text.rstrip().endswith(")") and name.startswith(("vmov", "mov", "vpmov", "vcompress", "vextract", "kmov")) else "loads"
+    return "vectors" if name.startswith(("v", "k")) else "rest"
+
+
+def eligible_ports(texts, cpu):
+    """For each text the ports that it takes, with the cycles, from llvm-mca's resource pressure."""
+    found, alike = {}, {}
+    for text in texts:
+        # Which registers are named does not count, but in a gather, whose three must differ; branches have no operand here.
+        source = re.sub(r"^(j\w+|call)\b.*", r"\1 1f\n1:", text)
+        if "gather" not in source:
+            source = re.sub(r"-?0x[0-9a-f]+\(", "64(", re.sub(r"%([xyz]mm)\d+", r"%\g<1>1", source))
+        if source in alike:
+            found[text] = alike[source]
+            continue
+        run = subprocess.run(["llvm-mca", f"-mcpu={cpu}", "-iterations=100", "-instruction-info=0", "-summary-view=0", "-resource-pressure=1"],
+                             input=source + "\n", capture_output=True, text=True)
+        if run.returncode != 0:
+            continue
+        names = re.findall(r"^\[([\d.]+)\]\s+- (\S+)", run.stdout, re.M)
+        table = re.search(r"Resource pressure per iteration:\n(.*)\n(.*)\n", run.stdout)
+        columns = re.findall(r"\[([\d.]+)\]", table[1])
+        values = [0.0 if v == "-" else float(v) for v in table[2].split()]
+        label = dict(names)
+        found[text] = alike[source] = {label[c]: v for c, v in zip(columns, values) if v > 0}
+    return found
+
+
+def port_bound(weights, pressure):
+    """Cycles of the busiest set of ports: an instruction whose ports all lie in the set must run there."""
+    groups = collections.Counter()
+    for text, count in weights.items():
+        parts = pressure.get(text, {})
+        for divider in [p for p in parts if "Divider" in p]:
+            groups[frozenset([divider])] += count * parts[divider]
+        ports = {p: c for p, c in parts.items() if "Divider" not in p}
+        # One of alike ports in turn: equal shares are one group.
+        for _, alike in itertools.groupby(sorted(ports.items(), key=lambda e: round(e[1], 1)), key=lambda e: round(e[1], 1)):
+            alike = list(alike)
+            groups[frozenset(p for p, _ in alike)] += count * sum(c for _, c in alike)
+    ports = sorted(set().union(*groups))
+    best = (0.0, ())
+    for size in range(1, min(len(ports), 6) + 1):
+        for chosen in itertools.combinations(ports, size):
+            inside = sum(cycles for group, cycles in groups.items() if group <= set(chosen))
+            best = max(best, (inside / size, chosen))
+    return best
+
+
+def rate_of(given, row):
+    """The row's fastest go on one thread [M/s]."""
+    run = subprocess.run([os.path.join(given.build, "bench/rainref_bench"), f"--benchmark_filter=^{row.replace('.', '[.]')}/threads:1/",
+                          "--benchmark_min_time=0.0000001", "--benchmark_format=json"],
+                         capture_output=True, text=True, check=True, env={**os.environ, "RAINREF_BENCH_SECONDS": str(given.row_seconds)})
+    found = json.loads(run.stdout)["benchmarks"][0]
+    return next(found[key] for key in ("Mpix/s", "Mdrop/s") if key in found)
+
+
+def clock_ghz():
+    """Of a loop that takes a cycle a round, the fastest of 20, on the thread's own time; compiled here."""
+    source = ('#include <ctime>\n#include <cstdio>\nint main(){double best=1;for(int k=0;k<20;++k){timespec a,b;clock_gettime(CLOCK_THREAD_CPUTIME_ID,&a);'
+              'long n=10000000;__asm__ volatile("1: dec %0\\n jnz 1b":"+r"(n));clock_gettime(CLOCK_THREAD_CPUTIME_ID,&b);'
+              'double s=(b.tv_sec-a.tv_sec)+1e-9*(b.tv_nsec-a.tv_nsec);if(s<best)best=s;}std::printf("%f",1e-2/best);}')
+    with tempfile.TemporaryDirectory() as folder:
+        program = os.path.join(folder, "clock")
+        subprocess.run(["c++", "-O1", "-x", "c++", "-", "-o", program], input=source, text=True, check=True)
+        return float(subprocess.run([program], capture_output=True, text=True, check=True).stdout)
+
+
+def measure(given, clock, measured, say):
+    """One dictionary a row; `measured` gives the rate of a row [M/s]."""
+    for tool in ("llvm-mca", "objdump", "nm"):
+        if not shutil.which(tool):
+            raise CannotStep(f"{tool} is not installed (Debian: llvm, binutils)")
+    with open("/proc/cpuinfo", encoding="ascii") as file:
+        flags = file.read()
+    try:
+        _, namespace, lanes, cpu = next(t for t in TARGETS if t[0] in flags)
+    except StopIteration:
+        raise CannotStep("this processor has neither AVX2 nor AVX-512") from None
+    program = os.path.abspath(os.path.join(given.build, "bench/rainref_bench"))
+    symbols = kernel_addresses(program, f"N_{namespace}::")
+    out = []
+    for row, kernel, vectors, skipped in ROWS:
+        if not re.search(given.only, row):
+            continue
+        say(row)
+        entry = next((address for address, name in symbols if re.search(kernel, name) and ".cold" not in name), None)
+        if entry is None:
+            raise CannotStep(f"{program} has no {kernel} of {namespace}")
+        counts = stepped(program, row, entry, skipped)
+        texts = disassembly(program, counts)
+        # Nearly every instruction of a loop runs once a round: the commonest count is that of the rounds.
+        rounds = collections.Counter(c for c in counts.values() if c > 4).most_common(1)[0][0]
+        kinds, weights = collections.Counter(), collections.Counter()
+        for address, count in counts.items():
+            text = texts.get(address)
+            if text is None:
+                continue  # of a library
+            kinds[kind_of(text)] += count / rounds / vectors
+            weights[text] += count / rounds / vectors
+        cycles, ports = port_bound(weights, eligible_ports(weights, cpu))
+        rate = clock * 1e3 * lanes / cycles
+        out.append({"row": row, "lanes": lanes, "model": cpu, "rounds": rounds, "instructions": sum(kinds.values()), **kinds, "cycles": cycles, "ports": ports,
+                    "bound": rate, "measured": measured(row)})
+    return out
+
+
+def markdown(result, clock):
+    lines = ["| row | instructions | vector | gathers | divisions | roots | loads | stores | cycles at least | of | bound [M/s] | measured [M/s] | % |",
+             "|---|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    for r in result:
+        number = lambda key: f"{r.get(key, 0):.1f}"
+        lines.append(f"| `{r['row']}` | {r['instructions']:.0f} | {number('vectors')} | {number('gathers')} | {number('divisions')} | {number('roots')} | {number('loads')} | "
+                     f"{number('stores')} | {r['cycles']:.0f} | {' '.join(r['ports'])} | {r['bound']:.0f} | {r['measured']:.1f} | {100 * r['measured'] / r['bound']:.0f} |")
+    if not result:
+        return "No row has such a name.\n"
+    return (f"For a vector of {result[0]['lanes']} elements, at {clock:.2f} GHz; ports by llvm-mca's model {result[0]['model']}.\n\n" + "\n".join(lines) + "\n")

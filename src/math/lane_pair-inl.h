@@ -1,0 +1,92 @@
+// Two vectors of the reference evaluation, operation by operation in turn: the same bits as one after the other. A formula is a
+// chain of operations that wait for each other; two side by side keep the processor busy where it is long. Re-included for every target,
+// like lanes-inl.h.
+#if defined(RAINREF_MATH_LANE_PAIR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAINREF_MATH_LANE_PAIR_INL_H_
+#undef RAINREF_MATH_LANE_PAIR_INL_H_
+#else
+#define RAINREF_MATH_LANE_PAIR_INL_H_
+#endif
+
+#include "math/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rainref {
+namespace HWY_NAMESPACE {
+
+/// A number whose elements are those of a, then those of b. It fetches nothing. A: Lanes, or pairs again.
+template <class A>
+struct PairOf {
+  struct Mask {
+    typename A::Mask a, b;
+    friend HWY_INLINE HWY_ATTR Mask operator&(const Mask& x, const Mask& y) { return {x.a & y.a, x.b & y.b}; }
+    friend HWY_INLINE HWY_ATTR Mask operator|(const Mask& x, const Mask& y) { return {x.a | y.a, x.b | y.b}; }
+    friend HWY_INLINE HWY_ATTR Mask operator!(const Mask& x) { return {!x.a, !x.b}; }
+    friend HWY_INLINE HWY_ATTR bool any(const Mask& m) { return any(m.a | m.b); }
+  };
+  A a, b;
+
+  HWY_INLINE HWY_ATTR PairOf() {}
+  HWY_INLINE HWY_ATTR PairOf(A x, A y) : a(x), b(y) {}
+  HWY_INLINE HWY_ATTR PairOf(float x) : a(x), b(x) {}
+  static constexpr int size() { return 2 * A::size(); }
+  static HWY_INLINE HWY_ATTR PairOf index(int first) { return {A::index(first), A::index(first + A::size())}; }
+
+#define RAINREF_PAIRWISE(result, op) \
+  friend HWY_INLINE HWY_ATTR result operator op(const PairOf& x, const PairOf& y) { return {x.a op y.a, x.b op y.b}; }
+  RAINREF_PAIRWISE(PairOf, +)
+  RAINREF_PAIRWISE(PairOf, -)
+  RAINREF_PAIRWISE(PairOf, *)
+  RAINREF_PAIRWISE(PairOf, /)
+  RAINREF_PAIRWISE(Mask, <)
+  RAINREF_PAIRWISE(Mask, <=)
+  RAINREF_PAIRWISE(Mask, >)
+  RAINREF_PAIRWISE(Mask, >=)
+#undef RAINREF_PAIRWISE
+#define RAINREF_PAIRWISE(function) \
+  friend HWY_INLINE HWY_ATTR PairOf function(const PairOf& x) { return {function(x.a), function(x.b)}; }
+  RAINREF_PAIRWISE(operator-)
+  RAINREF_PAIRWISE(abs)
+  RAINREF_PAIRWISE(sqrt)
+  RAINREF_PAIRWISE(square)
+  RAINREF_PAIRWISE(floor)
+  RAINREF_PAIRWISE(fract)
+#undef RAINREF_PAIRWISE
+  friend HWY_INLINE HWY_ATTR PairOf min(const PairOf& x, const PairOf& y) { return {min(x.a, y.a), min(x.b, y.b)}; }
+  friend HWY_INLINE HWY_ATTR PairOf max(const PairOf& x, const PairOf& y) { return {max(x.a, y.a), max(x.b, y.b)}; }
+  friend HWY_INLINE HWY_ATTR PairOf mix(const PairOf& x, const PairOf& y, const PairOf& t) {
+    return {mix(x.a, y.a, t.a), mix(x.b, y.b, t.b)};
+  }
+  friend HWY_INLINE HWY_ATTR PairOf select(const Mask& m, const PairOf& x, const PairOf& y) {
+    return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
+  }
+};
+using LanePair = PairOf<Lanes>;
+
+HWY_INLINE HWY_ATTR Real64Two to_double(const LanePair& x) { return Real64Two(to_double(x.a.v), to_double(x.b.v)); }
+// Not inlined: see exp_lanes.
+inline HWY_NOINLINE LanePair exp(const LanePair& x) {
+  const Real64Two y = exp_real(to_double(x));
+  return LanePair(Lanes(to_float(y.lower)), Lanes(to_float(y.upper)));
+}
+inline HWY_NOINLINE LanePair pow(const LanePair& x, const LanePair& y) {
+  const Real64Two z = pow_real(to_double(x), to_double(y));
+  return LanePair(Lanes(to_float(z.lower)), Lanes(to_float(z.upper)));
+}
+/// As of a vector; count is at most size().
+HWY_INLINE HWY_ATTR void store(float* p, const LanePair& x, Rounding rounding, int count) {
+  constexpr int n = Lanes::size();
+  if (HWY_LIKELY(count == 2 * n)) {
+    store(p, x.a, rounding, n);
+    store(p + n, x.b, rounding, n);
+  } else {
+    store(p, x.a, rounding, count < n ? count : n);
+    if (count > n) store(p + n, x.b, rounding, count - n);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rainref
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAINREF_MATH_LANE_PAIR_INL_H_
