@@ -8,17 +8,12 @@
 #include <cerrno>
 #include <exception>
 #include <future>
-#include <system_error>
+
+#include "base/system_failure.h"
 
 namespace rainref {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-[[noreturn]] void fail(int error) { throw std::system_error(error, std::generic_category()); }
-
-}  // namespace
 
 fs::path followed(fs::path path) {
   constexpr int most_links = 40;  // as the kernel
@@ -27,10 +22,10 @@ fs::path followed(fs::path path) {
     std::error_code error;
     if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
     const fs::path to = fs::read_symlink(path, error);
-    if (error) fail(error.value());
+    if (error) throw_system_error(error.value());
     path = path.parent_path() / to;  // `to` alone where it is absolute
   }
-  fail(ELOOP);
+  throw_system_error(ELOOP);
 }
 
 MadeFolders::MadeFolders(const fs::path& folder) {
@@ -47,12 +42,12 @@ MadeFolders::MadeFolders(const fs::path& folder) {
     } else if (const int why = errno; why != EEXIST || !fs::is_directory(*p, error)) {
       // A link that leads nowhere is in the way like a file.
       remove();
-      fail(why);
+      throw_system_error(why);
     }
   }
   if (!folder.empty() && !fs::is_directory(folder, error)) {
     remove();
-    fail(ENOTDIR);
+    throw_system_error(ENOTDIR);
   }
   undo_.emplace([this] { remove(); });
 }
@@ -72,10 +67,10 @@ void MadeFolders::remove() noexcept {
 
 void sync_to_disk(const fs::path& path) {
   const int descriptor = ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) fail(errno);
+  if (descriptor < 0) throw_system_error(errno);
   const int error = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
   ::close(descriptor);
-  if (error != 0) fail(error);
+  if (error != 0) throw_system_error(error);
 }
 
 void sync_to_disk(std::span<const fs::path> paths) {

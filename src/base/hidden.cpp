@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/file_lock.h"
+#include "base/system_failure.h"
 
 namespace rainref {
 
@@ -24,8 +24,6 @@ namespace {
 
 constexpr std::string_view prefix = ".rainref-", making = ".tmp", replaced = ".old";
 constexpr std::size_t digits = 16;
-
-[[noreturn]] void fail(int error) { throw std::system_error(error, std::generic_category()); }
 
 // The user's own file or folder that some process was making, opened and locked; or -1.
 int lock_leftover(const fs::path& path) {
@@ -50,7 +48,7 @@ bool is_hidden_name(std::string_view name, std::string_view end) {
 bool exchange([[maybe_unused]] const fs::path& a, [[maybe_unused]] const fs::path& b) {
 #ifdef RENAME_EXCHANGE
   if (::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return true;
-  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) fail(errno);
+  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP) throw_system_error(errno);
 #endif
   return false;
 }
@@ -71,7 +69,7 @@ bool put_back(const fs::path& holder) {
 
 std::string Hidden::random_name(std::string_view end) {
   std::uint64_t number = 0;
-  if (::getentropy(&number, sizeof number) != 0) fail(errno);
+  if (::getentropy(&number, sizeof number) != 0) throw_system_error(errno);
   return fmt::format("{}{:016x}{}", prefix, number, end);
 }
 
@@ -87,17 +85,17 @@ Hidden::Hidden(const fs::path& parent, Kind kind, const std::function<std::strin
 bool Hidden::make(Kind kind) {
   if (kind == Kind::file) {
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno != EEXIST && errno != EINTR) fail(errno);
+    if (descriptor_ < 0 && errno != EEXIST && errno != EINTR) throw_system_error(errno);
   } else {
     if (::mkdir(path_.c_str(), kind == Kind::folder ? 0777 : 0700) != 0) {
-      if (errno != EEXIST) fail(errno);
+      if (errno != EEXIST) throw_system_error(errno);
       return false;
     }
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor_ < 0 && errno != ENOENT) {
       const int error = errno;
       ::rmdir(path_.c_str());
-      fail(error);
+      throw_system_error(error);
     }
   }
   if (descriptor_ < 0) return false;
@@ -124,7 +122,7 @@ void Hidden::remove() noexcept {
 
 void Hidden::become(const fs::path& target) {
   const Uninterrupted scope;
-  if (std::rename(path_.c_str(), target.c_str()) != 0) fail(errno);
+  if (std::rename(path_.c_str(), target.c_str()) != 0) throw_system_error(errno);
   path_.clear();
 }
 
@@ -133,11 +131,11 @@ void Hidden::replace(const fs::path& target) {
   if (exchange(path_, target)) return;  // the old one has the hidden name now
   Hidden holder(path_.parent_path(), Kind::folder, [] { return random_name(replaced); });
   const fs::path old = holder.path_ / target.filename();
-  if (std::rename(target.c_str(), old.c_str()) != 0) fail(errno);
+  if (std::rename(target.c_str(), old.c_str()) != 0) throw_system_error(errno);
   if (std::rename(path_.c_str(), target.c_str()) != 0) {
     const int error = errno;
     if (std::rename(old.c_str(), target.c_str()) != 0) holder.path_.clear();  // stays, with the old folder in it
-    fail(error);
+    throw_system_error(error);
   }
   path_.clear();
 }

@@ -24,12 +24,12 @@ std::size_t take_digits(std::string_view& text) {
 
 bool is_number(std::string_view text) {
   if (text.starts_with('-')) text.remove_prefix(1);
-  std::size_t digits = take_digits(text);
+  std::size_t seen = take_digits(text);
   if (text.starts_with('.')) {
     text.remove_prefix(1);
-    digits += take_digits(text);
+    seen += take_digits(text);
   }
-  if (digits == 0) return false;
+  if (seen == 0) return false;
   if (text.empty()) return true;
   if (text.front() != 'e' && text.front() != 'E') return false;
   text.remove_prefix(1);

@@ -5,6 +5,7 @@
 
 #include "compositor/face_patch.h"
 #include "compositor/packet.h"
+#include "compositor/reals.h"
 #include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
@@ -13,7 +14,6 @@
 namespace rainref::compositor {
 namespace {
 
-double root(double a) { return __builtin_sqrt(a); }
 int whole_within(double a, int count) { return std::clamp(static_cast<int>(a), 0, count - 1); }
 
 PaneShape part_of(const Pane& pane, const CapWater::Layer& layer) {

@@ -4,14 +4,11 @@
 #include <algorithm>
 
 #include "compositor/extraordinary_ray.h"
+#include "compositor/reals.h"
 
 namespace rainref::compositor {
 
 namespace {
-
-double min_of(double a, double b) { return b < a ? b : a; }
-double max_of(double a, double b) { return a < b ? b : a; }
-double magnitude(double x) { return x < 0 ? -x : x; }
 
 /// The power of two that brings x into [1/2, 2); 0 < x <= 2^1000.
 double scale_for(double x) {
@@ -30,8 +27,8 @@ bool entry_of(const Ray& ray, const Box& box, double& entry) {
       continue;
     }
     const double a = (box.low[k] - ray.origin[k]) / ray.direction[k], b = (box.high[k] - ray.origin[k]) / ray.direction[k];
-    from = max_of(from, min_of(a, b));
-    to = min_of(to, max_of(a, b));
+    from = most(from, least(a, b));
+    to = least(to, most(a, b));
   }
   entry = from;
   return from <= to;
@@ -42,7 +39,7 @@ bool entry_of(const Ray& ray, const Box& box, double& entry) {
 void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, FloatPacket& out) {
   const Vec &o = ray.origin, &d = ray.direction;
   const double sum = magnitude(o.x) + magnitude(o.y) + magnitude(o.z) + magnitude(d.x) + magnitude(d.y) + magnitude(d.z);
-  const double length = max_of(max_of(magnitude(d.x), magnitude(d.y)), magnitude(d.z));
+  const double length = most(most(magnitude(d.x), magnitude(d.y)), magnitude(d.z));
   double start = 0;
   if (!(sum <= 0x1p1000 && length >= 0x1p-1000 && entry_of(ray, extent.box, start))) {
     out.enters &= ~(1u << slot);
@@ -62,7 +59,7 @@ void put_extraordinary_ray(const Ray& ray, const SceneExtent& extent, int slot, 
   }
   out.start[slot] = start;
   out.scale[slot] = scale;
-  out.nearest[slot] = static_cast<float>(min_of(max_of((ray.nearest - start) * scale * 0.9999 - slack, 0), largest_float));
+  out.nearest[slot] = static_cast<float>(least(most((ray.nearest - start) * scale * 0.9999 - slack, 0), largest_float));
   out.farthest[slot] = float_farthest((ray.farthest - start) * scale, slack);
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "compositor/optics.h"
+#include "compositor/reals.h"
 #include "rainref/error.h"
 
 namespace rainref::compositor {
@@ -20,7 +21,6 @@ namespace scalar {
 
 namespace {
 
-double magnitude(double a) { return a < 0 ? -a : a; }
 int tiles_of(int cells, int tile) { return (cells + tile - 1) / tile; }
 
 }  // namespace

@@ -5,16 +5,14 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "compositor/reals.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 
 namespace rainref::compositor {
 namespace {
 
-double root(double a) { return __builtin_sqrt(a); }
 Vec unit(const Vec& a) { return a / root(dot(a, a)); }
-double least(double a, double b) { return b < a ? b : a; }
-double most(double a, double b) { return a < b ? b : a; }
 void take(Box& box, const Vec& p) {
   box.low = {least(box.low.x, p.x), least(box.low.y, p.y), least(box.low.z, p.z)};
   box.high = {most(box.high.x, p.x), most(box.high.y, p.y), most(box.high.z, p.z)};

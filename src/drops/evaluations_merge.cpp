@@ -37,7 +37,7 @@ bool is_larger(const Drop& a, const Drop& b) { return a.mass != b.mass ? a.mass 
 struct MassRange {
   std::int64_t least = 0, most = 0;
 };
-struct Deposit {
+struct PossibleDeposit {
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< texels where it may fall, the last ones included
   MassRange mass_units;
 };
@@ -95,9 +95,9 @@ class Merging {
     return scalar::trail(u_, d);
   }
   /// The trail without a decision about its rounding, its mass taken off `d`.
-  Deposit take_trail(State& d) const {
+  PossibleDeposit take_trail(State& d) const {
     const scalar::Trail<Enclosure> t = scalar::tail(u_, d);
-    Deposit out;
+    PossibleDeposit out;
     if (t.mass_units.is_vacuous() || t.u.is_vacuous() || t.v.is_vacuous()) {
       enclosed::give_up();
       return out;
@@ -325,7 +325,7 @@ class MergeModel : public capture::PassModel {
       MassRange& sum = all.emplace_back();
       for (Merging::Member<Enclosure>& one : merging_.merged<Enclosure>(group)) {
         if (!one.lives) continue;
-        const Deposit d = merging_.take_trail(one.state);
+        const PossibleDeposit d = merging_.take_trail(one.state);
         if (x < d.x0 || x > d.x1 || y < d.y0 || y > d.y1) continue;
         if (d.x0 == d.x1 && d.y0 == d.y1) sum.least += d.mass_units.least;
         sum.most += d.mass_units.most;

@@ -4,6 +4,7 @@
 
 #include "drops/physics.h"
 #include "drops/spawn.pass.h"
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rain/rain.h"
 #include "random/poisson.h"
@@ -11,13 +12,11 @@
 namespace rainref::drops {
 namespace {
 
-constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double rest_speed = 1e-6;  // m/s: a millimetre in a quarter of an hour
 constexpr double golden_section = 0x1.3c6ef372fe95p-1;
 constexpr int classes = static_cast<int>(arrival_classes);
 constexpr int cells = 2000;  // of the integral over diameters: the table's corners bound its error to 1e-5
 
-double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 double volume_of_mass_unit() { return mass_unit / water_density; }
 Wetting wetting(const Settings& s) { return {s.advancing_deg * pi / 180, s.receding_deg * pi / 180}; }
 

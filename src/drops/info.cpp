@@ -5,17 +5,14 @@
 #include "drops/spawn.pass.h"
 #include "drops/splat.pass.h"
 #include "pass/info.h"
+#include "scene/variant_names.h"
 
 namespace rainref::drops {
 
 using namespace rainref::scene;
 using namespace rainref::capture;
 
-namespace {
-
-constexpr const char *published = "as-published", *correct = "corrected";
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<UniformBlock> records() {
   return {Drop::layout(), GlassFrame::layout(),

@@ -1,14 +1,13 @@
 #include "drops/physics.h"
 
+#include "math/constants.h"
 #include "math/real64.h"
 
 namespace rainref::drops {
 namespace {
 
-constexpr double pi = 0x1.921fb54442d18p+1;
 double sine(double x) { return sin_real(Real64(x)).v; }
 double cosine(double x) { return cos_real(Real64(x)).v; }
-double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 double held(const Wetting& w) { return retention * surface_tension * (cosine(w.receding) - cosine(w.advancing)); }
 
 }  // namespace

@@ -1,7 +1,13 @@
 // What physics says of one sessile drop on glass, in SI units and double: the constants behind the corrected passes.
 #pragma once
 
+#include "math/constants.h"
+#include "math/real64.h"
+
 namespace rainref::drops {
+
+/// x^y, x above 0, by our own functions: no library's.
+inline double power(double x, double y) { return pow_real(Real64(x), Real64(y)).v; }
 
 // Water and air at 20 degrees Celsius.
 constexpr double water_density = 998.2;        // kg/m^3
@@ -12,7 +18,7 @@ constexpr double vapour_diffusivity = 2.4e-5;  // m^2/s
 constexpr double saturation_vapour = 17.3e-3;  // kg/m^3
 /// Retention force = this * surface tension * width * (cos receding - cos advancing): 24 / pi^3 of A. I. ElSherbini and
 /// A. M. Jacobi (J. Colloid Interface Sci. 299, 2006), for C. G. Furmidge's balance (J. Colloid Sci. 17, 1962).
-constexpr double retention = 24 / (0x1.921fb54442d18p+1 * 0x1.921fb54442d18p+1 * 0x1.921fb54442d18p+1);
+constexpr double retention = 24 / (pi * pi * pi);
 
 /// Base radius over the cube root of the volume of a spherical cap with this contact angle [rad], in (0, pi):
 /// V = pi a^3 (2 + c) (1 - c)^2 / (3 sin^3), c the cosine.

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "drops/physics.h"
+#include "math/constants.h"
 #include "math/real64.h"
 #include "rainref/error.h"
 #include "scene/member_parameter.h"
@@ -11,12 +13,9 @@
 namespace rainref::drops {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double water_density = 998.2;  // at 20 degrees C [kg/m^3]
-
 using namespace rainref::scene;
 
-std::vector<MemberParameter<SplatKeys>> members(const std::string& prefix) {
+std::vector<MemberParameter<SplatKeys>> splat_members(const std::string& prefix) {
   const auto key = [&](const char* name) { return prefix + "." + name; };
   return {
       {integer2(key("height_size"), "texel", 1, 16384, {}, "Columns and rows of the height texture."),
@@ -51,11 +50,11 @@ std::vector<MemberParameter<SplatKeys>> members(const std::string& prefix) {
 
 }  // namespace
 
-std::vector<scene::Parameter> splat_parameters(const std::string& prefix) { return parameters_of(members(prefix)); }
+std::vector<scene::Parameter> splat_parameters(const std::string& prefix) { return parameters_of(splat_members(prefix)); }
 
 SplatKeys splat_keys(const scene::Config& config, const std::string& prefix, std::optional<Rounding> rounding) {
   SplatKeys k;
-  std::vector<MemberParameter<SplatKeys>> table = members(prefix);
+  std::vector<MemberParameter<SplatKeys>> table = splat_members(prefix);
   if (rounding) std::erase_if(table, [&](const auto& m) { return m.parameter.key == prefix + ".rounding"; });
   apply(table, config, k);
   if (rounding) k.rounding = *rounding;

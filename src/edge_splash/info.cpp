@@ -3,14 +3,13 @@
 #include "edge_splash/splash.pass.h"
 #include "pass/display.h"
 #include "pass/info.h"
+#include "scene/variant_names.h"
 
 namespace rainref::edge_splash {
 namespace {
 
 using namespace rainref::scene;
 using namespace rainref::capture;
-
-constexpr const char *published = "as-published", *correct = "corrected";
 
 EffectInfo make() {
   EffectInfo info;

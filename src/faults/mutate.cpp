@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "faults/list_faults.h"
+#include "faults/list_replay.h"
 #include "judge/check_pack.h"
 #include "judge/evaluations.h"
 #include "judge/invocation_judge.h"
@@ -103,12 +104,6 @@ void judge_mutant(const Fault& d, const PassCase& c, Bind bind, const capture::P
   out.rearranged += fewest_rearranged;
 }
 
-/// Records by id.
-std::map<std::uint32_t, Records> by_id(const Array& list) {
-  std::map<std::uint32_t, Records> out;
-  for (std::vector<std::byte>& r : records_of(list)) out[id_of(r, list.record)].push_back(std::move(r));
-  return out;
-}
 /// The same on a case's keyed lists: ids that have other records than the reference's, and those that no alternative accepts.
 void judge_mutant_lists(const Fault& d, const PassCase& c, const capture::PassEvaluations& evaluations, const capture::PassModel* model,
                         const enclosed::Profile& profile, MutantJudgement& out) {

@@ -9,6 +9,8 @@
 
 #include "faults/place_faults.h"
 
+#include "faults/targets.h"
+
 namespace rainref::faults {
 namespace {
 
@@ -18,14 +20,7 @@ using perturbed::RewriteKind;
 using perturbed::Rewrites;
 using Node = perturbed::Trace::Node;
 
-constexpr std::int32_t most_alike = 6;  // of one shape that are tried one by one
-
-std::string words(const Probe& p, std::int32_t node) {
-  for (int depth = 3; depth > 0; --depth)
-    if (const std::string text = p.text(node, depth); text.size() <= 60) return text;
-  return p.text(node, 1).substr(0, 77);
-}
-const Node& node_of(const Probe& p, std::int32_t i) { return p.trace.nodes[static_cast<std::size_t>(i)]; }
+constexpr std::int32_t most_places = 6;  // of one shape that are tried one by one
 
 /// Where a mistake is made: at a node, at each of its shape, or in each component of a vector.
 struct Site {
@@ -75,23 +70,23 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
   if (!gathers && uses[static_cast<std::size_t>(whole)] < 2) return;
   const auto one = [&](std::int32_t part, std::array<std::int8_t, 2> path) {
     if (part < 0 || node_of(p, part).op == Op::comparison) return;
-    const std::string wrong = words(p, part), right = words(p, whole);
+    const std::string wrong = words_for(p, part), right = words_for(p, whole);
     if (wrong == right || wrong == "...") return;
     // What both ends of a clamp hold.
     const bool is_held = (op == Op::minimum || op == Op::maximum) && path == std::array<std::int8_t, 2>{0, 0} &&
                          node_of(p, node_of(p, whole).of[0]).op == (op == Op::minimum ? Op::maximum : Op::minimum);
     if (is_held) {
       add(p, site, {RewriteKind::part, 0, -1, k, path}, "clamp left out: " + right,
-          fmt::format("in {} stands {} where {} is meant: it is not held between its ends", words(p, at), wrong, right));
+          fmt::format("in {} stands {} where {} is meant: it is not held between its ends", words_for(p, at), wrong, right));
       return;
     }
     if (op == Op::floor) {
       add(p, site, {RewriteKind::part, 0, -1, k, path}, "floor left out: " + right,
-          fmt::format("in {} stands {} where {} is meant: it is not rounded down", words(p, at), wrong, right));
+          fmt::format("in {} stands {} where {} is meant: it is not rounded down", words_for(p, at), wrong, right));
       return;
     }
     add(p, site, {RewriteKind::part, 0, -1, k, path}, fmt::format("value of before: {} for {}", wrong, right),
-        fmt::format("in {} stands {} where {} is meant: the value of before a step", words(p, at), wrong, right));
+        fmt::format("in {} stands {} where {} is meant: the value of before a step", words_for(p, at), wrong, right));
   };
   for (std::int8_t i = 0; i < 3; ++i) {
     const std::int32_t part = node_of(p, whole).of[static_cast<std::size_t>(i)];
@@ -103,21 +98,21 @@ void add_parts(Adder& add, const Probe& p, const Site& site, std::int8_t k, cons
 void add_factors(Adder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
-  const std::string all = words(p, at);
+  const std::string all = words_for(p, at);
   for (std::int8_t k = 0; k < 2; ++k) {
     const std::int32_t of = n.of[static_cast<std::size_t>(k)];
     if (of < 0) continue;
     const Node& operand = node_of(p, of);
-    const auto other = [&] { return words(p, n.of[static_cast<std::size_t>(1 - k)]); };
+    const auto other = [&] { return words_for(p, n.of[static_cast<std::size_t>(1 - k)]); };
     if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::product)
       for (std::int8_t f = 0; f < 2; ++f) {
-        const std::string factor = words(p, operand.of[static_cast<std::size_t>(f)]);
+        const std::string factor = words_for(p, operand.of[static_cast<std::size_t>(f)]);
         add(p, site, {RewriteKind::over_all, 0, -1, k, {f, -1}}, "factor of the whole sum: " + factor,
             fmt::format("{} multiplies all of {}, after the sum, where it should multiply one term", factor, all));
       }
     if ((n.op == Op::maximum || n.op == Op::minimum) && operand.op == Op::product)
       for (std::int8_t f = 0; f < 2; ++f) {
-        const std::string factor = words(p, operand.of[static_cast<std::size_t>(f)]);
+        const std::string factor = words_for(p, operand.of[static_cast<std::size_t>(f)]);
         const char* const what = n.op == Op::maximum ? "maximum" : "minimum";
         add(p, site, {RewriteKind::over_all, 0, -1, k, {f, -1}}, fmt::format("factor of the whole {}: {}", what, factor),
             fmt::format("{} multiplies all of {}, where it should multiply one of the two", factor, all));
@@ -126,7 +121,7 @@ void add_factors(Adder& add, const Probe& p, const Site& site) {
       for (const RewriteKind kind : {RewriteKind::over_first, RewriteKind::over_second})
         add(p, site, {kind, 0, -1, k, {-1, -1}}, fmt::format("{} of one term: {}", n.op == Op::product ? "factor" : "divisor", other()),
             fmt::format("in {} {} {} {} alone", all, other(), n.op == Op::product ? "multiplies" : "divides",
-                        words(p, operand.of[kind == RewriteKind::over_first ? 0 : 1])));
+                        words_for(p, operand.of[kind == RewriteKind::over_first ? 0 : 1])));
   }
 }
 
@@ -150,16 +145,17 @@ void add_functions(Adder& add, const Probe& p, const Site& site) {
       const std::int32_t of = n.of[static_cast<std::size_t>(k)];
       const char* const function = name_of(op_of(of));
       if (!*function || op_of(of) == Op::power) continue;
-      add(p, site, {RewriteKind::function_of_all, 0, -1, k, {-1, -1}}, fmt::format("{} of the whole sum: {}", function, words(p, at)),
-          fmt::format("{} is taken of all of {}, where it should be of {} alone", function, words(p, at), words(p, node_of(p, of).of[0])));
+      add(p, site, {RewriteKind::function_of_all, 0, -1, k, {-1, -1}}, fmt::format("{} of the whole sum: {}", function, words_for(p, at)),
+          fmt::format("{} is taken of all of {}, where it should be of {} alone", function, words_for(p, at),
+                      words_for(p, node_of(p, of).of[0])));
     }
   const Op inner = op_of(n.of[0]);
   if (!*name_of(n.op) || (inner != Op::sum && inner != Op::difference)) return;
   for (const RewriteKind kind : {RewriteKind::function_of_first, RewriteKind::function_of_second}) {
     const std::int32_t term = node_of(p, n.of[0]).of[kind == RewriteKind::function_of_first ? 0 : 1];
     if (n.op == Op::floor && op_of(term) == Op::fract) continue;  // nothing is left of it: the floor is left out with it
-    add(p, site, {kind, 0, -1, 0, {-1, -1}}, fmt::format("{} of one term: {}", name_of(n.op), words(p, term)),
-        fmt::format("{} is taken of {} alone, where it should be of all of {}", name_of(n.op), words(p, term), words(p, n.of[0])));
+    add(p, site, {kind, 0, -1, 0, {-1, -1}}, fmt::format("{} of one term: {}", name_of(n.op), words_for(p, term)),
+        fmt::format("{} is taken of {} alone, where it should be of all of {}", name_of(n.op), words_for(p, term), words_for(p, n.of[0])));
   }
 }
 
@@ -168,14 +164,15 @@ bool scales(Op op) { return op == Op::product || op == Op::quotient; }
 const char* verb_of(Op op) { return op == Op::quotient ? "divides" : op == Op::product ? "multiplies" : "bounds"; }
 std::string function_words(const Probe& p, const Node& n, bool is_clamp) {
   if (is_clamp) return "the clamp";
-  if (n.op == Op::minimum || n.op == Op::maximum) return fmt::format("{} with {}", n.op == Op::minimum ? "min" : "max", words(p, n.of[1]));
+  if (n.op == Op::minimum || n.op == Op::maximum)
+    return fmt::format("{} with {}", n.op == Op::minimum ? "min" : "max", words_for(p, n.of[1]));
   return n.op == Op::sine ? "sin" : n.op == Op::cosine ? "cos" : name_of(n.op);
 }
 /// An operation and that of its operand in the other order, where that is another number: a factor before a function or after it.
 void add_commuted(Adder& add, const Probe& p, const Site& site) {
   const auto at = static_cast<std::int32_t>(site.nodes[0]);
   const Node& n = node_of(p, at);
-  const std::string all = words(p, at);
+  const std::string all = words_for(p, at);
   const auto is_clamp = [&](const Node& outer) {
     if ((outer.op != Op::minimum && outer.op != Op::maximum) || outer.of[0] < 0) return false;
     const Op below = node_of(p, outer.of[0]).op;
@@ -188,13 +185,13 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
     const Node& operand = node_of(p, of);
     const auto after = [&](RewriteKind kind, const Node& inner, std::int8_t j) {
       const std::int32_t other = inner.of[static_cast<std::size_t>(1 - j)];
-      const std::string factor = words(p, other), function = function_words(p, n, kind == RewriteKind::commuted_outer_2);
+      const std::string factor = words_for(p, other), function = function_words(p, n, kind == RewriteKind::commuted_outer_2);
       add(p, site, {kind, 0, -1, k, {j, -1}}, fmt::format("too late: {} after {}", factor, function),
           fmt::format("in {} {} {} what {} gives; it should be taken before, inside of {}", all, factor, verb_of(inner.op), function,
                       function));
     };
     const auto before = [&](RewriteKind kind, const Node& inner, std::int8_t j) {
-      const std::string factor = words(p, n.of[static_cast<std::size_t>(1 - k)]);
+      const std::string factor = words_for(p, n.of[static_cast<std::size_t>(1 - k)]);
       const std::string function = function_words(p, inner, kind == RewriteKind::commuted_inner_2);
       add(p, site, {kind, 0, -1, k, {j, -1}}, fmt::format("too early: {} before {}", factor, function),
           fmt::format("in {} {} {} what {} is taken of; it should be taken after, outside of {}", all, factor, verb_of(n.op), function,
@@ -212,8 +209,8 @@ void add_commuted(Adder& add, const Probe& p, const Site& site) {
     }
     // (a + b) / c for a / c + b.
     if ((n.op == Op::sum || n.op == Op::difference) && operand.op == Op::quotient)
-      add(p, site, {RewriteKind::commuted, 0, -1, k, {0, -1}}, "divisor of the whole sum: " + words(p, operand.of[1]),
-          fmt::format("{} divides all of {}, after the sum, where it should divide one term", words(p, operand.of[1]), all));
+      add(p, site, {RewriteKind::commuted, 0, -1, k, {0, -1}}, "divisor of the whole sum: " + words_for(p, operand.of[1]),
+          fmt::format("{} divides all of {}, after the sum, where it should divide one term", words_for(p, operand.of[1]), all));
   }
 }
 
@@ -232,7 +229,7 @@ void add_order_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
       const Node& n = p.trace.nodes[at];
       const std::int32_t count = p.trace.met.at(n.shape);
       if (n.occurrence == 0) sites.push_back({{at}, -1});
-      if (count > 1 && count <= most_alike) sites.push_back({{at}, n.occurrence});
+      if (count > 1 && count <= most_places) sites.push_back({{at}, n.occurrence});
     }
     // Of values of before there are most: they come last, where not all can be asked.
     for (const Site& site : sites) {

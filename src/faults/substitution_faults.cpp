@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "faults/targets.h"
+
 namespace rainref::faults {
 namespace {
 
@@ -18,13 +20,6 @@ using perturbed::Op;
 using perturbed::Substitution;
 using Node = perturbed::Trace::Node;
 
-std::string words(const Probe& p, std::int32_t node) {
-  for (int depth = 3; depth > 0; --depth)
-    if (const std::string text = p.text(node, depth); text.size() <= 60) return text;
-  return p.text(node, 1).substr(0, 77);
-}
-
-bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
 /// Whether the arithmetic can be done again with another number there.
 bool is_again(Op op) { return !is_leaf(op) && op != Op::lookup; }
 
@@ -49,7 +44,7 @@ void add_vector_substitutions(std::vector<Fault>& out, const Probe& probe, const
     for (std::int8_t k = 0; k < 3; ++k) {
       const std::int32_t operand = probe.trace.nodes[use[0]].of[static_cast<std::size_t>(k)];
       if (operand < 0 || !is_again(probe.trace.nodes[use[0]].op)) continue;
-      const std::string right = words(probe, operand);
+      const std::string right = words_for(probe, operand);
       for (const std::vector<std::size_t>& value : values) {
         if (value.size() != use.size()) continue;
         std::vector<Substitution> all;
@@ -67,11 +62,11 @@ void add_vector_substitutions(std::vector<Fault>& out, const Probe& probe, const
           for (std::size_t m = value[c]; m < use[0]; ++m) s.back += probe.trace.nodes[m].shape == source.shape;
         }
         if (!is_before || is_same || ++made > most) continue;
-        const std::string wrong = words(probe, static_cast<std::int32_t>(value[0]));
+        const std::string wrong = words_for(probe, static_cast<std::int32_t>(value[0]));
         if (wrong == right || wrong == "...") continue;
         out.push_back(fault_of(std::move(all), shared, fmt::format("wrong value: {} for {}, in all components", wrong, right),
                                fmt::format("in {} stands {} where {} is meant, and so in the other components",
-                                           words(probe, static_cast<std::int32_t>(use[0])), wrong, right)));
+                                           words_for(probe, static_cast<std::int32_t>(use[0])), wrong, right)));
       }
     }
 }

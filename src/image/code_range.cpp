@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "image/colour.h"
+#include "image/floor_of.h"
 #include "math/half.h"
 #include "math/unorm.h"
 
@@ -33,7 +34,6 @@ std::int64_t highest_half(float x, const StoreRules& rules) {
   return code;
 }
 
-double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 double ceil_of(double x) { return -floor_of(-x); }
 
 // Codes within ulp of the reals [low, high]; above half a code at most the neighbours.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "image/floor_of.h"
+
 namespace rainref::enclosed {
 namespace {
 
@@ -9,7 +11,6 @@ double unit_roundoff() { return profile().basic == BasicRounding::nearest ? 0x1p
 
 double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52); }
 
-double floor_of(double x) { return floor(scalar::Scalar<double>(scalar::Scalar<double>(x))).v; }
 std::int64_t cell_of(double x) { return static_cast<std::int64_t>(floor_of(x)); }
 
 // 1 - |2 fract(u / 2) - 1| over [lo, hi]: 0 at even and 1 at odd numbers, straight between.

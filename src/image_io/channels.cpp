@@ -10,22 +10,16 @@
 
 namespace rainref::image_io {
 
-namespace {
-
 std::string_view layer_of(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
 }
 
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-/// The upper-case letter that a channel's name ends in, or 0 when it is a longer word.
 char letter_of(std::string_view name) {
   const std::string_view base = name.substr(name.rfind('.') + 1);  // npos + 1 is 0
-  return base.size() == 1 ? upper(base[0]) : '\0';
+  if (base.size() != 1) return '\0';
+  return base[0] >= 'a' && base[0] <= 'z' ? static_cast<char>(base[0] - 'a' + 'A') : base[0];
 }
-
-}  // namespace
 
 ChannelPick pick_channels(std::string_view file, std::span<const std::string> names, std::string_view layer) {
   if (layer.empty() && std::ranges::none_of(names, [](const std::string& n) { return layer_of(n).empty(); })) {

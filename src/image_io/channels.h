@@ -8,6 +8,11 @@
 
 namespace rainref::image_io {
 
+/// What stands before a channel's last dot, or "".
+std::string_view layer_of(std::string_view name);
+/// The upper-case letter that a channel's name ends in, or 0 when it is a longer word.
+char letter_of(std::string_view name);
+
 /// For each of red, green, blue, alpha: the index of a file channel, or a constant.
 struct ChannelPick {
   static constexpr int zero = -1, one = -2;

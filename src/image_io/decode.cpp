@@ -16,8 +16,6 @@ namespace rainref::image_io {
 
 namespace {
 
-constexpr int max_side = 65536;
-
 [[noreturn]] void refuse(std::string_view file, const std::string& why) { throw Error(ExitCode::usage, fmt::format("{}: {}", file, why)); }
 
 const char* format_name(FileKind kind) {
@@ -32,13 +30,6 @@ const char* format_name(FileKind kind) {
       return "jpeg";
   }
   return "";
-}
-
-/// OpenImageIO's reason on one line, without the full stop and line break that it sometimes has.
-std::string reason(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  text.erase(text.find_last_not_of(" .") + 1);
-  return text.empty() ? "damaged or incomplete" : text;
 }
 
 /// What the picture needs at once: the decoded samples and the image made of them. A header of a few bytes can ask for
@@ -98,6 +89,12 @@ bool is_linear(std::string_view colour_space) {
 
 }  // namespace
 
+std::string one_line(std::string reason) {
+  std::ranges::replace(reason, '\n', ' ');
+  reason.erase(reason.find_last_not_of(" .") + 1);
+  return reason.empty() ? "damaged or incomplete" : reason;
+}
+
 Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer, Texels texels) try {
   if (kind == FileKind::png && !png_is_whole(bytes)) refuse(file, "truncated: the end mark of the PNG is missing");
   const auto reader = codec().open(format_name(kind), bytes);
@@ -140,7 +137,7 @@ Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> 
 } catch (const Error&) {
   throw;
 } catch (const std::exception& error) {
-  refuse(file, reason(error.what()));
+  refuse(file, one_line(error.what()));
 }
 
 }  // namespace rainref::image_io

@@ -35,13 +35,18 @@ struct Decoded {
   std::unique_ptr<std::byte[]> texels;  ///< row by row from the top of the picture, channels interleaved, native types
 };
 
+/// A side of a picture [texel], at most.
+inline constexpr int max_side = 65536;
+/// A codec's reason on one line, without the full stop and line break that it sometimes has.
+std::string one_line(std::string reason);
+
 /// Whether decode fills in Decoded::texels.
 enum class Texels : std::uint8_t { read, left };
 
 /// Decodes the first picture of a file at its full resolution. `file` is its quoted name and starts every message;
 /// `layer` as in pick_channels. Throws Error(usage) when the bytes are damaged or incomplete, or hold something that
 /// rainref does not read: deep or volume data, integer EXR channels, a picture stored rotated or cropped, a side over
-/// 65536, more memory than the machine has.
+/// max_side, more memory than the machine has.
 Decoded decode(std::string_view file, FileKind kind, std::span<const std::byte> bytes, std::string_view layer,
                Texels texels = Texels::read);
 

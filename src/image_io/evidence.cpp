@@ -9,7 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "base/checked_product.h"
+#include "image_io/channels.h"
 #include "image_io/codec.h"
+#include "image_io/decode.h"
 #include "image_io/exr_header.h"
 #include "image_io/png_chunks.h"
 #include "rainref/error.h"
@@ -19,7 +21,7 @@ namespace {
 
 using Kind = FormatInfo::Kind;
 
-constexpr std::size_t max_side = 65536, most_channels = 4;
+constexpr std::size_t most_channels = 4;
 constexpr std::uint32_t largest_tile = 2048;
 
 [[noreturn]] void refuse(std::string_view file, const std::string& why) {
@@ -67,24 +69,6 @@ Kind kind_of(std::string_view file, const StoredChannel& channel) {
   if (channel.type == "float") return Kind::float32;
   if (channel.type == "uint") return Kind::uint32;
   refuse(file, fmt::format("channel '{}' is of type {}", channel.name, channel.type));
-}
-
-/// OpenImageIO's reason on one line.
-std::string reason(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  text.erase(text.find_last_not_of(" .") + 1);
-  return text.empty() ? "damaged or incomplete" : text;
-}
-
-char letter_of(std::string_view name) {
-  const std::string_view base = name.substr(name.rfind('.') + 1);  // npos + 1 is 0
-  if (base.size() != 1) return '\0';
-  return base[0] >= 'a' && base[0] <= 'z' ? static_cast<char>(base[0] - 'a' + 'A') : base[0];
-}
-
-std::string_view layer_of(std::string_view name) {
-  const std::size_t dot = name.rfind('.');
-  return dot == std::string_view::npos ? std::string_view() : name.substr(0, dot);
 }
 
 /// All names are the first letters of `order`, in some order.
@@ -139,7 +123,7 @@ EvidenceSize evidence_size(std::string_view file, std::span<const std::byte> byt
   if (starts_with(bytes, "#?")) refuse(file, "its content is Radiance HDR, 8 bits and a shared exponent: no evidence of a buffer's values");
   if (!is_exr(bytes) && !is_png(bytes)) refuse(file, "not an EXR or PNG file");
   const EvidenceSize size = is_exr(bytes) ? exr_size(file, bytes) : png_size(file, bytes);
-  if (size.width < 1 || size.height < 1 || size.width > max_side || size.height > max_side) {
+  if (size.width < 1 || size.height < 1 || size.width > std::size_t{max_side} || size.height > std::size_t{max_side}) {
     refuse(file, fmt::format("size {}x{}: each side must be from 1 to {}", size.width, size.height, max_side));
   }
   return size;
@@ -161,7 +145,7 @@ Evidence read_evidence(std::string_view file, std::span<const std::byte> bytes) 
 } catch (const Error&) {
   throw;
 } catch (const std::exception& error) {
-  refuse(file, reason(error.what()));
+  refuse(file, one_line(error.what()));
 }
 
 }  // namespace rainref::image_io

@@ -6,14 +6,13 @@
 #include "puddle/shade.pass.h"
 #include "puddle/surface_hit.pass.h"
 #include "puddle/wave_step.pass.h"
+#include "scene/variant_names.h"
 
 namespace rainref::puddle {
 namespace {
 
 using namespace rainref::scene;
 using namespace rainref::capture;
-
-constexpr const char *published = "as-published", *correct = "corrected";
 
 EffectInfo make() {
   const UniformBlock drop = record<Drop>(

@@ -4,14 +4,13 @@
 #include "pass/info.h"
 #include "rainy_glass/bake.pass.h"
 #include "rainy_glass/rain_on_glass.pass.h"
+#include "scene/variant_names.h"
 
 namespace rainref::rainy_glass {
 namespace {
 
 using namespace rainref::scene;
 using namespace rainref::capture;
-
-constexpr const char *published = "as-published", *correct = "corrected";
 
 EffectInfo make() {
   const UniformBlock droplet = record<Droplet>(

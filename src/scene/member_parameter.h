@@ -19,11 +19,9 @@
 #include "rainref/variant.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
+#include "scene/variant_names.h"
 
 namespace rainref::scene {
-
-/// The variants' names, as tables of parameters say them.
-inline constexpr const char *published = name(Variant::as_published), *correct = name(Variant::corrected);
 
 /// A parameter of settings S, with its member unless it has none. Where the variants differ, S{} holds corrected's default.
 template <class S>

@@ -7,14 +7,13 @@
 #include "drops/settings.h"
 #include "drops/splat.h"
 #include "math/constants.h"
+#include "scene/variant_names.h"
 #include "screen_drops/flow.h"
 
 namespace rainref::screen_drops {
 namespace {
 
 using namespace rainref::scene;
-
-constexpr const char* correct = "corrected";
 
 template <class T>
 void append(std::vector<T>& all, std::vector<T> more) {

@@ -2,6 +2,7 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
+#include "scene/variant_names.h"
 #include "screen_drops/background.pass.h"
 #include "screen_drops/cells.pass.h"
 #include "screen_drops/drops.pass.h"
@@ -12,8 +13,6 @@ namespace {
 
 using namespace rainref::scene;
 using namespace rainref::capture;
-
-constexpr const char *published = "as-published", *correct = "corrected";
 
 EffectInfo make() {
   const UniformBlock tap = record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),

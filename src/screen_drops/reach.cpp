@@ -8,12 +8,12 @@
 namespace rainref::screen_drops {
 namespace {
 
-using Number = scalar::Scalar<float>;
+using Single = scalar::Scalar<float>;
 
-int floor_of(Number x) { return to_int(floor(x)).i; }
-Number centre(int pixel) { return Number(static_cast<float>(pixel) + 0.5f); }
+int floor_of(Single x) { return to_int(floor(x)).i; }
+Single centre(int pixel) { return Single(static_cast<float>(pixel) + 0.5f); }
 /// The first of the two texels of a side that a bilinear lookup there takes.
-int lower_texel(Number u, int size) { return floor_of(scalar::texel_coordinate(Address::clamp, u, Number(static_cast<float>(size)))); }
+int lower_texel(Single u, int size) { return floor_of(scalar::texel_coordinate(Address::clamp, u, Single(static_cast<float>(size)))); }
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void Reach::enter_row(int row) {
   if (u_.has_flow != 0) enter_height(row);
 }
 void Reach::enter_layer(int l, int row) {
-  const Number qy = scalar::cell_place(u_, l, centre(0), centre(row)).b;
+  const Single qy = scalar::cell_place(u_, l, centre(0), centre(row)).b;
   const float place = fract(qy).v;
   const int line = std::clamp(floor_of(qy) + u_.first_row[l], 0, cells_.height[0] - 1);
   const float* drop = cells_.texels + static_cast<std::ptrdiff_t>(line) * cells_.pitch[0] * 4;
@@ -45,7 +45,7 @@ void Reach::enter_layer(int l, int row) {
 }
 void Reach::enter_height(int row) {
   const int lines = height_.height[0];
-  const Number y = scalar::flow_place(u_, centre(0), centre(row)).b, texel_height(u_.flow_texel[1]);
+  const Single y = scalar::flow_place(u_, centre(0), centre(row)).b, texel_height(u_.flow_texel[1]);
   const int first = lower_texel(y - texel_height, lines), last = std::min(lower_texel(y + texel_height, lines) + 1, lines - 1);
   if (first == first_line_ && last == last_line_) return;
   first_line_ = first;
@@ -72,7 +72,7 @@ Reach::Span Reach::span(int first, int last) const {
   }
   if (u_.has_flow != 0) {
     const int columns = height_.width[0];
-    const Number texel_width(u_.flow_texel[0]);
+    const Single texel_width(u_.flow_texel[0]);
     const auto place = [&](int pixel) { return scalar::flow_place(u_, centre(pixel), centre(0)).a; };
     s.texel = static_cast<std::uint32_t>(lower_texel(place(first) - texel_width, columns));
     s.texel_end = static_cast<std::uint32_t>(std::min(lower_texel(place(last) + texel_width, columns) + 1, columns - 1)) + 1;

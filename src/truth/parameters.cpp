@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include "rainref/error.h"
+#include "scene/variant_names.h"
 
 namespace rainref::truth {
 
 std::vector<scene::Parameter> parameters() {
-  constexpr const char* correct = "corrected";
+  using scene::correct;
   return {
       scene::choice("compositor.picture", {"passes", "traced"}, "passes", "What is shown: the passes' picture, or one that is traced.")
           .only(correct),

@@ -16,7 +16,6 @@
 namespace rainref::truth {
 namespace {
 
-constexpr double water_ior = water_refractive_index;
 constexpr double everywhere = 1000;  // half a side of the level ground around the rectangle [m]
 constexpr double in_street = 6;      // the same where the street's own road goes on
 
@@ -117,14 +116,14 @@ struct PuddleScene::State {
     ground = puddle::prepare_ground(own_ground ? made : around.ground, !own_ground && around.ground_is_encoded, s.variant);
     relief = puddle::make_relief(ground, own_ground);
 
-    GroundLook look{puddle::shade_uniforms(s), &ground.view(), &relief.view(), water_ior,
+    GroundLook look{puddle::shade_uniforms(s), &ground.view(), &relief.view(), water_refractive_index,
                     1 / std::sqrt(static_cast<double>(options.samples))};
     look.uniforms.ground_footprint = puddle::ground_footprint(s, ground.view().width[0]);
     const std::array<float, 3> ambient = puddle::ambient_radiance(environment.view(), around.environment_is_cube);
     for (int k = 0; k < 3; ++k) look.uniforms.ambient[k] = ambient[k];
 
     const Vec light(ambient[0], ambient[1], ambient[2]);
-    Medium above = air(), below = compositor::water(water_ior);
+    Medium above = air(), below = compositor::water(water_refractive_index);
     above.extinction = Vec(1, 1, 1) * s.fog_depth;
     above.glow = light;
     below.extinction = Vec(1, 1, 1) * s.water_turbidity;

@@ -14,7 +14,6 @@
 namespace rainref::truth {
 namespace {
 
-constexpr double water_ior = water_refractive_index;
 constexpr double degrees_per_radian = 57.29577951308232;
 
 double sign_of_largest(const double (&d)[3]) {
@@ -25,7 +24,7 @@ double sign_of_largest(const double (&d)[3]) {
 
 /// What shade takes for the end of the refracted ray: the bed's depth under the surface point, straight along the ray.
 Vec ground_of_passes(const Vec& point, const Vec& view, const Vec& normal, double depth) {
-  const Vec bent = split(view, normal, 1, water_ior).refracted;
+  const Vec bent = split(view, normal, 1, water_refractive_index).refracted;
   return point + depth / std::max(-bent.y, 0.05) * bent;
 }
 
@@ -83,7 +82,7 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
       at.normal = scene.tracer().surface(hits[x].surface).normal(rays[x], hits[x]);
       normals[x] = water.smooth_normals ? smooth_normal(water, at) : at.normal;
       const Vec direction = glm::normalize(rays[x].direction);
-      bent[x] = {rays[x].at(hits[x].t), split(direction, normals[x], 1, water_ior).refracted};
+      bent[x] = {rays[x].at(hits[x].t), split(direction, normals[x], 1, water_refractive_index).refracted};
       bent[x].nearest = 1e-9;
     }
     scene.tracer().first_hits(bent, beds);
@@ -113,8 +112,9 @@ PuddleTruth compare(const puddle::Puddle& puddle, const puddle::Settings& settin
       }
       if (is_truly_water) {
         const double cosine = std::clamp(-dot(view, normals[x]), 0.0, 1.0);
-        out.differences[schlick].at(x, y) = compositor::scalar::fresnel_schlick(compositor::scalar::Number(cosine), f0).v -
-                                            compositor::scalar::fresnel_dielectric(compositor::scalar::Number(cosine), water_ior).v;
+        out.differences[schlick].at(x, y) =
+            compositor::scalar::fresnel_schlick(compositor::scalar::Number(cosine), f0).v -
+            compositor::scalar::fresnel_dielectric(compositor::scalar::Number(cosine), water_refractive_index).v;
       }
       const Half* passes = puddle.colour().row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);
       const Half* true_colour = truth.beauty.row<Half>(y) + 4 * static_cast<std::ptrdiff_t>(x);

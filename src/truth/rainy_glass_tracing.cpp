@@ -8,19 +8,20 @@
 namespace rainref::truth {
 namespace {
 
-using rainy_glass::Instance, rainy_glass::Surroundings;
+using rainy_glass::Surroundings;
 
 /// The scene without anything before the glass.
-std::unique_ptr<const Surroundings> unbarred(const scene::Config& config, const Instance& glass, const parallel::Executor& executor) {
+std::unique_ptr<const Surroundings> unbarred(const scene::Config& config, const rainy_glass::Instance& glass,
+                                             const parallel::Executor& executor) {
   rainy_glass::BackdropOptions options = rainy_glass::backdrop_from(config);
   options.bar_spacing = 0;
   return std::make_unique<const Surroundings>(rainy_glass::make_backdrop(glass.settings(), options, executor));
 }
 
-class RainyGlassTracing : public PaneTracing<RainyGlassView, Instance> {
+class RainyGlassTracing : public PaneTracing<RainyGlassView, rainy_glass::Instance> {
  public:
   /// street: without anything before the glass; null where the scene comes in pictures.
-  RainyGlassTracing(const scene::Config& config, const Instance& glass, std::unique_ptr<const Surroundings> street,
+  RainyGlassTracing(const scene::Config& config, const rainy_glass::Instance& glass, std::unique_ptr<const Surroundings> street,
                     const parallel::Executor& on)
       : PaneTracing(config, glass,
                     RainyGlassView(glass.settings(), glass.surroundings(), street.get(), config.real("compositor.glass_thickness"),
@@ -41,7 +42,7 @@ EffectTracing rainy_glass_tracing() {
   return {
       "rainy_glass", pane_parameters,
       [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
-        const auto& glass = static_cast<const Instance&>(instance);
+        const auto& glass = static_cast<const rainy_glass::Instance&>(instance);
         const rainy_glass::Settings& s = glass.settings();
         const bool can =
             s.variant == Variant::corrected && s.shape == rainy_glass::Shape::pane && !s.use_probe && config.text("scene.panorama").empty();

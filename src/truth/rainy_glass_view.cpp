@@ -107,9 +107,9 @@ class Foreground {
   double half_height_;
 };
 
-class Outside : public Environment {
+class OutsideRoom : public Environment {
  public:
-  explicit Outside(const RainyGlassView& view) : view_(view), outward_(view.pane().normal(0)) {}
+  explicit OutsideRoom(const RainyGlassView& view) : view_(view), outward_(view.pane().normal(0)) {}
   void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
     // The room is dark.
     for (std::size_t i = 0; i < escaped_rays.size(); ++i)
@@ -202,7 +202,7 @@ std::unique_ptr<Scene> RainyGlassView::scene(const rainy_glass::RainyGlass& rend
                finish.radiance = before->radiance(at.point);
                return finish;
              })));
-  scene->set_environment(std::make_shared<Outside>(*this));
+  scene->set_environment(std::make_shared<OutsideRoom>(*this));
   scene->commit();
   return scene;
 }

@@ -5,11 +5,9 @@
 namespace rainref::truth {
 namespace {
 
-using screen_drops::Instance;
-
-class ScreenDropsTracing : public PaneTracing<ScreenDropsView, Instance> {
+class ScreenDropsTracing : public PaneTracing<ScreenDropsView, screen_drops::Instance> {
  public:
-  ScreenDropsTracing(const scene::Config& config, const Instance& drops, const parallel::Executor& on)
+  ScreenDropsTracing(const scene::Config& config, const screen_drops::Instance& drops, const parallel::Executor& on)
       : PaneTracing(config, drops,
                     ScreenDropsView(drops.settings(), drops.scene_colour(), config.real("compositor.glass_thickness"),
                                     choice_from(config).tracer, on),
@@ -27,7 +25,7 @@ EffectTracing screen_drops_tracing() {
   return {
       "screen_drops", pane_parameters,
       [](const scene::Config& config, const effect::Instance& instance, const parallel::Executor& executor) -> std::unique_ptr<Tracing> {
-        const auto& drops = static_cast<const Instance&>(instance);
+        const auto& drops = static_cast<const screen_drops::Instance&>(instance);
         if (drops.settings().variant != Variant::corrected) return nullptr;
         return std::make_unique<ScreenDropsTracing>(config, drops, executor);
       },

@@ -35,9 +35,9 @@ PaneShape shape_of(const screen_drops::Settings& s, const scene::Camera::Basis& 
           0};
 }
 
-class Outside : public Environment {
+class OutsideWindow : public Environment {
  public:
-  explicit Outside(const ScreenDropsView& view) : view_(view) {}
+  explicit OutsideWindow(const ScreenDropsView& view) : view_(view) {}
   void radiance(const EscapedRays& escaped_rays, std::span<Vec> out) const override {
     for (std::size_t i = 0; i < escaped_rays.size(); ++i) out[i] = view_.radiance(escaped_rays[i].direction);
   }
@@ -96,7 +96,7 @@ std::unique_ptr<Scene> ScreenDropsView::scene(const screen_drops::ScreenDrops& r
   PaneMedia media;
   media.water = compositor::water(settings_.water_ior);
   add_cap_pane(*scene, water(rendered), emitter({0, 0, 0}), executor_, media);
-  scene->set_environment(std::make_shared<Outside>(*this));
+  scene->set_environment(std::make_shared<OutsideWindow>(*this));
   scene->commit();
   return scene;
 }

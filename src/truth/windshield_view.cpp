@@ -19,9 +19,9 @@ PaneShape shape_of(const windshield::Corners& corners, const WindshieldGlass& gl
 }
 
 /// The street or the pictures outside, and the dark cabin for whatever stays on the driver's side or comes back to the car.
-class Outside : public Environment {
+class OutsideCar : public Environment {
  public:
-  Outside(const WindshieldView& view, double distance, std::span<const windshield::FallingDropView> falling)
+  OutsideCar(const WindshieldView& view, double distance, std::span<const windshield::FallingDropView> falling)
       : view_(view), falling_(falling), distance_(distance) {
     for (const Pane& pane : view.panes()) outward_.push_back(pane.normal(0.5));
   }
@@ -107,7 +107,7 @@ std::unique_ptr<Scene> WindshieldView::scene(std::span<const Image* const> heigh
   for (std::size_t k = 0; k < heights.size(); ++k)
     add_pane(*scene, panes_[k], std::make_shared<const WaterLayer>(*heights[k]),
              panes_[k].is_flat() ? WaterShape::displaced : WaterShape::sloped, emitter(vec(settings_.picture.cabin)), executor_, media);
-  scene->set_environment(std::make_shared<Outside>(*this, distance, falling));
+  scene->set_environment(std::make_shared<OutsideCar>(*this, distance, falling));
   scene->commit();
   return scene;
 }

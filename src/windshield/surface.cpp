@@ -4,11 +4,12 @@
 #include <bit>
 
 #include "math/real64.h"
+#include "scene/variant_names.h"
 
 namespace rainref::windshield {
 namespace {
 
-constexpr const char *published = "as-published", *correct = "corrected";
+using scene::correct, scene::published;
 
 /// A multiple of the grid, a power of two: the quotient is exact and below 2^51.
 double nearest(double time, double grid) {

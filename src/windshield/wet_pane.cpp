@@ -10,8 +10,6 @@
 namespace rainref::windshield {
 namespace {
 
-constexpr int tile_rows = 8;
-
 double steps_per_second(const Settings& s) { return s.fps * s.substeps; }
 
 /// All of its texels; before: seconds that the host spent on it.

@@ -11,6 +11,9 @@
 
 namespace rainref::windshield {
 
+/// Rows of a tile, of the passes whose tiles are whole rows.
+inline constexpr int tile_rows = 8;
+
 class WetPane {
  public:
   /// settings: of this pane (settings_of_pane), number: 0 the windshield. The executor must outlive it. Throws Error(usage) for blades and

@@ -20,8 +20,6 @@ namespace {
 
 using capture::Stopwatch;
 
-constexpr int tile_rows = 8;
-
 }  // namespace
 
 void Windshield::State::list(state::Items& items) {
