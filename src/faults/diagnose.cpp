@@ -134,6 +134,7 @@ int far_fetched(const Cause& c) {
                                                               {"quotient upside", 1},
                                                               {"multiplied for", 1},
                                                               {"divided for", 1},
+                                                              {"another value of the literal", 3},
                                                               {"another value of", 4}};
   for (const auto& [start, weight] : rare)
     if (c.name.starts_with(start)) {
