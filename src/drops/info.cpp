@@ -12,8 +12,6 @@ namespace rainref::drops {
 using namespace rainref::scene;
 using namespace rainref::capture;
 
-namespace {}  // namespace
-
 std::vector<UniformBlock> records() {
   return {Drop::layout(), GlassFrame::layout(),
           record<SpawnMass>("SpawnMass", {member<&SpawnMass::mass>("mass", "1", "Mass of a size class of arrivals, as in Drop.")}),

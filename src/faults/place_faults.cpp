@@ -64,28 +64,6 @@ bool is_multiple(PlaceFault fault, Op op) {
   }
 }
 
-/// Column and row are the components of a texel's place.
-std::string with_columns(const std::string& text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t n = text.compare(at, 14, "(column + 0.5)") == 0 ? 14
-                          : text.compare(at, 12, "column + 0.5") == 0 ? 12
-                          : text.compare(at, 6, "column") == 0        ? 6
-                          : text.compare(at, 3, "row") == 0           ? 3
-                                                                      : 0;
-    out.push_back(n > 0 ? 'x' : text[at]);
-    at += n > 0 ? n : 1;
-  }
-  return out;
-}
-/// A text in which the components of vectors, which are letters from `first` to `last`, have one name.
-std::string of_any_component(std::string text, char first = 'x', char last = 'z') {
-  const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
-  for (std::size_t at = 0; at < text.size(); ++at)
-    if (text[at] >= first && text[at] <= last && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = first;
-  return text;
-}
-
 /// Groups of two or three first places of different shapes and one text, each met as often, of the operations that `wanted` says.
 template <class Wanted>
 std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wanted) {
@@ -127,6 +105,26 @@ std::vector<std::vector<std::size_t>> arguments_of(const Probe& p) {
 }
 
 }  // namespace
+
+std::string with_columns(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t n = text.compare(at, 14, "(column + 0.5)") == 0 ? 14
+                          : text.compare(at, 12, "column + 0.5") == 0 ? 12
+                          : text.compare(at, 6, "column") == 0        ? 6
+                          : text.compare(at, 3, "row") == 0           ? 3
+                                                                      : 0;
+    out.push_back(n > 0 ? 'x' : text[at]);
+    at += n > 0 ? n : 1;
+  }
+  return out;
+}
+std::string of_any_component(std::string text, char first, char last) {
+  const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (text[at] >= first && text[at] <= last && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = first;
+  return text;
+}
 
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p) {
   std::vector<std::vector<std::size_t>> out = arguments_of(p);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "faults/probe.h"
@@ -20,6 +21,11 @@ void add_place_faults(std::vector<Fault>& out, const std::vector<Probe>& probes,
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p);
 /// The same of any values, leaves too.
 std::vector<std::vector<std::size_t>> vector_values_of(const Probe& p);
+
+/// A text in which column and row are named as a component, as those of a texel's place.
+std::string with_columns(const std::string& text);
+/// A text in which the components of vectors, which are letters from `first` to `last`, have one name.
+std::string of_any_component(std::string text, char first = 'x', char last = 'z');
 
 /// Adds, for each constant, the value that it would need to have for what the port stored at some failing texels, where there
 /// is one. `wanted`: texels and what the port stored there, one number for each slot.

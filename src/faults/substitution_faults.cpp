@@ -1,12 +1,7 @@
 #include "faults/substitution_faults.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
 #include <memory>
-#include <set>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>

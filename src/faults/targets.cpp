@@ -1,11 +1,9 @@
 #include "faults/targets.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <map>
 #include <set>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -47,19 +45,22 @@ void add_below_outputs(const Probe& p, std::vector<std::vector<std::int32_t>>& o
     }
 }
 
+/// How many values of the same place after it, up to the target, a source lies back.
+std::int32_t steps_back(const Probe& p, std::int32_t source, std::int32_t target) {
+  std::int32_t back = 0;
+  for (std::int32_t m = source; m < target; ++m) back += node_of(p, m).shape == node_of(p, source).shape;
+  return back;
+}
+
 }  // namespace
 
 bool is_leaf(Op op) { return op == Op::constant || op == Op::load || op == Op::fetch || op == Op::index; }
 
 /// A text in which all components and axes have one name.
-std::string of_any_axis(std::string text) {
-  for (const std::string_view place : {"(column + 0.5)", "column + 0.5", "column", "row"})
-    for (std::size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + 1)) text.replace(at, place.size(), "x");
-  const auto is_part = [&](std::size_t at) { return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])); };
-  for (std::size_t at = 0; at < text.size(); ++at)
-    if (text[at] >= 'u' && text[at] <= 'z' && !(at > 0 && is_part(at - 1)) && !is_part(at + 1)) text[at] = 'x';
-  std::erase(text, '-');  // a turned vector has another sign in one component
-  return text;
+std::string of_any_axis(const std::string& text) {
+  std::string out = of_any_component(with_columns(text), 'u', 'z');
+  std::erase(out, '-');  // a turned vector has another sign in one component
+  return out;
 }
 /// The components of vectors: of different shapes and one text, or two or three of one shape.
 std::vector<std::vector<std::int32_t>> vectors_in(const Probe& p) {
@@ -179,16 +180,14 @@ void take(const Probe& p, const Source& s, const Target& t, std::vector<Substitu
     }
     const std::int32_t node = s.nodes[s.nodes.size() == 1 ? 0 : c];
     places[c].source = node_of(p, node).shape;
-    places[c].back = 0;
-    for (std::int32_t m = node; m < t.nodes[c]; ++m) places[c].back += node_of(p, m).shape == places[c].source;
+    places[c].back = steps_back(p, node, t.nodes[c]);
   }
 }
 void take_second(const Probe& p, const Source& s, const Target& t, std::vector<Substitution>& places) {
   for (std::size_t c = 0; c < places.size(); ++c) {
     const std::int32_t node = s.nodes[s.nodes.size() == 1 ? 0 : c];
     places[c].second.source = node_of(p, node).shape;
-    places[c].second.back = 0;
-    for (std::int32_t m = node; m < t.nodes[c]; ++m) places[c].second.back += node_of(p, m).shape == places[c].second.source;
+    places[c].second.back = steps_back(p, node, t.nodes[c]);
   }
 }
 

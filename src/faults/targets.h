@@ -72,7 +72,7 @@ void take(const Probe& p, const Source& s, const Target& t, std::vector<perturbe
 void take_second(const Probe& p, const Source& s, const Target& t, std::vector<perturbed::Substitution>& places);
 
 /// A text in which all components and axes have one name.
-std::string of_any_axis(std::string text);
+std::string of_any_axis(const std::string& text);
 
 /// Of what is wrong: a name and a sentence.
 struct Said {

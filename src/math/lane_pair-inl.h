@@ -14,37 +14,36 @@ HWY_BEFORE_NAMESPACE();
 namespace rainref {
 namespace HWY_NAMESPACE {
 
-/// A number whose elements are those of a, then those of b. It fetches nothing. A: Lanes, or pairs again.
-template <class A>
-struct PairOf {
+/// A number whose elements are those of a, then those of b. It fetches nothing.
+struct LanePair {
   struct Mask {
-    typename A::Mask a, b;
+    Lanes::Mask a, b;
     friend HWY_INLINE HWY_ATTR Mask operator&(const Mask& x, const Mask& y) { return {x.a & y.a, x.b & y.b}; }
     friend HWY_INLINE HWY_ATTR Mask operator|(const Mask& x, const Mask& y) { return {x.a | y.a, x.b | y.b}; }
     friend HWY_INLINE HWY_ATTR Mask operator!(const Mask& x) { return {!x.a, !x.b}; }
     friend HWY_INLINE HWY_ATTR bool any(const Mask& m) { return any(m.a | m.b); }
   };
-  A a, b;
+  Lanes a, b;
 
-  HWY_INLINE HWY_ATTR PairOf() {}
-  HWY_INLINE HWY_ATTR PairOf(A x, A y) : a(x), b(y) {}
-  HWY_INLINE HWY_ATTR PairOf(float x) : a(x), b(x) {}
-  static constexpr int size() { return 2 * A::size(); }
-  static HWY_INLINE HWY_ATTR PairOf index(int first) { return {A::index(first), A::index(first + A::size())}; }
+  HWY_INLINE HWY_ATTR LanePair() {}
+  HWY_INLINE HWY_ATTR LanePair(Lanes x, Lanes y) : a(x), b(y) {}
+  HWY_INLINE HWY_ATTR LanePair(float x) : a(x), b(x) {}
+  static constexpr int size() { return 2 * Lanes::size(); }
+  static HWY_INLINE HWY_ATTR LanePair index(int first) { return {Lanes::index(first), Lanes::index(first + Lanes::size())}; }
 
 #define RAINREF_PAIRWISE(result, op) \
-  friend HWY_INLINE HWY_ATTR result operator op(const PairOf& x, const PairOf& y) { return {x.a op y.a, x.b op y.b}; }
-  RAINREF_PAIRWISE(PairOf, +)
-  RAINREF_PAIRWISE(PairOf, -)
-  RAINREF_PAIRWISE(PairOf, *)
-  RAINREF_PAIRWISE(PairOf, /)
+  friend HWY_INLINE HWY_ATTR result operator op(const LanePair& x, const LanePair& y) { return {x.a op y.a, x.b op y.b}; }
+  RAINREF_PAIRWISE(LanePair, +)
+  RAINREF_PAIRWISE(LanePair, -)
+  RAINREF_PAIRWISE(LanePair, *)
+  RAINREF_PAIRWISE(LanePair, /)
   RAINREF_PAIRWISE(Mask, <)
   RAINREF_PAIRWISE(Mask, <=)
   RAINREF_PAIRWISE(Mask, >)
   RAINREF_PAIRWISE(Mask, >=)
 #undef RAINREF_PAIRWISE
 #define RAINREF_PAIRWISE(function) \
-  friend HWY_INLINE HWY_ATTR PairOf function(const PairOf& x) { return {function(x.a), function(x.b)}; }
+  friend HWY_INLINE HWY_ATTR LanePair function(const LanePair& x) { return {function(x.a), function(x.b)}; }
   RAINREF_PAIRWISE(operator-)
   RAINREF_PAIRWISE(abs)
   RAINREF_PAIRWISE(sqrt)
@@ -52,16 +51,15 @@ struct PairOf {
   RAINREF_PAIRWISE(floor)
   RAINREF_PAIRWISE(fract)
 #undef RAINREF_PAIRWISE
-  friend HWY_INLINE HWY_ATTR PairOf min(const PairOf& x, const PairOf& y) { return {min(x.a, y.a), min(x.b, y.b)}; }
-  friend HWY_INLINE HWY_ATTR PairOf max(const PairOf& x, const PairOf& y) { return {max(x.a, y.a), max(x.b, y.b)}; }
-  friend HWY_INLINE HWY_ATTR PairOf mix(const PairOf& x, const PairOf& y, const PairOf& t) {
+  friend HWY_INLINE HWY_ATTR LanePair min(const LanePair& x, const LanePair& y) { return {min(x.a, y.a), min(x.b, y.b)}; }
+  friend HWY_INLINE HWY_ATTR LanePair max(const LanePair& x, const LanePair& y) { return {max(x.a, y.a), max(x.b, y.b)}; }
+  friend HWY_INLINE HWY_ATTR LanePair mix(const LanePair& x, const LanePair& y, const LanePair& t) {
     return {mix(x.a, y.a, t.a), mix(x.b, y.b, t.b)};
   }
-  friend HWY_INLINE HWY_ATTR PairOf select(const Mask& m, const PairOf& x, const PairOf& y) {
+  friend HWY_INLINE HWY_ATTR LanePair select(const Mask& m, const LanePair& x, const LanePair& y) {
     return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
   }
 };
-using LanePair = PairOf<Lanes>;
 
 HWY_INLINE HWY_ATTR Real64Two to_double(const LanePair& x) { return Real64Two(to_double(x.a.v), to_double(x.b.v)); }
 // Not inlined: see exp_lanes.

@@ -20,11 +20,10 @@ RAINREF_TARGET_BEGIN(puddle)
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
 #include "image/environment-inl.h"
-// Several vectors are sampled one after the other.
-template <int First, int Count, class N, class T>
-requires(N::size() > Lanes::size()) RAINREF_FN Channels<N, Count> sample_bilinear(const T& t, N u, N v, int level = 0) {
-  using Part = decltype(u.a);
-  const auto a = sample_bilinear<First, Count, Part>(t, u.a, v.a, level), b = sample_bilinear<First, Count, Part>(t, u.b, v.b, level);
+// Two vectors are sampled one after the other.
+template <int First, int Count, std::same_as<LanePair> N, class T>
+RAINREF_FN Channels<N, Count> sample_bilinear(const T& t, N u, N v, int level = 0) {
+  const auto a = sample_bilinear<First, Count, Lanes>(t, u.a, v.a, level), b = sample_bilinear<First, Count, Lanes>(t, u.b, v.b, level);
   Channels<N, Count> out;
   RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = N(a[k], b[k]);
   return out;
@@ -36,23 +35,13 @@ requires(N::size() > Lanes::size()) RAINREF_FN Channels<N, Count> sample_bilinea
 #undef RAINREF_LAMBDA
 
 using HitIo = SurfaceHitPass::Io<LaneCursors>;
-HWY_INLINE HWY_ATTR void give_hit(const HitIo& io, const Vec3<Lanes>& position, Lanes iterations, const Vec3<Lanes>& normal, Lanes flag) {
+HWY_INLINE HWY_ATTR void give_hit(HitIo& io, int x, int count, const Vec3<Lanes>& position, Lanes iterations, const Vec3<Lanes>& normal,
+                                  Lanes flag) {
+  pass::move_to<SurfaceHitPass>(io, x, count);
   io.hit(position, iterations);
   io.normal(normal, flag);
 }
-/// Part of a hit of several vectors: the vectors from x on.
-template <class N>
-HWY_INLINE HWY_ATTR void give_hits(HitIo& io, int x, const Vec3<N>& p, N iterations, const Vec3<N>& n, N flag) {
-  if constexpr (std::same_as<N, Lanes>) {
-    pass::move_to<SurfaceHitPass>(io, x, Lanes::size());
-    give_hit(io, p, iterations, n, flag);
-  } else {
-    using Part = decltype(p.x.a);
-    give_hits<Part>(io, x, Vec3<Part>(p.x.a, p.y.a, p.z.a), iterations.a, Vec3<Part>(n.x.a, n.y.a, n.z.a), flag.a);
-    give_hits<Part>(io, x + Part::size(), Vec3<Part>(p.x.b, p.y.b, p.z.b), iterations.b, Vec3<Part>(n.x.b, n.y.b, n.z.b), flag.b);
-  }
-}
-// As published a round of the march waits for the one before: for quotients, a lookup, a root. Four rays of a row side by side, in each
+// As published a round of the march waits for the one before: for quotients, a lookup, a root. Two rays of a row side by side, in each
 // lane, keep the processor busy meanwhile.
 template <Address edge>
 HWY_ATTR void published_hit_rows(const SurfaceHitUniforms& uniforms, Rounding rounding, const pass::HostIo<SurfaceHitPass>& host,
@@ -63,14 +52,17 @@ HWY_ATTR void published_hit_rows(const SurfaceHitUniforms& uniforms, Rounding ro
   for (int y = tile.y0; y < tile.y1; ++y) {
     HitIo io;
     pass::begin_row<SurfaceHitPass>(host, io, y, rounding);
+    constexpr int n = Lanes::size();
     int x = tile.x0;
-    for (; x + LanePair::size() <= tile.x1; x += LanePair::size()) {
+    for (; x + 2 * n <= tile.x1; x += 2 * n) {
       const SurfaceHit<LanePair> s = surface_hit_as_published<LanePair>(u, wave, x, y);
-      give_hits<LanePair>(io, x, s.position, s.iterations, s.normal, s.flag);
+      const Vec3<LanePair>&p = s.position, &m = s.normal;
+      give_hit(io, x, n, Vec3<Lanes>(p.x.a, p.y.a, p.z.a), s.iterations.a, Vec3<Lanes>(m.x.a, m.y.a, m.z.a), s.flag.a);
+      give_hit(io, x + n, n, Vec3<Lanes>(p.x.b, p.y.b, p.z.b), s.iterations.b, Vec3<Lanes>(m.x.b, m.y.b, m.z.b), s.flag.b);
     }
-    for (; x < tile.x1; x += Lanes::size()) {
-      pass::move_to<SurfaceHitPass>(io, x, tile.x1 - x < Lanes::size() ? tile.x1 - x : Lanes::size());
-      SurfaceHitPassText::run<Lanes, false>(u, io, x, y);
+    for (; x < tile.x1; x += n) {
+      const SurfaceHit<Lanes> s = surface_hit_as_published<Lanes>(u, wave, x, y);
+      give_hit(io, x, tile.x1 - x < n ? tile.x1 - x : n, s.position, s.iterations, s.normal, s.flag);
     }
   }
 }

@@ -284,13 +284,8 @@ struct SurfaceHitPassText {
   static RAINREF_FN void run(const SurfaceHitUniforms& u, const Io& io, int px, int py) {
     SurfaceHit<N> s;
     const Texture& wave = io.wave;
-    constexpr Address edge = Address::clamp, periodic = Address::repeat;
     if constexpr (corrected)
       s = surface_hit_corrected<N>(u, wave, io.bounds, px, py);
-    else if (wave.address_u == edge && wave.address_v == edge)
-      s = surface_hit_as_published<N>(u, fixed_texture<edge, edge, 1>(wave), px, py);
-    else if (wave.address_u == periodic && wave.address_v == periodic)
-      s = surface_hit_as_published<N>(u, fixed_texture<periodic, periodic, 1>(wave), px, py);
     else
       s = surface_hit_as_published<N>(u, wave, px, py);
     io.hit(s.position, s.iterations);
