@@ -257,4 +257,12 @@ std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<
   return all;
 }
 
+Image image(const Recipe& recipe, const std::function<Image()>& make) {
+  return std::move(images(recipe, [&] {
+    std::vector<Image> all;
+    all.push_back(make());
+    return all;
+  })[0]);
+}
+
 }  // namespace rainref::cache

@@ -38,5 +38,7 @@ std::filesystem::path folder_of_user();
 /// The images of make(). Read instead where they were kept by this very program (its file's bytes count) for this recipe, and their
 /// hash says that they are whole; or a copy of what this process remembers (cache/remembered.h).
 std::vector<Image> images(const Recipe& recipe, const std::function<std::vector<Image>()>& make);
+/// The same of one image.
+Image image(const Recipe& recipe, const std::function<Image()>& make);
 
 }  // namespace rainref::cache

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <future>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -166,16 +167,20 @@ int run(const RunOptions& options) {
   OutputFolder made(folder);
   const Checkpoint checkpoint(folder, options);
   const std::optional<std::uintmax_t> left = options.resume ? checkpoint.bytes() : std::nullopt;
-  if (options.png || options.exr || options.compare_truth) image_io::codec();  // a broken installation should not cost a run either
 
   effect::RunMemory memory = simulation::memory_of(config);
   add_pictures(memory, options.png || !options.film.empty(), options.exr);
   if (options.capture != RunOptions::none) add_captures(memory);
   if (left) memory.peak.pass(*left);
   require_memory(memory);
-  const std::size_t stated = memory.peak.peak() + resident_memory();
+  const bool takes_codec = options.png || options.exr || options.compare_truth;
+  const std::size_t stated = memory.peak.peak() + resident_memory() + (takes_codec ? image_io::codec_bytes() : 0);
+  // A broken installation should not cost a run either. Beside the scene, for the codec's libraries take a quarter of a second to load.
+  std::future<void> codec;
+  if (takes_codec) codec = std::async(std::launch::async, [] { image_io::codec(); });
   if (options.keep_images) cache::keep_in(cache::folder_of_user());
   simulation::Opened opened = open_scene(config, executor);
+  if (codec.valid()) codec.get();
   if (options.compare_truth && !opened.has_truth()) {
     throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle "
                                              "and screen_drops have one, and with the street windshield and corrected panes of rainy_glass",

@@ -67,4 +67,6 @@ const Codec& codec() {
   return *table;
 }
 
+std::size_t codec_bytes() { return std::size_t{119} << 20; }
+
 }  // namespace rainref::image_io

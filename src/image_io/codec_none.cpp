@@ -26,4 +26,6 @@ const Codec& codec() {
   return functions;
 }
 
+std::size_t codec_bytes() { return 0; }
+
 }  // namespace rainref::image_io

@@ -50,6 +50,8 @@ std::vector<std::byte> encoded_png(const std::string& name, const Image& image, 
   picture.height = image.height();
   for (int c = 0; c < count; ++c) picture.channels.push_back({std::string(1, "RGBA"[c]), "uint8", 1});
   if (image.format() == Format::rgba8_srgb) picture.colour_space = "sRGB";
+  // Of what PNG's filters leave, runs of one byte are most of what repeats: zlib's RLE takes a sixth of the time for 5 % more bytes.
+  picture.compression = "rle";
   std::vector<std::byte> texels(static_cast<std::size_t>(count) * image.width() * image.height());
   interleave(image, count, count, texels.data());
   // Text is added here: with OpenImageIO and without it the same, in iTXt where it must be.

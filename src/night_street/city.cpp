@@ -1,5 +1,7 @@
-#include "math/constants.h"
 #include "night_street/city.h"
+
+#include "base/floating_point.h"
+#include "math/constants.h"
 
 namespace rainref::night_street {
 
@@ -18,8 +20,15 @@ City::City(std::uint64_t street_seed, bool clear_lane)
   build_walkers(*this);
   build_lots(*this);
   hierarchy = Hierarchy(solids);
-  light = LightMap(sources);
   lights = CompactLights(sources);
+}
+
+const LightMap& City::light() const {
+  std::call_once(is_lit_, [&] {
+    const FloatingPointGuard guard;
+    light_ = LightMap(sources);
+  });
+  return light_;
 }
 
 int City::add_material(const Material& material) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <mutex>
 #include <string_view>
 #include <vector>
 
@@ -86,11 +87,12 @@ struct City {
   std::vector<Source> sources;
   std::vector<Lamp> lamps;
   Hierarchy hierarchy;
-  LightMap light;
   CompactLights lights;
   Noise clouds, clouds_large, puddles, asphalt, ripple, stain, skyline;
 
   City(std::uint64_t street_seed, bool clear_lane);
+  /// Made when it is first asked for: a street whose pictures were kept (cache/kept_images.h) needs none. Any thread may ask.
+  const LightMap& light() const;
   double random(std::uint64_t object, Purpose purpose) const { return random01(seed, object, purpose); }
   int add_material(const Material& material);
   /// Adds a solid whose planes are already in `planes`, from first_plane on, or that has none.
@@ -100,6 +102,10 @@ struct City {
   void add_convex(const std::vector<Plane>& sides, const Box& bounds, int material);
   /// A sphere that emits; listed as a lamp and as a compact source. gain and focus as in Source.
   void add_lamp(const Vec& centre, double radius, const Vec& radiance, const Vec& axis, double gain, int focus);
+
+ private:
+  mutable std::once_flag is_lit_;
+  mutable LightMap light_;
 };
 
 void build_lots(City& city);

@@ -33,7 +33,7 @@ Vec blank_wall(const City& city, const Lot& lot, const Hit& hit, const Vec& poin
   if (hit.normal.y > 0.5) return 0.02 * Vec{0.9, 0.9, 1.2};
   const double deep = magnitude(point.x) - plan::facade;
   const double stain = 0.6 + 0.8 * city.stain.value(point.x * 0.8, point.y * 0.5);
-  const Vec light = (0.55 / (1 + 0.25 * max_of(deep, 0))) * city.light.facade(hit.side, point.y, point.z);
+  const Vec light = (0.55 / (1 + 0.25 * max_of(deep, 0))) * city.light().facade(hit.side, point.y, point.z);
   return (0.7 * stain) * lot.wall * (light + Vec{0.006, 0.005, 0.008});
 }
 
@@ -48,7 +48,7 @@ Vec building_radiance(const City& city, const Hit& hit, const Vec& point, const 
   at.y = point.y;
   at.into = {is_right ? d.z : -d.z, d.y, magnitude(d.x)};
   const double setback = 1 / (1 + 0.3 * (lot.front - plan::facade));
-  at.light = setback * city.light.facade(hit.side, point.y, point.z) + Vec{0.006, 0.0052, 0.0075};
+  at.light = setback * city.light().facade(hit.side, point.y, point.z) + Vec{0.006, 0.0052, 0.0075};
   at.soft = soft;
   return point.y < plan::ground_floor ? shop_radiance(city, lot, at) : storey_radiance(city, lot, at);
 }

@@ -18,7 +18,7 @@ constexpr std::size_t city_bytes = std::size_t{16} << 20;  // about, light map i
 }  // namespace
 
 Street::Street(const Options& options) : options_(options) {
-  FloatingPointGuard guard;  // the light map is computed here, outside the tiles that pin the state
+  FloatingPointGuard guard;  // the street is laid out here, outside the tiles that pin the state
   static cache::Remembered<City>& remembered = *new cache::Remembered<City>;
   const std::string name = fmt::format("{} {}", options.seed, options.clear_lane);
   city_ = remembered.find(name);

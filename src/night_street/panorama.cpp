@@ -29,11 +29,7 @@ Image Street::panorama(int width, int height, const scene::Vector3& eye, const p
   cache::Recipe recipe("night_street panorama");
   recipe.add(options_.seed).add(options_.clear_lane).add(static_cast<std::uint64_t>(width)).add(static_cast<std::uint64_t>(height));
   recipe.add({eye.x, eye.y, eye.z});
-  return std::move(cache::images(recipe, [&] {
-    std::vector<Image> all;
-    all.push_back(traced(width, height, eye, executor));
-    return all;
-  })[0]);
+  return cache::image(recipe, [&] { return traced(width, height, eye, executor); });
 }
 
 Image Street::traced(int width, int height, const scene::Vector3& eye, const parallel::Executor& executor) const {

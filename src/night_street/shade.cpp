@@ -25,7 +25,7 @@ Vec reflected(const City& city, const Ray& ray, Bounce bounce, Hit& hit) {
 
 Vec ground_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce bounce) {
   const Vec p = ray.at(hit.t);
-  const Vec light = city.light.ground(p.x, p.z) + Vec{0.006, 0.005, 0.008};
+  const Vec light = city.light().ground(p.x, p.z) + Vec{0.006, 0.005, 0.008};
   const double steep = clamp01(-ray.direction.y), fresnel = 0.02 + 0.98 * fifth(1 - steep);
   if (bounce != Bounce::none) return 0.05 * light + (0.5 * fresnel) * haze_glow;
 
@@ -78,7 +78,7 @@ Vec solid_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce boun
   }
   // The map holds light from above; sides get about half of it, undersides what the wet road throws back.
   const double side = 0.42 + 0.38 * hit.normal.y;
-  const Vec light = side * city.light.ground(p.x, p.z) + Vec{0.006, 0.005, 0.008};
+  const Vec light = side * city.light().ground(p.x, p.z) + Vec{0.006, 0.005, 0.008};
   const bool glass = material.glass && hit.normal.y < 0.75;
   const Vec albedo = glass ? Vec{0.004, 0.004, 0.005} : material.albedo;
   Vec radiance = emitted + albedo * light;
@@ -111,7 +111,7 @@ Vec surface(const City& city, const Ray& ray, const Hit& hit, Bounce bounce) {
       return ground_radiance(city, ray, hit, bounce);
     case Hit::kerb: {
       const Vec p = ray.at(hit.t);
-      return 0.10 * city.light.ground(p.x, p.z) + Vec{0.001, 0.001, 0.0012};
+      return 0.10 * city.light().ground(p.x, p.z) + Vec{0.001, 0.001, 0.0012};
     }
     case Hit::building: {
       const double soft = bounce == Bounce::rough ? 1 : smooth_step(30, 90, hit.t);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "cache/kept_images.h"
 #include "puddle/scalar.h"
 #include "random/counter.h"
 
@@ -57,17 +58,11 @@ double fractal(std::span<Noise> octaves, double x, double y) {
   return sum;
 }
 
-}  // namespace
-
-TextureData make_bed(const Settings& s) {
+/// The depths of a natural shape [m].
+Image natural_bed(const Settings& s) {
   const double half_x = 0.5 * s.grid[0] * s.cell_size, half_z = 0.5 * s.grid[1] * s.cell_size;
-  if (s.shape == Shape::basin) {
-    TextureData bed({static_cast<float>(s.puddle_depth)}, 1, 1, 1, Address::border, Address::border);
-    bed.set_border(static_cast<float>(s.puddle_depth), 0, 0, 0);
-    return bed;
-  }
   const int width = s.bed_columns, height = std::max(1, static_cast<int>(width * half_z / half_x));
-  std::vector<float> depth(static_cast<std::size_t>(width) * height);
+  Image depth(Format::r32f, width, height);
   std::array<Noise, 5> octaves{{{s.seed, 0}, {s.seed, 1}, {s.seed, 2}, {s.seed, 3}, {s.seed, 4}}};
   Noise grains(s.seed, 77);
   for (int y = 0; y < height; ++y) {
@@ -79,28 +74,12 @@ TextureData make_bed(const Settings& s) {
       const double window = 1 - std::max(u * u * u * u * u * u, v * v * v * v * v * v);
       const double grain = 0.0012 * grains(90 * mx, 90 * mz);
       const double shaped = s.puddle_depth * std::min(bowl, 3 * window - 1) + grain;
-      depth[static_cast<std::size_t>(y) * width + x] = static_cast<float>(std::min(shaped, s.puddle_depth));
+      depth.row<float>(y)[x] = static_cast<float>(std::min(shaped, s.puddle_depth));
     }
   }
-  TextureData bed(std::move(depth), 1, width, height, Address::border, Address::border);
-  bed.set_border(static_cast<float>(-s.puddle_depth), 0, 0, 0);
-  return bed;
+  return depth;
 }
-
-Image make_shore(const Settings& s, const Texture& bed) {
-  Image shore(Format::r32f, s.grid[0], s.grid[1]);
-  for (int y = 0; y < s.grid[1]; ++y) {
-    for (int x = 0; x < s.grid[0]; ++x) {
-      const scalar::Scalar<double> u((x + 0.5) / s.grid[0]), v((y + 0.5) / s.grid[1]);
-      const double depth = scalar::sample_bilinear<0, 1>(bed, u, v)[0].v;
-      const double t = std::clamp(depth / (2 * s.shore_width), 0.0, 1.0);
-      shore.row<float>(y)[x] = static_cast<float>(t * t * (3 - 2 * t));
-    }
-  }
-  return shore;
-}
-
-Image make_asphalt(std::uint64_t seed) {
+Image asphalt(std::uint64_t seed) {
   constexpr int size = 512, cells = 80;
   Image tile(Format::rgba32f, size, size);
   // Stones: one jittered point in each cell, the tile joined at its edges.
@@ -138,6 +117,39 @@ Image make_asphalt(std::uint64_t seed) {
     }
   }
   return tile;
+}
+
+}  // namespace
+
+TextureData make_bed(const Settings& s) {
+  if (s.shape == Shape::basin) {
+    TextureData bed({static_cast<float>(s.puddle_depth)}, 1, 1, 1, Address::border, Address::border);
+    bed.set_border(static_cast<float>(s.puddle_depth), 0, 0, 0);
+    return bed;
+  }
+  cache::Recipe recipe("puddle depths");
+  recipe.add(s.seed).add(
+      {static_cast<double>(s.grid[0]), static_cast<double>(s.grid[1]), s.cell_size, s.puddle_depth, static_cast<double>(s.bed_columns)});
+  TextureData bed(cache::image(recipe, [&] { return natural_bed(s); }), Address::border, Address::border);
+  bed.set_border(static_cast<float>(-s.puddle_depth), 0, 0, 0);
+  return bed;
+}
+
+Image make_asphalt(std::uint64_t seed) {
+  return cache::image(cache::Recipe("puddle asphalt").add(seed), [&] { return asphalt(seed); });
+}
+
+Image make_shore(const Settings& s, const Texture& bed) {
+  Image shore(Format::r32f, s.grid[0], s.grid[1]);
+  for (int y = 0; y < s.grid[1]; ++y) {
+    for (int x = 0; x < s.grid[0]; ++x) {
+      const scalar::Scalar<double> u((x + 0.5) / s.grid[0]), v((y + 0.5) / s.grid[1]);
+      const double depth = scalar::sample_bilinear<0, 1>(bed, u, v)[0].v;
+      const double t = std::clamp(depth / (2 * s.shore_width), 0.0, 1.0);
+      shore.row<float>(y)[x] = static_cast<float>(t * t * (3 - 2 * t));
+    }
+  }
+  return shore;
 }
 
 TextureData make_relief(const TextureData& ground, bool height_in_alpha) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cache/kept_images.h"
 #include "night_street/night_street.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/storage.h"
@@ -97,7 +98,9 @@ Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, co
     for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
     if (s.use_probe) around.probe = copy(panorama);
   }
-  around.colour = defocused(around.colour, options.defocus * s.height, executor);
+  const double radius = options.defocus * s.height;
+  around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
+                               [&] { return defocused(around.colour, radius, executor); });
   if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around);
   return around;
 }
