@@ -17,7 +17,7 @@
 namespace rainref::edge_splash {
 namespace {
 
-constexpr int tile_rows = 8;
+constexpr int tile_rows = 4;
 
 Settings with_size(Settings s, const Image& colour) {
   s.width = colour.width();

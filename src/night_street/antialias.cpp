@@ -1,6 +1,6 @@
 #include "night_street/antialias.h"
 
-#include <vector>
+#include <memory>
 
 namespace rainref::night_street {
 
@@ -8,15 +8,20 @@ namespace {
 
 constexpr int tile_side = 32;
 
-/// The first pass: radiance and object at the centre of every texel.
+/// What is seen at the centre of a texel.
+struct Centre {
+  double radiance[3];
+  float tone;  ///< brightness as an eye would rank it, in [0, 1)
+  std::uint32_t object;
+  bool is_ground;
+};
+/// The first pass. Its memory is first touched by the threads that fill it: one alone would take as long as they for their rays.
 struct Centres {
   int width, height;
-  std::vector<Vec> radiance;
-  std::vector<float> tone;  ///< brightness as an eye would rank it, in [0, 1)
-  std::vector<std::uint32_t> object;
-  std::vector<std::uint8_t> is_ground;
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  std::unique_ptr<Centre[]> all =
+      std::make_unique_for_overwrite<Centre[]>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  Centre& at(int x, int y) const {
+    return all[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
   }
 };
 
@@ -26,9 +31,9 @@ float tone_of(const Vec& radiance) {
 }
 
 bool differs(const Centres& centres, int x, int y, Edge edge) {
-  const std::size_t here = centres.index(x, y);
+  const Centre& here = centres.at(x, y);
   // Wet ground glitters; more rays would buy little there.
-  const float tolerance = centres.is_ground[here] ? 0.16f : 0.1f;
+  const float tolerance = here.is_ground ? 0.16f : 0.1f;
   for (int j = -1; j <= 1; ++j) {
     for (int i = -1; i <= 1; ++i) {
       int nx = x + i;
@@ -36,9 +41,9 @@ bool differs(const Centres& centres, int x, int y, Edge edge) {
       if (ny < 0 || ny >= centres.height) continue;
       if (edge == Edge::wrap) nx = (nx + centres.width) % centres.width;
       if (nx < 0 || nx >= centres.width) continue;
-      const std::size_t there = centres.index(nx, ny);
-      if (centres.object[here] != centres.object[there]) return true;
-      const float step = centres.tone[here] - centres.tone[there];
+      const Centre& there = centres.at(nx, ny);
+      if (here.object != there.object) return true;
+      const float step = here.tone - there.tone;
       if (step > tolerance || step < -tolerance) return true;
     }
   }
@@ -50,23 +55,15 @@ bool differs(const Centres& centres, int x, int y, Edge edge) {
 Image antialiased(const City& city, int width, int height, Edge edge, Parts parts, const RayOfPart& ray_of, const AtCentre& at_centre,
                   const parallel::Executor& executor) {
   Image image(Format::rgba32f, width, height);
-  const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  Centres centres{width,
-                  height,
-                  std::vector<Vec>(texels),
-                  std::vector<float>(texels),
-                  std::vector<std::uint32_t>(texels),
-                  std::vector<std::uint8_t>(texels)};
+  const Centres centres{width, height};
   executor.for_tiles(width, height, tile_side, tile_side, [&](const parallel::Tile& tile) {
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
         const Ray ray = ray_of(3 * x + 1, 3 * y + 1);
         const Seen seen = look(city, ray);
-        const std::size_t here = centres.index(x, y);
-        centres.radiance[here] = seen.radiance;
-        centres.tone[here] = tone_of(seen.radiance);
-        centres.object[here] = seen.hit.object();
-        centres.is_ground[here] = seen.hit.kind == Hit::road || seen.hit.kind == Hit::pavement;
+        const Vec& r = seen.radiance;
+        const bool is_ground = seen.hit.kind == Hit::road || seen.hit.kind == Hit::pavement;
+        centres.at(x, y) = {{r.x, r.y, r.z}, tone_of(r), seen.hit.object(), is_ground};
         at_centre(x, y, ray, seen);
       }
     }
@@ -75,7 +72,8 @@ Image antialiased(const City& city, int width, int height, Edge edge, Parts part
     for (int y = tile.y0; y < tile.y1; ++y) {
       float* out = image.row<float>(y) + static_cast<std::ptrdiff_t>(tile.x0) * 4;
       for (int x = tile.x0; x < tile.x1; ++x, out += 4) {
-        Vec radiance = centres.radiance[centres.index(x, y)];
+        const double* centre = centres.at(x, y).radiance;
+        Vec radiance(centre[0], centre[1], centre[2]);
         if (differs(centres, x, y, edge)) {
           Vec sum = radiance;
           const bool three = parts == Parts::three;

@@ -8,7 +8,7 @@ namespace rainref::night_street {
 
 /// One ray for each texel, before neighbours are compared: radiance, tone, object, ground.
 inline std::uint64_t centres_bytes(int width, int height) {
-  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * (24 + 4 + 4 + 1);
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 40;  // Centre of antialias.cpp
 }
 
 /// Street::view. Holds colour, depth and normal.

@@ -30,7 +30,7 @@ namespace {
 
 using capture::Stopwatch;
 
-constexpr int wave_tile_rows = 32, picture_tile_rows = 8;
+constexpr int wave_tile_rows = 32, picture_tile_rows = 4;
 
 Format channel_format(Format storage) {
   switch (storage) {
@@ -123,27 +123,32 @@ struct Puddle::State {
   pass::Moment moment(Recorder* recorder, int step, double dt) const {
     return {recorder, frame, step, frame / settings.fps, dt, settings.rounding};
   }
-  /// Pass raindrops.
-  std::vector<Drop> fall(const pass::Moment& now) const {
-    std::vector<Drop> drops;
-    const auto run = [&](auto pass, const auto& fallen) {
+  /// What the steps [first, first + count) begin with, each made by itself.
+  std::vector<std::vector<Drop>> fallen(std::int64_t first, std::int64_t count) const {
+    std::vector<std::vector<Drop>> drops(static_cast<std::size_t>(count));
+    executor.for_range(count, 1, [&](std::int64_t k, std::int64_t) {
+      drops[static_cast<std::size_t>(k)] =
+          corrected ? rainfall.drops(first + k) : raindrops_as_published(raindrops_uniforms(settings, frame));
+    });
+    return drops;
+  }
+  /// Pass raindrops of a step, which took so long.
+  void show_raindrops(const pass::Moment& now, std::int64_t step, const std::vector<Drop>& drops, double seconds) const {
+    const auto run = [&](const auto& pass) {
       pass.start(now);
-      pass.tile([&] { drops = fallen(); });
-      pass.finish(now);
+      pass.finish(now, 1, seconds);
     };
     if (corrected) {
       pass::HostIo<RaindropsPass> io;
       io.craters = rainfall.craters();
       io.count_thresholds = rainfall.count_thresholds();
       io.drops = drops;
-      run(pass::Run<RaindropsPass>(rainfall.uniforms(steps), true, settings.rounding, io), [&] { return rainfall.drops(steps); });
+      run(pass::Run<RaindropsPass>(rainfall.uniforms(step), true, settings.rounding, io));
     } else {
-      const RaindropsUniforms u = raindrops_uniforms(settings, frame);
       pass::HostIo<PublishedRaindropsPass> io;
       io.drops = drops;
-      run(pass::Run<PublishedRaindropsPass>(u, false, settings.rounding, io), [&] { return raindrops_as_published(u); });
+      run(pass::Run<PublishedRaindropsPass>(raindrops_uniforms(settings, frame), false, settings.rounding, io));
     }
-    return drops;
   }
   /// Passes raindrops and wave_step of the steps [steps, end), one frame's. wave: what the levels are seen as from outside.
   void advance(Recorder* recorder, std::int64_t end, const BufferView& wave) {
@@ -151,8 +156,11 @@ struct Puddle::State {
     // Levels in between are shown to those who read them; else the steps of a frame go together.
     const std::int64_t together = first.is_read("wave_step") || first.is_read("raindrops") ? 1 : end - steps;
     for (int step = 0; steps < end;) {
-      std::vector<std::vector<Drop>> drops;
-      for (std::int64_t k = 0; k < together; ++k, ++steps) drops.push_back(fall(moment(recorder, step + static_cast<int>(k), step_time())));
+      const Stopwatch watch;
+      const std::vector<std::vector<Drop>> drops = fallen(steps, together);
+      const double seconds = watch.seconds() / static_cast<double>(together);
+      for (std::int64_t k = 0; k < together; ++k, ++steps)
+        show_raindrops(moment(recorder, step + static_cast<int>(k), step_time()), steps, drops[static_cast<std::size_t>(k)], seconds);
       make_wave(moment(recorder, step, step_time()), drops, wave);
       step += static_cast<int>(together);
     }

@@ -10,18 +10,19 @@ namespace rainref::puddle {
 namespace {
 
 constexpr int tile_rows = 32;  // of a step by itself
-constexpr int band_rows = 64;  // of steps together, at least
+constexpr int band_rows = 64;  // of steps together, unless threads would have nothing to do
 constexpr int visit_rows = 8;  // that a band takes from one step to the next
 
 class Blocks {
  public:
-  explicit Blocks(std::span<const WaveJob> jobs)
+  Blocks(std::span<const WaveJob> jobs, int threads)
       : jobs_(jobs),
         reach_(jobs[0].corrected ? 1 : static_cast<int>(__builtin_ceilf(jobs[0].uniforms.step))),
         steps_(static_cast<int>(jobs.size())),
         height_(jobs[0].newest->height()),
         wraps_(jobs[0].boundary == Boundary::periodic),
-        bands_(height_ / std::max(band_rows, 2 * reach_ * steps_)) {}
+        bands_(
+            std::min(std::max(height_ / band_rows, std::min(threads, height_ / visit_rows)), height_ / std::max(2 * reach_ * steps_, 1))) {}
 
   int bands() const { return bands_; }
   /// Bands and triangles must not meet: there are none where the wave is lower than one band.
@@ -78,7 +79,7 @@ void step_wave(std::span<const WaveJob> jobs, const parallel::Executor& executor
         job.newest->width(), job.newest->height(), job.newest->width(), tile_rows,
         [&](const parallel::Tile& tile) { wave_previous_rows(job, tile); }, parallel::Placement::same_thread);
   };
-  const Blocks blocks(jobs);
+  const Blocks blocks(jobs, executor.threads());
   if (jobs.size() > 1 && blocks.possible()) {
     const auto each = [&](const auto& body) {
       executor.for_range(

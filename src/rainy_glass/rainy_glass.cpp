@@ -20,7 +20,7 @@
 namespace rainref::rainy_glass {
 namespace {
 
-constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 8;
+constexpr int bake_tile = 64, bake_rows = 16, picture_tile_rows = 4;
 
 }  // namespace
 

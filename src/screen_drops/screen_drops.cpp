@@ -26,7 +26,7 @@
 namespace rainref::screen_drops {
 namespace {
 
-constexpr int tile_rows = 8, cell_rows = 4;
+constexpr int tile_rows = 4, cell_rows = 4;
 
 void check_memory(const Settings& s, const FlowSettings* flow) {
   require_memory(fmt::format("run.size {}x{}{}", s.width, s.height, flow ? fmt::format(" with {} drops", flow->drops.capacity) : ""),

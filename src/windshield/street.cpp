@@ -12,10 +12,12 @@ using scene::Vector3;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
 
-Image as_half(const Image& from) {
+Image as_half(const Image& from, const parallel::Executor& executor) {
   Image to(Format::rgba16f, from.width(), from.height());
-  for (int y = 0; y < from.height(); ++y)
-    to_half_array(from.row<float>(y), to.row<Half>(y), 4 * static_cast<std::size_t>(from.width()), Rounding::rne);
+  executor.for_tiles(from.width(), from.height(), from.width(), 16, [&](const parallel::Tile& tile) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+      to_half_array(from.row<float>(y), to.row<Half>(y), 4 * static_cast<std::size_t>(from.width()), Rounding::rne);
+  });
   return to;
 }
 
@@ -82,7 +84,7 @@ struct StreetDrive::State {
     if (found != keyframes.end()) return found->second;
     // A car at rest may look at its first view for long; those of one that moves pass, two blended.
     night_street::Street::View v = render(k, at_rest && k == 0 ? night_street::Parts::nine : night_street::Parts::three);
-    return keyframes.emplace(k, Keyframe{as_half(v.colour), std::move(v.depth)}).first->second;
+    return keyframes.emplace(k, Keyframe{as_half(v.colour, executor), std::move(v.depth)}).first->second;
   }
 };
 
@@ -98,7 +100,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   if (!moves) {
     if (s.stands) return false;
     night_street::Street::View v = s.render(0, night_street::Parts::nine);
-    view.colour = as_half(v.colour);
+    view.colour = as_half(v.colour, s.executor);
     view.depth = std::move(v.depth);
     s.stands = true;
     return true;

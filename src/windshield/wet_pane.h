@@ -12,7 +12,7 @@
 namespace rainref::windshield {
 
 /// Rows of a tile, of the passes whose tiles are whole rows.
-inline constexpr int tile_rows = 8;
+inline constexpr int tile_rows = 4;
 
 class WetPane {
  public:
