@@ -18,6 +18,7 @@ inline puddle::Settings puddle_settings() {
   s.puddle_depth = 0.05;
   s.tint = {0, 0, 0};
   s.shore_width = 0.002;
+  s.ground_reach = 0;
   s.exposure = 0;
   s.rain_rate = 10;
   s.smallest_drop = 0.5;

@@ -157,6 +157,7 @@ ShadeUniforms shade_uniforms(const Settings& s) {
   u.background_level = 0.0f;
   // A pixel of rippled water sees a patch of the environment, not a point.
   u.mirror_level = 1.0f;
+  u.ground_reach = corrected(s) ? static_cast<float>(s.ground_reach) : 0.0f;
   u.exact_fresnel = s.exact_fresnel;
   return u;
 }

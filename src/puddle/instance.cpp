@@ -1,8 +1,12 @@
 #include "puddle/instance.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "image/flipped.h"
+#include "math/real64.h"
 #include "night_street/memory.h"
 #include "night_street/night_street.h"
 #include "puddle/evaluations.h"
@@ -13,11 +17,28 @@
 namespace rainref::puddle {
 namespace {
 
+/// Columns and rows of the panorama of the street.
+std::array<int, 2> street_size(const scene::Config& config) {
+  const int width = static_cast<int>(config.integer("environment.width"));
+  return {width, std::max(1, width / 2)};
+}
+
+/// Where the street is seen from. corrected: the camera's place in it, so that the road beyond the puddle lies where its rays meet the
+/// ground; as published, and for a camera that stands outside the street: over the middle of the puddle.
+scene::Vector3 street_eye(const Settings& s) {
+  constexpr double lowest = 0.05, widest = 7, farthest = 280;  // before the facades and the street's ends
+  const auto& [x, y, z] = s.camera_position;
+  const double c = cos_real(Real64(s.env_rotation)).v, n = sin_real(Real64(s.env_rotation)).v;
+  const scene::Vector3 eye{c * x + n * z, std::max(y, lowest), c * z - n * x};  // the shade pass's rotate
+  if (s.variant != Variant::corrected || std::abs(eye.x) > widest || std::abs(eye.z) > farthest) return {0, lowest, 0};
+  return eye;
+}
+
 Surroundings surroundings(const scene::Config& config, const parallel::Executor& executor, effect::Inputs& inputs) {
   Surroundings s;
   if (config.text("environment.image").empty()) {
-    const auto [width, height] = PictureSizes().environment;
-    s.environment = night_street::Street().panorama(width, height, {0, 0.05, 0}, executor);
+    const auto [width, height] = street_size(config);
+    s.environment = night_street::Street().panorama(width, height, street_eye(settings_from(config)), executor);
   } else {
     image_io::Picture picture = effect::read_input(config, "environment.image", inputs);
     s.environment_is_cube = config.text("environment.layout") == "cube";
@@ -43,6 +64,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
                       8 + 8 + 16,
                       6 + 6 + 12};
   PictureSizes sizes;
+  sizes.environment = street_size(config);
   if (effect::is_named(config, "environment.image"))
     sizes.environment = {1, 1};
   else

@@ -61,6 +61,10 @@ const std::vector<MemberParameter<Settings>>& members() {
                                       "Columns of the image of a natural puddle's bed; its rows follow the grid.")
           .only(correct),
       real<&Settings::shore_width>("puddle.shore_width", "m", 1e-6, 1, "Depth over which wet ground turns into water.").only(correct),
+      real<&Settings::ground_reach>("puddle.ground_reach", "1", 0, 1000,
+                                    "Extents of the puddle over which the ground around it turns into the environment's own; 0: it goes on "
+                                    "to the horizon.")
+          .only(correct),
       choice<&Settings::exact_fresnel>("puddle.fresnel", {{"exact", true}, {"schlick", false}}, "Reflectance of the surface.")
           .only(correct),
       text("puddle.ground_image", "", "Image of the ground, a tile; empty: asphalt made here."),
@@ -70,6 +74,8 @@ const std::vector<MemberParameter<Settings>>& members() {
       text("environment.image", "", "Picture of the surroundings, EXR, HDR or PNG; empty: the street at night made here."),
       choice("environment.layout", {"latlong", "cube"}, "latlong",
              "Latitude/longitude panorama, or six cube faces in a row or column (+x -x +y -y +z -z)."),
+      integer("environment.width", "texel", 64, 8192, 1024, "Columns of the panorama of the street made here; it has half as many rows.")
+          .default_for(correct, std::int64_t{2048}),
       real<&Settings::exposure>("display.exposure", "EV", -20, 20, "Exposure of the picture.").only(correct),
       real<&Settings::camera_position>("camera.position", "m", -1e5, 1e5, "Eye of the camera.").published(Real3{20, 18, 14}),
       real<&Settings::camera_target>("camera.target", "m", -1e5, 1e5, "Point that the camera looks at.").published(Real3{-6, -4, 10}),

@@ -36,7 +36,7 @@ struct GroundNoisePass {
 
 struct ShadePass {
   static constexpr pass::About about{
-      "shade", "Reflection, refraction, water and ground: linear radiance.", {1}, {1}, {"dot", "length", "normalize"}};
+      "shade", "Reflection, refraction, water and ground: linear radiance.", {1}, {2}, {"dot", "length", "normalize"}};
   using Uniforms = ShadeUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -64,7 +64,9 @@ struct ShadePass {
              member<&U::wetness>("wetness", "1", scene::share, "corrected: reflectance of the wet ground over that of water."),
              member<&U::background_level>("background_level", "1", scene::mip_level,
                                           "corrected: mip level of the environment behind the scene."),
-             member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water.")}));
+             member<&U::mirror_level>("mirror_level", "1", scene::mip_level, "corrected: mip level of the environment in the water."),
+             member<&U::ground_reach>("ground_reach", "1", {0, 1000},
+                                      "corrected: extents of the puddle over which the ground turns into the environment's; 0: never.")}));
   }
   template <class Bound>
   static std::string fault(const Bound& b) {
@@ -208,8 +210,8 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const auto hit = s.flag > half;
   if (!any(hit)) return sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
   const Vec3<N>& p = s.position;
-  const N depth = sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(bed), p.x * N(u.inverse_size[0]) + half,
-                                           p.z * N(u.inverse_size[1]) + half)[0];
+  const N across = p.x * N(u.inverse_size[0]), along = p.z * N(u.inverse_size[1]);  // within 1/2: over the puddle's rectangle
+  const N depth = sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(bed), across + half, along + half)[0];
   const N water = smoothstep(0.0f, u.shore_width, depth);
   const auto emerges = hit & (water < one);
 
@@ -251,6 +253,16 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const Vec3<N> body = albedo * Vec3<N>(u.ambient);
   Vec3<N> surface = fresnel * reflected + (one - fresnel) * body;
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
+  if (u.ground_reach > 0.0f) {
+    // The asphalt made here ends where the surroundings' own ground begins; without hit nothing is taken of this.
+    const N out_x = max(abs(across) - half, zero), out_z = max(abs(along) - half, zero);
+    const N own = smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z)));
+    const auto leaves = hit & (own > zero);
+    if (any(leaves)) {
+      const Vec3<N> beyond = sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
+      surface = select(leaves, mix(surface, beyond, own), surface);
+    }
+  }
   return select(hit, surface, reflected);
 }
 

@@ -100,7 +100,7 @@ struct ShadeUniforms {
   float wetness;           ///< corrected: reflectance of the wet ground over that of water
   float background_level;  ///< corrected: mip level of the environment behind the scene
   float mirror_level;      ///< corrected: mip level of the environment in the water
-  float padding0;
+  float ground_reach;      ///< corrected: extents of the puddle over which the ground turns into the environment's; 0: never
 };
 
 struct DisplayUniforms {

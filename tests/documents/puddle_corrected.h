@@ -155,7 +155,12 @@ inline bool shade_corrected(const Run& r, int x, int y, float* out) {
   const Float3 ambient = r.unless("ambient forgotten", r.u3("ambient"), Float3{1, 1, 1});
   const Float3 light = f * mirror + (1 - r.unless("all light enters", f, 0.0f)) * (albedo * ambient);
   const float fog = r.unless("no fog", r.u("fog_depth"), 0.0f);
-  return give(fog > 0 ? mix(r.u3("fog_colour"), light, exponential(-(fog * distance))) : light);
+  const Float3 fogged = fog > 0 ? mix(r.u3("fog_colour"), light, exponential(-(fog * distance))) : light;
+  const float reach = r.u("ground_reach");
+  if (!(reach > 0)) return give(fogged);
+  const float ox = std::max(std::abs(p.x * r.u("inverse_size", 0)) - 0.5f, 0.0f);
+  const float oz = std::max(std::abs(p.z * r.u("inverse_size", 1)) - 0.5f, 0.0f);
+  return give(mix(fogged, environment(r, rotated(r, v), r.u("background_level")), smoothstep(0, reach, std::sqrt(ox * ox + oz * oz))));
 }
 
 inline std::vector<Written> puddle_corrected_passes() {
@@ -224,6 +229,7 @@ b      = refract(v, n, 1 / 1.333);   column = max(depth, 0);   path = column / m
 albedo = checkerboard(g), or ground at g · ground_scale, level lod;   where column > 0: mix(tint, albedo, exp(−(water_turbidity · (path + column))))
 L      = F · mirror + (1 − F) · (albedo · ambient)
 colour = mix(fog_colour, L, exp(−(fog_depth · |p − eye|))) where fog_depth > 0, else L
+         where ground_reach > 0: mix(colour, environment(rotate(v)) at background_level, smoothstep(0, ground_reach, |max(|p.xz · inverse_size| − ½, 0)|))
 F       = f0 + (1 − f0) ((m² · m²) · m),  m = 1 − min(|v · n|, 1),  f0 = ((1 − 1.333) / (1 + 1.333))²
 checkerboard: k = floor(x ground_scale) + floor(z ground_scale), mix((.15, .12, .10), (.25, .22, .20), k − 2 floor(k · ½)).)"}}},
       {{"puddle-corrected"},

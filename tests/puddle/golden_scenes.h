@@ -52,6 +52,7 @@ inline std::vector<GoldenScene> golden_scenes() {
         } else {
           s.grid = {89, 57};
           s.cell_size = 0.02;
+          s.ground_reach = 0.3;
           s.rain_rate = 20;
           s.damping = 0.97;
           s.fog_depth = 0.02;

@@ -27,7 +27,7 @@ layout(std140, binding = 0) uniform ShadeUniforms {
   float wetness;              // 160  [1] corrected: reflectance of the wet ground over that of water.
   float background_level;     // 164  [1] corrected: mip level of the environment behind the scene.
   float mirror_level;         // 168  [1] corrected: mip level of the environment in the water.
-  float padding_1;            // 172  padding
+  float ground_reach;         // 172  [1] corrected: extents of the puddle over which the ground turns into the environment's; 0: never.
 } u;
 const float PI = 3.14159265358979;
 const float WATER_IOR = 1.333;

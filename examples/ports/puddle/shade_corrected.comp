@@ -69,5 +69,11 @@ void main() {
   vec3 body = albedo * u.ambient;
   vec3 light = fresnel * reflected + (1.0 - fresnel) * body;
   if (u.fog_depth > 0.0) light = mix(u.fog_colour, light, transmittance(u.fog_depth, away));
+  if (u.ground_reach > 0.0) {
+    vec2 out_of_it = max(abs(p.xz * u.inverse_size) - 0.5, vec2(0.0));
+    float own = smoothstep(0.0, u.ground_reach, length(out_of_it));
+    float sharp = u.background_level;
+    if (own > 0.0) light = mix(light, sample_environment(view, sharp), own);
+  }
   imageStore(colour, pixel, vec4(light, 1.0));
 }

@@ -27,7 +27,7 @@ struct ShadeUniforms {
   wetness : f32,                // 160  [1] corrected: reflectance of the wet ground over that of water.
   background_level : f32,       // 164  [1] corrected: mip level of the environment behind the scene.
   mirror_level : f32,           // 168  [1] corrected: mip level of the environment in the water.
-  padding_1 : f32,              // 172  padding
+  ground_reach : f32,           // 172  [1] corrected: extents of the puddle over which the ground turns into the environment's; 0: never.
 }
 @group(0) @binding(0) var<uniform> u: ShadeUniforms;
 @group(0) @binding(1) var hit_image: texture_2d<f32>;

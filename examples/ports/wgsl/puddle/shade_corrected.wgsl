@@ -68,5 +68,10 @@ fn main(@builtin(position) place: vec4f) -> @location(0) vec4f {
   let body = albedo * u.ambient;
   var light = fresnel * reflected + (1.0 - fresnel) * body;
   if (u.fog_depth > 0.0) { light = mix(u.fog_colour, light, transmittance(u.fog_depth, away)); }
+  if (u.ground_reach > 0.0) {
+    let out_of_it = max(abs(p.xz * u.inverse_size) - 0.5, vec2f(0.0));
+    let own = smoothstep(0.0, u.ground_reach, length(out_of_it));
+    if (own > 0.0) { light = mix(light, sample_environment(view, u.background_level), own); }
+  }
   return vec4f(light, 1.0);
 }
