@@ -2,6 +2,7 @@
 import json
 import os
 
+import frames
 import growth
 import plots
 import rows
@@ -72,6 +73,10 @@ def markdown(result, pictures):
         out.append(f"- Skipped: {s['peer']}{', ' + s['row'] if 'row' in s else ''}: {s['reason']}")
     if result["skipped"]:
         out.append("")
+    if whole := frames.markdown(result):
+        out += [whole]
+    if not result["rows"]:
+        return "\n".join(out)
     out += ["Beside peers, in the same run; the ratio is of medians (Embree: the median of pairs):", "", peers_table(result)]
     for name in plots.PLOTS:
         out += [f"![{name}]({pictures}{name}.svg)", ""]
@@ -80,7 +85,9 @@ def markdown(result, pictures):
 
 
 def write_plots(result, stem):
-    """Writes STEMsize.svg and the others: the text of each by its path. A run on one thread has no scaling to show."""
+    """STEMsize.svg and the others: the text of each by its path. Where no pass was measured there are none."""
+    if not result["rows"]:
+        return {}
     return {f"{stem}{name}.svg": plot(result) for name, plot in plots.PLOTS.items()}
 
 

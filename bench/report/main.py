@@ -9,6 +9,7 @@ import time
 
 import bounds
 import document
+import frames
 import growth
 import machine
 import peers
@@ -80,7 +81,7 @@ def our_rows(given, folder):
     wanted = re.compile(f"^({'|'.join(ROWS)})/")
     names = [name for name in listed if wanted.search(name) and "isa=" not in name and re.search(given.only, name)]
     if not names:
-        raise rows.Malformed(f"--only {given.only}: no row has such a name (--benchmark_list_tests prints all)")
+        return [], []
     say(f"{len(names)} rows")
     exact = "|".join(name.replace(".", "[.]") for name in names)  # names hold no other character that means something there
     subprocess.run([program, f"--benchmark_filter=^({exact})$", "--benchmark_min_time=0.0000001", f"--benchmark_out={out}"],
@@ -89,6 +90,12 @@ def our_rows(given, folder):
         found = rows.of_benchmark_file(json.load(file))
     os.remove(out)
     return found
+
+
+def thread_counts():
+    """1, 2, 4 ... and all."""
+    every = len(os.sched_getaffinity(0))
+    return sorted({*(1 << k for k in range(every.bit_length()) if 1 << k < every), every})
 
 
 def measure(given):
@@ -100,7 +107,7 @@ def measure(given):
     idle = machine.wait_until_idle(given.wait)
     watch = machine.Watch()
     ours, beside = our_rows(given, given.out)
-    counts = sorted({row["threads"] for row in ours})
+    counts = thread_counts()
     if any(row["row"].startswith("wave_step/corrected/rg32f") for row in ours):
         say("NumPy and Numba")
         found, missing = peers.waves(counts, given.peer_seconds / 2)
@@ -108,9 +115,12 @@ def measure(given):
     say("Mesa's software device")
     found, missing = peers.ports(given.build, given.out, prepared, counts[-1], given.peer_seconds)
     beside, skipped = beside + found, skipped + missing
+    whole = frames.measure(os.path.join(given.build, "bin/rainref"), given.out, thread_counts(), given.only, say)
+    if not ours and not any(whole.values()):
+        raise rows.Malformed(f"--only {given.only}: no row has such a name (--benchmark_list_tests prints those of passes)")
     idle["others_during_percent"] = watch.others_percent()
     return {"format": document.FORMAT, "version": 1, "title": given.title or f"{machine.describe()['cores']} cores", "machine": machine.describe(),
-            "idle": idle, "seconds": round(time.monotonic() - begin), "rows": ours, "peers": beside, "skipped": skipped}
+            "idle": idle, "seconds": round(time.monotonic() - begin), "rows": ours, "peers": beside, "skipped": skipped, **whole}
 
 
 def report(given, result):

@@ -13,6 +13,7 @@ import xml.etree.ElementTree as xml
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "bench/report"))
 import document  # noqa: E402
+import frames  # noqa: E402
 import growth  # noqa: E402
 import peers  # noqa: E402
 import plots  # noqa: E402
@@ -78,6 +79,33 @@ class Rows(unittest.TestCase):
     def test_goals_are_the_issues(self):
         of = {name: rows.goal({"peer": "lavapipe", "row": name + "/corrected"}) for name in ("composite", "edge_splash.splash", "rain_on_glass")}
         self.assertEqual(of, {"composite": 3.5, "edge_splash.splash": 6.0, "rain_on_glass": 3.0})
+
+
+class Frames(unittest.TestCase):
+    RUN = {"frames": [{"scene": "puddle/stress", "threads": n, "q1_ms": q, "median_ms": q, "q3_ms": 1.2 * q, "hash": "0123"}
+                      for n, q in ((1, 96.0), (16, 8.0))],
+           "starts": [{"scene": "puddle/default", "first_s": 1.5, "kept_s": 0.3}]}
+
+    def test_the_ratio_is_to_one_thread_and_a_goal_is_met_from_its_value_on(self):
+        text = frames.markdown(self.RUN)
+        self.assertIn("| `puddle/stress` | 1 | 96 | 10 % | 1.00 |  | 0123 |", text)
+        self.assertIn("| `puddle/stress` | 16 | 8 | 10 % | 12.00 | 12 met | 0123 |", text)
+        self.assertIn("| `puddle/default` | 1.50 | 0.30 | 0.3 met |", text)
+        slower = copy.deepcopy(self.RUN)
+        slower["frames"][1]["median_ms"], slower["starts"][0]["kept_s"] = 8.01, 0.31
+        self.assertEqual(frames.markdown(slower).count("**not met**"), 2)
+
+    def test_a_run_without_them_has_no_tables(self):
+        self.assertEqual(frames.markdown({"rows": []}), "")
+
+    def test_a_run_of_frames_alone_is_a_whole_report(self):
+        result = {**committed(), "rows": [], "peers": [], **self.RUN}
+        self.assertIn("puddle/stress", document.markdown(result, ""))
+        self.assertEqual(document.write_plots(result, ""), {})
+
+    def test_every_scene_is_there(self):
+        for scene in (*frames.SCENES, *(f"{effect}/default" for effect in frames.EFFECTS)):
+            self.assertTrue(os.path.isfile(os.path.join(ROOT, "scenes", scene + ".toml")), scene)
 
 
 class Documents(unittest.TestCase):

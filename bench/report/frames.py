@@ -1,0 +1,75 @@
+"""Whole frames of `rainref run` on more and more threads, and how long a default scene takes to show its first picture."""
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import time
+
+import rows
+
+SCENES = ("windshield/drive", "puddle/stress", "windshield/stress")
+EFFECTS = ("puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass")
+FRAMES, GOES = 48, 3
+GOAL_SCALING, GOAL_START = 12, 0.3  # of 16 threads over one; seconds
+
+
+def _run(rainref, folder, cache, scene, frames, more):
+    """(summary, seconds of the whole command). The cache of the user is left alone."""
+    command = [rainref, "run", f"scenes/{scene}.toml", "--frames", str(frames), "-o", folder, *more]
+    begin = time.monotonic()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache})
+    seconds = time.monotonic() - begin
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        return json.load(file), seconds
+
+
+def _quartiles(values):
+    q = statistics.quantiles(values, n=4, method="inclusive")
+    return {"q1_ms": round(q[0], 4), "median_ms": round(q[1], 4), "q3_ms": round(q[2], 4)}
+
+
+def measure(rainref, out, counts, only, say):
+    """{"frames": rows, "starts": rows}. Threads in turns, so that what else the machine does meets them alike."""
+    folder, cache = os.path.join(out, "frames-run"), os.path.join(out, "frames-cache")
+    found = {"frames": [], "starts": []}
+    try:
+        for scene in (s for s in SCENES if re.search(only, f"frames/{s}")):
+            say(f"frames/{scene}")
+            times, hashes = {n: [] for n in counts}, {}
+            _run(rainref, folder, cache, scene, 1, ["--image", "none"])  # keeps what others read
+            for n in counts * GOES:
+                summary, _ = _run(rainref, folder, cache, scene, FRAMES, ["--image", "none", "--threads", str(n)])
+                times[n].append(1e3 * summary["seconds"] / FRAMES)
+                hashes[n] = summary["last_frame"][-1]["xxh3"][:16]
+            found["frames"] += [{"scene": scene, "threads": n, **_quartiles(times[n]), "hash": hashes[n]} for n in counts]
+        for scene in (f"{e}/default" for e in EFFECTS if re.search(only, f"start/{e}/default")):
+            say(f"start/{scene}")
+            shutil.rmtree(cache, ignore_errors=True)
+            seconds = [_run(rainref, folder, cache, scene, 1, ["--image", "png"])[1] for _ in range(1 + GOES)]
+            found["starts"].append({"scene": scene, "first_s": round(seconds[0], 3), "kept_s": round(statistics.median(seconds[1:]), 3)})
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(cache, ignore_errors=True)
+    return found
+
+
+def markdown(result):
+    """The tables of a run; "" where it has none (older files)."""
+    parts, lines = [], []
+    one = {row["scene"]: row["median_ms"] for row in result.get("frames", []) if row["threads"] == 1}
+    for row in result.get("frames", []):
+        ratio = one[row["scene"]] / row["median_ms"]
+        goal = "" if row["threads"] != 16 else f"{GOAL_SCALING} {'met' if ratio >= GOAL_SCALING else '**not met**'}"
+        spread = 50 * (row["q3_ms"] - row["q1_ms"]) / row["median_ms"]
+        lines.append([f"`{row['scene']}`", str(row["threads"]), f"{row['median_ms']:.3g}", f"{spread:.0f} %", f"{ratio:.2f}", goal, row["hash"]])
+    if lines:
+        parts.append(f"Frames of scenes, {FRAMES} of them without pictures:\n\n" +
+                     rows.table(["scene", "threads", "ms a frame", "±", "over one thread", "goal", "hash"], lines))
+    lines = [[f"`{row['scene']}`", f"{row['first_s']:.2f}", f"{row['kept_s']:.2f}",
+              f"{GOAL_START:g} {'met' if row['kept_s'] <= GOAL_START else '**not met**'}"] for row in result.get("starts", [])]
+    if lines:
+        parts.append("From the command to the PNG of its first frame, all threads; \"kept\": what is the same in every run was there:\n\n" +
+                     rows.table(["scene", "first run [s]", "kept [s]", "goal"], lines))
+    return "\n".join(parts)
