@@ -58,6 +58,7 @@ struct Settings {
   std::array<double, 3> up{0, 1, 0};                      ///< against the fall of the rain, world axes; any length
   double noise_size = 0.3;                                ///< of the tile [picture heights]
   std::array<double, 2> drop_velocity{0.25, -1.0};        ///< [picture heights/s]
+  bool has_crowns = false;                                ///< crowns that rise and fall in place of the scrolling noise
 
   std::array<double, 3> camera_position{0.15, 1.25, 1.2}, camera_target{-0.35, 0.75, -6}, camera_up{0, 1, 0};
   double vertical_fov_deg = 50;
@@ -73,7 +74,7 @@ struct Inputs {
   bool colour_is_encoded = false;  ///< 8-bit codes are sRGB; else every number is linear radiance
   Image depth;                     ///< the first channel, of the colour's size
   bool depth_is_distance = false;  ///< metres along the view axis, else device depth in Settings::depth
-  Image noise;                     ///< the first channel, a tile; empty: gradient noise made here
+  Image noise;                     ///< the first channel, a tile; empty: gradient noise or crowns made here
   Image layer;                     ///< corrected: the first channel, 1 where splashes may be; empty: everywhere
 };
 

@@ -32,6 +32,7 @@ struct EdgeSplash::State {
   Settings settings;
   const parallel::Executor& executor;
   bool corrected;
+  bool makes_crowns;  // anew for each frame
   int frame = 0;
   Image scene, depth_image, layer, noise_image;
   TextureData depth, noise_map;
@@ -43,19 +44,28 @@ struct EdgeSplash::State {
       : settings(with_size(s, in.colour)),
         executor(e),
         corrected(s.variant == Variant::corrected),
+        makes_crowns(corrected && s.has_crowns && in.noise.empty()),
         scene(prepare_scene(in)),
         depth_image(prepare_depth(in, s.depth)),
         layer(prepare_layer(in)),
-        noise_image(prepare_noise(in, s)) {
+        noise_image(makes_crowns ? Image() : prepare_noise(in, s)) {
+    settings.has_crowns = makes_crowns;
     decode_depth();
     const Address tile = corrected ? Address::repeat : Address::border;
-    noise_map = TextureData(noise_image, tile, tile);
+    if (makes_crowns)
+      show_crowns(0);
+    else
+      noise_map = TextureData(noise_image, tile, tile);
     for (Image* mask : {&edge, &angle, &noise}) *mask = Image(Format::r8, settings.width, settings.height);
     colour = Image(Format::rgba16f, settings.width, settings.height);
     picture = Image(Format::rgba8, settings.width, settings.height);
     display = pass::display_table(settings.width, settings.height, settings.exposure, settings.rounding);
     const std::string seam = in.noise.empty() ? "" : seam_warning(in.noise);
     if (!seam.empty()) warnings.push_back(seam);
+  }
+  void show_crowns(double time) {
+    noise_image = make_crowns(settings.seed, time);
+    noise_map = TextureData(noise_image, Address::repeat, Address::repeat);
   }
   void decode_depth() {
     const Address edges = corrected ? Address::clamp : Address::border;
@@ -82,6 +92,7 @@ void EdgeSplash::render(Recorder* recorder) {
   const Rounding rounding = s.settings.rounding;
   const int frame = std::max(0, s.frame - 1);
   const pass::Moment now{recorder, frame, 0, frame / s.settings.fps, 1 / s.settings.fps, rounding};
+  if (s.makes_crowns) s.show_crowns(frame / s.settings.fps);
   const auto bound = [&](auto io) {
     io.scene = s.scene;
     io.depth = s.depth.view();

@@ -127,6 +127,7 @@ SplashUniforms splash_uniforms(const Settings& s, int frame, int noise_width, in
   const double tiles = 1 / (s.noise_size * s.height);  // a texel of the noise is square
   u.noise_scale[0] = static_cast<float>(tiles * noise_height / noise_width);
   u.noise_scale[1] = static_cast<float>(tiles);
+  if (s.has_crowns) return u;  // they stay where they hit
   u.noise_offset[0] = static_cast<float>(scrolled(-s.drop_velocity[0] / s.noise_size * noise_height / noise_width, frame, s.fps));
   u.noise_offset[1] = static_cast<float>(scrolled(-s.drop_velocity[1] / s.noise_size, frame, s.fps));
   return u;

@@ -35,4 +35,8 @@ std::string seam_warning(const Image& noise);
 /// A tile of gradient noise, side x side, r8: what the article's online tool gave.
 Image make_noise(std::uint64_t seed, int side = 256);
 
+inline constexpr int crown_side = 512;
+/// A tile of splash crowns as they stand at this time [s], side x side, r32f: 0 where there is none, up to 1.
+Image make_crowns(std::uint64_t seed, double time, int side = crown_side);
+
 }  // namespace rainref::edge_splash

@@ -1,6 +1,7 @@
 #include "edge_splash/memory.h"
 
 #include "base/floating_point.h"
+#include "edge_splash/host.h"
 #include "image/memory.h"
 
 namespace rainref::edge_splash {
@@ -10,7 +11,11 @@ MemoryPeak memory(const Settings& s, int noise_side) {
   MemoryPeak m;
   m.hold(image(Format::rgba16f) + image(Format::r32f) + image(Format::r8));  // scene, depth, layer
   const std::uint64_t map = Image::memory_bytes(Format::r8, noise_side, noise_side);
-  if (s.variant == Variant::corrected) {
+  if (s.variant == Variant::corrected && s.has_crowns) {
+    const std::uint64_t crowns = Image::memory_bytes(Format::r32f, crown_side, crown_side);
+    m.hold(crowns + texel_bytes(crown_side, crown_side, 1));
+    m.pass(crowns + texel_bytes(crown_side, crown_side, 1));  // those of the next frame
+  } else if (s.variant == Variant::corrected) {
     m.hold(2 * map);
     MemoryPeak halved;
     halved.hold(texel_bytes(noise_side, noise_side, 1));

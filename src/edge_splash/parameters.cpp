@@ -43,6 +43,10 @@ std::vector<MemberParameter<Settings>> made() {
       real<&Settings::up>("edge_splash.up", "1", -1, 1, "Where the rain comes from, world axes.").only(correct),
       real<&Settings::noise_size>("edge_splash.noise_size", "picture height", 0.01, 100, "Height of the noise tile.").only(correct),
       real<&Settings::drop_velocity>("edge_splash.drop_velocity", "picture height/s", -1000, 1000, "Velocity of the noise.").only(correct),
+      choice<&Settings::has_crowns>("edge_splash.splashes", {{"noise", false}, {"crowns", true}},
+                                    "What the drops are where no noise map is named: a scrolling noise, or crowns that rise, fall and "
+                                    "thin out where they hit.")
+          .only(correct),
       // The picture.
       choice("scene.source", {"shapes", "street", "files"}, "shapes",
              "A mine track in fog, the street at night, both made here, or the files below."),

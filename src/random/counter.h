@@ -39,7 +39,8 @@ enum class Purpose : std::uint32_t {
   screen_noise = 60,
   screen_layer = 61,
   screen_cell = 62,
-  screen_drop = 63
+  screen_drop = 63,
+  splash_crown = 64
 };
 
 /// The block of (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.

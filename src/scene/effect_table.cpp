@@ -38,6 +38,8 @@ std::vector<Parameter> scene_parameters(const Effect& effect, const EffectTable&
       integer("run.frames", "frame", 1, 1000000, 60, "Number of frames to simulate."),
       real("run.fps", "1/s", 1, 1000, 60, "Frames in a second of simulated time."),
       integer2("run.size", "texel", 1, 65536, {1280, 720}, "Width and height of the picture."),
+      integer("run.supersample", "1", 1, 4, 1,
+              "Passes run at this many times run.size in both directions, and the picture is the mean of theirs, weighed by a tent."),
   };
   out.insert(out.end(), effect.parameters.begin(), effect.parameters.end());
   validate(out, effect.variants);

@@ -10,6 +10,7 @@
 #include "rainref/error.h"
 #include "registry/registry.h"
 #include "simulation/picture_notes.h"
+#include "simulation/supersampling.h"
 
 namespace rainref::simulation {
 namespace {
@@ -62,16 +63,23 @@ scene::Config config_of_passes(const scene::Config& config) {
   return scene::Config(std::move(entries), config.directory());
 }
 
-effect::RunMemory memory_of(const scene::Config& config) {
+effect::RunMemory memory_of(const scene::Config& scene) {
+  const scene::Config config = config_at_pass_size(scene);
   effect::RunMemory memory = registry::find(config.effect())->memory(config);
   if (const truth::EffectTracing* tracing = truth::tracing_of(config.effect())) tracing->hold(memory, config);
+  if (const std::uint64_t n = static_cast<std::uint64_t>(scene.integer("run.supersample")); n > 1)
+    memory.peak.hold(image_bytes(memory, Format::rgba8) / (n * n));
   return memory;
 }
 
 Opened::Opened(scene::Config config, const parallel::Executor& executor)
-    : config_(std::move(config)), executor_(executor), effect_(fitting(config_)) {
+    : config_(std::move(config)),
+      pass_config_(config_at_pass_size(config_)),
+      executor_(executor),
+      effect_(fitting(config_)),
+      samples_(static_cast<int>(config_.integer("run.supersample"))) {
   const FloatingPointGuard guard;
-  instance_ = effect_.open(config_, executor_, inputs_);
+  instance_ = effect_.open(pass_config_, executor_, inputs_);
   is_traced_ = truth::choice_from(config_).is_traced;
   if (is_traced_) has_truth();
 }
@@ -85,6 +93,7 @@ void Opened::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   instance_->render(recorder);
   if (is_traced_ && is_shown_) tracing_->trace(instance_->frame() - 1, recorder);
+  if (samples_ > 1 && is_shown_) mean_ = tent_mean(picture_of_passes(), samples_, executor_);
 }
 
 void Opened::skip(Recorder* recorder) {
@@ -99,7 +108,7 @@ std::vector<PassOutput> Opened::buffers() const {
 
 image_io::Notes Opened::notes() const {
   const FloatingPointGuard guard;
-  return picture_notes(config_, inputs_, frame() - 1, picture());
+  return picture_notes(config_, inputs_, frame() - 1, picture_of_passes());
 }
 std::vector<std::byte> Opened::png_bytes() const { return image_io::png_bytes(flipped(picture()), image_io::PngChannels::rgb, notes()); }
 void Opened::write_png(const std::filesystem::path& path) const {
@@ -116,7 +125,7 @@ void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
 bool Opened::has_truth() {
   const FloatingPointGuard guard;
   const truth::EffectTracing* how = truth::tracing_of(effect_.name);
-  if (!tracing_ && how) tracing_ = how->make(config_, *instance_, executor_);
+  if (!tracing_ && how) tracing_ = how->make(pass_config_, *instance_, executor_);
   return tracing_ != nullptr;
 }
 

@@ -51,7 +51,8 @@ class Opened {
   /// The same of a scene that differs in `key`, which is named where its state does not fit.
   void carry_over(const state::Saved& saved, const std::string& key);
 
-  const Image& picture() const { return is_traced_ ? tracing_->shown() : instance_->picture(); }
+  /// Of run.size: where the passes run at a multiple of it, the filtered mean of theirs.
+  const Image& picture() const { return samples_ > 1 ? mean_ : picture_of_passes(); }
   std::vector<PassOutput> buffers() const;
   /// What the files of the picture say of it.
   image_io::Notes notes() const;
@@ -65,13 +66,17 @@ class Opened {
   truth::Comparison compare_truth();
 
  private:
-  scene::Config config_;
+  const Image& picture_of_passes() const { return is_traced_ ? tracing_->shown() : instance_->picture(); }
+
+  scene::Config config_, pass_config_;  // as the scene says, and at the size that passes run at
   const parallel::Executor& executor_;
   const effect::Effect& effect_;
   effect::Inputs inputs_;
   std::unique_ptr<effect::Instance> instance_;
   std::unique_ptr<truth::Tracing> tracing_;  // made when something is traced
   bool is_traced_ = false, is_shown_ = true, has_written_maps_ = false;
+  int samples_ = 1;  // run.supersample
+  Image mean_;
 };
 
 }  // namespace rainref::simulation

@@ -83,9 +83,9 @@ TEST(Config, IteratesInTheOrderOfDeclarationOverWhatTheVariantUses) {
   std::vector<std::string> keys;
   const Config c = example();
   for (const Config::Entry& e : c.entries()) keys.push_back(e.parameter.key);
-  EXPECT_THAT(keys,
-              testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "puddle.damping", "puddle.drop_count",
-                                   "puddle.wave_speed", "puddle.blend", "puddle.ground", "puddle.extent", "camera.position"));
+  EXPECT_THAT(keys, testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "run.supersample",
+                                         "puddle.damping", "puddle.drop_count", "puddle.wave_speed", "puddle.blend", "puddle.ground",
+                                         "puddle.extent", "camera.position"));
 }
 
 TEST(Config, CanonicalTextListsEveryValue) {
@@ -95,6 +95,7 @@ seed = 9223372036854775807
 run.frames = 60
 run.fps = 60.0
 run.size = [640, 480]
+run.supersample = 1
 puddle.damping = 0.96
 puddle.drop_count = 10
 puddle.wave_speed = 0.25
@@ -129,7 +130,7 @@ TEST(Config, RealsSurviveTheRoundTripBitForBit) {
 TEST(Config, JsonHasEveryKeyInOrder) {
   EXPECT_EQ(config_json(example()).dump(),
             R"({"effect":"puddle","variant":"corrected","seed":9223372036854775807,"run.frames":60,"run.fps":60.0,)"
-            R"("run.size":[640,480],"puddle.damping":0.96,"puddle.drop_count":10,"puddle.wave_speed":0.25,)"
+            R"("run.size":[640,480],"run.supersample":1,"puddle.damping":0.96,"puddle.drop_count":10,"puddle.wave_speed":0.25,)"
             R"("puddle.blend":"add","puddle.ground":"tiles \"x\".png","puddle.extent":[2.0,1.0],)"
             R"("camera.position":[0.1,2.0,-3e-07]})");
 }

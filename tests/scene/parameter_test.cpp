@@ -130,9 +130,10 @@ TEST(EffectTable, SceneParametersBeginWithTheCommonOnes) {
   const EffectTable table = example_effects();
   std::vector<std::string> keys;
   for (const Parameter& p : scene_parameters(table.find("puddle"), table)) keys.push_back(p.key);
-  ASSERT_EQ(keys.size(), 6 + puddle_parameters().size());
-  keys.resize(7);
-  EXPECT_THAT(keys, testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "puddle.damping"));
+  ASSERT_EQ(keys.size(), 7 + puddle_parameters().size());
+  keys.resize(8);
+  EXPECT_THAT(keys,
+              testing::ElementsAre("effect", "variant", "seed", "run.frames", "run.fps", "run.size", "run.supersample", "puddle.damping"));
 }
 
 TEST(EffectTable, SceneParametersRefuseAnEffectThatRedeclaresACommonOne) {
