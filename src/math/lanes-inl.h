@@ -102,9 +102,9 @@ struct Lanes {
   friend HWY_INLINE HWY_ATTR Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
   friend HWY_INLINE HWY_ATTR Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
-  // b < a ? b : a and a < b ? b : a, which MINPS and MAXPS compute exactly, signed zeros included. Other targets' own
-  // minimum and maximum differ there.
-#if HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86
+  // b < a ? b : a and a < b ? b : a, which MINPS and MAXPS compute exactly, signed zeros included, and so do pmin and pmax
+  // of WebAssembly. Other targets' own minimum and maximum differ there.
+#if HWY_TARGET == HWY_WASM || (HWY_TARGET <= HWY_SSSE3 && HWY_ARCH_X86)
   friend HWY_INLINE HWY_ATTR Lanes min(Lanes a, Lanes b) { return hn::Min(b.v, a.v); }
   friend HWY_INLINE HWY_ATTR Lanes max(Lanes a, Lanes b) { return hn::Max(b.v, a.v); }
 #else

@@ -5,18 +5,21 @@
 // (c_library.js) and progress(...values) calls onProgress. They keep what they need between calls in variables of their module.
 // Several engines share one compiled module.
 
-let compiled = null;
-/// The WebAssembly module, downloaded and compiled once for the page.
-export function loadLibrary() {
-  compiled ??= (async () => {
-    const url = new URL("rainref_module.wasm", import.meta.url), answer = await fetch(url);
+const compiled = new Map();
+/// The WebAssembly module of that name, downloaded and compiled once for the page: rainref_module is the library, rainref_simulator what of it
+/// simulates, which is smaller.
+export function loadLibrary(name = "rainref_module") {
+  if (compiled.has(name)) return compiled.get(name);
+  const loaded = (async () => {
+    const url = new URL(`${name}.wasm`, import.meta.url), answer = await fetch(url);
     if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
     // A server that does not know the type still gives the bytes.
     if (answer.headers.get("content-type") === "application/wasm") return WebAssembly.compileStreaming(answer);
     return WebAssembly.compile(await answer.arrayBuffer());
   })();
-  compiled.catch(() => { compiled = null; });  // the next call tries again
-  return compiled;
+  compiled.set(name, loaded);
+  loaded.catch(() => compiled.delete(name));  // the next call tries again
+  return loaded;
 }
 
 /// What calls fail with that were under way when cancel() was called.
@@ -29,19 +32,22 @@ export class Cancelled extends Error {
 
 export class Engine {
   #operations;
+  #library;
   #worker = null;
   #waiting = new Map();
   #next = 0;
   #ended = 0;  // how often the worker was
 
-  /// `operations`: a script beside this one.
-  constructor(operations) {
+  /// `operations`: a script beside this one; `library`: as loadLibrary takes it.
+  constructor(operations, library = "rainref_module") {
     this.#operations = operations;
+    this.#library = library;
   }
+  get library() { return this.#library; }
 
   /// Loads the library; the first run does so too.
   async start() {
-    const module = await loadLibrary();
+    const module = await loadLibrary(this.#library);
     if (this.#worker) return;
     const worker = this.#worker = new Worker(new URL("engine_worker.js", import.meta.url));
     worker.onmessage = ({data}) => {
@@ -53,7 +59,7 @@ export class Engine {
       else call.resolve(data.result);
     };
     worker.onerror = event => this.#end(new Error(event.message ?? "the worker could not be started"));
-    worker.postMessage({module, operations: new URL(this.#operations, import.meta.url).href});
+    worker.postMessage({module, glue: `${this.#library}.js`, operations: new URL(this.#operations, import.meta.url).href});
   }
 
   /// Calls an operation, one after the other. Rejects with what it threw (with `code` where the library said so), or Cancelled.

@@ -1,9 +1,8 @@
 // The worker of engine.js: instantiates the library, imports the page's operations, and answers one call after the other. A classic worker,
-// because rainref_module.js is a classic script.
-importScripts("rainref_module.js");
-
+// because what Emscripten writes beside the library is a classic script.
 let ready = null;
-async function start({module, operations}) {
+async function start({module, glue, operations}) {
+  importScripts(glue);
   const [{CLibrary}, script] = await Promise.all([import("./c_library.js"), import(operations)]);
   const instance = await createRainref({
     instantiateWasm: (imports, given) => {

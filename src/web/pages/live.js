@@ -47,6 +47,7 @@ function showFrame(shown) {
   part("state").textContent = `frame ${run.frame}, ${width} x ${height}, ${shown.milliseconds.toFixed(0)} ms${rate}`;
   const hasLines = shown.lines !== undefined;
   part("no-hashes").hidden = hasLines;
+  part("hashes").hidden = !hasLines;
   part("no-hashes").textContent = hasLines ? "" : "This frame's buffers went to the port and were not hashed. The next step has its lines again.";
   const rows = (shown.lines ?? []).map(line => {
     const row = document.createElement("tr"), [, ...cells] = line.split(" ");
@@ -66,27 +67,39 @@ function framesPerSecond() {
   return span > 0 ? 1000 * (shownTimes.length - 1) / span : Infinity;
 }
 
-async function step() {
-  showError("run-error", null);
+/// The next frame; null where it failed, which is said.
+async function computed() {
   try {
-    const shown = await whileBusy("Computing a frame…", () => run.step());
-    shownTimes = [...shownTimes.slice(-19), performance.now()];
-    showFrame(shown);
-    return true;
+    return await whileBusy("Computing a frame…", () => run.step());
   } catch (error) {
     if (error.name !== "Cancelled") showError("run-error", error);
-    return false;
+    return null;
   }
 }
+function showNext(shown) {
+  shownTimes = [...shownTimes.slice(-19), performance.now()];
+  showFrame(shown);
+}
+async function step() {
+  showError("run-error", null);
+  const shown = await computed();
+  if (shown) showNext(shown);
+  return shown !== null;
+}
+/// The worker makes the next frame while this one is drawn, unless that would be faster than the scene is meant.
 async function play() {
+  showError("run-error", null);
   shownTimes = [];
-  const fps = Number(run.values.get("run.fps") ?? 60);
-  while (playing) {
-    const begin = performance.now();
-    if (!await step()) break;
-    // A scene is not shown faster than it is meant.
-    const left = 1000 / fps - (performance.now() - begin);
-    await new Promise(done => left > 4 ? setTimeout(done, left) : requestAnimationFrame(done));
+  const period = 1000 / Number(run.values.get("run.fps") ?? 60);
+  let due = performance.now(), coming = computed();
+  for (let shown; coming && (shown = await coming);) {
+    due = Math.max(due + period, performance.now());
+    const left = document.hidden ? 500 : due - performance.now();
+    coming = playing && left < 1 ? computed() : null;
+    showNext(shown);
+    if (coming || !playing) continue;
+    await new Promise(done => setTimeout(done, left));
+    if (playing) coming = computed();
   }
   setPlaying(false);
 }

@@ -87,7 +87,7 @@ export class Comparison {
       differing += differingOf(bytes, verdict.outputs[k][output], elementBytes);
     }));
     part("counts").textContent = `under ${profile}, frame ${this.#run.frame}, ${count(cases.length, "run", "runs")} of the pass: `
-      + `${count(differing, "texel or record differs", "texels or records differ")} in bits of ${texels.toLocaleString("en")}, `
+      + `${differing.toLocaleString("en")} of ${count(texels, "texel or record", "texels or records")} ${differing === 1 ? "differs" : "differ"} in bits, `
       + `${count(verdict.outside, "channel is", "channels are")} outside what the profile allows.${verdict.reason ? ` ${verdict.reason}` : ""}`;
     const images = this.#outcome.entry.oneCase.outputs.filter(buffer => buffer.format !== "records");
     part("output").replaceChildren(...images.map(({name}) => Object.assign(document.createElement("option"), {textContent: name})));

@@ -6,7 +6,9 @@ export function shownGallery(root, scenes, open) {
     const button = document.createElement("button"), image = new Image(480, 270), words = document.createElement("span");
     Object.assign(image, {src: picture, alt: "", loading: "lazy"});
     words.className = "words";
-    words.append(Object.assign(document.createElement("b"), {textContent: path.replace(/\.toml$/, "")}), sentence);
+    const name = document.createElement("b"), [effect, scene] = path.replace(/\.toml$/, "").split("/");
+    name.append(`${effect}/`, document.createElement("wbr"), scene);
+    words.append(name, sentence);
     if (keys.length > 0) words.append(Object.assign(document.createElement("span"), {className: "keys-set dim", textContent: keys.join(", ")}));
     button.type = "button";
     button.dataset.scene = path;

@@ -66,6 +66,35 @@ export function set(library, {key, value}) {
   return info(library);
 }
 
+/// What the simulation holds between frames: bytes, which `load` takes for the same scene.
+export function save(library) {
+  const {module} = library, parts = [];
+  const write = module.addFunction((user, at, count) => { parts.push(library.bytes(at, count)); return 0; }, "iiii");
+  try {
+    library.call("rr_save", opened(library), write, 0);
+  } finally {
+    module.removeFunction(write);
+  }
+  const state = new Uint8Array(parts.reduce((sum, part) => sum + part.length, 0));
+  parts.reduce((at, part) => (state.set(part, at), at + part.length), 0);
+  return {result: state, transfer: [state.buffer]};
+}
+export function load(library, {state}) {
+  const {module} = library;
+  let at = 0;
+  const read = module.addFunction((user, to, count) => {
+    const part = state.subarray(at, at + count);
+    module.HEAPU8.set(part, to);
+    at += part.length;
+    return BigInt(part.length);
+  }, "jiii");
+  try {
+    library.call("rr_load", opened(library), read, 0);
+  } finally {
+    module.removeFunction(read);
+  }
+}
+
 /// The next frame: {lines, milliseconds, width, height, picture}; picture: RGBA of 8 bits, top row first.
 export function step(library) {
   const begin = performance.now();

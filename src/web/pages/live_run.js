@@ -7,8 +7,13 @@ const patience = 700;
 /// Pictures that "automatic" chooses among, and the longest that a frame should take [ms].
 const sizes = [[960, 540], [640, 360], [320, 180]], longest = 125;
 
+/// As live_operations.js takes a scene.
+const asOpened = (scene, sets, pixels) => (
+  {...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(pixels ? [`run.size=[${pixels.join(", ")}]`] : [])]});
+
 export class LiveRun {
-  #engine = new Engine("live_operations.js");
+  #engine = new Engine("live_operations.js", "rainref_simulator");
+  #pixels = null;  // of the open scene's picture; null: its own
   #last = Promise.resolve();
   #stepBegan = null;
   #measured = new Map();  // scene and variant to the size that "automatic" chose
@@ -73,6 +78,7 @@ export class LiveRun {
     return this.#inTurn(async () => {
       this.#stepBegan = performance.now();
       try {
+        if (pass !== null) await this.#takeJudge();
         const shown = pass === null ? await this.#engine.run("step") : await this.#engine.run("stepWithCases", {pass});
         ++this.frame;
         return shown;
@@ -106,8 +112,7 @@ export class LiveRun {
   async #open(scene, sets, size) {
     const key = [scene.file, scene.text.length, sets.get("variant")].join("|");
     let chosen = size === "automatic" ? this.#measured.get(key) ?? sizes[1] : size === "scene" ? null : size.split("x").map(Number);
-    const open = () => this.#engine.run("open", {
-      ...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(chosen ? [`run.size=[${chosen.join(", ")}]`] : [])]});
+    const open = () => this.#engine.run("open", asOpened(scene, sets, chosen));
     let info = await open();
     if (size === "automatic" && !this.#measured.has(key)) {
       const best = await this.#sizeFor(chosen);
@@ -118,7 +123,17 @@ export class LiveRun {
     Object.assign(this, {sets, frame: -1, changedLate: false});
     this.#scene = scene;
     this.#size = size;
+    this.#pixels = chosen;
     this.#took(info);
+  }
+  /// The library with its judge goes on where the smaller one stands.
+  async #takeJudge() {
+    if (this.#engine.library === "rainref_module") return;
+    const judging = new Engine("live_operations.js"), state = await this.#engine.run("save");
+    await judging.run("open", asOpened(this.#scene, this.sets, this.#pixels));
+    await judging.run("load", {state}, {transfer: [state.buffer]});
+    this.#engine.cancel();
+    this.#engine = judging;
   }
   /// The size for this machine: frames 1 and 2 of the open scene are timed; frame 0 makes things that later ones keep.
   async #sizeFor([width, height]) {
