@@ -26,6 +26,7 @@
 #include "reports/figures.h"
 #include "scene/unexercised.h"
 #include "simulation/opened.h"
+#include "simulation/picture_notes.h"
 
 namespace rainref::cli {
 namespace {
@@ -132,7 +133,7 @@ class Packing {
         info_(*registry::find(config.effect())->info),
         passes_(std::move(passes)),
         frames_(frames),
-        unexercised_(scene::unexercised_in(options.scene.scene)) {
+        unexercised_(scene::unexercised(simulation::scene_text(options.scene.scene), options.scene.scene.string())) {
     for (const auto& [pass, alternatives] : unexercised_)
       if (const std::vector<std::string> all = info_.pass_names(config.variant()); std::find(all.begin(), all.end(), pass) == all.end())
         throw Error(ExitCode::usage, fmt::format("{}: unexercised.{}: expected a pass of this variant{}", options.scene.scene.string(),

@@ -114,15 +114,20 @@ void check(const RunOptions& options, int frames) {
   if (options.capture != RunOptions::none && (options.checkpoint_every > 0 || options.resume))
     throw Error(ExitCode::usage,
                 "--capture: expected neither --checkpoint-every nor --resume beside it: its folder appears whole, at the end");
+  // Without --every there is the last frame.
+  const auto has_frame = [&](int every) { return (frames - 1) / every * every >= options.first; };
+  const auto refuse = [&](const char* option, int every) {
+    throw Error(ExitCode::usage, fmt::format("{}: expected a frame to show, found none from {} to {} that {} divides", option,
+                                             options.first, frames - 1, every));
+  };
+  if (options.every > 0 && (options.png || options.exr) && !has_frame(options.every)) refuse("--every", options.every);
   if (options.film.empty()) return;
   if (options.checkpoint_every > 0 || options.resume)
     throw Error(
         ExitCode::usage,
         "--film: expected neither --checkpoint-every nor --resume beside it: ffmpeg cannot go on with a film; write pictures, or run "
         "a sweep with chunks");
-  if (const int every = std::max(options.every, 1); (frames - 1) / every * every < options.first)
-    throw Error(ExitCode::usage, fmt::format("--film: expected a frame to show, found none from {} to {} that {} divides", options.first,
-                                             frames - 1, every));
+  if (const int every = std::max(options.every, 1); !has_frame(every)) refuse("--film", every);
 }
 FilmRate film_rate(const RunOptions& options, const scene::Config& config) { return {config.real("run.fps"), std::max(options.every, 1)}; }
 

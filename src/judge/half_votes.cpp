@@ -39,9 +39,12 @@ HalfMode port_rounding(const std::vector<HalfVotes>& passes) {
       failing_passes += p.failing[k] > 0;
       failing += p.failing[k];
     }
-    return std::tuple(failing_passes, failing);
+    return std::pair(failing_passes, failing);
   };
-  return voter->modes[against(1) < against(0) ? 1 : 0];
+  const auto [passes_0, failing_0] = against(0);
+  const auto [passes_1, failing_1] = against(1);
+  const bool is_second = passes_1 != passes_0 ? passes_1 < passes_0 : 10 * failing_1 <= 9 * failing_0 && failing_1 < failing_0;
+  return voter->modes[is_second ? 1 : 0];
 }
 
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile) {
@@ -49,7 +52,9 @@ FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>&
   // A pass without a vote may be all that there is.
   const HalfMode votes = port_rounding(passes), port = votes == HalfMode::either ? pass.modes[0] : votes;
   const std::size_t own = place(pass, port), other = 1 - own;
-  const std::size_t found = pass.failing[other] < pass.failing[own] ? other : own;
+  // What fails either way says nothing of stores.
+  const bool fits_better = pass.failing[other] < pass.failing[own] && (pass.failing[other] == 0 || pass.rounds_inside);
+  const std::size_t found = fits_better ? other : own;
   // Stores of one device round one way. Only when both ways fail and a mixture does not is it a mixture.
   if (pass.modes.size() == 3 && pass.failing[found] > 0 && pass.failing[2] == 0)
     return {2, "some stores to binary16 round to nearest and some toward zero"};

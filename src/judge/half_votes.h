@@ -20,7 +20,7 @@ struct HalfVotes {
   bool rounds_inside = false;
 };
 
-/// The rounding under which fewest passes fail; of equals that with fewest failing invocations, then the first.
+/// The rounding under which fewest passes fail; of equals the first, unless the second has a tenth fewer failing invocations.
 HalfMode port_rounding(const std::vector<HalfVotes>& passes);
 
 /// The rounding that a pass is judged by, and what is to be said of it.
@@ -28,7 +28,8 @@ struct FoundRounding {
   std::size_t mode = 0;  ///< of HalfVotes::modes
   std::string doubt;     ///< "": none
 };
-/// The port's where the pass fits it; else the other, or a mixture, where it fits that; else that with fewest failures.
+/// The port's where the pass fits it; else the other, or a mixture, where it fits that; else the port's. A pass that rounds inside: else
+/// that with fewest failures.
 /// `asked`: what the profile asks for, or `either`.
 FoundRounding pass_rounding(const HalfVotes& pass, const std::vector<HalfVotes>& passes, HalfMode asked, const std::string& profile);
 

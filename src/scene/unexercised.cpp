@@ -4,7 +4,7 @@
 
 #include "rainref/error.h"
 #include "scene/check.h"
-#include "scene/toml.h"
+#include "scene/toml_reader.h"
 
 namespace rainref::scene {
 namespace {
@@ -37,7 +37,5 @@ Unexercised unexercised(std::string_view toml, const std::string& file) {
     if (is_unexercised(raw.key)) take_unexercised(raw, out);
   return out;
 }
-
-Unexercised unexercised_in(const std::filesystem::path& scene) { return unexercised(read_scene(scene), scene.string()); }
 
 }  // namespace rainref::scene

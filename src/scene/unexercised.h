@@ -19,7 +19,5 @@ bool is_unexercised(std::string_view key);
 void take_unexercised(const RawEntry& raw, Unexercised& to);
 /// All of a text's; other tables are passed over. Throws as read_toml and take_unexercised.
 Unexercised unexercised(std::string_view toml, const std::string& file);
-/// Of a scene file.
-Unexercised unexercised_in(const std::filesystem::path& scene);
 
 }  // namespace rainref::scene

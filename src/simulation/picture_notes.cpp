@@ -4,6 +4,7 @@
 #include <fstream>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "capture/hashing.h"
 #include "rainref/error.h"
 #include "rainref/version.h"
+#include "scene/toml.h"
 #include "scene/value_text.h"
 
 namespace rainref::simulation {
@@ -84,6 +86,11 @@ std::optional<SceneOfPicture> scene_of_picture(const std::filesystem::path& file
         ExitCode::usage,
         fmt::format("{}: expected a scene, or a picture with the scene in it as rainref writes them; found a picture without", name));
   return SceneOfPicture{std::move(*scene), image_io::find_note(name, bytes, generation_key).value_or("")};
+}
+
+std::string scene_text(const std::filesystem::path& file) {
+  if (auto made = scene_of_picture(file)) return std::move(made->toml);
+  return scene::read_scene(file);
 }
 
 }  // namespace rainref::simulation

@@ -27,5 +27,7 @@ struct SceneOfPicture {
   std::string toml, golden_generation;
 };
 std::optional<SceneOfPicture> scene_of_picture(const std::filesystem::path& file);
+/// The text of a scene file, or of the scene in a picture that rainref wrote. Throws as scene_of_picture and scene::read_scene.
+std::string scene_text(const std::filesystem::path& file);
 
 }  // namespace rainref::simulation

@@ -13,6 +13,7 @@
 #include "scene/toml_reader.h"
 #include "scene/value_text.h"
 #include "simulation/opened.h"
+#include "simulation/picture_notes.h"
 #include "sweep/axes.h"
 
 namespace rainref::sweep {
@@ -72,7 +73,7 @@ Cells::Cells(const Plan& plan) : plan_(plan) {
   const bool is_judging = plan.verb == Verb::validate || plan.verb == Verb::mutate;
   for (const Placed& file : plan.scenes) {
     try {
-      scenes_.push_back(scene::read_toml(scene::read_scene(file.text), file.text));
+      scenes_.push_back(scene::read_toml(simulation::scene_text(file.text), file.text));
     } catch (const Error& e) {
       if (e.code() != ExitCode::io) throw;
       throw Error(e.code(), file.at, fmt::format("scene: {}", e.what()));
@@ -163,7 +164,7 @@ void Cells::add_simulated(Cell point) {
   if (plan_.verb == Verb::pack) {
     text +=
         fmt::format("scene {} {}\nframes {}\nat {}\npasses {}\n", std::filesystem::path(plan_.scenes[point.scene].text).filename().string(),
-                    id_of(scene::read_scene(plan_.scenes[point.scene].text)), point.frames, fmt::join(plan_.pack.at, " "),
+                    id_of(simulation::scene_text(plan_.scenes[point.scene].text)), point.frames, fmt::join(plan_.pack.at, " "),
                     fmt::join(plan_.pack.passes, " "));
     point.end = point.frames;
     point.id = id_of("pack\n" + text);

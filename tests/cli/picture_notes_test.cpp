@@ -105,6 +105,21 @@ TEST_F(PictureNotes, APictureIsASceneThatMakesItAgain) {
   EXPECT_EQ(note("changed/puddle.0001.png", "seed"), "4");
 }
 
+// They read the picture's bytes as TOML.
+TEST_F(PictureNotes, APictureIsPackedAndSweptAsAnyScene) {
+  run({"corrected.toml", "-o", "o", "--image", "both", "--frames", "4"});
+  fs::copy_file(folder / "sky.png", folder / "o/sky.png");
+  for (const std::string picture : {"o/puddle.0003.png", "o/puddle.0003.exr"}) {
+    SCOPED_TRACE(picture);
+    const Outcome packed = run_rainref(folder.path(), {"pack", picture, "-o", "pack", "--passes", "display", "--at", "3"});
+    ASSERT_EQ(packed.code, 0) << packed.err;
+    fs::remove_all(folder / "pack");
+    put(folder / "plan.toml", "verb = \"hash\"\nscene = \"" + picture + "\"\n[axes]\nseed = [1, 2]\n");
+    const Outcome planned = run_rainref(folder.path(), {"sweep", "plan", "plan.toml"});
+    EXPECT_EQ(planned.code, 0) << planned.err;
+  }
+}
+
 TEST_F(PictureNotes, OtherPicturesAreNoScenes) {
   expect_refusal({"run", "sky.png", "-o", "o"}, 2,
                  "'sky.png': expected a scene, or a picture with the scene in it as rainref writes them; found a picture without");

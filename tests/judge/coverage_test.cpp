@@ -11,6 +11,7 @@
 #include "base/temporary_folder.h"
 #include "judge/pass_texts.h"
 #include "judge/support.h"
+#include "scene/toml.h"
 #include "scene/unexercised.h"
 
 namespace rainref::judge {
@@ -81,7 +82,8 @@ std::map<std::string, Shipped> shipped_passes() {
   std::map<std::string, Shipped> all;
   for (const std::string& name : shipped()) {
     const capture::Pack pack(test::pack_folder(name));
-    const auto scene = scene::unexercised_in(test::pack_folder(name).string() + ".toml");
+    const std::string file = test::pack_folder(name).string() + ".toml";
+    const auto scene = scene::unexercised(scene::read_scene(file), file);
     for (const capture::PackPass& pass : pack.passes) {
       Sides sides = sides_of(pack, pass.name);
       Shipped& of = all[pack.effect + " " + pack.variant + " " + pass.name];

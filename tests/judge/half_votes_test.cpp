@@ -34,6 +34,16 @@ TEST(HalfVotes, FewestFailingPassesDecide) {
   EXPECT_EQ(port_rounding({{"data", {}, {}}}), HalfMode::either);
 }
 
+// A shade with a mistake, stored to nearest, was said to store toward zero: 6469 of its texels failed one way and 6465 the other.
+TEST(HalfVotes, APassThatFailsEitherWaySaysNothingOfStores) {
+  const std::vector<HalfVotes> all{votes("wave_step", {0, 11313, 0}), votes("shade", {6469, 6465, 6465})};
+  EXPECT_EQ(port_rounding(all), HalfMode::rne);
+  EXPECT_EQ(found(all, 1).mode, 0u);
+  EXPECT_EQ(found({votes("shade", {6469, 6465, 6465})}, 0).mode, 0u) << "alone: a difference of a tenth decides";
+  EXPECT_EQ(found({votes("shade", {6000, 5400, 5400})}, 0).mode, 1u);
+  EXPECT_EQ(found({votes("shade", {6000, 5401, 5401})}, 0).mode, 0u);
+}
+
 TEST(HalfVotes, APassThatFitsBothFollowsThePort) {
   const std::vector<HalfVotes> all{votes("a", {8, 0, 0}), votes("b", {0, 0, 0})};
   for (std::size_t k : {0, 1}) {

@@ -107,6 +107,29 @@ TEST(HostilePack, AGoodOneIsTaken) {
     }
 }
 
+// The heap was written past its end where outputs were fewer than the pass has; exchanged ones blamed the port.
+TEST(HostilePack, OtherOutputsThanThePassHasAreRefused) {
+  const Base& base = base_of("edge_splash-corrected");
+  const PassCase& splash = case_of(base, "splash");
+  const auto names = [&](const std::vector<std::size_t>& outputs) {
+    std::string out;
+    for (const std::size_t k : outputs) out += (out.empty() ? "" : ", ") + splash.outputs[k].name;
+    return out;
+  };
+  ASSERT_EQ(splash.outputs.size(), 4u);
+  for (const std::vector<std::size_t>& outputs : {std::vector<std::size_t>{0, 1}, {3}, {1, 0, 2, 3}}) {
+    Hostile hostile(base, splash);
+    fuzz::Json& of = hostile.manifest["cases"][0]["outputs"];
+    const fuzz::Json all = of;
+    of = fuzz::Json::array();
+    for (const std::size_t k : outputs) of.push_back(all[k]);
+    hostile.write();
+    const auto [code, text] = hostile.refusal();
+    EXPECT_EQ(code, ExitCode::port_files);
+    EXPECT_THAT(text, HasSubstr("expected the outputs " + names({0, 1, 2, 3}) + ", in this order, found " + names(outputs)));
+  }
+}
+
 // The heap was written past its end where an input was larger than the output, and read past its end where it was smaller.
 TEST(HostilePack, AnInputOfAnotherSizeThanTheOutputsIsRefused) {
   int tried = 0;
