@@ -298,13 +298,14 @@ async function start() {
     return showError("run-error", error);
   }
   showSceneList();
-  shownGallery(part("gallery"), shipped, path => {
-    openShipped(path);
-    part("scene-title").scrollIntoView();
-  });
   const size = wanted.get("size") ?? "automatic";
   if (![...part("size").options].some(o => o.value === size)) part("size").append(option(size));
   for (const id of ["scene"]) part(id).disabled = false;
   await openShipped(wanted.get("scene") ?? "puddle/default.toml", {size});
+  // Its pictures come after the frame that the visitor waits for.
+  shownGallery(part("gallery"), shipped, path => {
+    openShipped(path);
+    part("scene-title").scrollIntoView();
+  });
 }
 start();
