@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <future>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -120,8 +119,10 @@ void check(const RunOptions& options, int frames) {
     throw Error(ExitCode::usage, fmt::format("{}: expected a frame to show, found none from {} to {} that {} divides", option,
                                              options.first, frames - 1, every));
   };
-  if (options.every > 0 && (options.png || options.exr) && !has_frame(options.every)) refuse("--every", options.every);
-  if (options.film.empty()) return;
+  if (options.film.empty()) {
+    if (options.every > 0 && (options.png || options.exr) && !has_frame(options.every)) refuse("--every", options.every);
+    return;
+  }
   if (options.checkpoint_every > 0 || options.resume)
     throw Error(
         ExitCode::usage,
@@ -181,11 +182,10 @@ int run(const RunOptions& options) {
   const bool takes_codec = options.png || options.exr || options.compare_truth;
   const std::size_t stated = memory.peak.peak() + resident_memory() + (takes_codec ? image_io::codec_bytes() : 0);
   // A broken installation should not cost a run either. Beside the scene, for the codec's libraries take a quarter of a second to load.
-  std::future<void> codec;
-  if (takes_codec) codec = std::async(std::launch::async, [] { image_io::codec(); });
+  const std::function<void()> codec = takes_codec ? image_io::codec_ahead() : [] {};
   if (options.keep_images) cache::keep_in(cache::folder_of_user());
   simulation::Opened opened = open_scene(config, executor);
-  if (codec.valid()) codec.get();
+  codec();
   if (options.compare_truth && !opened.has_truth()) {
     throw Error(ExitCode::usage, fmt::format("--compare-truth: {} {} has no traced truth to be compared with here; the corrected puddle "
                                              "and screen_drops have one, and with the street windshield and corrected panes of rainy_glass",

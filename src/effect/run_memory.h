@@ -14,8 +14,9 @@ namespace rainref::effect {
 struct RunMemory {
   std::string subject;  ///< "run.size 1280x720": what in the scene asks for it
   MemoryPeak peak;
-  int width, height;                    ///< of the picture
+  int width, height;                    ///< that passes run at
   std::uint64_t exr_images, exr_texel;  ///< of an EXR picture, bytes a pixel: images turned over, and their channels side by side
+  std::uint64_t samples = 1;            ///< of the passes in a pixel of the picture: run.supersample squared
 
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height); }
 };

@@ -4,6 +4,7 @@
 #include <link.h>
 
 #include <filesystem>
+#include <future>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -67,6 +68,9 @@ const Codec& codec() {
   return *table;
 }
 
+std::function<void()> codec_ahead() {
+  return [opened = std::async(std::launch::async, [] { codec(); }).share()] { opened.get(); };
+}
 std::size_t codec_bytes() { return std::size_t{119} << 20; }
 
 }  // namespace rainref::image_io

@@ -26,6 +26,9 @@ const Codec& codec() {
   return functions;
 }
 
+std::function<void()> codec_ahead() {
+  return [] {};
+}
 std::size_t codec_bytes() { return 0; }
 
 }  // namespace rainref::image_io

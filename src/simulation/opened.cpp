@@ -67,8 +67,10 @@ effect::RunMemory memory_of(const scene::Config& scene) {
   const scene::Config config = config_at_pass_size(scene);
   effect::RunMemory memory = registry::find(config.effect())->memory(config);
   if (const truth::EffectTracing* tracing = truth::tracing_of(config.effect())) tracing->hold(memory, config);
-  if (const std::uint64_t n = static_cast<std::uint64_t>(scene.integer("run.supersample")); n > 1)
-    memory.peak.hold(image_bytes(memory, Format::rgba8) / (n * n));
+  if (const std::uint64_t n = static_cast<std::uint64_t>(scene.integer("run.supersample")); n > 1) {
+    memory.samples = n * n;
+    memory.peak.hold(image_bytes(memory, Format::rgba8) / memory.samples);
+  }
   return memory;
 }
 

@@ -103,7 +103,13 @@ DriveCycle parse_drive_cycle(std::string_view csv, const std::string& file) {
 }
 
 DriveCycle read_drive_cycle(const std::filesystem::path& file) {
-  const std::vector<std::byte> bytes = read_file(file);
+  const std::vector<std::byte> bytes = [&] {
+    try {
+      return read_file(file);
+    } catch (const Error& e) {
+      throw Error(e.code(), std::string("vehicle.drive_cycle: ") + e.what());
+    }
+  }();
   return parse_drive_cycle({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 

@@ -1,8 +1,5 @@
 #include "windshield/motion_parameters.h"
 
-#include <filesystem>
-#include <system_error>
-
 #include <fmt/format.h>
 
 #include "rainref/error.h"
@@ -92,9 +89,6 @@ MotionSettings motion_settings_from(const scene::Config& config) {
   const bool in_file = config.entry("vehicle.drive_cycle").origin.kind == scene::Origin::file;
   if (!s.vehicle.drive_cycle.empty() && s.vehicle.drive_cycle.is_relative() && in_file)
     s.vehicle.drive_cycle = config.directory() / s.vehicle.drive_cycle;
-  if (std::error_code none; !s.vehicle.drive_cycle.empty() && !std::filesystem::exists(s.vehicle.drive_cycle, none))
-    throw Error(ExitCode::io, config.entry("vehicle.drive_cycle").origin.at,
-                fmt::format("vehicle.drive_cycle: cannot read '{}': No such file or directory", s.vehicle.drive_cycle.string()));
 
   static_cast<PaneWipers&>(s) = wipers_from(config, 0, s.glass);
   const int panes = static_cast<int>(s.panes.size());

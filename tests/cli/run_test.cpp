@@ -64,6 +64,10 @@ TEST_F(RunVerb, EveryKthFrame) {
   EXPECT_THAT(names("o"), ElementsAre("puddle.0000.png", "puddle.0002.png", "puddle.0004.png", "summary.json"));
   run({"corrected.toml", "-o", "p", "--frames", "5"});
   EXPECT_EQ(contents(folder / "o/puddle.0004.png"), contents(folder / "p/puddle.0004.png"));
+  // It ran, wrote no picture and said nothing.
+  before = folder.names();
+  expect_refusal({"run", "corrected.toml", "-o", "q", "--frames", "3", "--first", "1", "--every", "3"}, 2,
+                 "--every: expected a frame to show, found none from 1 to 2 that 3 divides");
 }
 
 TEST_F(RunVerb, TheSummaryHoldsConfigurationHashesAndTimes) {
