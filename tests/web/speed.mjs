@@ -26,9 +26,9 @@ const timed = work => {
 
 console.log("640x360, milliseconds of one core: opening, frame 0, a frame (middle of 21), the same with its hashes; frames a second with hashes");
 for (const effect of ["puddle", "windshield", "edge_splash", "screen_drops", "rainy_glass"]) {
-  const text = m.stringToNewUTF8(fs.readFileSync(path.join(sources, `scenes/${effect}/default.toml`), "utf8")), set = m._malloc(4), options = m._malloc(20);
-  m.setValue(set, m.stringToNewUTF8("run.size=[640, 360]"), "i32");
-  [20, 0, set, 1, 1].forEach((value, k) => m.setValue(options + 4 * k, value, "i32"));
+  const text = m.stringToNewUTF8(fs.readFileSync(path.join(sources, `scenes/${effect}/default.toml`), "utf8")), set = m._malloc(8), options = m._malloc(20);
+  ["run.size=[640, 360]", "run.supersample=1"].forEach((text, k) => m.setValue(set + 4 * k, m.stringToNewUTF8(text), "i32"));
+  [20, 0, set, 2, 1].forEach((value, k) => m.setValue(options + 4 * k, value, "i32"));
   let simulation = 0;
   const opening = timed(() => { simulation = given(m._rr_open, text, options); }), first = timed(() => check(m._rr_next_frame(simulation)));
   const plain = middle(Array.from({length: 21}, () => timed(() => check(m._rr_next_frame(simulation)))));

@@ -7,9 +7,12 @@ const patience = 700;
 /// Pictures that "automatic" chooses among, and the longest that a frame should take [ms].
 const sizes = [[960, 540], [640, 360], [320, 180]], longest = 125;
 
+/// "automatic" looks for what the machine affords: it does not antialias, which takes four times as long, unless the key was set.
+const antialiases = (sets, size) => size !== "automatic" || sets.has("run.supersample");
 /// As live_operations.js takes a scene.
-const asOpened = (scene, sets, pixels) => (
-  {...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(pixels ? [`run.size=[${pixels.join(", ")}]`] : [])]});
+const asOpened = (scene, sets, size, pixels) => (
+  {...scene, sets: [...[...sets].map(([name, toml]) => `${name}=${toml}`), ...(pixels ? [`run.size=[${pixels.join(", ")}]`] : []),
+    ...(antialiases(sets, size) ? [] : ["run.supersample=1"])]});
 
 export class LiveRun {
   #engine = new Engine("live_operations.js", "rainref_simulator");
@@ -93,6 +96,7 @@ export class LiveRun {
   command() {
     const [width, height] = this.pictureSize, words = ["rainref", "hash", this.#scene.file, "--frames", String(this.frame + 1)];
     if (this.#size !== "scene") words.push("--size", `${width}x${height}`);
+    if (!antialiases(this.sets, this.#size)) words.push("--set", "run.supersample=1");
     for (const [key, toml] of this.sets) words.push("--set", `${key}=${toml}`);
     return words.map(shellWord).join(" ");
   }
@@ -112,7 +116,7 @@ export class LiveRun {
   async #open(scene, sets, size) {
     const key = [scene.file, scene.text.length, sets.get("variant")].join("|");
     let chosen = size === "automatic" ? this.#measured.get(key) ?? sizes[1] : size === "scene" ? null : size.split("x").map(Number);
-    const open = () => this.#engine.run("open", asOpened(scene, sets, chosen));
+    const open = () => this.#engine.run("open", asOpened(scene, sets, size, chosen));
     let info = await open();
     if (size === "automatic" && !this.#measured.has(key)) {
       const best = await this.#sizeFor(chosen);
@@ -130,7 +134,7 @@ export class LiveRun {
   async #takeJudge() {
     if (this.#engine.library === "rainref_module") return;
     const judging = new Engine("live_operations.js"), state = await this.#engine.run("save");
-    await judging.run("open", asOpened(this.#scene, this.sets, this.#pixels));
+    await judging.run("open", asOpened(this.#scene, this.sets, this.#size, this.#pixels));
     await judging.run("load", {state}, {transfer: [state.buffer]});
     this.#engine.cancel();
     this.#engine = judging;
