@@ -45,7 +45,8 @@ def run(rainref, out, scene, frames, overrides):
     """{"stated", "taken"} in MiB and seconds. Raises rows.Malformed with what the program says where it refuses."""
     folder = os.path.join(out, "growth-run")
     shutil.rmtree(folder, ignore_errors=True)
-    command = [rainref, "run", f"scenes/{scene}.toml", "--no-cache", "--image", "none", "--frames", str(frames), "-o", folder]
+    command = [rainref, "run", f"scenes/{scene}.toml", "--no-cache", "--image", "none", "--frames", str(frames), "-o", folder,
+               "--set", "run.supersample=1"]
     for value in overrides:
         command += ["--set", value]
     begin = time.monotonic()

@@ -67,7 +67,8 @@ def keep_last_case(manifest, name):
 def capture(rainref, folder, port):
     """The folder of a capture of the pass, of this program, made where it is not there yet. Raises RuntimeError."""
     row, scene, size, frames, name, _, overrides = port
-    command = [rainref, "run", f"scenes/{scene}.toml", "--size", size, "--frames", str(frames), "--image", "none", "--capture", "all"]
+    command = [rainref, "run", f"scenes/{scene}.toml", "--size", size, "--frames", str(frames), "--image", "none", "--capture", "all",
+               "--set", "run.supersample=1"]
     for value in overrides:
         command += ["--set", value]
     out = os.path.join(folder, row.replace("/", "-"))

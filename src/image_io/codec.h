@@ -66,8 +66,8 @@ struct Codec {
 /// Opens the library at the first call, from the run path of the program; any thread may call. Throws Error(io) when it cannot be
 /// opened, naming where it was looked for.
 const Codec& codec();
-/// The same on a thread of its own, beside what the caller does next. The result waits for it and throws as codec() does; so does, without
-/// throwing, its end. Builds without OpenImageIO, which have nothing to open and may have no threads, start none.
+/// The same on a thread of its own, beside what the caller does next. Calling the result waits for that thread and throws as codec() does;
+/// destroying it waits too. Builds without OpenImageIO have nothing to open and start no thread.
 std::function<void()> codec_ahead();
 /// Bytes that lie in memory once it is open: about, for OpenImageIO 2.4 with what it brings in Debian 12.
 std::size_t codec_bytes();

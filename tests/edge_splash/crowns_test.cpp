@@ -6,13 +6,6 @@
 namespace rainref::edge_splash {
 namespace {
 
-bool same(const Image& a, const Image& b) {
-  const std::size_t bytes = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(info(a.format()).texel_bytes());
-  for (int y = 0; y < a.height(); ++y)
-    if (std::memcmp(a.row_bytes(y), b.row_bytes(y), bytes) != 0) return false;
-  return true;
-}
-
 TEST(EdgeSplashCrowns, AreSharesThatLeaveMostOfTheTileFree) {
   for (const double time : {0.0, 0.1, 3600.0}) {
     const Image map = make_crowns(5, time);

@@ -84,6 +84,15 @@ try {
     console.log(`${name}: ${lines} lines as native`);
   });
 
+  await step("the automatic size does not antialias, and the command says so", async () => {
+    const page = await open(browser, site, "live.html?scene=edge_splash/default.toml", errors);
+    await atFrame(page, 0);
+    const command = await textOf(page, "#command");
+    assert.match(command, /^rainref hash scenes\/edge_splash\/default\.toml --frames 1 --size \d+x\d+ --set run\.supersample=1$/);
+    assert.deepEqual(await linesOf(page), asCommanded(command));
+    await page.close();
+  });
+
   const page = await ready("puddle/default.toml");
   await step("reset gives frame 0 again", async () => {
     const first = await linesOf(page);
