@@ -69,8 +69,10 @@ def markdown(result, pictures):
     m = result["machine"]
     out = [f"{m['processor']}, {m['cores']} cores, {m['simd']}, {m['caches']}, {m['memory_gib']} GiB. {idle_text(result)} "
            f"{len(result['rows'])} rows in {result.get('seconds', 0)} s.", ""]
+    reasons = {}
     for s in result["skipped"]:
-        out.append(f"- Skipped: {s['peer']}{', ' + s['row'] if 'row' in s else ''}: {s['reason']}")
+        reasons.setdefault(s["reason"], []).append(s["peer"] + (", " + s["row"] if "row" in s else ""))
+    out += [f"- Skipped: {'; '.join(names)}: {reason}" for reason, names in reasons.items()]
     if result["skipped"]:
         out.append("")
     if whole := frames.markdown(result):

@@ -258,6 +258,19 @@ TEST(Documents, TheSourcesNamePlacesThatExist) {
   EXPECT_EQ(missing_place("NoSuchSuite.OfTests", manifests, tests), "no such test");
 }
 
+// What a machine wrote into a document or a kept run names nobody's folders.
+TEST(Documents, NameNoFolderOfAMachine) {
+  int read = 0;
+  for (const auto& file : fs::recursive_directory_iterator(root / "docs")) {
+    if (file.path().extension() != ".md" && file.path().extension() != ".json") continue;
+    const std::string text = text_of(file.path());
+    std::smatch path;
+    EXPECT_FALSE(std::regex_search(text, path, std::regex("/[A-Za-z0-9_/.-]+/build/[a-z]+/"))) << name_of(file.path()) << ": " << path[0];
+    ++read;
+  }
+  EXPECT_GT(read, 20);
+}
+
 // The checker itself: it must refuse what it is there to refuse.
 TEST(Documents, TheChecksRefuse) {
   const fs::path readme = root / "README.md";
