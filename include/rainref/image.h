@@ -67,6 +67,9 @@ class Image {
 
  private:
   struct Free {
+    std::size_t bytes;
+    Free() : bytes(0) {}
+    explicit Free(std::size_t b) : bytes(b) {}
     void operator()(std::byte* p) const;
   };
   Format format_ = Format::r8;

@@ -113,6 +113,7 @@ std::optional<std::vector<Image>> read(const fs::path& path, const std::string& 
   }
   if (expected != file.left()) return {};
   std::vector<Image> images;
+  images.reserve(heads.size());
   for (const ImageHead& of : heads) {
     Image& image = images.emplace_back(static_cast<Format>(of.format), static_cast<int>(of.width), static_cast<int>(of.height));
     for (int y = 0; y < image.height(); ++y)

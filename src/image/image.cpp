@@ -2,13 +2,13 @@
 
 #include <array>
 #include <bit>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/floating_point.h"
+#include "base/zeroed.h"
 #include "rainref/error.h"
 
 namespace rainref {
@@ -49,7 +49,7 @@ Format format_from_name(std::string_view name) {
   throw Error(ExitCode::usage, fmt::format("unknown format '{}'{}", name, did_you_mean(name, names)));
 }
 
-void Image::Free::operator()(std::byte* p) const { std::free(p); }
+void Image::Free::operator()(std::byte* p) const { zeroed::give_back(p, bytes); }
 
 std::uint64_t Image::memory_bytes(Format format, int width, int height) {
   return std::uint64_t{stride_bytes(format, width)} * static_cast<std::uint64_t>(height);
@@ -63,12 +63,11 @@ Image::Image(Format format, int width, int height) : format_(format), width_(wid
   stride_ = static_cast<std::ptrdiff_t>(stride_bytes(format, width));
   const std::uint64_t bytes = memory_bytes(format, width, height);
   if (std::in_range<std::ptrdiff_t>(bytes))
-    memory_.reset(static_cast<std::byte*>(std::aligned_alloc(alignment, static_cast<std::size_t>(bytes))));
+    memory_ = std::unique_ptr<std::byte, Free>(zeroed::take(static_cast<std::size_t>(bytes)), Free(static_cast<std::size_t>(bytes)));
   if (!memory_) {
     throw Error(ExitCode::usage, fmt::format("image {}x{} {}: {:.1f} GiB of memory could not be had", width, height, info(format).name,
                                              static_cast<double>(bytes) / (1u << 30)));
   }
-  std::memset(memory_.get(), 0, static_cast<std::size_t>(bytes));
   // The margin keeps the first texel of every row aligned to 16 texels' worth of bytes.
   origin_ = memory_.get() + static_cast<std::size_t>(left_margin) * info(format).texel_bytes();
 }

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
+#include "base/rows.h"
+#include "base/zeroed.h"
 #include "rainref/image.h"
 #include "rainref/texture.h"
 
@@ -28,19 +31,21 @@ inline FixedTexture<U, V, Count> fixed_texture(const Texture& t) {
 }
 
 /// Owns the texels of a Texture. Made from an Image by exact decoding: half and float keep their values, unorm8 is
-/// code / 255 correctly rounded. No colour conversion.
+/// code / 255 correctly rounded. No colour conversion. `rows` says who does it; no result depends on it.
 class TextureData {
  public:
   TextureData() = default;
   /// Level 0 only. Throws Error(usage) when the image has more than 2^31 / channels texels.
-  TextureData(const Image& image, Address u, Address v);
+  TextureData(const Image& image, Address u, Address v, const Rows& rows = rows_here);
   /// Takes decoded texels of one level.
-  TextureData(std::vector<float> texels, int channels, int width, int height, Address u, Address v);
+  TextureData(zeroed::Array<float> texels, int channels, int width, int height, Address u, Address v);
+  TextureData(const std::vector<float>& texels, int channels, int width, int height, Address u, Address v);
+  TextureData(std::initializer_list<float> texels, int channels, int width, int height, Address u, Address v);
 
   /// Adds the chain of mip levels down to 1x1: each level has floor(size / 2) texels a side (at least 1), and each
   /// texel is the exact mean of its footprint in the level above, weights of a polyphase box where a side is odd. So
   /// the mean is kept at every size; a 2x2 box with dropped rows would change it. Stops at `levels` levels.
-  void build_mips(int levels = Texture::max_levels);
+  void build_mips(int levels = Texture::max_levels, const Rows& rows = rows_here);
 
   const Texture& view() const { return view_; }
   /// The texels, to be written again in place.
@@ -49,7 +54,7 @@ class TextureData {
   bool empty() const { return texels_.empty(); }
 
  private:
-  std::vector<float> texels_;
+  zeroed::Array<float> texels_;
   Texture view_;
   void refresh() { view_.texels = texels_.data(); }
 

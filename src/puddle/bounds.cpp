@@ -58,7 +58,7 @@ TextureData surface_bounds(const Settings& s, const float* decoded, const parall
   u.bounds_scale[1] = static_cast<float>(static_cast<double>(height) / (rows * extent_block));
   // Half a texel less than a block would do; the rest is for rounding.
   u.bounds_reach = static_cast<float>((extent_block - 1) * s.cell_size);
-  return TextureData(std::move(texels), 2, columns, rows, Address::clamp, Address::clamp);
+  return TextureData(texels, 2, columns, rows, Address::clamp, Address::clamp);
 }
 
 std::string doubt_bounds(const capture::PassCase& c) {

@@ -13,35 +13,38 @@ namespace rainref::puddle {
 namespace {
 
 // 4-channel floats of an image in the code that this variant's pass expects.
-std::vector<float> recode(const Image& image, bool is_encoded, Variant variant) {
-  const TextureData decoded(image, Address::clamp, Address::clamp);
+zeroed::Array<float> recode(const Image& image, bool is_encoded, Variant variant, const Rows& rows) {
+  const TextureData decoded(image, Address::clamp, Address::clamp, rows);
   const int c = image.channels();
-  std::vector<float> out(static_cast<std::size_t>(image.width()) * image.height() * 4, 1.0f);
+  const std::size_t width = static_cast<std::size_t>(image.width());
+  zeroed::Array<float> out(width * image.height() * 4);
   const float* in = decoded.view().texels;
-  for (std::size_t i = 0; i < out.size() / 4; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      // Resampled panoramas have slightly negative texels; radiance has none.
-      const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
-      if (is_encoded == (variant == Variant::as_published))
-        out[i * 4 + k] = x;
-      else
-        out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+  rows(image.height(), [&](int begin, int end) {
+    for (std::size_t i = static_cast<std::size_t>(begin) * width; i < static_cast<std::size_t>(end) * width; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        // Resampled panoramas have slightly negative texels; radiance has none.
+        const float x = std::max(in[i * c + (k < c ? k : 0)], 0.0f);
+        if (is_encoded == (variant == Variant::as_published))
+          out[i * 4 + k] = x;
+        else
+          out[i * 4 + k] = static_cast<float>(is_encoded ? decode_srgb(x) : encode_gamma22(x));
+      }
+      out[i * 4 + 3] = c == 4 ? in[i * c + 3] : 1;
     }
-    if (c == 4) out[i * 4 + 3] = in[i * c + 3];
-  }
+  });
   return out;
 }
 
 }  // namespace
 
-TextureData prepare_environment(const Surroundings& s, Variant variant) {
+TextureData prepare_environment(const Surroundings& s, Variant variant, const Rows& rows) {
   const Image& image = s.environment;
   if (image.empty()) throw Error(ExitCode::usage, "environment.image: expected an image, found none");
-  std::vector<float> texels = recode(image, s.environment_is_encoded, variant);
+  zeroed::Array<float> texels = recode(image, s.environment_is_encoded, variant, rows);
   int width = image.width(), height = image.height();
   if (s.environment_is_cube) {
     if (width == 6 * height) {
-      std::vector<float> column(texels.size());
+      zeroed::Array<float> column(texels.size());
       const std::size_t face_row = static_cast<std::size_t>(height) * 4;
       for (int face = 0; face < 6; ++face) {
         for (int y = 0; y < height; ++y) {
@@ -67,14 +70,14 @@ TextureData prepare_environment(const Surroundings& s, Variant variant) {
       levels = 1;
       for (int side = width; side > 1 && side % 2 == 0; side /= 2) ++levels;
     }
-    texture.build_mips(levels);
+    texture.build_mips(levels, rows);
   }
   return texture;
 }
 
-TextureData prepare_ground(const Image& ground, bool is_encoded, Variant variant) {
-  TextureData texture(recode(ground, is_encoded, variant), 4, ground.width(), ground.height(), Address::repeat, Address::repeat);
-  if (variant == Variant::corrected) texture.build_mips();
+TextureData prepare_ground(const Image& ground, bool is_encoded, Variant variant, const Rows& rows) {
+  TextureData texture(recode(ground, is_encoded, variant, rows), 4, ground.width(), ground.height(), Address::repeat, Address::repeat);
+  if (variant == Variant::corrected) texture.build_mips(Texture::max_levels, rows);
   return texture;
 }
 

@@ -152,7 +152,7 @@ Image make_shore(const Settings& s, const Texture& bed) {
   return shore;
 }
 
-TextureData make_relief(const TextureData& ground, bool height_in_alpha) {
+TextureData make_relief(const TextureData& ground, bool height_in_alpha, const Rows& rows) {
   constexpr float gain = 0.35f;  // slope of one unit of height between neighbouring texels
   const Texture& g = ground.view();
   const int w = g.width[0], h = g.height[0], c = g.channels;
@@ -160,15 +160,17 @@ TextureData make_relief(const TextureData& ground, bool height_in_alpha) {
     const float* t = g.texels + (static_cast<std::size_t>((y + h) % h) * w + (x + w) % w) * c;
     return height_in_alpha ? t[3] : 0.2126f * t[0] + 0.7152f * t[1] + 0.0722f * t[2];
   };
-  std::vector<float> slopes(static_cast<std::size_t>(w) * h * 2);
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      slopes[(static_cast<std::size_t>(y) * w + x) * 2] = gain * (height(x - 1, y) - height(x + 1, y));
-      slopes[(static_cast<std::size_t>(y) * w + x) * 2 + 1] = gain * (height(x, y - 1) - height(x, y + 1));
+  zeroed::Array<float> slopes(static_cast<std::size_t>(w) * h * 2);
+  rows(h, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < w; ++x) {
+        slopes[(static_cast<std::size_t>(y) * w + x) * 2] = gain * (height(x - 1, y) - height(x + 1, y));
+        slopes[(static_cast<std::size_t>(y) * w + x) * 2 + 1] = gain * (height(x, y - 1) - height(x, y + 1));
+      }
     }
-  }
+  });
   TextureData relief(std::move(slopes), 2, w, h, Address::repeat, Address::repeat);
-  relief.build_mips();
+  relief.build_mips(Texture::max_levels, rows);
   return relief;
 }
 

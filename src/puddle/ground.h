@@ -20,6 +20,6 @@ Image make_asphalt(std::uint64_t seed);
 
 /// Slopes (-dh/du, -dh/dv) of a ground tile, two channels with mips. The height is the alpha channel of made asphalt, or
 /// the luminance of a picture.
-TextureData make_relief(const TextureData& ground, bool height_in_alpha);
+TextureData make_relief(const TextureData& ground, bool height_in_alpha, const Rows& rows = rows_here);
 
 }  // namespace rainref::puddle

@@ -7,6 +7,7 @@
 
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
+#include "parallel/rows.h"
 #include "pass/planes.h"
 #include "pass/run.h"
 #include "puddle/display.pass.h"
@@ -76,8 +77,8 @@ struct Puddle::State {
     previous = Image(format, columns, rows);
     rest_row = Image(format, columns, 1);
     set_rest();
-    sky = sky_of(s, around);
-    ground = ground_of(s, around);
+    sky = sky_of(s, around, parallel::rows_of(e));
+    ground = ground_of(s, around, parallel::rows_of(e));
     if (corrected) bed = bed_of(s);
     environment_is_cube = around.environment_is_cube;
     hit = Image(Format::rgba32f, s.width, s.height);
@@ -86,7 +87,7 @@ struct Puddle::State {
     picture = Image(Format::rgba8, s.width, s.height);
     if (!corrected) noise = Image(Format::r32f, s.width, s.height);
     const Address edge = !corrected && s.boundary == Boundary::periodic ? Address::repeat : Address::clamp;
-    water = TextureData(std::vector<float>(static_cast<std::size_t>(columns) * rows), 1, columns, rows, edge, edge);
+    water = TextureData(zeroed::Array<float>(static_cast<std::size_t>(columns) * rows), 1, columns, rows, edge, edge);
     water.set_border(encoding.rest, 0, 0, 0);
   }
 

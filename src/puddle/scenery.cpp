@@ -28,20 +28,20 @@ std::size_t bytes_of(const TextureData& texture) {
 
 }  // namespace
 
-std::shared_ptr<const Sky> sky_of(const Settings& s, const Surroundings& around) {
+std::shared_ptr<const Sky> sky_of(const Settings& s, const Surroundings& around, const Rows& rows) {
   const bool corrected = s.variant == Variant::corrected;
   cache::Recipe recipe("puddle sky");
   recipe.add(std::uint64_t{corrected}).add(std::uint64_t{around.environment_is_cube}).add(std::uint64_t{around.environment_is_encoded});
   return remembered<Sky>().get(
       named(recipe, around.environment), [](const Sky& sky) { return bytes_of(sky.environment); },
       [&] {
-        Sky sky{prepare_environment(around, s.variant), {}};
+        Sky sky{prepare_environment(around, s.variant, rows), {}};
         if (corrected) sky.ambient = ambient_radiance(sky.environment.view(), around.environment_is_cube);
         return sky;
       });
 }
 
-std::shared_ptr<const Ground> ground_of(const Settings& s, const Surroundings& around) {
+std::shared_ptr<const Ground> ground_of(const Settings& s, const Surroundings& around, const Rows& rows) {
   const bool corrected = s.variant == Variant::corrected, is_own = around.ground.empty();
   // A checkerboard hides the ground image of as-published; the corrected ground has relief all the same.
   const bool is_hidden = is_own && !corrected && s.use_checkerboard;
@@ -52,8 +52,8 @@ std::shared_ptr<const Ground> ground_of(const Settings& s, const Surroundings& a
       named(recipe, around.ground), [](const Ground& ground) { return bytes_of(ground.tile) + bytes_of(ground.relief); },
       [&] {
         const Image made = !is_own ? Image() : is_hidden ? Image(Format::rgba32f, 1, 1) : make_asphalt(s.seed);
-        Ground ground{prepare_ground(is_own ? made : around.ground, is_own ? false : around.ground_is_encoded, s.variant), {}};
-        if (corrected) ground.relief = make_relief(ground.tile, is_own);
+        Ground ground{prepare_ground(is_own ? made : around.ground, is_own ? false : around.ground_is_encoded, s.variant, rows), {}};
+        if (corrected) ground.relief = make_relief(ground.tile, is_own, rows);
         return ground;
       });
 }

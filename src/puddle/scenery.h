@@ -25,8 +25,8 @@ struct Bed {
   Image shore;
 };
 
-std::shared_ptr<const Sky> sky_of(const Settings& settings, const Surroundings& around);
-std::shared_ptr<const Ground> ground_of(const Settings& settings, const Surroundings& around);
+std::shared_ptr<const Sky> sky_of(const Settings& settings, const Surroundings& around, const Rows& rows);
+std::shared_ptr<const Ground> ground_of(const Settings& settings, const Surroundings& around, const Rows& rows);
 /// Of the corrected variant.
 std::shared_ptr<const Bed> bed_of(const Settings& settings);
 

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "cache/kept_images.h"
+#include "image/flipped.h"
 #include "night_street/night_street.h"
+#include "parallel/rows.h"
 #include "rainy_glass/host.h"
 #include "rainy_glass/storage.h"
 #include "scene/panorama_view.h"
@@ -16,30 +18,32 @@ namespace {
 using scene::Vector3;
 
 /// Glazing bars: dark round profiles, lit a little from the left, at the pane's u = k spacing + spacing / 2.
-void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around) {
+void add_bars(const Settings& s, const BackdropOptions& o, Surroundings& around, const Rows& rows) {
   Image surface, orientation;
-  make_surface(s, {}, surface, orientation);
+  make_surface(s, {}, surface, orientation, rows);
   const auto place = [&](float u) {
     const double cell = u / o.bar_spacing;
     return (cell - std::floor(cell) - 0.5) * o.bar_spacing / o.bar_width;  // a bar from -1/2 to 1/2
   };
-  for (int y = 0; y < s.height; ++y) {
-    const float* glass = surface.row<float>(y);
-    for (int x = 0; x < s.width; ++x, glass += 4) {
-      if (!(glass[2] > 0)) continue;
-      const double pixel = std::abs(static_cast<double>(surface.row<float>(y)[4 * std::min(x + 1, s.width - 1)]) -
-                                    surface.row<float>(y)[4 * std::max(x - 1, 0)]) /
-                           2 / o.bar_width;
-      const double at = place(glass[0]);
-      const double cover = std::clamp((0.5 - std::abs(at)) / std::max(pixel, 1e-9) + 0.5, 0.0, 1.0);
-      if (cover <= 0) continue;
-      const double round = std::clamp(2 * at, -1.0, 1.0), lit = 0.012 + 0.03 * std::max(0.0, 0.6 * round + 0.5 * (1 - round * round));
-      float* c = around.colour.row<float>(y) + 4 * x;
-      const double tint[3] = {1, 0.95, 0.85};
-      for (int k = 0; k < 3; ++k) c[k] = static_cast<float>(c[k] * (1 - cover) + tint[k] * lit * cover);
-      if (cover >= 0.5) around.depth.row<float>(y)[x] = 0.98f * glass[2];
+  rows(s.height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const float* glass = surface.row<float>(y);
+      for (int x = 0; x < s.width; ++x, glass += 4) {
+        if (!(glass[2] > 0)) continue;
+        const double pixel = std::abs(static_cast<double>(surface.row<float>(y)[4 * std::min(x + 1, s.width - 1)]) -
+                                      surface.row<float>(y)[4 * std::max(x - 1, 0)]) /
+                             2 / o.bar_width;
+        const double at = place(glass[0]);
+        const double cover = std::clamp((0.5 - std::abs(at)) / std::max(pixel, 1e-9) + 0.5, 0.0, 1.0);
+        if (cover <= 0) continue;
+        const double round = std::clamp(2 * at, -1.0, 1.0), lit = 0.012 + 0.03 * std::max(0.0, 0.6 * round + 0.5 * (1 - round * round));
+        float* c = around.colour.row<float>(y) + 4 * x;
+        const double tint[3] = {1, 0.95, 0.85};
+        for (int k = 0; k < 3; ++k) c[k] = static_cast<float>(c[k] * (1 - cover) + tint[k] * lit * cover);
+        if (cover >= 0.5) around.depth.row<float>(y)[x] = 0.98f * glass[2];
+      }
     }
-  }
+  });
 }
 
 }  // namespace
@@ -96,12 +100,12 @@ Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, co
     around.colour = scene::panorama_view(panorama, camera(s), s.width, s.height, executor);
     around.depth = Image(Format::r32f, s.width, s.height);
     for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
-    if (s.use_probe) around.probe = copy(panorama);
+    if (s.use_probe) around.probe = copy_of(panorama);
   }
   const double radius = options.defocus * s.height;
   around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
                                [&] { return defocused(around.colour, radius, executor); });
-  if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around);
+  if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around, parallel::rows_of(executor));
   return around;
 }
 

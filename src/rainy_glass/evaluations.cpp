@@ -35,12 +35,13 @@ std::string doubt_near_depth(const PassCase& c) {
   Image image(Format::r32f, d.width[0], d.height[0]);
   for (int y = 0; y < image.height(); ++y)
     std::copy_n(d.texels + static_cast<std::ptrdiff_t>(y) * image.width(), image.width(), image.row<float>(y));
-  const std::vector<float> expected = near_depth(image);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    if (n.texels[i] > expected[i]) {
-      return fmt::format("in.near_depth at ({}, {}) is {:.6g} m, above the least depth of scene_depth around it, {:.6g} m",
-                         i % static_cast<std::size_t>(image.width()), i / static_cast<std::size_t>(image.width()), n.texels[i],
-                         expected[i]);
+  const Image expected = near_depth(image);
+  const float* given = n.texels;
+  for (int y = 0; y < expected.height(); ++y) {
+    for (int x = 0; x < expected.width(); ++x, ++given) {
+      if (*given > expected.row<float>(y)[x])
+        return fmt::format("in.near_depth at ({}, {}) is {:.6g} m, above the least depth of scene_depth around it, {:.6g} m", x, y, *given,
+                           expected.row<float>(y)[x]);
     }
   }
   return "";

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/rows.h"
 #include "image/texture.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/uniforms.h"
@@ -47,9 +48,9 @@ std::vector<Droplet> droplets_near(std::span<const Droplet> all, bool corrected,
 std::vector<Trail> trails_near(std::span<const Trail> all, int size, int x0, int y0, int x1, int y1);
 
 /// Fills surface (rgba32f) and orientation (rgba16f) of the picture's size.
-void make_surface(const Settings& settings, const Image& normals, Image& surface, Image& orientation);
+void make_surface(const Settings& settings, const Image& normals, Image& surface, Image& orientation, const Rows& rows = rows_here);
 /// Least depth of each texel and its eight neighbours, less a margin for rounding: a bilinear lookup that gives more than z
 /// touches no texel of depth z or less.
-std::vector<float> near_depth(const Image& depth);
+Image near_depth(const Image& depth, const Rows& rows = rows_here);
 
 }  // namespace rainref::rainy_glass

@@ -2,12 +2,13 @@
 #include "rainref/rainy_glass.h"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "base/floating_point.h"
+#include "image/flipped.h"
+#include "parallel/rows.h"
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "rainy_glass/bake.pass.h"
@@ -62,23 +63,21 @@ struct RainyGlass::State {
     }
     take(around.colour, around.depth);
     if (s.use_probe) {
-      probe = TextureData(around.probe, Address::repeat, Address::clamp);
-      probe.build_mips();
+      probe = TextureData(around.probe, Address::repeat, Address::clamp, parallel::rows_of(e));
+      probe.build_mips(Texture::max_levels, parallel::rows_of(e));
     }
-    make_surface(s, around.normals, surface, orientation);
+    make_surface(s, around.normals, surface, orientation, parallel::rows_of(e));
     colour = Image(Format::rgba16f, s.width, s.height);
     picture = Image(Format::rgba8, s.width, s.height);
     display = pass::display_table(s.width, s.height, s.exposure, s.rounding);
   }
 
   void take(const Image& seen, const Image& seen_depth) {
-    scene = as_half(seen);
+    const Rows rows = parallel::rows_of(executor);
+    scene = colour_as_half(seen, rows);
     if (!corrected) return;
-    depth = copy(seen_depth);
-    least_depth = Image(Format::r32f, settings.width, settings.height);
-    const std::vector<float> least = near_depth(depth);
-    for (int y = 0; y < settings.height; ++y)
-      std::copy_n(least.begin() + static_cast<std::ptrdiff_t>(y) * settings.width, settings.width, least_depth.row<float>(y));
+    depth = copy_of(seen_depth);
+    least_depth = near_depth(depth, rows);
   }
 
   int shown() const { return std::max(0, frame - 1); }

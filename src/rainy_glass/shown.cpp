@@ -13,7 +13,7 @@ ShownGlass::ShownGlass(const Settings& settings, const Surroundings& around, con
       rendered_(rendered),
       raindrops_(rendered.raindrops(), Address::repeat, Address::repeat),
       rivulets_(rendered.rivulets(), Address::repeat, Address::repeat),
-      near_(near_depth(around.depth), 1, settings.width, settings.height, Address::clamp, Address::clamp),
+      near_(near_depth(around.depth), Address::clamp, Address::clamp),
       width_(settings.width),
       height_(settings.height) {
   const auto code = [&](const Image& map) { return code_of(settings, map.empty() ? settings.map_storage : map.format()); };

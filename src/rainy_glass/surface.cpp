@@ -56,7 +56,7 @@ scene::Vector3 facing(const Settings& s) {
   return {c * level.x + k * level.z, 0, c * level.z - k * level.x};
 }
 
-void make_surface(const Settings& s, const Image& normals, Image& surface, Image& orientation) {
+void make_surface(const Settings& s, const Image& normals, Image& surface, Image& orientation, const Rows& rows) {
   surface = Image(Format::rgba32f, s.width, s.height);
   orientation = Image(Format::rgba16f, s.width, s.height);
   const scene::Camera eye = camera(s);
@@ -64,37 +64,43 @@ void make_surface(const Settings& s, const Image& normals, Image& surface, Image
   const double half_height = eye.half_height(), half_width = half_height * s.width / s.height;
   const Vector3 normal = facing(s), level = level_forward(s);
   const TextureData decoded = s.shape == Shape::image ? TextureData(normals, Address::clamp, Address::clamp) : TextureData();
-  for (int row = 0; row < s.height; ++row) {
-    for (int column = 0; column < s.width; ++column) {
-      const double x = ((2 * column + 1.0) / s.width - 1) * half_width, y = ((2 * row + 1.0) / s.height - 1) * half_height;
-      const Vector3 ray = basis.forward + x * basis.right + y * basis.up;
-      const Hit h = s.shape == Shape::pane     ? on_pane(ray, level, normal, s.distance)
-                    : s.shape == Shape::sphere ? on_sphere(ray, s.distance * basis.forward, s.radius)
-                                               : on_image(decoded.view().texels + 4 * (static_cast<std::ptrdiff_t>(row) * s.width + column),
-                                                          x, y, ray, s.distance);
-      float* place = surface.row<float>(row) + 4 * column;
-      place[0] = static_cast<float>(h.u);
-      place[1] = static_cast<float>(h.v);
-      place[2] = static_cast<float>(h.distance);
-      Half* n = orientation.row<Half>(row) + 4 * column;
-      for (int k = 0; k < 3; ++k) n[k] = to_half(static_cast<float>(h.normal[k]));
-      n[3] = to_half(h.distance > 0 ? 1.0f : 0.0f);
+  rows(s.height, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) {
+      for (int column = 0; column < s.width; ++column) {
+        const double x = ((2 * column + 1.0) / s.width - 1) * half_width, y = ((2 * row + 1.0) / s.height - 1) * half_height;
+        const Vector3 ray = basis.forward + x * basis.right + y * basis.up;
+        const Hit h =
+            s.shape == Shape::pane ? on_pane(ray, level, normal, s.distance)
+            : s.shape == Shape::sphere
+                ? on_sphere(ray, s.distance * basis.forward, s.radius)
+                : on_image(decoded.view().texels + 4 * (static_cast<std::ptrdiff_t>(row) * s.width + column), x, y, ray, s.distance);
+        float* place = surface.row<float>(row) + 4 * column;
+        place[0] = static_cast<float>(h.u);
+        place[1] = static_cast<float>(h.v);
+        place[2] = static_cast<float>(h.distance);
+        Half* n = orientation.row<Half>(row) + 4 * column;
+        for (int k = 0; k < 3; ++k) n[k] = to_half(static_cast<float>(h.normal[k]));
+        n[3] = to_half(h.distance > 0 ? 1.0f : 0.0f);
+      }
     }
-  }
+  });
 }
 
-std::vector<float> near_depth(const Image& depth) {
+Image near_depth(const Image& depth, const Rows& rows) {
   const int width = depth.width(), height = depth.height();
-  std::vector<float> out(static_cast<std::size_t>(width) * height);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      float least = depth.row<float>(y)[x];
-      for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j) {
-        for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) least = std::min(least, depth.row<float>(j)[i]);
-      }
-      out[static_cast<std::size_t>(y) * width + x] = least * (1 - 0x1p-16f);
+  Image out(Format::r32f, width, height);
+  rows(height, [&](int begin, int end) {
+    std::vector<float> least(static_cast<std::size_t>(width));  // of three rows
+    for (int y = begin; y < end; ++y) {
+      const float *here = depth.row<float>(y), *below = depth.row<float>(std::max(0, y - 1)),
+                  *above = depth.row<float>(std::min(height - 1, y + 1));
+      for (int x = 0; x < width; ++x) least[static_cast<std::size_t>(x)] = std::min(std::min(here[x], below[x]), above[x]);
+      const float* column = least.data();
+      float* to = out.row<float>(y);
+      for (int x = 0; x < width; ++x)
+        to[x] = std::min(std::min(column[x], column[std::max(0, x - 1)]), column[std::min(width - 1, x + 1)]) * (1 - 0x1p-16f);
     }
-  }
+  });
   return out;
 }
 

@@ -7,7 +7,7 @@
 
 #include "image/texture.h"
 #include "math/constants.h"
-#include "math/half.h"
+#include "math/half_array.h"
 #include "math/real64.h"
 #include "math/unorm.h"
 #include "random/counter.h"
@@ -253,19 +253,24 @@ Image stored_noise(const Image& noise) {
   return out;
 }
 
-std::vector<Image> scene_levels(const Image& colour) {
-  TextureData decoded(colour, Address::clamp, Address::clamp);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(4) * colour.width() * colour.height(); ++i)
-    decoded.texels()[i] = std::clamp(decoded.texels()[i], 0.0f, 65504.0f);
-  decoded.build_mips();
+std::vector<Image> scene_levels(const Image& colour, const Rows& rows) {
+  TextureData decoded(colour, Address::clamp, Address::clamp, rows);
+  const std::size_t count = static_cast<std::size_t>(4) * colour.width();
+  rows(colour.height(), [&](int begin, int end) {
+    float* const texels = decoded.texels();
+    for (std::size_t i = static_cast<std::size_t>(begin) * count; i < static_cast<std::size_t>(end) * count; ++i)
+      texels[i] = std::clamp(texels[i], 0.0f, 65504.0f);
+  });
+  decoded.build_mips(Texture::max_levels, rows);
   const Texture t = decoded.view();
   std::vector<Image> levels;
   for (int l = 0; l < t.levels; ++l) {
     Image level(Format::rgba16f, t.width[l], t.height[l]);
     const float* in = t.texels + static_cast<std::ptrdiff_t>(4) * t.offset[l];
-    for (int y = 0; y < level.height(); ++y) {
-      for (int i = 0; i < 4 * level.width(); ++i) level.row<Half>(y)[i] = to_half(*in++);
-    }
+    const std::size_t row = static_cast<std::size_t>(4) * level.width();
+    rows(level.height(), [&](int begin, int end) {
+      for (int y = begin; y < end; ++y) to_half_array(in + static_cast<std::size_t>(y) * row, level.row<Half>(y), row, Rounding::rne);
+    });
     levels.push_back(std::move(level));
   }
   return levels;

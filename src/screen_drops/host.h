@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/rows.h"
 #include "rainref/screen_drops.h"
 #include "scene/camera.h"
 #include "screen_drops/uniforms.h"
@@ -45,6 +46,6 @@ Image make_noise(std::uint64_t seed, int side);
 /// The noise as the passes read it: rgba8.
 Image stored_noise(const Image& noise);
 /// The scene and its mip levels, halves of halves, as rgba16f; negative colours become 0, those beyond the halves 65504.
-std::vector<Image> scene_levels(const Image& colour);
+std::vector<Image> scene_levels(const Image& colour, const Rows& rows = rows_here);
 
 }  // namespace rainref::screen_drops

@@ -11,6 +11,7 @@
 
 #include "base/floating_point.h"
 #include "blur_pyramid/blur_pyramid.h"
+#include "parallel/rows.h"
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
@@ -53,7 +54,11 @@ struct ScreenDrops::State {
   CodeTable display;
 
   State(const Settings& s, const Inputs& in, const parallel::Executor& e, const FlowSettings* flowing)
-      : settings(s), executor(e), corrected(s.variant == Variant::corrected), levels(scene_levels(in.colour)), scene(levels) {
+      : settings(s),
+        executor(e),
+        corrected(s.variant == Variant::corrected),
+        levels(scene_levels(in.colour, parallel::rows_of(e))),
+        scene(levels) {
     scene.refresh(executor, levels);
     if (corrected) {
       taps = make_taps(s);
@@ -144,7 +149,7 @@ void ScreenDrops::show_again(const Image& colour) {
   const FloatingPointGuard guard;
   State& s = *state_;
   check_scene(s.settings, colour);
-  s.levels = scene_levels(colour);
+  s.levels = scene_levels(colour, parallel::rows_of(s.executor));
   s.scene.refresh(s.executor, s.levels);
   s.has_background = false;
 }

@@ -1,6 +1,7 @@
 #include "screen_drops/shown.h"
 
 #include "blur_pyramid/blur_pyramid.h"
+#include "parallel/rows.h"
 #include "screen_drops/host.h"
 #include "pass/run.h"
 #include "screen_drops/background.pass.h"
@@ -31,7 +32,7 @@ std::vector<Cap> caps(const Settings& settings, const Image& cells) {
 }
 
 Image defocused_scene(const Settings& settings, const Image& colour, const parallel::Executor& executor) {
-  const std::vector<Image> levels = scene_levels(colour);
+  const std::vector<Image> levels = scene_levels(colour, parallel::rows_of(executor));
   blur_pyramid::LevelTexture scene(levels);
   scene.refresh(executor, levels);
   BackgroundUniforms u = background_uniforms(settings);

@@ -137,12 +137,12 @@ RainyGlassView::RainyGlassView(const Settings& s, const rainy_glass::Surrounding
       extent_(extent_of(s, basis_, half_width_, half_height_)),
       pane_(shape_of(s, extent_, thickness)),
       street_({s.seed}) {
-  if (unbarred_) colour_ = TextureData(rainy_glass::as_half(unbarred_->colour), Address::clamp, Address::clamp);
+  if (unbarred_) colour_ = TextureData(rainy_glass::colour_as_half(unbarred_->colour), Address::clamp, Address::clamp);
 }
 
 void RainyGlassView::show(const Image& surface) {
   const Uncovered beyond = uncovered(around_->colour, around_->depth, surface);
-  pictures_.emplace(camera_, half_width_, half_height_, rainy_glass::as_half(beyond.colour), beyond.depth);
+  pictures_.emplace(camera_, half_width_, half_height_, rainy_glass::colour_as_half(beyond.colour), beyond.depth);
 }
 
 RainyGlassView::Met RainyGlassView::met(const Vec& origin, const Vec& direction) const {

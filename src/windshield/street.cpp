@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/half_array.h"
+#include "image/half_image.h"
+#include "parallel/rows.h"
 
 namespace rainref::windshield {
 namespace {
@@ -11,15 +12,6 @@ namespace {
 using scene::Vector3;
 
 constexpr double lane = 1.75, start_z = 200;  // the right lane; the way goes to -z
-
-Image as_half(const Image& from, const parallel::Executor& executor) {
-  Image to(Format::rgba16f, from.width(), from.height());
-  executor.for_tiles(from.width(), from.height(), from.width(), 16, [&](const parallel::Tile& tile) {
-    for (int y = tile.y0; y < tile.y1; ++y)
-      to_half_array(from.row<float>(y), to.row<Half>(y), 4 * static_cast<std::size_t>(from.width()), Rounding::rne);
-  });
-  return to;
-}
 
 }  // namespace
 
@@ -84,7 +76,7 @@ struct StreetDrive::State {
     if (found != keyframes.end()) return found->second;
     // A car at rest may look at its first view for long; those of one that moves pass, two blended.
     night_street::Street::View v = render(k, at_rest && k == 0 ? night_street::Parts::nine : night_street::Parts::three);
-    return keyframes.emplace(k, Keyframe{as_half(v.colour, executor), std::move(v.depth)}).first->second;
+    return keyframes.emplace(k, Keyframe{as_half(v.colour, parallel::rows_of(executor)), std::move(v.depth)}).first->second;
   }
 };
 
@@ -100,7 +92,7 @@ bool StreetDrive::look(double distance, bool moves, SceneView& view) {
   if (!moves) {
     if (s.stands) return false;
     night_street::Street::View v = s.render(0, night_street::Parts::nine);
-    view.colour = as_half(v.colour, s.executor);
+    view.colour = as_half(v.colour, parallel::rows_of(s.executor));
     view.depth = std::move(v.depth);
     s.stands = true;
     return true;

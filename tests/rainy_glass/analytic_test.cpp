@@ -263,7 +263,7 @@ TEST(RainyGlassRefraction, NearDepthIsBelowEveryTexelOfALookup) {
   for (int y = 0; y < 21; ++y) {
     for (int x = 0; x < 33; ++x) depth.row<float>(y)[x] = 0.1f + static_cast<float>((x * 193 + y * 389) % 97);
   }
-  const TextureData near(near_depth(depth), 1, 33, 21, Address::clamp, Address::clamp);
+  const TextureData near(near_depth(depth), Address::clamp, Address::clamp);
   for (int k = 0; k < 20000; ++k) {
     const double u = std::fmod(k * 0.61803398875, 1.2) - 0.1, v = std::fmod(k * 0.7548776662, 1.2) - 0.1;
     const float found =
