@@ -4,6 +4,7 @@
 
 #include "math/constants.h"
 #include "math/half.h"
+#include "screen_drops/warm_up.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -36,7 +37,16 @@ struct Flow::State {
         height(Format::r16f, s.splat.width, s.splat.height) {
     // Where the wind meets the pane it stands still: nothing blows along it.
     forces.gravity[1] = static_cast<float>(-s.gravity / s.pane[1]);
-    while (steps < warm_up_steps()) step(moment(nullptr, 0, 0));
+    if (warm_up_steps() == 0) return;
+    const int none = 0;
+    const auto listed = [&] {  // anew each time: lengths are those of now
+      state::Items items;
+      list(items, none);
+      return items;
+    };
+    warm_up_once(settings, listed, [&] {
+      while (steps < warm_up_steps()) step(moment(nullptr, 0, 0));
+    });
   }
   pass::Moment moment(Recorder* recorder, int step, double dt) const {
     return {recorder, frame, step, frame / settings.fps, dt, settings.splat.rounding};
