@@ -10,6 +10,7 @@
 #include "capture/pass_clock.h"
 #include "edge_splash/host.h"
 #include "edge_splash/splash.pass.h"
+#include "parallel/rows.h"
 #include "pass/display.h"
 #include "rainref/error.h"
 #include "state/items.h"
@@ -45,8 +46,8 @@ struct EdgeSplash::State {
         executor(e),
         corrected(s.variant == Variant::corrected),
         makes_crowns(corrected && s.has_crowns && in.noise.empty()),
-        scene(prepare_scene(in)),
-        depth_image(prepare_depth(in, s.depth)),
+        scene(prepare_scene(in, parallel::rows_of(e))),
+        depth_image(prepare_depth(in, s.depth, parallel::rows_of(e))),
         layer(prepare_layer(in)),
         noise_image(makes_crowns ? Image() : prepare_noise(in, s)) {
     settings.has_crowns = makes_crowns;
@@ -124,7 +125,8 @@ void EdgeSplash::show(const Inputs& inputs) {
     throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} as before, found {}x{}", s.settings.width, s.settings.height,
                                              inputs.colour.width(), inputs.colour.height()));
   }
-  Image scene = prepare_scene(inputs), depth = prepare_depth(inputs, s.settings.depth), layer = prepare_layer(inputs);
+  const Rows rows = parallel::rows_of(s.executor);
+  Image scene = prepare_scene(inputs, rows), depth = prepare_depth(inputs, s.settings.depth, rows), layer = prepare_layer(inputs);
   s.scene = std::move(scene);
   s.depth_image = std::move(depth);
   s.layer = std::move(layer);

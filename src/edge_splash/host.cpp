@@ -48,6 +48,12 @@ void require_size(const Image& image, const Image& colour, const char* key) {
                                            colour.height(), image.width(), image.height()));
 }
 
+// depth_of, with the floating-point state as it has to be.
+double device_depth(const DepthRange& r, double distance) {
+  const double reversed = r.near_plane * (r.far_plane - distance) / (distance * (r.far_plane - r.near_plane));
+  return r.reversed ? reversed : 1 - reversed;
+}
+
 }  // namespace
 
 // Of a projection onto [near, far]: d (reversed) = near (far - z) / (z (far - near)), so 1 / z = d (1/near - 1/far) + 1/far.
@@ -58,8 +64,7 @@ double distance_of(const DepthRange& r, double depth) {
 }
 double depth_of(const DepthRange& r, double distance) {
   const FloatingPointGuard guard;
-  const double reversed = r.near_plane * (r.far_plane - distance) / (distance * (r.far_plane - r.near_plane));
-  return r.reversed ? reversed : 1 - reversed;
+  return device_depth(r, distance);
 }
 
 scene::Camera camera(const Settings& s) {
@@ -138,7 +143,7 @@ double scrolled(double velocity, int frame, double fps) {
   return rest < 1 ? rest : 0.0;  // a small negative number
 }
 
-Image prepare_scene(const Inputs& in) {
+Image prepare_scene(const Inputs& in, const Rows& rows) {
   const Image& from = in.colour;
   if (from.empty() || from.channels() != 4) throw Error(ExitCode::usage, "scene.image: expected an image of four channels");
   double linear[256];
@@ -147,39 +152,51 @@ Image prepare_scene(const Inputs& in) {
   }
   Image to(Format::rgba16f, from.width(), from.height());
   const auto kind = info(from.format()).kind;
-  for (int y = 0; y < from.height(); ++y) {
-    Half* out = to.row<Half>(y);
-    for (int i = 0; i < 4 * from.width(); ++i) {
-      if (kind == FormatInfo::float16)
-        out[i] = from.row<Half>(y)[i];
-      else if (kind == FormatInfo::float32)
-        out[i] =
-            to_half(in.colour_is_encoded && i % 4 != 3 ? static_cast<float>(decode_srgb(from.row<float>(y)[i])) : from.row<float>(y)[i]);
-      else if (in.colour_is_encoded && i % 4 != 3)
-        out[i] = to_half(static_cast<float>(linear[from.row<Unorm8>(y)[i].code]));
-      else
-        out[i] = to_half(to_float(from.row<Unorm8>(y)[i]));
+  rows(from.height(), [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      Half* out = to.row<Half>(y);
+      for (int i = 0; i < 4 * from.width(); ++i) {
+        if (kind == FormatInfo::float16)
+          out[i] = from.row<Half>(y)[i];
+        else if (kind == FormatInfo::float32)
+          out[i] =
+              to_half(in.colour_is_encoded && i % 4 != 3 ? static_cast<float>(decode_srgb(from.row<float>(y)[i])) : from.row<float>(y)[i]);
+        else if (in.colour_is_encoded && i % 4 != 3)
+          out[i] = to_half(static_cast<float>(linear[from.row<Unorm8>(y)[i].code]));
+        else
+          out[i] = to_half(to_float(from.row<Unorm8>(y)[i]));
+      }
     }
-  }
+  });
   return to;
 }
 
-Image prepare_depth(const Inputs& in, const DepthRange& range) {
+Image prepare_depth(const Inputs& in, const DepthRange& range, const Rows& rows) {
   require_size(in.depth, in.colour, "scene.depth_image");
-  Image to(Format::r32f, in.depth.width(), in.depth.height());
-  for (int y = 0; y < to.height(); ++y) {
-    for (int x = 0; x < to.width(); ++x) {
-      const double stored = first_channel(in.depth, x, y);
-      const double lowest = in.depth_is_distance ? range.near_plane : 0, highest = in.depth_is_distance ? range.far_plane : 1;
-      if (!(lowest <= stored && stored <= highest)) {
-        throw Error(ExitCode::usage,
-                    fmt::format("scene.depth_image: expected {} from {} to {}, found {} at column {}, row {} from the bottom{}",
-                                in.depth_is_distance ? "distances [m]" : "device depths", lowest, highest, stored, x, y,
-                                in.depth_is_distance ? " (scene.near and scene.far are the limits)"
-                                                     : " (scene.depth_encoding = \"metres\" takes distances)"));
+  const double lowest = in.depth_is_distance ? range.near_plane : 0, highest = in.depth_is_distance ? range.far_plane : 1;
+  const int width = in.depth.width(), height = in.depth.height();
+  Image to(Format::r32f, width, height);
+  std::vector<int> outside(static_cast<std::size_t>(height), width);  // the first column of each row that no depth may have
+  rows(height, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const double stored = first_channel(in.depth, x, y);
+        if (!(lowest <= stored && stored <= highest)) {
+          outside[static_cast<std::size_t>(y)] = x;
+          break;
+        }
+        to.row<float>(y)[x] = static_cast<float>(in.depth_is_distance ? device_depth(range, stored) : stored);
       }
-      to.row<float>(y)[x] = static_cast<float>(in.depth_is_distance ? depth_of(range, stored) : stored);
     }
+  });
+  for (int y = 0; y < height; ++y) {
+    const int x = outside[static_cast<std::size_t>(y)];
+    if (x == width) continue;
+    throw Error(ExitCode::usage,
+                fmt::format("scene.depth_image: expected {} from {} to {}, found {} at column {}, row {} from the bottom{}",
+                            in.depth_is_distance ? "distances [m]" : "device depths", lowest, highest, first_channel(in.depth, x, y), x, y,
+                            in.depth_is_distance ? " (scene.near and scene.far are the limits)"
+                                                 : " (scene.depth_encoding = \"metres\" takes distances)"));
   }
   return to;
 }

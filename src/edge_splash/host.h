@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/rows.h"
 #include "edge_splash/uniforms.h"
 #include "image/texture.h"
 #include "rainref/edge_splash.h"
@@ -22,9 +23,9 @@ SplashUniforms splash_uniforms(const Settings& settings, int frame, int noise_wi
 double scrolled(double velocity, int frame, double fps);
 
 /// rgba16f linear radiance of any image of four channels.
-Image prepare_scene(const Inputs& inputs);
+Image prepare_scene(const Inputs& inputs, const Rows& rows = rows_here);
 /// Device depth, r32f, from any first channel. Throws Error(usage) naming the first value outside its range.
-Image prepare_depth(const Inputs& inputs, const DepthRange& range);
+Image prepare_depth(const Inputs& inputs, const DepthRange& range, const Rows& rows = rows_here);
 /// r8.
 Image prepare_layer(const Inputs& inputs);
 /// The noise as splash samples it: as published the map itself, r8; corrected the map at half its resolution, r32f.
