@@ -1,4 +1,4 @@
-"""Whole frames of `rainref run` on more and more threads, and how long a default scene takes to show its first picture."""
+"""Whole frames of `rainref run` on more and more threads, and how long a default scene takes to begin."""
 import json
 import os
 import re
@@ -47,12 +47,15 @@ def measure(rainref, out, counts, only, say):
         for scene in (f"{e}/default" for e in EFFECTS if re.search(only, f"start/{e}/default")):
             say(f"start/{scene}")
             shutil.rmtree(cache, ignore_errors=True)
+            goes = [_run(rainref, folder, cache, scene, 1, ["--image", "none"]) for _ in range(1 + GOES)]
+            # Until the first frame begins: the command less its frames.
+            start = {"scene": scene, "first_s": round(goes[0][1], 3), "frame_s": round(statistics.median(s for _, s in goes[1:]), 3),
+                     "kept_s": round(statistics.median(s - summary["seconds"] for summary, s in goes[1:]), 3)}
             try:
-                seconds = [_run(rainref, folder, cache, scene, 1, ["--image", "png"])[1] for _ in range(1 + GOES)]
+                start["png_s"] = round(statistics.median(_run(rainref, folder, cache, scene, 1, ["--image", "png"])[1] for _ in range(GOES)), 3)
             except subprocess.CalledProcessError as refused:  # a machine without OpenImageIO writes no pictures
-                skipped.append({"peer": f"start/{scene}", "reason": refused.stderr.decode().strip().splitlines()[-1]})
-                continue
-            found["starts"].append({"scene": scene, "first_s": round(seconds[0], 3), "kept_s": round(statistics.median(seconds[1:]), 3)})
+                skipped.append({"peer": f"PNG of {scene}", "reason": refused.stderr.decode().strip().splitlines()[-1]})
+            found["starts"].append(start)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.rmtree(cache, ignore_errors=True)
@@ -71,9 +74,10 @@ def markdown(result):
     if lines:
         parts.append(f"Frames of scenes, {FRAMES} of them without pictures:\n\n" +
                      rows.table(["scene", "threads", "ms a frame", "±", "over one thread", "goal", "hash"], lines))
-    lines = [[f"`{row['scene']}`", f"{row['first_s']:.2f}", f"{row['kept_s']:.2f}",
-              f"{GOAL_START:g} {'met' if row['kept_s'] <= GOAL_START else '**not met**'}"] for row in result.get("starts", [])]
+    lines = [[f"`{row['scene']}`", f"{row['kept_s']:.2f}", f"{GOAL_START:g} {'met' if row['kept_s'] <= GOAL_START else '**not met**'}",
+              *(f"{row[key]:.2f}" if key in row else "" for key in ("frame_s", "png_s", "first_s"))] for row in result.get("starts", [])]
     if lines:
-        parts.append("From the command to the PNG of its first frame, all threads; \"kept\": what is the same in every run was there:\n\n" +
-                     rows.table(["scene", "first run [s]", "kept [s]", "goal"], lines))
+        parts.append("From the command, all threads, until its first frame begins, is computed, and is written, OpenImageIO loaded; then without what is "
+                     "the same in every run and was kept:\n\n" +
+                     rows.table(["scene", "begins [s]", "goal", "computed [s]", "a PNG [s]", "nothing kept, computed [s]"], lines))
     return "\n".join(parts)

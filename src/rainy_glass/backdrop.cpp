@@ -90,21 +90,33 @@ Image defocused(const Image& image, double radius, const parallel::Executor& exe
 
 Surroundings make_backdrop(const Settings& s, const BackdropOptions& options, const parallel::Executor& executor, const Image& panorama) {
   Surroundings around;
+  const double radius = options.defocus * s.height;
   if (panorama.empty()) {
     const night_street::Street street({s.seed});
-    night_street::Street::View view = street.view(camera(s), s.width, s.height, backdrop_far, executor);
-    around.colour = std::move(view.colour);
-    around.depth = std::move(view.depth);
+    const scene::Camera eye = camera(s);
+    cache::Recipe recipe("rainy_glass street");
+    recipe.add(s.seed).add(static_cast<std::uint64_t>(s.width)).add(static_cast<std::uint64_t>(s.height));
+    for (const Vector3& v : {eye.position, eye.target, eye.up}) recipe.add({v.x, v.y, v.z});
+    recipe.add({eye.vertical_fov_deg, radius});
+    // Both at once: in focus the street is needed no more.
+    std::vector<Image> kept = cache::images(recipe, [&] {
+      night_street::Street::View view = street.view(eye, s.width, s.height, backdrop_far, executor);
+      std::vector<Image> both;
+      both.push_back(defocused(view.colour, radius, executor));
+      both.push_back(std::move(view.depth));
+      return both;
+    });
+    around.colour = std::move(kept[0]);
+    around.depth = std::move(kept[1]);
     if (s.use_probe) around.probe = street.panorama(1024, 512, camera(s).position, executor);
   } else {
     around.colour = scene::panorama_view(panorama, camera(s), s.width, s.height, executor);
     around.depth = Image(Format::r32f, s.width, s.height);
     for (int y = 0; y < s.height; ++y) std::fill_n(around.depth.row<float>(y), s.width, static_cast<float>(backdrop_far));
     if (s.use_probe) around.probe = copy_of(panorama);
+    around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
+                                 [&] { return defocused(around.colour, radius, executor); });
   }
-  const double radius = options.defocus * s.height;
-  around.colour = cache::image(cache::Recipe("rainy_glass defocused").add({radius}).add(around.colour),
-                               [&] { return defocused(around.colour, radius, executor); });
   if (s.shape == Shape::pane && options.bar_spacing > 0) add_bars(s, options, around, parallel::rows_of(executor));
   return around;
 }

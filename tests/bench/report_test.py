@@ -84,13 +84,13 @@ class Rows(unittest.TestCase):
 class Frames(unittest.TestCase):
     RUN = {"frames": [{"scene": "puddle/stress", "threads": n, "q1_ms": q, "median_ms": q, "q3_ms": 1.2 * q, "hash": "0123"}
                       for n, q in ((1, 96.0), (16, 8.0))],
-           "starts": [{"scene": "puddle/default", "first_s": 1.5, "kept_s": 0.3}]}
+           "starts": [{"scene": "puddle/default", "first_s": 1.5, "frame_s": 0.5, "kept_s": 0.3}]}
 
     def test_the_ratio_is_to_one_thread_and_a_goal_is_met_from_its_value_on(self):
         text = frames.markdown(self.RUN)
         self.assertIn("| `puddle/stress` | 1 | 96 | 10 % | 1.00 |  | 0123 |", text)
         self.assertIn("| `puddle/stress` | 16 | 8 | 10 % | 12.00 | 12 met | 0123 |", text)
-        self.assertIn("| `puddle/default` | 1.50 | 0.30 | 0.3 met |", text)
+        self.assertIn("| `puddle/default` | 0.30 | 0.3 met | 0.50 |  | 1.50 |", text)
         slower = copy.deepcopy(self.RUN)
         slower["frames"][1]["median_ms"], slower["starts"][0]["kept_s"] = 8.01, 0.31
         self.assertEqual(frames.markdown(slower).count("**not met**"), 2)
