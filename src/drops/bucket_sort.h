@@ -1,6 +1,7 @@
 // A sort by small keys that threads share.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -24,7 +25,8 @@ class BucketSort {
   void sort(const parallel::Executor& executor, std::int64_t count, std::int64_t chunk, std::uint32_t keys, const KeyOf& key_of) {
     keys_ = keys;
     shift_ = 0;
-    while ((keys >> shift_) >= most_buckets) ++shift_;
+    const std::int64_t most = std::clamp<std::int64_t>(count / elements_in_bucket, 1, most_buckets);
+    while ((keys >> shift_) >= most) ++shift_;
     const std::size_t buckets = (keys >> shift_) + 1u, chunks = static_cast<std::size_t>((count + chunk - 1) / chunk);
     std::vector<std::uint32_t>& offset = offset_;
     offset.assign(chunks * buckets, 0);
@@ -65,7 +67,7 @@ class BucketSort {
   }
 
  private:
-  static constexpr std::uint32_t most_buckets = 512;
+  static constexpr std::int64_t most_buckets = 512, elements_in_bucket = 256;  // handing out a bucket costs as much as some elements
   std::uint32_t keys_ = 0;
   int shift_ = 0;
   std::vector<std::uint32_t> offset_, start_;

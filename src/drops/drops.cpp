@@ -89,16 +89,17 @@ std::int64_t DropArrays::water() const {
 
 void DropArrays::gather(std::vector<Drop>& out, const parallel::Executor& executor) const {
   // Each chunk counts its drops, then writes them behind those of the chunks before it.
-  std::vector<std::size_t> first(static_cast<std::size_t>((extent_ + chunk_slots - 1) / chunk_slots) + 1, 0);
+  const std::int64_t chunk = chunk_of(extent_);
+  std::vector<std::size_t> first(static_cast<std::size_t>((extent_ + chunk - 1) / chunk) + 1, 0);
   const std::span<const float> lives = life();
-  executor.for_range(extent_, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
-    first[static_cast<std::size_t>(begin / chunk_slots) + 1] =
+  executor.for_range(extent_, chunk, [&](std::int64_t begin, std::int64_t end) {
+    first[static_cast<std::size_t>(begin / chunk) + 1] =
         static_cast<std::size_t>(std::count_if(lives.begin() + begin, lives.begin() + end, [](float x) { return x > 0; }));
   });
   for (std::size_t c = 1; c < first.size(); ++c) first[c] += first[c - 1];
   out.resize(first.back());
-  executor.for_range(extent_, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
-    Drop* to = out.data() + first[static_cast<std::size_t>(begin / chunk_slots)];
+  executor.for_range(extent_, chunk, [&](std::int64_t begin, std::int64_t end) {
+    Drop* to = out.data() + first[static_cast<std::size_t>(begin / chunk)];
     for (std::int64_t i = begin; i < end; ++i) {
       if (lives[static_cast<std::size_t>(i)] > 0) *to++ = get(i);
     }

@@ -1,6 +1,7 @@
 // The drops on a glass as a structure of arrays. A slot holds a drop or is free; a drop keeps its slot while it lives.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,8 +14,9 @@
 
 namespace rainref::drops {
 
-/// Slots of one chunk of work: fixed, so that results and sums do not depend on the number of threads.
-constexpr std::int64_t chunk_slots = 16384;
+/// Slots of one chunk of work, by their number alone, so that results and sums do not depend on the number of threads: enough chunks for
+/// many threads, none so small that handing it out costs more than its work. Of a vector's width at least.
+constexpr std::int64_t chunk_of(std::int64_t slots) { return std::clamp<std::int64_t>((slots / 64 + 511) / 512 * 512, 512, 16384); }
 
 /// What became of the water, in whole mass units. as-published counts drops instead.
 /// spawned - evaporated - removed - film = what the live drops hold, exactly.

@@ -9,9 +9,10 @@ MassBalance integrate(const parallel::Executor& executor, DropArrays& drops, con
   io.drops.columns = drops.columns();
   io.glass_frame = std::span(&glass, 1);
   // Over fixed chunks. Whole numbers, so the order of the sum is free.
-  std::vector<MassBalance> of_chunk(static_cast<std::size_t>((drops.extent() + chunk_slots - 1) / chunk_slots));
-  executor.for_range(drops.extent(), chunk_slots, [&](std::int64_t begin, std::int64_t end) {
-    of_chunk[static_cast<std::size_t>(begin / chunk_slots)] = integrate_range(uniforms, corrected, io, begin, end);
+  const std::int64_t chunk = chunk_of(drops.extent());
+  std::vector<MassBalance> of_chunk(static_cast<std::size_t>((drops.extent() + chunk - 1) / chunk));
+  executor.for_range(drops.extent(), chunk, [&](std::int64_t begin, std::int64_t end) {
+    of_chunk[static_cast<std::size_t>(begin / chunk)] = integrate_range(uniforms, corrected, io, begin, end);
   });
   MassBalance sum;
   for (const MassBalance& b : of_chunk) sum += b;

@@ -46,7 +46,7 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
   grid.build(executor, drops, uniforms);
   std::vector<std::int32_t>& larger = scratch_->larger;
   larger.resize(std::max(larger.size(), static_cast<std::size_t>(grid.count)));
-  constexpr std::int64_t chunk = 1024;
+  const std::int64_t chunk = std::min<std::int64_t>(1024, chunk_of(grid.count));
   executor.for_range(grid.count, chunk, [&](std::int64_t begin, std::int64_t end) { find_larger_range(grid, begin, end, larger.data()); });
 
   // Ends of chains. What is known of a chain shortens it for the others: whatever of it a thread meets leads to the same end.
@@ -61,7 +61,7 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
     }
   });
   BucketSort& by_root = scratch_->by_root;
-  by_root.sort(executor, grid.count, 8 * chunk, static_cast<std::uint32_t>(grid.count), [&](std::int64_t i) {
+  by_root.sort(executor, grid.count, chunk_of(grid.count), static_cast<std::uint32_t>(grid.count), [&](std::int64_t i) {
     return static_cast<std::uint32_t>(larger[static_cast<std::size_t>(i)]);  // -1: no key
   });
 
@@ -96,9 +96,10 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
 
 MassBalance leave_trails(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms, Image& film) {
   const Slots slots(drops);
-  std::vector<std::vector<Deposit>> of_chunk(static_cast<std::size_t>((drops.extent() + chunk_slots - 1) / chunk_slots));
-  executor.for_range(drops.extent(), chunk_slots, [&](std::int64_t begin, std::int64_t end) {
-    trail_range(uniforms, slots, begin, end, of_chunk[static_cast<std::size_t>(begin / chunk_slots)]);
+  const std::int64_t chunk = chunk_of(drops.extent());
+  std::vector<std::vector<Deposit>> of_chunk(static_cast<std::size_t>((drops.extent() + chunk - 1) / chunk));
+  executor.for_range(drops.extent(), chunk, [&](std::int64_t begin, std::int64_t end) {
+    trail_range(uniforms, slots, begin, end, of_chunk[static_cast<std::size_t>(begin / chunk)]);
   });
   MassBalance balance;
   for (const auto& deposits : of_chunk) {

@@ -12,7 +12,6 @@ constexpr std::size_t room_behind = 64;  // slots of a vector, and more
 constexpr double slack = 1.0001;         // more than the rounding of radii and coordinates
 constexpr std::size_t ahead = 16;        // elements between asking for a slot and using it
 
-std::size_t chunks_of(std::int64_t count) { return static_cast<std::size_t>((count + chunk_slots - 1) / chunk_slots); }
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
@@ -38,18 +37,19 @@ void MergeGrid::lay_out(const std::array<std::int64_t, size_classes>& counts, co
 }
 
 void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, const MergeUniforms& uniforms) {
-  const std::int64_t extent = drops.extent();
+  const std::int64_t extent = drops.extent(), chunk = chunk_of(extent);
   for (auto* a : {&slot_x_, &slot_y_, &slot_radius_}) a->resize(std::max(a->size(), index(extent) + room_behind));
   slot_cell_.resize(std::max(slot_cell_.size(), index(extent)));
   const Slots slots(drops);
-  std::vector<std::array<std::int64_t, size_classes>> of_chunk(chunks_of(extent), std::array<std::int64_t, size_classes>{});
-  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<std::array<std::int64_t, size_classes>> of_chunk(index((extent + chunk - 1) / chunk),
+                                                               std::array<std::int64_t, size_classes>{});
+  executor.for_range(extent, chunk, [&](std::int64_t begin, std::int64_t end) {
     measure_range(uniforms, slots, begin, end, slot_x_.data(), slot_y_.data(), slot_radius_.data());
     std::array<std::int64_t, size_classes> counts{};
     for (std::int64_t i = begin; i < end; ++i) {
       if (slots.life[i] > 0) ++counts[static_cast<std::size_t>(size_class_of(slots.mass[i]))];
     }
-    of_chunk[index(begin / chunk_slots)] = counts;
+    of_chunk[index(begin / chunk)] = counts;
   });
   std::array<std::int64_t, size_classes> counts{};
   for (const auto& c : of_chunk) {
@@ -58,7 +58,7 @@ void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, con
   count = 0;
   for (const std::int64_t n : counts) count += n;
   lay_out(counts, uniforms);
-  executor.for_range(extent, chunk_slots, [&](std::int64_t begin, std::int64_t end) {
+  executor.for_range(extent, chunk, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const std::size_t k = index(i);
       if (!(slots.life[i] > 0)) {
@@ -75,7 +75,7 @@ void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, con
 
 void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops) {
   const auto cells = static_cast<std::uint32_t>(cell_start.size() - 1);
-  by_cell_.sort(executor, drops.extent(), chunk_slots, cells, [&](std::int64_t i) { return slot_cell_[index(i)]; });
+  by_cell_.sort(executor, drops.extent(), chunk_of(drops.extent()), cells, [&](std::int64_t i) { return slot_cell_[index(i)]; });
   for (auto* a : {&x, &y, &radius, &mass}) a->resize(std::max(a->size(), index(count) + room_behind));
   for (auto* a : {&id, &slot}) a->resize(std::max(a->size(), index(count)));
   const std::span<const float> masses = drops.mass();
