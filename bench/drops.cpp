@@ -66,7 +66,7 @@ double stream_seconds(const parallel::Executor& executor, DropArrays& drops) {
   };
   double best = 1e9, total = 0;
   for (int go = 0; go < 6 || go % 2 == 1 || (total < 0.2 && go < 2000); ++go) {  // an even number restores them
-    const double seconds = bench::seconds_of([&] { executor.for_range(drops.extent(), chunk_slots, range); });
+    const double seconds = bench::seconds_of([&] { executor.for_range(drops.extent(), chunk_of(drops.extent()), range); });
     best = std::min(best, seconds);
     total += seconds;
   }

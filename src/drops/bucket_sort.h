@@ -20,9 +20,11 @@ class BucketSort {
     std::uint32_t key, element;
   };
 
-  /// Elements 0 to count - 1. key_of(element), asked twice, is below `keys`, or no_key for what is left out.
-  template <class KeyOf>
-  void sort(const parallel::Executor& executor, std::int64_t count, std::int64_t chunk, std::uint32_t keys, const KeyOf& key_of) {
+  /// Elements 0 to count - 1. key_of(element) is below `keys`, or no_key for what is left out; it is asked twice, the first time as
+  /// make_key(element).
+  template <class MakeKey, class KeyOf>
+  void sort(const parallel::Executor& executor, std::int64_t count, std::int64_t chunk, std::uint32_t keys, const MakeKey& make_key,
+            const KeyOf& key_of) {
     keys_ = keys;
     shift_ = 0;
     const std::int64_t most = std::clamp<std::int64_t>(count / elements_in_bucket, 1, most_buckets);
@@ -34,7 +36,7 @@ class BucketSort {
     executor.for_range(count, chunk, [&](std::int64_t begin, std::int64_t end) {
       std::uint32_t* counts = of_chunk(begin);
       for (std::int64_t i = begin; i < end; ++i)
-        if (const std::uint32_t key = key_of(i); key != no_key) ++counts[key >> shift_];
+        if (const std::uint32_t key = make_key(i); key != no_key) ++counts[key >> shift_];
     });
     start_.resize(buckets + 1);
     std::uint32_t sum = 0;

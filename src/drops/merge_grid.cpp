@@ -58,27 +58,23 @@ void MergeGrid::build(const parallel::Executor& executor, DropArrays& drops, con
   count = 0;
   for (const std::int64_t n : counts) count += n;
   lay_out(counts, uniforms);
-  executor.for_range(extent, chunk, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      const std::size_t k = index(i);
-      if (!(slots.life[i] > 0)) {
-        slot_cell_[k] = BucketSort::no_key;
-        continue;
-      }
-      const ClassGrid& g = classes[static_cast<std::size_t>(size_class_of(slots.mass[i]))];
-      slot_cell_[k] = g.first_cell + static_cast<std::uint32_t>(g.row(slot_y_[k])) * static_cast<std::uint32_t>(g.columns) +
-                      static_cast<std::uint32_t>(g.column(slot_x_[k]));
-    }
-  });
   sort(executor, drops);
 }
 
 void MergeGrid::sort(const parallel::Executor& executor, const DropArrays& drops) {
   const auto cells = static_cast<std::uint32_t>(cell_start.size() - 1);
-  by_cell_.sort(executor, drops.extent(), chunk_of(drops.extent()), cells, [&](std::int64_t i) { return slot_cell_[index(i)]; });
+  const std::span<const float> masses = drops.mass(), lives = drops.life();
+  const auto cell_of = [&](std::size_t k) {
+    if (!(lives[k] > 0)) return BucketSort::no_key;
+    const ClassGrid& g = classes[static_cast<std::size_t>(size_class_of(masses[k]))];
+    return g.first_cell + static_cast<std::uint32_t>(g.row(slot_y_[k])) * static_cast<std::uint32_t>(g.columns) +
+           static_cast<std::uint32_t>(g.column(slot_x_[k]));
+  };
+  by_cell_.sort(
+      executor, drops.extent(), chunk_of(drops.extent()), cells, [&](std::int64_t i) { return slot_cell_[index(i)] = cell_of(index(i)); },
+      [&](std::int64_t i) { return slot_cell_[index(i)]; });
   for (auto* a : {&x, &y, &radius, &mass}) a->resize(std::max(a->size(), index(count) + room_behind));
   for (auto* a : {&id, &slot}) a->resize(std::max(a->size(), index(count)));
-  const std::span<const float> masses = drops.mass();
   const std::span<const std::uint32_t> ids = drops.id();
   executor.for_range(static_cast<std::int64_t>(by_cell_.buckets()), 1, [&](std::int64_t b, std::int64_t) {
     const std::span<const BucketSort::Entry> entries = by_cell_[index(b)];

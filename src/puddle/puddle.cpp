@@ -31,7 +31,7 @@ namespace {
 
 using capture::Stopwatch;
 
-constexpr int wave_tile_rows = 32, picture_tile_rows = 4;
+constexpr int wave_tile_rows = 32, picture_tile_rows = 2;
 
 Format channel_format(Format storage) {
   switch (storage) {
