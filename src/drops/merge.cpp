@@ -30,6 +30,16 @@ void prefetch(DropArrays& drops, std::int64_t slot) {
   __builtin_prefetch(drops.id().data() + slot, 1);
 }
 
+/// Into how many parts work on the elements of these lists is cut where each part looks through all of them.
+constexpr std::int64_t most_parts = 32;
+template <class T>
+std::int64_t parts_of(const std::vector<std::vector<T>>& lists) {
+  constexpr std::size_t least = 64;  // elements that are worth handing out
+  std::size_t count = 0;
+  for (const std::vector<T>& list : lists) count += list.size();
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(count / least), 1, most_parts);
+}
+
 /// Drops that end, all of theirs that end in the same one among them, into those in which they end. How many did.
 std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropArrays& drops) {
   std::sort(members.begin(), members.end(),
@@ -56,36 +66,36 @@ std::int64_t take_in(const MergeGrid& grid, std::vector<Member>& members, DropAr
   return ended;
 }
 
-/// What happens to the film: it dries, and takes trails. In one go, as rows and drops do not concern each other.
+/// What happens to the film: it dries, then takes the trails of those that leave some.
 MassBalance change_film(const parallel::Executor& executor, const MergeUniforms& uniforms, DropArrays* leaving, bool dries, Image& film) {
-  constexpr std::int64_t rows = 16;
-  const std::int64_t row_pieces = dries && uniforms.drying > 0 ? (film.height() + rows - 1) / rows : 0;
-  const std::int64_t extent = leaving ? leaving->extent() : 0, chunk = chunk_of(extent), drop_pieces = (extent + chunk - 1) / chunk;
-  std::vector<std::int64_t> dried(static_cast<std::size_t>(row_pieces), 0);
-  std::vector<std::vector<Deposit>> deposited(static_cast<std::size_t>(drop_pieces));
-  executor.for_range(row_pieces + drop_pieces, 1, [&](std::int64_t piece, std::int64_t) {
-    if (piece >= row_pieces) {
-      const std::int64_t begin = (piece - row_pieces) * chunk;
-      trail_range(uniforms, Slots(*leaving), begin, std::min(extent, begin + chunk),
-                  deposited[static_cast<std::size_t>(piece - row_pieces)]);
-      return;
+  const std::int64_t extent = leaving ? leaving->extent() : 0, chunk = chunk_of(extent);
+  std::vector<std::vector<Deposit>> deposits(static_cast<std::size_t>((extent + chunk - 1) / chunk));
+  executor.for_range(extent, chunk, [&](std::int64_t begin, std::int64_t end) {
+    trail_range(uniforms, Slots(*leaving), begin, end, deposits[static_cast<std::size_t>(begin / chunk)]);
+  });
+  // A band of rows looks through all deposits for its own.
+  const bool is_drying = dries && uniforms.drying > 0;
+  const std::int64_t bands = std::min<std::int64_t>(film.height(), is_drying ? most_parts : parts_of(deposits));
+  std::vector<MassBalance> of_band(static_cast<std::size_t>(bands));
+  executor.for_range(bands, 1, [&](std::int64_t band, std::int64_t) {
+    MassBalance& balance = of_band[static_cast<std::size_t>(band)];
+    const int first = static_cast<int>(film.height() * band / bands), last = static_cast<int>(film.height() * (band + 1) / bands);
+    for (int y = first; y < last && is_drying; ++y) balance.evaporated += dry_row(uniforms, film.row<float>(y), film.width());
+    balance.to_film = -balance.evaporated;
+    for (const std::vector<Deposit>& some : deposits) {
+      for (const Deposit& d : some) {
+        if (d.row < first || d.row >= last) continue;
+        float& texel = film.row<float>(d.row)[d.column];
+        // Both are at most 2^24, so room is exact, and so is what is put there: any order gives the same film.
+        const float put = std::min(d.mass_units, most_mass - texel);
+        texel += put;
+        balance.to_film += static_cast<std::int64_t>(put);
+        balance.removed += static_cast<std::int64_t>(d.mass_units - put);
+      }
     }
-    for (std::int64_t y = piece * rows; y < std::min<std::int64_t>(film.height(), (piece + 1) * rows); ++y)
-      dried[static_cast<std::size_t>(piece)] += dry_row(uniforms, film.row<float>(static_cast<int>(y)), film.width());
   });
   MassBalance balance;
-  for (const std::int64_t sum : dried) balance.evaporated += sum;
-  balance.to_film = -balance.evaporated;
-  for (const auto& deposits : deposited) {
-    for (const Deposit& d : deposits) {
-      float& texel = film.row<float>(d.row)[d.column];
-      // Both are at most 2^24, so room is exact, and so is what is put there: any order gives the same film.
-      const float put = std::min(d.mass_units, most_mass - texel);
-      texel += put;
-      balance.to_film += static_cast<std::int64_t>(put);
-      balance.removed += static_cast<std::int64_t>(d.mass_units - put);
-    }
-  }
+  for (const MassBalance& b : of_band) balance += b;
   return balance;
 }
 
@@ -94,8 +104,6 @@ MassBalance change_film(const parallel::Executor& executor, const MergeUniforms&
 struct Merger::Scratch {
   MergeGrid grid;
   std::vector<std::int32_t> larger;
-  std::vector<Member> ended;
-  BucketSort by_root;
 };
 
 Merger::Merger() : scratch_(std::make_unique<Scratch>()) {}
@@ -123,21 +131,17 @@ std::int64_t Merger::merge(const parallel::Executor& executor, DropArrays& drops
       ended.push_back({static_cast<std::uint32_t>(root), grid.id[static_cast<std::size_t>(i)], grid.slot[static_cast<std::size_t>(i)]});
     }
   });
-  std::vector<Member>& ended = scratch_->ended;
-  ended.clear();
-  for (const std::vector<Member>& members : of_chunk) ended.insert(ended.end(), members.begin(), members.end());
-
-  constexpr std::size_t few = 2048;  // sooner taken in than handed out
-  if (ended.size() <= few) return take_in(grid, ended, drops);
-  BucketSort& by_root = scratch_->by_root;
-  const auto count = static_cast<std::int64_t>(ended.size());
-  const auto root_of = [&](std::int64_t i) { return ended[static_cast<std::size_t>(i)].root; };
-  by_root.sort(executor, count, chunk_of(count), static_cast<std::uint32_t>(grid.count), root_of, root_of);
-  std::vector<std::int64_t> ended_in(by_root.buckets(), 0);
-  executor.for_range(static_cast<std::int64_t>(by_root.buckets()), 1, [&](std::int64_t bucket, std::int64_t) {
+  // Each part takes those whose chains end in its share of the grid; looking through all of them costs less than sorting them.
+  const std::int64_t parts = parts_of(of_chunk);
+  std::vector<std::int64_t> ended_in(static_cast<std::size_t>(parts), 0);
+  executor.for_range(parts, 1, [&](std::int64_t part, std::int64_t) {
+    const std::int64_t first = grid.count * part / parts, last = grid.count * (part + 1) / parts;
     std::vector<Member> members;
-    for (const BucketSort::Entry& e : by_root[static_cast<std::size_t>(bucket)]) members.push_back(ended[e.element]);
-    ended_in[static_cast<std::size_t>(bucket)] = take_in(grid, members, drops);
+    for (const std::vector<Member>& some : of_chunk) {
+      for (const Member& m : some)
+        if (m.root >= first && m.root < last) members.push_back(m);
+    }
+    ended_in[static_cast<std::size_t>(part)] = take_in(grid, members, drops);
   });
   return std::accumulate(ended_in.begin(), ended_in.end(), std::int64_t{0});
 }
