@@ -9,11 +9,11 @@ struct SelftestGolden {
   const char* hash;
 };
 inline constexpr SelftestGolden selftest_goldens[] = {
-    {"puddle", "as-published", "30add08e3949d255eda7b36a9a8dff3c"},       {"puddle", "corrected", "e54981c703c3e99e4f09933eaa4da249"},
-    {"windshield", "as-published", "c71e1194f001b4e650fa8d3c86f49741"},   {"windshield", "corrected", "178b2b3316f22c4206762130741c60a4"},
+    {"puddle", "as-published", "cc73ada3956fba55e3d0c36575f5695f"},       {"puddle", "corrected", "56801830ce3410f803ae29f54849cc83"},
+    {"windshield", "as-published", "13ef0585709029ea4eaee19740f38bc7"},   {"windshield", "corrected", "d3e698cb9ba32fd37ed476d238a79aae"},
     {"edge_splash", "as-published", "489e98dff58b34e3b5e364ac3a427365"},  {"edge_splash", "corrected", "4212a5e8125bedacb031a03b8b669312"},
-    {"screen_drops", "as-published", "2d0a5ec7a5978dd2b9367e7b327c116f"}, {"screen_drops", "corrected", "24b32f3fe0b199b08ad31716f5a0ebcd"},
-    {"rainy_glass", "as-published", "b0f495e7beed9fa7794e8d51b70f394e"},  {"rainy_glass", "corrected", "83c1ffa8a7e3c6fda85b563b52a6b157"},
+    {"screen_drops", "as-published", "8bf946ed90ef4d28674e656848220fd7"}, {"screen_drops", "corrected", "1932f33a0ba8572435933eead5589dc0"},
+    {"rainy_glass", "as-published", "345bc80e3dff694c232366aba00d032c"},  {"rainy_glass", "corrected", "652988213dae0f73430591ed94b1afaf"},
 };
 
 }  // namespace rainref::cli

@@ -66,7 +66,7 @@ effect::RunMemory memory_of(const scene::Config& config) {
 }  // namespace
 
 Instance::Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor)
-    : InstanceOf(settings, pictures, executor), named_(std::move(named)), shown_(named_.shown_in(0)) {}
+    : InstanceOf(settings, pictures, executor), exposure_(settings.exposure), named_(std::move(named)), shown_(named_.shown_in(0)) {}
 
 void Instance::show_pictures_of(int frame) {
   const ScenePictures::Shown wanted = named_.shown_in(frame);
@@ -89,6 +89,7 @@ std::vector<PassOutput> Instance::buffers() {
 std::vector<image_io::Layer> Instance::layers() const {
   return {{"", {"R", "G", "B", "A"}, &running().colour()}, {"depth", {"Z"}, &running().depth()}};
 }
+std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), exposure_}; }
 
 effect::Effect entry() {
   return {"edge_splash",

@@ -16,10 +16,12 @@ class Instance final : public effect::InstanceOf<EdgeSplash> {
   Instance(const Settings& settings, const Inputs& pictures, ScenePictures named, const parallel::Executor& executor);
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  std::optional<effect::Display> display() const override;
 
  private:
   void show_pictures_of(int frame) override;
 
+  double exposure_;
   ScenePictures named_;
   ScenePictures::Shown shown_;
 };

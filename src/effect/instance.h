@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "effect/display.h"
 #include "image_io/write.h"
 #include "rainref/recorder.h"
 #include "state/items.h"
@@ -33,6 +35,8 @@ class Instance {
   virtual int frame() const = 0;
   /// The picture as display code, row 0 = bottom.
   virtual const Image& picture() const = 0;
+  /// How that picture came about; none where it is not a linear one's.
+  virtual std::optional<Display> display() const { return std::nullopt; }
   /// What the effect holds between frames, by the names of its EffectInfo: images with row 0 = bottom, and records. Valid until the next
   /// call of a member that is not const.
   virtual std::vector<PassOutput> buffers() = 0;

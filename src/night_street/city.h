@@ -34,7 +34,7 @@ struct Material {
   Vec albedo;
   Vec emission;
   double shine = 0;    ///< reflectance of the wet coat at normal incidence; 0 is matte
-  bool glass = false;  ///< dark glass except where the normal points up: a car's cabin
+  bool glass = false;  ///< a car's cabin: dark glass in its windows
 };
 
 /// A lit text of tubes. Letters stand 4 units wide on a pitch of 6, 6 units tall.

@@ -1,4 +1,4 @@
-// Street lamps, traffic signals and people.
+// Street lamps and traffic signals.
 #include "night_street/city.h"
 
 namespace rainref::night_street {
@@ -69,51 +69,6 @@ void build_signals(City& city) {
       add_signal_head(city, {tip, 5.4, z + facing * 0.12}, facing, state, housing);
       add_signal_head(city, {x, 2.9, z + facing * 0.16}, facing, state, housing);
     }
-  }
-}
-
-void build_walkers(City& city) {
-  constexpr std::array<Vec, 5> canopies{Vec{0.02, 0.02, 0.025}, Vec{0.35, 0.03, 0.03}, Vec{0.03, 0.05, 0.10}, Vec{0.40, 0.28, 0.03},
-                                        Vec{0.02, 0.02, 0.02}};
-  constexpr double diagonal = 0.7071067811865476;
-  constexpr std::array<std::array<double, 2>, 8> around{
-      {{1, 0}, {diagonal, diagonal}, {0, 1}, {-diagonal, diagonal}, {-1, 0}, {-diagonal, -diagonal}, {0, -1}, {diagonal, -diagonal}}};
-  for (int i = 0; i < 26; ++i) {
-    const auto id = static_cast<std::uint64_t>(3000 + i);
-    const double side = i % 2 == 0 ? -1 : 1;
-    const double x = side * (5.6 + 1.4 * city.random(id, Purpose::walker_place));
-    const double z = -150 + 12 * i + 9 * city.random(id, Purpose::walker_stride);
-    if (magnitude(z) < 3) continue;  // room for a camera on the pavement near the origin
-    const double tone = city.random(id, Purpose::walker_coat);
-    const int coat = city.add_material({(0.02 + 0.05 * tone) * Vec{0.9, 1.0, 1.2}, {}, 0.02, false});
-    const int skin = city.add_material({{0.25, 0.16, 0.12}, {}, 0, false});
-    const double ground = plan::kerb_height;
-    city.add_pole({x - 0.09, ground, z + 0.06}, 0.085, 0.8, coat);
-    city.add_pole({x + 0.09, ground, z - 0.08}, 0.085, 0.8, coat);
-    std::vector<Plane> torso;
-    for (const auto& [nx, nz] : around) {
-      const Vec normal = unit({nx, 0.22, nz});
-      torso.push_back({normal, dot(normal, {x + 0.25 * nx, ground + 0.7, z + 0.25 * nz})});
-    }
-    torso.push_back({{0, 1, 0}, ground + 1.45});
-    torso.push_back({{0, -1, 0}, -(ground + 0.62)});
-    city.add_convex(torso, {{x - 0.3, ground + 0.6, z - 0.3}, {x + 0.3, ground + 1.46, z + 0.3}}, coat);
-    Solid head;
-    head.shape = Solid::sphere;
-    head.a = {x, ground + 1.57, z};
-    head.b = {0.115, 0, 0};
-    city.add(head, skin);
-    if (city.random(id, Purpose::umbrella) < 0.25) continue;  // no umbrella
-    const auto pick = static_cast<std::size_t>(5 * city.random(id, Purpose::umbrella_colour));
-    const int canopy = city.add_material({canopies[pick], {}, 0.03, false});
-    const double rim = ground + 1.78, radius = 0.55, rise = 0.26;
-    std::vector<Plane> sides;
-    for (const auto& [nx, nz] : around) {
-      const Vec normal = unit({nx * rise, radius, nz * rise});
-      sides.push_back({normal, dot(normal, {x + radius * nx, rim, z + radius * nz})});
-    }
-    sides.push_back({{0, -1, 0}, -rim});
-    city.add_convex(sides, {{x - 0.62, rim - 0.01, z - 0.62}, {x + 0.62, rim + rise + 0.01, z + 0.62}}, canopy);
   }
 }
 

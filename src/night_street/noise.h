@@ -59,7 +59,9 @@ enum class Purpose : std::uint32_t {
   window_blind,
   window_level,
   window_lit,
-  window_tone
+  window_tone,
+  walker_heading,  // new ones go to the end: the numbers of the others stay
+  walker_size
 };
 
 /// Bijective 64-bit mixer (the finaliser of SplitMix64).

@@ -1,5 +1,6 @@
 #include "night_street/shade.h"
 
+#include "night_street/cars.h"
 #include "night_street/city.h"
 #include "night_street/facade.h"
 #include "night_street/sky.h"
@@ -79,14 +80,15 @@ Vec solid_radiance(const City& city, const Ray& ray, const Hit& hit, Bounce boun
   // The map holds light from above; sides get about half of it, undersides what the wet road throws back.
   const double side = 0.42 + 0.38 * hit.normal.y;
   const Vec light = side * city.light().ground(p.x, p.z) + Vec{0.006, 0.005, 0.008};
-  const bool glass = material.glass && hit.normal.y < 0.75;
+  const Vec middle = 0.5 * (solid.a + solid.b);
+  const bool glass = material.glass && in_window(p.x - middle.x, p.y, p.z - middle.z, hit.normal);
   const Vec albedo = glass ? Vec{0.004, 0.004, 0.005} : material.albedo;
   Vec radiance = emitted + albedo * light;
   if (material.shine > 0) {
     // Bodywork is curved: the flat faces of the solid shade as if they bulged, which bends what they mirror.
     Vec normal = hit.normal;
     if (solid.shape == Solid::convex) {
-      const Vec middle = 0.5 * (solid.a + solid.b), half = 0.5 * (solid.b - solid.a), from_middle = p - middle;
+      const Vec half = 0.5 * (solid.b - solid.a), from_middle = p - middle;
       normal = unit(normal + 0.3 * Vec{from_middle.x / half.x, from_middle.y / half.y, from_middle.z / half.z});
     }
     const double facing = clamp01(-dot(ray.direction, normal));

@@ -69,7 +69,8 @@ WetGround wet_ground(const City& city, Hit::Kind kind, const Vec& point, double 
   const double swell = mix(0.030, 0.010, ground.water) / (1 + square(distance * (1.0 / 70)));
   double slope_x = swell * (city.ripple.value(point.x * 1.3, point.z * 1.3) - 0.5);
   double slope_z = 2.2 * swell * (city.ripple.value(point.x * 1.3 + 71.2, point.z * 1.3 - 33.9) - 0.5);
-  const double fine = mix(0.10, 0.012, ground.water) / (1 + square(distance * (1.0 / 22)));
+  // Slopes of some centimetres are finer than a texel beyond some metres, where they would show as streaks across the view.
+  const double fine = mix(0.10, 0.012, ground.water) / (1 + square(distance * (1.0 / 6)));
   slope_x += fine * (city.asphalt.value(point.x * 14, point.z * 14) - 0.5);
   slope_z += fine * (city.asphalt.value(point.x * 14 + 53.7, point.z * 14 + 11.4) - 0.5);
   if (ground.water > 0.2 && distance < 40) {

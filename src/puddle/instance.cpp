@@ -87,6 +87,11 @@ std::vector<image_io::Layer> Instance::layers() const {
   const Puddle& p = running();
   return {{"", {"R", "G", "B"}, &p.colour()}, {"normal", {"X", "Y", "Z"}, &p.normal()}, {"position", {"X", "Y", "Z"}, &p.hit()}};
 }
+std::optional<effect::Display> Instance::display() const {
+  const bool corrected = settings_.variant == Variant::corrected;
+  return effect::Display{&running().colour(), corrected ? settings_.exposure : 0, settings_.vignette,
+                         corrected ? effect::Display::Code::srgb : effect::Display::Code::power};
+}
 
 effect::Effect entry() {
   return {"puddle",

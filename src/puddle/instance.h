@@ -16,6 +16,7 @@ class Instance final : public effect::InstanceOf<Puddle> {
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  std::optional<effect::Display> display() const override;
 
  private:
   Settings settings_;

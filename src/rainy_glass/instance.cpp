@@ -120,6 +120,7 @@ std::vector<image_io::Layer> Instance::layers() const {
   const RainyGlass& g = running();
   return {{"", {"R", "G", "B"}, &g.colour()}, {"normal", {"X", "Y", "Z"}, &g.orientation()}, {"glass", {"U", "V", "Z"}, &g.surface()}};
 }
+std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), settings_.exposure}; }
 
 effect::Effect entry() {
   return {"rainy_glass",

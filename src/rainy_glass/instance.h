@@ -27,6 +27,7 @@ class Instance final : public effect::InstanceOf<RainyGlass> {
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  std::optional<effect::Display> display() const override;
   /// The maps have a size of their own.
   std::vector<effect::Map> maps() const override { return {{"raindrops", &running().raindrops()}, {"rivulets", &running().rivulets()}}; }
 

@@ -40,7 +40,8 @@ enum class Purpose : std::uint32_t {
   screen_layer = 61,
   screen_cell = 62,
   screen_drop = 63,
-  splash_crown = 64
+  splash_crown = 64,
+  picture_dither = 70
 };
 
 /// The block of (seed, purpose, a, b). The seed's high word enters through a second hash, so that both words count.

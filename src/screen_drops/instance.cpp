@@ -91,6 +91,7 @@ std::vector<PassOutput> Instance::buffers() {
 std::vector<image_io::Layer> Instance::layers() const {
   return {{"", {"R", "G", "B"}, &running().colour()}, {"background", {"R", "G", "B"}, &running().background()}};
 }
+std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), settings_.exposure}; }
 
 effect::Effect entry() {
   return {"screen_drops",

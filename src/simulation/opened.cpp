@@ -48,6 +48,7 @@ const scene::EffectTable& effect_table() {
       if (const truth::EffectTracing* tracing = truth::tracing_of(e->name)) {
         for (scene::Parameter& p : tracing->parameters()) all.push_back(std::move(p));
       }
+      for (scene::Parameter& p : development_parameters()) all.push_back(std::move(p));
       t.effects.push_back({e->name, e->variants, all});
     }
     return t;
@@ -58,7 +59,7 @@ const scene::EffectTable& effect_table() {
 scene::Config config_of_passes(const scene::Config& config) {
   std::vector<scene::Config::Entry> entries;
   for (const scene::Config::Entry& e : config.entries()) {
-    if (!e.parameter.key.starts_with("compositor.")) entries.push_back(e);
+    if (!e.parameter.key.starts_with("compositor.") && !e.parameter.key.starts_with("picture.")) entries.push_back(e);
   }
   return scene::Config(std::move(entries), config.directory());
 }
@@ -67,10 +68,11 @@ effect::RunMemory memory_of(const scene::Config& scene) {
   const scene::Config config = config_at_pass_size(scene);
   effect::RunMemory memory = registry::find(config.effect())->memory(config);
   if (const truth::EffectTracing* tracing = truth::tracing_of(config.effect())) tracing->hold(memory, config);
-  if (const std::uint64_t n = static_cast<std::uint64_t>(scene.integer("run.supersample")); n > 1) {
-    memory.samples = n * n;
-    memory.peak.hold(image_bytes(memory, Format::rgba8) / memory.samples);
-  }
+  const std::uint64_t n = static_cast<std::uint64_t>(scene.integer("run.supersample"));
+  const Development options = development_from(scene);
+  memory.samples = n * n;
+  if (n > 1 || options.is_on()) memory.peak.hold(image_bytes(memory, Format::rgba8) / memory.samples);
+  hold_development(memory, options, static_cast<int>(n));
   return memory;
 }
 
@@ -79,9 +81,12 @@ Opened::Opened(scene::Config config, const parallel::Executor& executor)
       pass_config_(config_at_pass_size(config_)),
       executor_(executor),
       effect_(fitting(config_)),
+      development_(development_from(config_)),
       samples_(static_cast<int>(config_.integer("run.supersample"))) {
   const FloatingPointGuard guard;
   instance_ = effect_.open(pass_config_, executor_, inputs_);
+  if (development_.is_on() && !instance_->display())
+    throw Error(ExitCode::usage, fmt::format("picture: expected an effect with a linear picture, found {}", effect_.name));
   is_traced_ = truth::choice_from(config_).is_traced;
   if (is_traced_) has_truth();
 }
@@ -95,7 +100,19 @@ void Opened::render(Recorder* recorder) {
   const FloatingPointGuard guard;
   instance_->render(recorder);
   if (is_traced_ && is_shown_) tracing_->trace(instance_->frame() - 1, recorder);
-  if (samples_ > 1 && is_shown_) mean_ = tent_mean(picture_of_passes(), samples_, executor_);
+  if (!is_made() || !is_shown_) return;
+  if (!development_.is_on()) {
+    made_ = tent_mean(picture_of_passes(), samples_, executor_);
+    return;
+  }
+  const auto seed = static_cast<std::uint64_t>(config_.integer("seed"));
+  made_ = developed(*display(), development_, samples_, seed, instance_->frame() - 1, executor_);
+}
+
+std::optional<effect::Display> Opened::display() const {
+  std::optional<effect::Display> display = instance_->display();
+  if (is_traced_ && display) display->radiance = tracing_->layers().front().image;
+  return display;
 }
 
 void Opened::skip(Recorder* recorder) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "effect/effect.h"
 #include "image_io/notes.h"
 #include "scene/config.h"
 #include "scene/effect_table.h"
+#include "simulation/development.h"
 #include "state/file.h"
 #include "truth/tracing.h"
 
@@ -51,8 +53,11 @@ class Opened {
   /// The same of a scene that differs in `key`, which is named where its state does not fit.
   void carry_over(const state::Saved& saved, const std::string& key);
 
-  /// Of run.size: where the passes run at a multiple of it, the filtered mean of theirs.
-  const Image& picture() const { return samples_ > 1 ? mean_ : picture_of_passes(); }
+  /// Of run.size: where the passes run at a multiple of it, the filtered mean of theirs; with options `picture.*` developed from the linear
+  /// one, traced or of the passes.
+  const Image& picture() const { return is_made() ? made_ : picture_of_passes(); }
+  /// What picture the passes' display makes of which linear one.
+  std::optional<effect::Display> display() const;
   std::vector<PassOutput> buffers() const;
   /// What the files of the picture say of it.
   image_io::Notes notes() const;
@@ -66,6 +71,7 @@ class Opened {
   truth::Comparison compare_truth();
 
  private:
+  bool is_made() const { return samples_ > 1 || development_.is_on(); }
   const Image& picture_of_passes() const { return is_traced_ ? tracing_->shown() : instance_->picture(); }
 
   scene::Config config_, pass_config_;  // as the scene says, and at the size that passes run at
@@ -75,8 +81,9 @@ class Opened {
   std::unique_ptr<effect::Instance> instance_;
   std::unique_ptr<truth::Tracing> tracing_;  // made when something is traced
   bool is_traced_ = false, is_shown_ = true, has_written_maps_ = false;
+  Development development_;
   int samples_ = 1;  // run.supersample
-  Image mean_;
+  Image made_;
 };
 
 }  // namespace rainref::simulation

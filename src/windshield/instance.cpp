@@ -63,6 +63,7 @@ std::vector<PassOutput> Instance::buffers() {
   return all;
 }
 std::vector<image_io::Layer> Instance::layers() const { return {{"", {"R", "G", "B"}, &running().colour()}}; }
+std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), settings_.picture.exposure}; }
 
 effect::Effect entry() {
   return {"windshield",

@@ -25,6 +25,7 @@ class Instance final : public effect::InstanceOf<Windshield> {
   }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  std::optional<effect::Display> display() const override;
 
  private:
   void show_pictures_of(int frame) override;

@@ -23,7 +23,12 @@ RAINREF_FN void search(const ReprojectUniforms& r, const Depths& depth, float wa
       const N d = s.d[k], deep = one / max(d + wz, nearest);
       s.u[k] = half + ((d * s.x[k] + wx) * deep) * su;
       s.v[k] = half + ((d * s.y + wy) * deep) * sv;
-      const N there = sample_nearest<0, 1, N>(depth, s.u[k], s.v[k])[0];
+      N there = sample_nearest<0, 1, N>(depth, s.u[k], s.v[k])[0];
+      // The last two read between texels, where these lie on one surface: depths of whole rows would shift the road's texture row by row.
+      if (round + 2 >= rounds) {
+        const N smooth = sample_bilinear<0, 1, N>(depth, s.u[k], s.v[k])[0];
+        there = select(abs(smooth - there) < N(0.05f) * there, smooth, there);
+      }
       s.there[k] = there;
       if (round + 1 < rounds) s.d[k] = max(d + (way > 0 ? (d * deep) * (there - wz - d) : there - wz - d), nearest);
     }

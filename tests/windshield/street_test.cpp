@@ -62,6 +62,43 @@ TEST(StreetDrive, MoreKeyframesComeNearerToTheStreet) {
   EXPECT_LT(difference(seen(often, 4), seen(here, 0)), 0.1 * off_once / 3);
 }
 
+// A level road whose brightness is a straight line of the distance, seen from a place after one keyframe, or before one: the picture's rows
+// show that line. Where a depth counted for its whole row, each row was off by up to half a row's distance, and the road got scan lines.
+TEST(StreetDrive, ALevelRoadKeepsItsTextureFromRowToRow) {
+  constexpr double half_height = 0.3, half_width = half_height * width / height, eye = 1.3;
+  const auto of_row = [&](int y) { return (2 * (y + 0.5) / height - 1) * half_height; };  // slope of the ray, up
+  Keyframe k{Image(Format::rgba16f, width, height), Image(Format::r32f, width, height)};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double depth = of_row(y) < -0.02 ? eye / -of_row(y) : 1000;
+      k.depth.row<float>(y)[x] = static_cast<float>(depth);
+      for (int c = 0; c < 4; ++c) k.colour.row<Half>(y)[4 * x + c] = to_half(static_cast<float>(std::min(depth, 100.0) / 64));
+    }
+  for (const double way : {4.0, -2.0}) {
+    ReprojectUniforms u{};
+    u.half_size[0] = static_cast<float>(half_width);
+    u.half_size[1] = static_cast<float>(half_height);
+    u.pixel[0] = static_cast<float>(2 * half_width / width);
+    u.pixel[1] = static_cast<float>(2 * half_height / height);
+    u.forward[2] = 1;
+    u.behind_by = way > 0 ? 4 : 10;
+    u.ahead_by = -2;
+    u.share = way > 0 ? 0 : 1;
+    SceneView view{Image(Format::rgba16f, width, height), Image(Format::r32f, width, height)};
+    reproject_rows(u, k, k, view, {0, 0, width, height});
+    for (int y = 0; y < height; ++y) {
+      const double depth = eye / -of_row(y), there = depth + way;
+      if (there < 4.6) continue;     // below the edge of that picture
+      if (of_row(y) > -0.09) break;  // beyond, neighbouring rows lie too far apart to be one surface
+      const double shown = 64 * static_cast<double>(to_float(view.colour.row<Half>(y)[4 * (width / 2)])) - way;
+      // A straight line between rows that are r apart overestimates the distance d by up to r^2 / 4 d: once in the depth, once in the
+      // colour. A half has 11 bits, stored twice.
+      const double r = there * there / eye * 2 * half_height / height;
+      EXPECT_NEAR(shown, depth, 2 * r * r / (4 * there) + 2 * there * 0x1p-11) << y << ": rows are " << r << " m apart";
+    }
+  }
+}
+
 // The street begins again after 396 m, with any number of keyframes.
 TEST(StreetDrive, BeginsAgainAtItsLength) {
   for (const int keyframes : {1, 5}) {
