@@ -11,8 +11,8 @@ inline float kept_in_rim(const Run& r, int x, int y) {
   const float cx = static_cast<float>(x) + half, cy = static_cast<float>(y) + half;
   const float edge = std::min(std::min(cx, r.u("size", 0) - cx), std::min(cy, r.u("size", 1) - cy));
   float depth = std::max(1 - r.u("rim_inverse") * edge, 0.0f);
-  if (r.is("rim without its clamp")) depth = 1 - r.u("rim_inverse") * edge;
-  return 1 - r.u("rim_damping") * (r.is("rim not squared") ? depth : depth * depth);
+  if (r.is("depth without its clamp")) depth = 1 - r.u("rim_inverse") * edge;
+  return 1 - r.u("rim_damping") * (r.is("depth not squared") ? depth : depth * depth);
 }
 inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   int step = r.is("neighbours two texels away") ? 2 : 1;
@@ -36,9 +36,9 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   if (r.is("damping as 1 - damping")) damping = 1 - damping;
   if (r.is("courant not squared")) courant = std::sqrt(courant);
   const bool has_rim = r.u("rim_damping") > 0 && !r.is("rim forgotten"), has_shore = r.taken().input("shore") != nullptr;
-  const float rest = r.u("rest"), rim = has_rim ? kept_in_rim(r, x, y) : 1, shore = has_shore ? r.at("shore", x, y) : 1;
+  const float rest = r.u("rest"), kept = has_rim ? kept_in_rim(r, x, y) : 1, shore = has_shore ? r.at("shore", x, y) : 1;
   const float previous = p;
-  if (has_rim && !r.is("rim of the new level alone")) p = rest + rim * (p - rest);
+  if (has_rim && !r.is("rim of the new level alone")) p = rest + kept * (p - rest);
   float velocity = here - p;
   if (r.is("velocity the other way")) velocity = p - here;
   float craters = 0;
@@ -63,7 +63,7 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   if (r.is("velocity for the laplacian")) next = ((here + damping * velocity) + courant * velocity) + craters;
   if (r.is("damping of all")) next = damping * (here + velocity + courant * laplacian) + craters;
   if (r.is("craters forgotten")) next = next - craters;
-  if (has_rim || has_shore) next = rest + (shore * (r.is("rim of the previous level alone") ? 1 : rim)) * (next - rest);
+  if (has_rim || has_shore) next = rest + (shore * (r.is("rim of the previous level alone") ? 1 : kept)) * (next - rest);
   out[0] = next;
   out[1] = r.is("craters in one level") || r.is("craters forgotten") ? here : here + shore * craters;
   if (r.is("levels swapped")) std::swap(out[0], out[1]);
@@ -183,6 +183,17 @@ inline std::vector<Pass> puddle_passes() {
            {"craters in one level", {"takes its y from wave.x", "term left out: amplitude of drops"}},
            {"levels swapped", {"wave with its first two channels swapped"}},
            {"previous not shifted", {"wave keeps its y", "wave read in y for x"}},
+       }},
+      {"puddle-shore",
+       "wave_step",
+       wave_step_corrected,
+       {
+           {"rim forgotten", {"rim_damping"}},
+           {"rim of the new level alone", {"rim_damping"}},
+           {"rim of the previous level alone", {"rim_damping"}},
+           {"rim from the texel's corner", {"half a texel"}},
+           {"depth not squared", {"not squared"}},
+           {"depth without its clamp", {"max left out", "lower clamp missing"}},
        }},
       {"puddle-as-published",
        "wave_step",
