@@ -197,7 +197,7 @@ typedef struct rr_case_info {
   const char* effect;
   const char* variant;
   const char* pass;
-  const char* formula;  ///< "puddle.wave_step.corrected/1"
+  const char* formula;  ///< "puddle.wave_step.corrected/2"
   int32_t frame, step;
   int32_t level;   ///< the mip level, where the pass runs once for each; else -1
   float time, dt;  ///< [s] of the frame's start, and that this run advances

@@ -26,6 +26,15 @@ def beyond_the_edge(level, rule, border):
     return np.pad(level, 1, **how[rule])
 
 
+def kept_in_rim(u, shape):
+    """Share of both levels that the rim leaves in a step, by row and column."""
+    def from_edge(n):
+        return np.minimum(np.arange(n, dtype=F) + F(0.5), n - (np.arange(n, dtype=F) + F(0.5)))
+
+    edge = np.minimum(from_edge(shape[1]), from_edge(shape[0])[:, None])
+    return 1 - u.rim_damping * np.maximum(1 - u.rim_inverse * edge, 0) ** 2
+
+
 def wave_step(i, u, beyond):
     """The next level, and what becomes the previous one."""
     here, previous = (i.wave[..., k].astype(F) for k in (0, 1))
@@ -33,5 +42,9 @@ def wave_step(i, u, beyond):
     laplacian = p[1:-1, :-2] + p[1:-1, 2:] + p[:-2, 1:-1] + p[2:, 1:-1] - 4 * here
     add = impulse(i.drops, here.shape)
     shore = i.shore if "shore" in vars(i) else F(1)
+    rim = F(1)
+    if u.rim_damping > 0:
+        rim = kept_in_rim(u, here.shape)
+        previous = u.rest + rim * (previous - u.rest)
     new = here + u.damping * (here - previous) + u.courant_sq * laplacian + add
-    return np.stack([u.rest + shore * (new - u.rest), here + shore * add], -1).astype(np.float16)
+    return np.stack([u.rest + shore * rim * (new - u.rest), here + shore * add], -1).astype(np.float16)

@@ -62,7 +62,7 @@ struct CaseSampling {
 struct CaseInfo {
   std::string id;  ///< "puddle.wave_step/0001.0"
   std::string effect, variant, pass;
-  std::string formula;                       ///< name and revision: "puddle.wave_step.corrected/1"
+  std::string formula;                       ///< name and revision: "puddle.wave_step.corrected/2"
   int frame = 0, step = 0;                   ///< step counts the substeps in a frame
   int level = -1;                            ///< the mip level, where the pass runs once for each; else -1
   float time = 0, dt = 0;                    ///< [s] of the frame's start, and that this run advances

@@ -53,7 +53,7 @@ struct Settings {
 
   // corrected
   std::array<int, 2> grid{768, 512};
-  double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, shore_width = 0.004, ground_reach = 0.3, exposure = 0.7;
+  double cell_size = 0.004, wave_speed = 0.25, step_rate = 240, rim_width = 0, shore_width = 0.004, ground_reach = 0.3, exposure = 0.7;
   Shape shape = Shape::natural;
   int bed_columns = 768;  ///< of the image of a natural bed; its rows follow the grid
   bool exact_fresnel = true;

@@ -81,7 +81,7 @@ struct EffectInfo {
   std::vector<std::string> pass_names(std::string_view variant) const;
 };
 
-/// "puddle.wave_step.corrected/1": name and revision of the order of operations.
+/// "puddle.wave_step.corrected/2": name and revision of the order of operations.
 std::string formula(const EffectInfo& effect, const PassInfo& pass, const PassVariant& variant);
 /// "envelope", "bits", "keyed" or "input_only".
 const char* name(Judge judge);

@@ -13,6 +13,7 @@ namespace rainref::puddle {
 namespace {
 
 constexpr double stability_limit = 0x1.6a09e667f3bcdp-1;   // sqrt(1/2): five-point leapfrog in two dimensions
+constexpr double rim_echo = 1e-3;                          // of a wave's height, out of the rim and its wall, at normal incidence
 constexpr double box_half_side = 42, box_half_height = 5;  // the article's box of 84 x 10 x 84
 
 bool corrected(const Settings& s) { return s.variant == Variant::corrected; }
@@ -80,6 +81,14 @@ WaveStepUniforms wave_step_uniforms(const Settings& s) {
     u.courant_sq = static_cast<float>(courant * courant * (1 + gamma) / 2);
     // Above (1 + gamma) / 4 of the rounded gamma the shortest wave would grow; the two roundings pass it by less than an ulp.
     if (4.0 * u.courant_sq > 1.0 + u.damping) u.courant_sq = std::nextafter(u.courant_sq, 0.0f);
+    if (s.rim_width > 0.5 * s.cell_size) {  // or else no cell's centre lies in it
+      // A wave fades by exp(-integral of sigma / c) on its way: for sigma = rate depth^2 by rim_echo on the way to the edge and back.
+      const double rate = 1.5 * -log_real(Real64(rim_echo)).v * s.wave_speed / s.rim_width;
+      u.rim_damping = static_cast<float>(1 - exp_real(Real64(-rate / s.step_rate)).v);
+      u.rim_inverse = static_cast<float>(s.cell_size / s.rim_width);
+      u.size[0] = static_cast<float>(wave_size(s)[0]);
+      u.size[1] = static_cast<float>(wave_size(s)[1]);
+    }
   }
   return u;
 }

@@ -105,10 +105,14 @@ template <bool corrected, Rounding rounding, class Storage>
 HWY_NOINLINE HWY_ATTR void step_columns(WaveStepUniforms u, WaveRows<float, Storage> rows, Storage* out, int begin, int end, int y) {
   constexpr std::span<const Drop> none;
   if constexpr (corrected) {
-    if (rows.shore) {
+    if (u.rim_damping > 0.0f) {
+      store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
+    } else if (rows.shore) {
+      u.rim_damping = 0.0f;  // known from here on
       store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
     } else {
-      rows.shore = nullptr;  // known from here on
+      u.rim_damping = 0.0f;
+      rows.shore = nullptr;
       store_columns<rounding>(out, begin, end, [&](int x) RAINREF_INLINED { return wave_step_corrected<Lanes>(u, rows, none, x, y); });
     }
   } else if (rows.fraction != 0.0f) {

@@ -54,6 +54,9 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::cell_size>("puddle.cell_size", "m", 1e-5, 10, "Side of a cell.").only(correct),
       real<&Settings::wave_speed>("puddle.wave_speed", "m/s", 0, 100, "Speed of the ripples.").only(correct),
       real<&Settings::step_rate>("puddle.step_rate", "1/s", 1, 100000, "Wave steps in a second, whatever the frame rate.").only(correct),
+      real<&Settings::rim_width>("puddle.rim_width", "m", 0, 100,
+                                 "Width of a rim along the water's edges that swallows waves, two wavelengths or more; 0: none.")
+          .only(correct),
       choice<&Settings::shape>("puddle.shape", {{"natural", Shape::natural}, {"basin", Shape::basin}},
                                "An irregular shore, or water of constant depth all over.")
           .only(correct),

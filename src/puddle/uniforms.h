@@ -42,8 +42,12 @@ struct WaveStepUniforms {
   float step;        ///< as-published: offset of the neighbours [texels]
   float courant_sq;  ///< corrected: (c dt / dx)^2 (1 + gamma) / 2
   std::int32_t drop_count;
-  float rest;  ///< stored value of level water
-  float padding0, padding1, padding2;
+  float rest;         ///< stored value of level water
+  float rim_damping;  ///< corrected: share of the wave that the rim takes in a step at the edge itself; 0: no rim
+  float rim_inverse;  ///< corrected: 1 / width of the rim [1/texel]
+  float padding0;
+  float size[2];  ///< corrected: columns and rows of the wave [texels]
+  float padding1, padding2;
 };
 
 struct CameraUniforms {
@@ -109,7 +113,7 @@ struct DisplayUniforms {
   float width, height;
 };
 
-static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(RainfallUniforms) == 32 && sizeof(WaveStepUniforms) == 32);
+static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(RainfallUniforms) == 32 && sizeof(WaveStepUniforms) == 48);
 static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 144 && sizeof(GroundNoiseUniforms) == 80);
 static_assert(sizeof(ShadeUniforms) == 176 && sizeof(DisplayUniforms) == 16);
 

@@ -16,7 +16,7 @@ namespace rainref::puddle {
 /// Its lanes are written by hand, in place over one plane of each level: see kernels_wave.cpp.
 struct WaveStepPass {
   static constexpr pass::About about{
-      "wave_step", "The next level of the water from the newest and the previous one.", {1}, {1}, {"the four neighbours", "length"}};
+      "wave_step", "The next level of the water from the newest and the previous one.", {1}, {2}, {"the four neighbours", "length"}};
   using Uniforms = WaveStepUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -27,7 +27,10 @@ struct WaveStepPass {
          member<&U::step>("step", "texel", {1, 8}, "as-published: offset of the neighbours."),
          member<&U::courant_sq>("courant_sq", "1", {0, 0.5}, "corrected: Courant number squared, times (1 + gamma) / 2."),
          member<&U::drop_count>("drop_count", "1", {0, 1 << 20}, "Drops in the list."),
-         member<&U::rest>("rest", "1", scene::share, "Stored value of level water.")});
+         member<&U::rest>("rest", "1", scene::share, "Stored value of level water."),
+         member<&U::rim_damping>("rim_damping", "1", scene::share, "corrected: share of the wave that the rim takes at the edge itself."),
+         member<&U::rim_inverse>("rim_inverse", "1/texel", {0, 2}, "corrected: one over the width of the rim."),
+         member<&U::size>("size", "texel", {0, 8192}, "corrected: columns and rows of the wave.")});
   }
   template <class B>
   struct Io {
@@ -106,6 +109,11 @@ RAINREF_FN N wave_step_as_published(const WaveStepUniforms& u, const WaveRows<Ne
 // and C the Courant number. The weights of u and p add to 1, so the rest value and the unit of the stored heights cancel out, and the mean
 // has the roots 1 and gamma: it is kept. The impulse goes to both levels: a displacement, not a kick. (physics: P3, P7)
 //
+// In a rim along the edges both levels are multiplied by kept = 1 - rim_damping depth^2, p before and new after (Cerjan and others,
+// Geophysics 50:705, 1985): (d/dt + sigma)^2 u = c^2 L(u), whose waves fade and keep their speed. Of new alone it would be a stiff
+// spring too, which waves bounce off. With A = 2 / (kept (1 + gamma)) and B = 2 gamma kept / (1 + gamma) it is A new - 2 u + B p =
+// C^2 L(u), and because A + B >= 2 and A >= B no profile of kept lets the energy grow: the limit of C stays.
+//
 // The crater of a drop at distance r, with q = r / R < 1: (1 - q^2)^2 (1 - 4 q^2). Its volume is exactly 0.
 template <class N>
 RAINREF_FN N drop_corrected(const Drop& drop, N x, N y) {
@@ -121,15 +129,29 @@ RAINREF_FN N impulse_corrected(Drops drops, int x, int y) {
   for (const Drop& drop : drops) sum = sum + drop_corrected(drop, fx, fy);
   return sum;
 }
+/// Share of the wave that the rim leaves in a step; its depth is 0 where the water is free and 1 on the edge.
+template <class N>
+RAINREF_FN N kept_in_rim(const WaveStepUniforms& u, int x, int y) {
+  const N fx = N::index(x) + N(0.5f), fy = N(static_cast<float>(y) + 0.5f);
+  const N edge = min(min(fx, N(u.size[0]) - fx), min(fy, N(u.size[1]) - fy));
+  const N depth = max(N(1.0f) - N(u.rim_inverse) * edge, N(0.0f));
+  return N(1.0f) - N(u.rim_damping) * square(depth);
+}
 template <class N, class Newest, class Previous, class Drops>
 RAINREF_FN N wave_step_corrected(const WaveStepUniforms& u, const WaveRows<Newest, Previous>& in, Drops drops, int x, int y) {
   const N here = N::load(in.here + x);
   // In pairs, so that a mirrored or transposed wave keeps its symmetry to the last bit.
   const N around = sum_any_order_in_pairs(N::load(in.here + x - 1), N::load(in.here + x + 1), N::load(in.below + x), N::load(in.above + x));
   const N laplacian = around - N(4.0f) * here;
-  const N moving = here + N(u.damping) * (here - N::load(in.previous + x));
+  const bool has_rim = u.rim_damping > 0.0f;
+  const N rim = has_rim ? kept_in_rim<N>(u, x, y) : N(1.0f);
+  const N stored = N::load(in.previous + x);
+  const N previous = has_rim ? N(u.rest) + rim * (stored - N(u.rest)) : stored;
+  const N moving = here + N(u.damping) * (here - previous);
   const N next = (moving + N(u.courant_sq) * laplacian) + impulse_corrected<N>(drops, x, y);
-  return in.shore ? N(u.rest) + N::load(in.shore + x) * (next - N(u.rest)) : next;
+  if (!in.shore && !has_rim) return next;
+  const N kept = !in.shore ? rim : has_rim ? N::load(in.shore + x) * rim : N::load(in.shore + x);
+  return N(u.rest) + kept * (next - N(u.rest));
 }
 /// The second output: what becomes the previous level.
 template <class N, class Storage, class Drops>

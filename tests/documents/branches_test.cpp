@@ -55,6 +55,8 @@ const std::vector<Branch> branches{
     {"Cube", "puddle-as-published", {"environment.layout=cube", "environment.image=faces.png"}, "shade"},
     {"CorrectedCube", "puddle-corrected", {"environment.layout=cube", "environment.image=faces.png"}, "shade"},
     {"Shore", "puddle-corrected", {"puddle.shape=natural"}, "wave_step"},
+    {"Rim", "puddle-corrected", {"puddle.rim_width=0.1"}, "wave_step"},
+    {"RimOfAShore", "puddle-corrected", {"puddle.shape=natural", "puddle.rim_width=0.14"}, "wave_step"},
     {"Reflecting", "puddle-corrected", {"puddle.boundary=reflecting"}, "raindrops"},
     {"Periodic", "puddle-corrected", {"puddle.boundary=periodic"}, "raindrops"},
     {"EightBitsOfMetres", "puddle-corrected", {"puddle.storage=rgba8"}, "wave_step", "crater 2 s for 4 s"},

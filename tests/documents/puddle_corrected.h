@@ -32,13 +32,11 @@ inline void raindrops_corrected(const Run& r, Given& out) {
   }
 }
 
-/// As the hand-made one, with the bed's shore.
+/// As the hand-made one, whose shore and rim may be wrong.
 inline bool wave_step_of_document(const Run& r, int x, int y, float* out) {
-  if (!r.taken().input("shore")) return wave_step_corrected(r, x, y, out);
   wave_step_corrected(r, x, y, out);
-  const float u = r.at("wave", x, y), rest = r.u("rest"), w = in_branch(r, 1, 0.9f) * r.at("shore", x, y), craters = out[1] - u;
-  out[0] = rest + w * (out[0] - rest);
-  out[1] = u + w * craters;
+  const bool has_rim = r.u("rim_damping") > 0;
+  if (has_rim || r.taken().input("shore")) out[0] = in_branch(r, 1, 0.9f) * out[0];
   return true;
 }
 
@@ -186,9 +184,10 @@ A crater that reaches over an edge is followed by its images with x' in (x, −x
          R"(L        = ((u₋ₓ + u₊ₓ) + (u₋z + u₊z)) − 4u                     the four neighbours in any order
 craters  = sum over drops, in order:  k = 1 / radius,  s = ((i + ½ − x) k)² + ((j + ½ − y) k)²,
            amplitude · (max(1 − s, 0)² (1 − 4s))
+kept     = 1 − rim_damping d²,  d = max(1 − rim_inverse · edge, 0),  edge = the least of i + ½, size.x − (i + ½), j + ½, size.y − (j + ½)
+where rim_damping > 0:  p = rest + kept (p − rest)
 next     = ((u + damping (u − p)) + courant_sq · L) + craters
-without `shore`:  new newest = next,  new previous = u + craters
-with `shore` w:   new newest = rest + w (next − rest),  new previous = u + w craters)"}}},
+new newest = next, or with `shore` w or a rim  rest + (w kept) (next − rest);  new previous = u + craters, or u + w craters)"}}},
       {{"puddle-corrected"},
        "surface_hit",
        "wrong constant",

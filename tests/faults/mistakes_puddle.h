@@ -5,12 +5,22 @@
 
 namespace rainref::faults::hand {
 
+/// Share of the wave that the rim leaves at a texel.
+inline float kept_in_rim(const Run& r, int x, int y) {
+  const float half = r.is("rim from the texel's corner") ? 0 : 0.5f;
+  const float cx = static_cast<float>(x) + half, cy = static_cast<float>(y) + half;
+  const float edge = std::min(std::min(cx, r.u("size", 0) - cx), std::min(cy, r.u("size", 1) - cy));
+  float depth = std::max(1 - r.u("rim_inverse") * edge, 0.0f);
+  if (r.is("depth without its clamp")) depth = 1 - r.u("rim_inverse") * edge;
+  return 1 - r.u("rim_damping") * (r.is("depth not squared") ? depth : depth * depth);
+}
 inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   int step = r.is("neighbours two texels away") ? 2 : 1;
   const Address wrap = Address::repeat;
   const Address* const address = r.is("wraps at the edge") ? &wrap : nullptr;
   const auto u = [&](int dx, int dy) { return r.at("wave", x + dx * step, y + dy * step, 0, 0, address); };
-  const float here = u(0, 0), p = r.is("previous is newest") ? here : r.at("wave", x, y, 1);
+  const float here = u(0, 0);
+  float p = r.is("previous is newest") ? here : r.at("wave", x, y, 1);
   float sum = (u(-1, 0) + u(1, 0)) + (u(0, -1) + u(0, 1));
   if (r.is("diagonal neighbours")) sum = (u(-1, -1) + u(1, 1)) + (u(1, -1) + u(-1, 1));
   if (r.is("right neighbour forgotten")) sum = u(-1, 0) + (u(0, -1) + u(0, 1));
@@ -25,6 +35,10 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   if (r.is("damping forgotten")) damping = 1;
   if (r.is("damping as 1 - damping")) damping = 1 - damping;
   if (r.is("courant not squared")) courant = std::sqrt(courant);
+  const bool has_rim = r.u("rim_damping") > 0 && !r.is("rim forgotten"), has_shore = r.taken().input("shore") != nullptr;
+  const float rest = r.u("rest"), kept = has_rim ? kept_in_rim(r, x, y) : 1, shore = has_shore ? r.at("shore", x, y) : 1;
+  const float previous = p;
+  if (has_rim && !r.is("rim of the new level alone")) p = rest + kept * (p - rest);
   float velocity = here - p;
   if (r.is("velocity the other way")) velocity = p - here;
   float craters = 0;
@@ -49,10 +63,11 @@ inline bool wave_step_corrected(const Run& r, int x, int y, float* out) {
   if (r.is("velocity for the laplacian")) next = ((here + damping * velocity) + courant * velocity) + craters;
   if (r.is("damping of all")) next = damping * (here + velocity + courant * laplacian) + craters;
   if (r.is("craters forgotten")) next = next - craters;
+  if (has_rim || has_shore) next = rest + (shore * (r.is("rim of the previous level alone") ? 1 : kept)) * (next - rest);
   out[0] = next;
-  out[1] = r.is("craters in one level") || r.is("craters forgotten") ? here : here + craters;
+  out[1] = r.is("craters in one level") || r.is("craters forgotten") ? here : here + shore * craters;
   if (r.is("levels swapped")) std::swap(out[0], out[1]);
-  if (r.is("previous not shifted")) out[1] = p + craters;
+  if (r.is("previous not shifted")) out[1] = previous + craters;
   return true;
 }
 
@@ -168,6 +183,17 @@ inline std::vector<Pass> puddle_passes() {
            {"craters in one level", {"takes its y from wave.x", "term left out: amplitude of drops"}},
            {"levels swapped", {"wave with its first two channels swapped"}},
            {"previous not shifted", {"wave keeps its y", "wave read in y for x"}},
+       }},
+      {"puddle-shore",
+       "wave_step",
+       wave_step_corrected,
+       {
+           {"rim forgotten", {"rim_damping"}},
+           {"rim of the new level alone", {"rim_damping"}},
+           {"rim of the previous level alone", {"rim_damping"}},
+           {"rim from the texel's corner", {"half a texel"}},
+           {"depth not squared", {"not squared"}},
+           {"depth without its clamp", {"max left out", "lower clamp missing"}},
        }},
       {"puddle-as-published",
        "wave_step",

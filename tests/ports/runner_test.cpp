@@ -78,7 +78,7 @@ TEST(PortRunner, TimesCasesOfImagesAndLeavesTheirOutputsAlone) {
 }
 
 // ---- bindings.json -------------------------------------------------------------------------------------------------
-const std::string display = "puddle.display.corrected/1", wave_step = "puddle.wave_step.corrected/1";
+const std::string display = "puddle.display.corrected/1", wave_step = "puddle.wave_step.corrected/2";
 
 /// What the runner says of the puddle's bindings after a change to them; the shaders are there.
 Outcome with_bindings(const std::function<void(json&)>& change, const std::string& pass = "display") {

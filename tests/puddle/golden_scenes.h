@@ -1,6 +1,7 @@
 // The scenes behind tests/golden/hashes.txt: every pass, variant and storage, at frames 0, 1, 2 and 59.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +68,10 @@ inline std::vector<GoldenScene> golden_scenes() {
       }
     }
   }
+  GoldenScene& rim = scenes.emplace_back(
+      *std::find_if(scenes.begin(), scenes.end(), [](const GoldenScene& s) { return s.name == "puddle/corrected/rg16f"; }));
+  rim.name += "/rim";
+  rim.settings.rim_width = 0.2;  // ten cells
   return scenes;
 }
 

@@ -75,6 +75,13 @@ TEST(WaveOracle, PlainFloatsGiveTheBitsOfTheReferenceInEveryStorage) {
       expect_reference_bits<Half>(s, 30);
       s.storage = Format::rgba8;
       expect_reference_bits<Unorm8>(s, 30);
+      if (variant == Variant::as_published) continue;
+      s.rim_width = 0.08;  // 8 cells
+      expect_reference_bits<Unorm8>(s, 30);
+      s.storage = Format::rg16f;
+      expect_reference_bits<Half>(s, 30);
+      s.storage = Format::rg32f;
+      expect_reference_bits<float>(s, 60);
     }
   }
 }
@@ -91,10 +98,11 @@ TEST(WaveOracle, PlainFloatsGiveTheBitsOfTheReferenceForEveryOffset) {
 
 // Halves near zero, where a store may leave a zero of either sign.
 TEST(WaveOracle, EveryTargetGivesTheSameBitsUnderRainInHalves) {
-  for (const Rounding rounding : {Rounding::rne, Rounding::rtz}) {
+  for (const auto& [rounding, rim_width] : {std::pair{Rounding::rne, 0.0}, {Rounding::rtz, 0.0}, {Rounding::rne, 0.08}}) {
     Settings s = rainy(Variant::corrected, Boundary::periodic);
     s.storage = Format::rg16f;
     s.rounding = rounding;
+    s.rim_width = rim_width;
     const auto bits_after = [&](const std::string& target) {
       select_simd_target(target);
       Puddle puddle = puddle_of(s);

@@ -119,7 +119,7 @@ def test_what_a_port_sees(puddle):
     cases.add_next_frame(puddle, ["wave_step", "shade"])
     assert [c.name for c in cases] == ["wave_step"] * 4 + ["shade"] and cases[-1].id == "puddle.shade/0001.0"
     first, shade = cases[0], cases[-1]
-    assert (first.frame, first.step, first.level) == (1, 0, -1) and first.formula == "puddle.wave_step.corrected/1"
+    assert (first.frame, first.step, first.level) == (1, 0, -1) and first.formula == "puddle.wave_step.corrected/2"
     assert first.dt == pytest.approx(1 / 240) and first.judged == {"wave": "envelope"}
     assert 0 < first.uniforms.courant_sq <= 0.5 and first.uniforms["rest"] == 0
     assert set(first.inputs.drops.dtype.names) == {"x", "y", "amplitude", "radius"}

@@ -16,16 +16,19 @@ using port_runner::Error;
 using port_runner::fs::path;
 
 struct WaveStepUniforms {
-  float damping;     //   0  [1] as-published: factor of the new level; corrected: gamma of a step.
-  float step;        //   4  [texel] as-published: offset of the neighbours.
-  float courant_sq;  //   8  [1] corrected: Courant number squared, times (1 + gamma) / 2.
-  int drop_count;    //  12  [1] Drops in the list.
-  float rest;        //  16  [1] Stored value of level water.
-  float padding_0;   //  20  padding
-  float padding_1;   //  24  padding
-  float padding_2;   //  28  padding
+  float damping;      //   0  [1] as-published: factor of the new level; corrected: gamma of a step.
+  float step;         //   4  [texel] as-published: offset of the neighbours.
+  float courant_sq;   //   8  [1] corrected: Courant number squared, times (1 + gamma) / 2.
+  int drop_count;     //  12  [1] Drops in the list.
+  float rest;         //  16  [1] Stored value of level water.
+  float rim_damping;  //  20  [1] corrected: share of the wave that the rim takes at the edge itself.
+  float rim_inverse;  //  24  [1/texel] corrected: one over the width of the rim.
+  float padding_0;    //  28  padding
+  float2 size;        //  32  [texel] corrected: columns and rows of the wave.
+  float padding_1;    //  40  padding
+  float padding_2;    //  44  padding
 };
-static_assert(sizeof(WaveStepUniforms) == 32, "layout of WaveStepUniforms");
+static_assert(sizeof(WaveStepUniforms) == 48, "layout of WaveStepUniforms");
 struct Drop {
   float x, y, amplitude, radius;
 };
@@ -48,15 +51,22 @@ __global__ void wave_step(WaveStepUniforms u, const __half2* wave, int2 size, Ad
   const int x = blockIdx.x * blockDim.x + threadIdx.x, y = blockIdx.y * blockDim.y + threadIdx.y;
   if (x >= size.x || y >= size.y) return;
   const auto at = [&](int column, int row) { return newest(wave, size, address, u.rest, column, row); };
-  const float here = at(x, y), previous = __high2float(wave[y * size.x + x]);
+  const float here = at(x, y), cx = x + 0.5f, cy = y + 0.5f;
+  float previous = __high2float(wave[y * size.x + x]), kept = 1;
+  if (u.rim_damping > 0) {
+    const float edge = fminf(fminf(cx, u.size.x - cx), fminf(cy, u.size.y - cy)), depth = fmaxf(1.0f - u.rim_inverse * edge, 0.0f);
+    kept = 1.0f - u.rim_damping * (depth * depth);  // what a rim along the edges leaves of both levels
+    previous = u.rest + kept * (previous - u.rest);
+  }
   const float laplacian = at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1) - 4.0f * here;
   float craters = 0;
   for (int i = 0; i < u.drop_count; ++i) {
-    const float inverse = 1.0f / drops[i].radius, dx = (x + 0.5f - drops[i].x) * inverse, dy = (y + 0.5f - drops[i].y) * inverse;
+    const float inverse = 1.0f / drops[i].radius, dx = (cx - drops[i].x) * inverse, dy = (cy - drops[i].y) * inverse;
     const float q2 = dx * dx + dy * dy, rim = fmaxf(1.0f - q2, 0.0f);
     craters += drops[i].amplitude * (rim * rim * (1.0f - 4.0f * q2));
   }
-  const float next = here + u.damping * (here - previous) + u.courant_sq * laplacian + craters;
+  float next = here + u.damping * (here - previous) + u.courant_sq * laplacian + craters;
+  if (u.rim_damping > 0) next = u.rest + kept * (next - u.rest);
   next_wave[y * size.x + x] = __floats2half2_rn(next, here + craters);
 }
 
@@ -100,7 +110,7 @@ void run(const path& pack, const path& out, const nlohmann::json& c) {
 
   WaveStepUniforms u;
   const auto block = port_runner::read_file(pack / c.at("uniform_block").at("file").get<std::string>());
-  if (block.size() != sizeof u) throw Error("uniforms.bin: expected 32 bytes");
+  if (block.size() != sizeof u) throw Error("uniforms.bin: expected 48 bytes");
   std::memcpy(&u, block.data(), sizeof u);
   const auto records = port_runner::read_npy(pack / drops.at("file").get<std::string>()).bytes;
   if (u.drop_count < 0 || records.size() != u.drop_count * sizeof(Drop)) throw Error("drop_count is not the number of the drops");

@@ -4,14 +4,17 @@
 #include "port.glsl"
 
 layout(std140, binding = 0) uniform WaveStepUniforms {
-  float damping;     //   0  [1] as-published: factor of the new level; corrected: gamma of a step.
-  float step;        //   4  [texel] as-published: offset of the neighbours.
-  float courant_sq;  //   8  [1] corrected: Courant number squared, times (1 + gamma) / 2.
-  int drop_count;    //  12  [1] Drops in the list.
-  float rest;        //  16  [1] Stored value of level water.
-  float padding_0;   //  20  padding
-  float padding_1;   //  24  padding
-  float padding_2;   //  28  padding
+  float damping;      //   0  [1] as-published: factor of the new level; corrected: gamma of a step.
+  float step;         //   4  [texel] as-published: offset of the neighbours.
+  float courant_sq;   //   8  [1] corrected: Courant number squared, times (1 + gamma) / 2.
+  int drop_count;     //  12  [1] Drops in the list.
+  float rest;         //  16  [1] Stored value of level water.
+  float rim_damping;  //  20  [1] corrected: share of the wave that the rim takes at the edge itself.
+  float rim_inverse;  //  24  [1/texel] corrected: one over the width of the rim.
+  float padding_0;    //  28  padding
+  vec2 size;          //  32  [texel] corrected: columns and rows of the wave.
+  float padding_1;    //  40  padding
+  float padding_2;    //  44  padding
 } u;
 struct Drop {
   float x;          //   0  [texel] Centre; texel centres lie at k + 1/2.

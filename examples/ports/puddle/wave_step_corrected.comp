@@ -4,14 +4,17 @@
 #include "port.glsl"
 
 layout(std140, binding = 0) uniform WaveStepUniforms {
-  float damping;     //   0  [1] as-published: factor of the new level; corrected: gamma of a step.
-  float step;        //   4  [texel] as-published: offset of the neighbours.
-  float courant_sq;  //   8  [1] corrected: Courant number squared, times (1 + gamma) / 2.
-  int drop_count;    //  12  [1] Drops in the list.
-  float rest;        //  16  [1] Stored value of level water.
-  float padding_0;   //  20  padding
-  float padding_1;   //  24  padding
-  float padding_2;   //  28  padding
+  float damping;      //   0  [1] as-published: factor of the new level; corrected: gamma of a step.
+  float step;         //   4  [texel] as-published: offset of the neighbours.
+  float courant_sq;   //   8  [1] corrected: Courant number squared, times (1 + gamma) / 2.
+  int drop_count;     //  12  [1] Drops in the list.
+  float rest;         //  16  [1] Stored value of level water.
+  float rim_damping;  //  20  [1] corrected: share of the wave that the rim takes at the edge itself.
+  float rim_inverse;  //  24  [1/texel] corrected: one over the width of the rim.
+  float padding_0;    //  28  padding
+  vec2 size;          //  32  [texel] corrected: columns and rows of the wave.
+  float padding_1;    //  40  padding
+  float padding_2;    //  44  padding
 } u;
 struct Drop {
   float x;          //   0  [texel] Centre; texel centres lie at k + 1/2.
@@ -49,16 +52,23 @@ void main() {
   float around = left + right + down + up;
   float laplacian = around - 4.0 * newest;
 
+  // A rim along the edges swallows waves: it takes its share of both levels.
+  vec2 here = vec2(texel) + 0.5;
+  float rim = 1.0;
+  if (u.rim_damping > 0.0) {
+    vec2 edge = min(here, u.size - here);
+    float depth = max(1.0 - u.rim_inverse * min(edge.x, edge.y), 0.0);
+    rim = 1.0 - u.rim_damping * (depth * depth);
+    previous = u.rest + rim * (previous - u.rest);
+  }
+
   float gamma = u.damping;
   float craters = 0.0;
-  vec2 here = vec2(texel) + 0.5;
   for (int i = 0; i < u.drop_count; ++i) craters += crater(drops[i], here);
 
   float next = newest + gamma * (newest - previous) + u.courant_sq * laplacian + craters;
   float kept = 1.0;
-  if (HAS_SHORE) {
-    kept = texelFetch(shore, texel, 0).x;
-    next = u.rest + kept * (next - u.rest);
-  }
+  if (HAS_SHORE) kept = texelFetch(shore, texel, 0).x;
+  if (HAS_SHORE || u.rim_damping > 0.0) next = u.rest + kept * rim * (next - u.rest);
   imageStore(next_wave, texel, vec4(next, newest + kept * craters, 0.0, 0.0));
 }

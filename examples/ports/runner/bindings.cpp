@@ -22,7 +22,7 @@ std::string shown(const json& value) {
   return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
-// A value of the file, and where it stands: "programs / puddle.wave_step.corrected/1 / inputs".
+// A value of the file, and where it stands: "programs / puddle.wave_step.corrected/2 / inputs".
 struct Place {
   const fs::path& file;
   std::string key;
