@@ -88,6 +88,8 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
     if (std::all_of(vector.begin(), vector.end(), [&](std::size_t at) { return count(at) == count(vector[0]); }))
       out.push_back(std::move(vector));
   }
+  // From the results to what they are made of.
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a[0] > b[0]; });
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <set>
@@ -171,6 +173,19 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
       sought.insert(c.name);
       causes.push_back(std::move(c));
     }
+  }
+  if (getenv("RR_DEBUG")) {
+    std::vector<Tried> all = causes;
+    std::stable_sort(all.begin(), all.end(), [](const Tried& a, const Tried& b) { return score(a) > score(b); });
+    for (std::size_t k = 0; k < all.size() && k < 60; ++k)
+      fprintf(stderr, "DBG %ld %ld %ld misfit %.3g likely %d ff %d | %s | %s\n", (long)all[k].explained, (long)all[k].inside,
+              (long)all[k].of, all[k].misfit, (int)all[k].is_likely, far_fetched(all[k]), all[k].name.c_str(), all[k].sentence.c_str());
+    const char* want = getenv("RR_DEBUG");
+    for (const Tried& c : all)
+      if (*want && (c.name + c.sentence).find(want) != std::string::npos)
+        fprintf(stderr, "DBW %ld %ld %ld %.3g | %s | %s\n", (long)c.explained, (long)c.inside, (long)c.of, c.misfit, c.name.c_str(),
+                c.sentence.c_str());
+    fprintf(stderr, "DBG tried %zu\n", causes.size());
   }
   if (other) check_in(*other, causes);
   std::vector<Cause> best = best_causes(causes);
