@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "faults/edits.h"
@@ -151,6 +153,23 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
   for (const Probe& p : probes) {
     for (const Nodes& v : groups_of(p)) {
       for (const Edit& e : vector_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
+    }
+    // A filter that is taken along rows and then along columns has the same weights in both.
+    std::map<std::string, std::pair<Nodes, std::vector<Edit>>> filters;
+    for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
+      if (node_of(p, at).occurrence != 0 || is_leaf(node_of(p, at).op)) continue;
+      for (Edit& e : weight_edits_of(p, at)) {
+        auto& [nodes, made] = filters[e.name];
+        nodes.push_back(at);
+        add(p, {at}, -1, e);
+        made.push_back(std::move(e));
+      }
+    }
+    for (const auto& [name, filter] : filters) {
+      if (filter.first.size() < 2 || filter.first.size() > Rewrites().size()) continue;
+      Edit all{{}, name + ", in all of these sums", filter.second[0].sentence + ", and so in the other sums of these weights"};
+      for (const Edit& e : filter.second) all.made.push_back(e.made[0]);
+      add(p, filter.first, -1, all);
     }
     for (const std::vector<std::size_t>& at : vectors_of(p)) {
       const Nodes v(at.begin(), at.end());

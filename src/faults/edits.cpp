@@ -35,6 +35,7 @@ class Edits {
     curves();
     norms();
     functions();
+    updated();
     if (copies) copied();
   }
 
@@ -285,6 +286,38 @@ class Edits {
   }
   static Expression clamped(const Expression& e) {
     return operation(Op::minimum, {operation(Op::maximum, {e, number_of(0)}), number_of(1)});
+  }
+
+  /// A part as it is after a step, elsewhere in the pass: life - dt for life.
+  void updated() {
+    std::vector<Expression*> all;
+    Expression made = all_;
+    parts(made, all);
+    for (Expression* to : all) {
+      if (to->is_operation() || to->node < 0 || (!is_constant(p_, *to) && node_of(p_, to->node).op != Op::load)) continue;
+      const std::string& name = p_.names[static_cast<std::size_t>(to->node)];
+      if (name.empty() || name.find_first_not_of("0123456789.-e") == std::string::npos) continue;
+      for (std::int32_t at = 0; at < static_cast<std::int32_t>(p_.trace.nodes.size()); ++at) {
+        const Node& n = node_of(p_, at);
+        if ((n.op != Op::sum && n.op != Op::difference) || n.occurrence != 0 || at == node_) continue;
+        const bool uses = std::any_of(n.of.begin(), n.of.end(), [&](std::int32_t of) {
+          return of >= 0 && node_of(p_, of).op == node_of(p_, to->node).op && p_.names[static_cast<std::size_t>(of)] == name;
+        });
+        if (!uses) continue;
+        const Expression after = elsewhere(p_, at, node_, {node_}, 3);
+        if (!can_be_had(after)) continue;
+        const Expression kept = *to;
+        const std::string wrong = words_for(p_, at);
+        *to = after;
+        keep(made, fmt::format("value of after: {} for {}", wrong, name),
+             fmt::format("in {} stands {} where {} is meant: the value of after a step", text_, wrong, name));
+        *to = kept;
+      }
+    }
+  }
+  static bool can_be_had(const Expression& e) {
+    if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
+    return std::all_of(e.of.begin(), e.of.end(), [](const Expression& of) { return can_be_had(of); });
   }
 
   /// One part in the place of another.

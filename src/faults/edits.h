@@ -40,6 +40,8 @@ struct Edit {
 };
 /// Of one place. `copies`: parts that stand for each other, too.
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node, bool copies);
+/// Of a weighted sum: other weights of its terms. Empty where it is none.
+std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
 /// Of the components of a vector.
 std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& vector);
 

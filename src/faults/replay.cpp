@@ -142,6 +142,13 @@ bool is_solved(const std::string& name) {
     if (name.starts_with(start)) return true;
   return false;
 }
+bool is_odd_number(const std::string& name) {
+  for (const char* const end : {" one more", " one less", " taken from 1", " times pi", " without pi", " times the aspect ratio",
+                                " without the aspect ratio", " a quarter of itself", " four times as large", " cubed", " as its logarithm",
+                                " as an exponent of e", " cut to a whole number", " rounded to a whole number"})
+    if (name.ends_with(end)) return true;
+  return false;
+}
 bool is_fitted(const std::string& name) { return name.starts_with("another value of ") || name.starts_with("another scale of "); }
 
 std::vector<Tried> tried(const parallel::Executor& executor, const std::vector<Fault>& all, const Cause& none,
@@ -206,6 +213,9 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
   best.front().is_likely = !has_rival(run, best.front().name, others);
   // Of thousands that are tried one or another comes within an envelope by chance: what was sought must have the port's own bits.
   if (sought.contains(best.front().name) && best.front().explained * 10 < best.front().of * 9) best.front().is_likely = false;
+  // A number that fits must fit all but exactly: near a wrong one the port's bits are met often.
+  if ((is_fitted(best.front().name) || is_odd_number(best.front().name)) && best.front().explained * 50 < best.front().of * 49)
+    best.front().is_likely = false;
   if (best.front().is_likely)
     say_one_of(best.front(), causes, others);
   else

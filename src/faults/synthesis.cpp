@@ -205,6 +205,14 @@ class Search {
         if (suits(places)) keep(1, places, said(first_, t, {t.values(first_), {}, words_for(first_, value), 0}, Put::instead, change));
       }
       for (Substitution& place : places) place.last = place.change = Change::none;
+      for (const Source& s : numbers_.at(t.nodes.size()))
+        for (const Put how : {Put::times, Put::divided_by, Put::instead, Put::plus, Put::minus}) {
+          if (left == 0 || s.effort > 0) break;
+          take(first_, s, t, places);
+          for (Substitution& place : places) place.how = how;
+          --left;
+          if (suits(places)) keep(s.effort + effort_of(how, Change::none), places, said(first_, t, s, how, Change::none));
+        }
       std::size_t tried = 0;
       for (const Source& s : sources_for(first_, t, groups_, none)) {
         if (left < 2 || ++tried > 120) break;
