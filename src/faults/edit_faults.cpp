@@ -74,7 +74,7 @@ class Adder {
       all[c].kind = RewriteKind::formula;
       all[c].shape = node_of(p, nodes[c]).shape;
       all[c].occurrence = occurrence >= 0 ? node_of(p, nodes[c]).occurrence : -1;
-      if (occurrence >= 0 && nodes.size() > 1 && p.trace.met.at(all[c].shape) > 3) {
+      if (occurrence >= 0 && nodes.size() > 1) {
         all[c].period = period_of(p, nodes);
         if (all[c].period > 0) all[c].occurrence = static_cast<std::int32_t>(c);
       }

@@ -20,7 +20,21 @@ struct Tap {
 };
 bool is_number(const Probe& p, const Expression& e) { return e.node >= 0 && !e.is_operation() && node_of(p, e.node).op == Op::constant; }
 
-bool collect(const Probe& p, const Expression& e, float weight, std::vector<Tap>& out) {
+/// Whether it is a weighted sum of its own: a row of a filter that is taken along columns too.
+bool is_weighted(const Probe& p, std::int32_t node) {
+  if (node < 0 || node_of(p, node).op != Op::sum) return false;
+  for (const std::int32_t of : node_of(p, node).of) {
+    if (of < 0 || node_of(p, of).op != Op::product) continue;
+    for (const std::size_t k : {0u, 1u})
+      if (const std::int32_t factor = node_of(p, of).of[k]; factor >= 0 && node_of(p, factor).op == Op::constant) return true;
+  }
+  return false;
+}
+bool collect(const Probe& p, const Expression& e, float weight, std::vector<Tap>& out, bool is_top = false) {
+  if (!is_top && is_weighted(p, e.node)) {
+    out.push_back({weight, e});
+    return true;
+  }
   if (e.is_operation() && (e.step.op == Op::sum || e.step.op == Op::difference))
     return collect(p, e.of[0], weight, out) && collect(p, e.of[1], e.step.op == Op::sum ? weight : -weight, out);
   if (e.is_operation() && e.step.op == Op::product)
@@ -41,7 +55,7 @@ std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node) {
   if (op != Op::sum && op != Op::product && op != Op::quotient) return out;
   std::vector<Tap> taps;
   std::set<float> weights;
-  if (!collect(p, expression_of(p, node, 4), 1, taps) || taps.size() < 3) return out;
+  if (!collect(p, expression_of(p, node, 4), 1, taps, true) || taps.size() < 3) return out;
   float total = 0;
   for (const Tap& t : taps) weights.insert(t.weight), total += t.weight;
   if (weights.size() < 2) return out;
