@@ -77,6 +77,14 @@ void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>
                fmt::format("the {} counter of a block of random words is a sum whose first term lacks its factor {}", counter, stride)
                    .c_str());
       }
+    for (const std::uint32_t stride : {2u, 3u, 4u, 8u, 16u})
+      for (const bool is_first : {true, false}) {
+        const char* const counter = is_first ? "first" : "second";
+        set_in(
+            &Draws::moved, is_first ? Strides{stride, 1} : Strides{1, stride},
+            fmt::format("random {} counter with its factor {} at the other term", counter, stride).c_str(),
+            fmt::format("the {0} counter of a block of random words is a + {1} b where it should be {1} a + b", counter, stride).c_str());
+      }
     using Zero = std::array<bool, 2>;
     set_in(&Draws::is_counter_0, Zero{true, false}, "random first counter left out", "the first counter of a block of random words is 0");
     set_in(&Draws::is_counter_0, Zero{false, true}, "random second counter left out", "the second counter of a block of random words is 0");
@@ -90,6 +98,9 @@ void add_draw_faults(std::vector<Fault>& out, const std::vector<random::Purpose>
     set_in(&Draws::purpose_off, 1, "random purpose one more", "the number of what random words are for is one too large");
     set_in(&Draws::purpose_off, -1, "random purpose one less", "the number of what random words are for is one too small");
   }
+  for (const int bits : {8, 10, 12, 15, 16, 20, 23})
+    set(&Draws::place_bits, bits, fmt::format("place of {} bits", bits).c_str(),
+        fmt::format("a place is made of the upper {0} bits of its random word alone, over 2^{0}, in place of more of them", bits).c_str());
   set(&Draws::is_place_of_low_bits, true, "place from low bits", "a place takes the low bits of its random word in place of the high ones");
   using Axes = std::array<bool, 2>;
   set(&Draws::is_whole, Axes{true, true}, "place without its fraction", "a place is cut to whole texels");

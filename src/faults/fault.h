@@ -47,6 +47,7 @@ struct Fault {
   std::optional<random::Draws> draws;                  ///< of a pass of whole numbers: how it draws
   std::optional<judge::HalfMode> stores;               ///< how halves are stored, whatever was declared
   bool legal = false;                                  ///< a conforming GPU may do this: not a bug, but it explains differences
+  bool is_one_of_many = false;                         ///< made by the thousand: given up after a few texels
   bool for_diagnosis = false;                          ///< asked by the diagnosis only: `mutate` has enough of its kind
 
   bool is_evaluated() const { return !alter_outputs && !alter_list && !draws; }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "faults/draw_faults.h"
+#include "faults/edit_faults.h"
 #include "faults/failing_texels.h"
 #include "faults/order_faults.h"
 #include "faults/place_faults.h"
@@ -173,6 +174,11 @@ Hypotheses hypotheses(const Probed& p, const capture::PassCase* before, const st
   std::vector<Fault> orders;
   add_order_faults(orders, probes, known);
   add_order_faults(orders, alike, {});
+  std::size_t nodes = 1;
+  for (const Probe& probe : probes) nodes = std::max(nodes, probe.trace.nodes.size());
+  constexpr std::size_t most_edited = 20000000, most_edits = 6000;  // nodes evaluated, about five times for each edit
+  add_edit_faults(orders, {probes.begin(), probes.begin() + std::min<std::ptrdiff_t>(1, std::ssize(probes))}, known,
+                  std::min(most_edits, most_edited / nodes / 5), false);
   constexpr std::size_t most_vectors = 600;
   if (!probes.empty()) add_vector_substitutions(orders, probes[0], known, most_vectors);
   return {std::move(all), constants, std::move(orders), probes, known};

@@ -1,5 +1,6 @@
 // All that the diagnosis of a failing list tries.
 #include "faults/draw_faults.h"
+#include "faults/edit_faults.h"
 #include "faults/hypotheses.h"
 #include "faults/list_faults.h"
 #include "faults/order_faults.h"
@@ -59,6 +60,7 @@ Hypotheses list_hypotheses(const Probed& p, const std::string& list, bool stand_
   const std::size_t most = std::min<std::size_t>(600, 1 + (stand_alone ? 40000000 : 2000000) / nodes);
   add_order_faults(all, probes, known, most);
   add_order_faults(all, alike, {}, most);
+  add_edit_faults(all, probes, known, most, true);
   if (!probes.empty()) add_vector_substitutions(all, probes[0], known, most);
   return {std::move(all), constants, {}, {}, {}};
 }

@@ -64,11 +64,15 @@ bool is_multiple(PlaceFault fault, Op op) {
   }
 }
 
+/// What is done to a place before it is looked up: both sides of it are wrong together.
+bool is_bent(Op op) { return op == Op::floor || op == Op::fract || op == Op::minimum || op == Op::maximum; }
+
 /// Groups of two or three first places of different shapes and one text, each met as often, of the operations that `wanted` says.
 template <class Wanted>
 std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wanted) {
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_text;
   std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_axis;  // e_u.z and e_v.z
+  std::map<std::pair<Op, std::string>, std::map<std::uint32_t, std::size_t>> by_side;
   for (std::size_t at = 0; at < p.trace.nodes.size(); ++at) {
     const Node& n = p.trace.nodes[at];
     if (!wanted(n.op) || n.occurrence != 0) continue;
@@ -76,8 +80,13 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
     if (text == "...") continue;
     by_text[{n.op, of_any_component(with_columns(text))}][n.shape] = at;
     by_axis[{n.op, "axis " + of_any_component(text, 'u', 'v')}][n.shape] = at;
+    // What lies on both sides of something: x - shift and x + shift.
+    std::string both = text;
+    for (std::size_t k = both.find(" - "); k != std::string::npos; k = both.find(" - ", k)) both[k + 1] = '+';
+    if (is_bent(n.op)) by_side[{n.op, "side " + both}][n.shape] = at;
   }
   by_text.merge(by_axis);
+  by_text.merge(by_side);
   std::vector<std::vector<std::size_t>> out;
   for (const auto& [text, places] : by_text) {
     if (places.size() < 2 || places.size() > 3) continue;
@@ -88,6 +97,8 @@ std::vector<std::vector<std::size_t>> groups_of(const Probe& p, const Wanted& wa
     if (std::all_of(vector.begin(), vector.end(), [&](std::size_t at) { return count(at) == count(vector[0]); }))
       out.push_back(std::move(vector));
   }
+  // From the results to what they are made of.
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a[0] > b[0]; });
   return out;
 }
 
@@ -129,8 +140,8 @@ std::string of_any_component(std::string text, char first, char last) {
 std::vector<std::vector<std::size_t>> vectors_of(const Probe& p) {
   std::vector<std::vector<std::size_t>> out = arguments_of(p);
   for (std::vector<std::size_t>& v : groups_of(p, [](Op op) {
-         return op == Op::sum || op == Op::difference || op == Op::product || op == Op::quotient || op == Op::minimum ||
-                op == Op::maximum || op == Op::mix || op == Op::negation || op == Op::choice;
+         return op == Op::floor || op == Op::fract || op == Op::sum || op == Op::difference || op == Op::product || op == Op::quotient ||
+                op == Op::minimum || op == Op::maximum || op == Op::mix || op == Op::negation || op == Op::choice;
        }))
     out.push_back(std::move(v));
   return out;

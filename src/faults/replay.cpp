@@ -78,7 +78,7 @@ void check_in(Replay& other, std::vector<Tried>& causes) {
 
 bool same(float a, float b) {
   const double size = std::max(std::abs(static_cast<double>(a)), std::abs(static_cast<double>(b)));
-  return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(static_cast<double>(a) - b) <= 0x1p-8 * size + 0x1p-20;
+  return a == b || (std::isnan(a) && std::isnan(b)) || std::abs(static_cast<double>(a) - b) <= 0x1p-10 * size + 0x1p-20;
 }
 /// Whether two mistakes give the same numbers, but for rounding, where either shows: where it gives others than `right`.
 bool alike(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& right) {
@@ -92,26 +92,59 @@ bool alike(const std::vector<float>& a, const std::vector<float>& b, const std::
   return shown > 0 && alike * 50 >= shown * 49;
 }
 
-/// Whether one of these would be another mistake than the first elsewhere.
-bool has_rival(const Replay& run, const std::string& first, const std::set<std::string>& others) {
-  if (others.empty()) return false;
+/// What mistakes of these names give in a run.
+std::map<std::string, std::vector<std::vector<float>>> given_by(Replay& run, const std::set<std::string>& names) {
+  std::map<std::string, std::vector<std::vector<float>>> given;
+  for (const Fault& d : named(run, names))
+    if (std::vector<float> numbers = run.given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
+  return given;
+}
+/// How others compare with the first, here and elsewhere, on other numbers.
+struct Compared {
+  bool has_rival = false;       ///< one of them is another mistake elsewhere
+  std::set<std::string> alike;  ///< those that give the same, here and there
+};
+Compared compared(Replay& run, const std::string& first, const std::set<std::string>& others) {
+  Compared out;
+  if (others.empty()) return out;
   const std::unique_ptr<Replay> elsewhere = run.elsewhere();
-  if (!elsewhere) return false;
+  if (!elsewhere) return out;
   std::set<std::string> names = others;
   names.insert(first);
-  std::map<std::string, std::vector<std::vector<float>>> given;
-  for (const Fault& d : named(*elsewhere, names))
-    if (std::vector<float> numbers = elsewhere->given(d); !numbers.empty()) given[d.name].push_back(std::move(numbers));
-  const std::vector<float> right = elsewhere->given(Fault{});
-  const auto own = given.find(first);
+  const auto alike_in = [&](Replay& where, const std::set<std::string>& asked, std::set<std::string>& unknown) {
+    std::set<std::string> same;
+    const auto given = given_by(where, asked);
+    const std::vector<float> right = where.given(Fault{});
+    const auto own = given.find(first);
+    for (const std::string& name : asked) {
+      const auto theirs = given.find(name);
+      if (own == given.end() || theirs == given.end())
+        unknown.insert(name);
+      else if (std::any_of(theirs->second.begin(), theirs->second.end(), [&](const std::vector<float>& b) {
+                 return std::any_of(own->second.begin(), own->second.end(),
+                                    [&](const std::vector<float>& a) { return alike(a, b, right); });
+               }))
+        same.insert(name);
+    }
+    return same;
+  };
+  std::set<std::string> unknown;
+  out.alike = alike_in(*elsewhere, names, unknown);
   // What was solved for cannot be asked elsewhere.
-  if (own == given.end()) return is_solved(first);
-  return std::any_of(others.begin(), others.end(), [&](const std::string& name) {
-    const auto theirs = given.find(name);
-    return theirs != given.end() && std::none_of(theirs->second.begin(), theirs->second.end(), [&](const std::vector<float>& b) {
-             return std::any_of(own->second.begin(), own->second.end(), [&](const std::vector<float>& a) { return alike(a, b, right); });
-           });
-  });
+  if (unknown.contains(first)) {
+    out.alike.clear();
+    out.has_rival = is_solved(first);
+    return out;
+  }
+  out.alike.erase(first);
+  for (const std::string& name : others) out.has_rival |= !out.alike.contains(name) && !unknown.contains(name);
+  if (out.has_rival || out.alike.empty()) return out;
+  // On other numbers both may be held to the same bounds: what differs here does not give the same.
+  std::set<std::string> here = out.alike, unused;
+  here.insert(first);
+  const std::set<std::string> same = alike_in(run, here, unused);
+  std::erase_if(out.alike, [&](const std::string& name) { return !same.contains(name) && !unused.contains(name); });
+  return out;
 }
 
 /// Mistakes that give the same wherever it was looked, in the order in which they are to be believed: the port has one of them.
@@ -138,6 +171,13 @@ bool is_solved(const std::string& name) {
   for (const char* const start : {"wrong value: ", "wrong texel: ", "factor too many: ", "term too many: ", "max too many: ",
                                   "min too many: ", "precision: ", "rounded: ", "clamp too many: "})
     if (name.starts_with(start)) return true;
+  return false;
+}
+bool is_odd_number(const std::string& name) {
+  for (const char* const end : {" one more", " one less", " taken from 1", " times pi", " without pi", " times the aspect ratio",
+                                " without the aspect ratio", " a quarter of itself", " four times as large", " cubed", " as its logarithm",
+                                " as an exponent of e", " cut to a whole number", " rounded to a whole number"})
+    if (name.ends_with(end)) return true;
   return false;
 }
 bool is_fitted(const std::string& name) { return name.starts_with("another value of ") || name.starts_with("another scale of "); }
@@ -188,11 +228,16 @@ std::vector<Cause> diagnosed(Replay& run, Replay* other) {
   const double least = score(best.front()) - (best.front().of_records ? 0 : 0.02);
   for (const Tried& c : causes)
     if (c.of > 0 && score(c) >= least && c.misfit <= 0.05 && c.name != best.front().name && !is_fitted(c.name)) others.insert(c.name);
-  best.front().is_likely = !has_rival(run, best.front().name, others);
+  const Compared there = compared(run, best.front().name, others);
+  best.front().is_likely = !there.has_rival;
   // Of thousands that are tried one or another comes within an envelope by chance: what was sought must have the port's own bits.
   if (sought.contains(best.front().name) && best.front().explained * 10 < best.front().of * 9) best.front().is_likely = false;
+  // A number that fits must fit all but exactly: near a wrong one the port's bits are met often.
+  if ((is_fitted(best.front().name) || is_odd_number(best.front().name)) && best.front().explained * 50 < best.front().of * 49)
+    best.front().is_likely = false;
+  // What could not be asked elsewhere is not said to give the same.
   if (best.front().is_likely)
-    say_one_of(best.front(), causes, others);
+    say_one_of(best.front(), causes, there.alike);
   else
     say_one_of(best.front(), causes, others, 4, as_much);
   return best;

@@ -42,6 +42,8 @@ class Replay {
 bool is_solved(const std::string& name);
 /// Whether a cause of this name is a number fitted to what the port stored.
 bool is_fitted(const std::string& name);
+/// Whether it says of a number that it has another value for which there is no plain reason.
+bool is_odd_number(const std::string& name);
 
 /// A replay of a case that nobody else holds, from R(of, case, model).
 template <class R>

@@ -180,11 +180,11 @@ class Search {
           if (n.of[static_cast<std::size_t>(k)] >= 0) all.push_back({nodes, k});
       if (n.op != Op::comparison) all.push_back({nodes, Substitution::result});
     };
+    for (const std::vector<std::size_t>& v : vector_values_of(first_)) add({v.begin(), v.end()});
     for (std::int32_t at = static_cast<std::int32_t>(first_.trace.nodes.size()); at-- > 0;)
       if (done.insert(node_of(first_, at).shape).second && node_of(first_, at).occurrence >= 0) add({first_of(at)});
-    for (const std::vector<std::size_t>& v : vector_values_of(first_)) add({v.begin(), v.end()});
     const std::size_t nodes = std::max<std::size_t>(first_.trace.nodes.size(), 1);
-    std::size_t left = std::min<std::size_t>(20000, most_steps / 2 / nodes);
+    std::size_t left = std::min<std::size_t>(20000, most_steps / nodes);
     const std::vector<float> right = solvers_[0].values({});
     const std::vector<Source> none;
     for (const Target& t : all) {
@@ -205,6 +205,14 @@ class Search {
         if (suits(places)) keep(1, places, said(first_, t, {t.values(first_), {}, words_for(first_, value), 0}, Put::instead, change));
       }
       for (Substitution& place : places) place.last = place.change = Change::none;
+      for (const Source& s : numbers_.at(t.nodes.size()))
+        for (const Put how : {Put::times, Put::divided_by, Put::instead}) {
+          if (left == 0 || s.effort > 0) break;
+          take(first_, s, t, places);
+          for (Substitution& place : places) place.how = how;
+          --left;
+          if (suits(places)) keep(s.effort + effort_of(how, Change::none), places, said(first_, t, s, how, Change::none));
+        }
       std::size_t tried = 0;
       for (const Source& s : sources_for(first_, t, groups_, none)) {
         if (left < 2 || ++tried > 120) break;

@@ -216,7 +216,7 @@ Tried TexelReplay::cause(const Fault& d) const {
   const std::size_t few = std::min<std::size_t>(failing_.size(), 24);
   std::size_t matching = 0;
   for (std::size_t k = 0; k < few && matching * 6 < few; ++k) {
-    if (k == 12 && matching == 0) return cause;
+    if (k == (d.is_one_of_many ? 5u : 12u) && matching == 0) return cause;
     const std::size_t number = few == 24 ? k * 7 % few : k;
     matching += match_at(number * failing_.size() / few).near;
   }

@@ -274,6 +274,14 @@ void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants
     as(value - 1, "one less");
     as(value * (pi / 180), "in degrees");
     as(value / (pi / 180), "in degrees for radians");
+    // A number of stops, decibels or octaves is taken for a factor, or the reverse.
+    if (std::abs(value) < 60) as(std::exp2(value), "as a power of two");
+    if (std::abs(value) < 60) as(std::exp(value), "as an exponent of e");
+    if (value > 0) as(std::log2(value), "as its logarithm to base two");
+    if (value > 0) as(std::log(value), "as its logarithm");
+    as(value * value * value, "cubed");
+    as(std::floor(value), "cut to a whole number");
+    as(std::floor(value + 0.5f), "rounded to a whole number");
     as(value * pi, "times pi");
     as(value / pi, "without pi");
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "math/formula.h"
 #include "math/half.h"
 #include "math/perturbed.h"
 #include "math/rewrites.h"
@@ -24,9 +25,6 @@ std::uint32_t hashed(std::uint32_t h, std::uint32_t x) {
 
 }  // namespace
 
-namespace {
-
-/// An operation again, of other operands; as it was where it cannot be.
 Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
   const auto& [a, b, c, d] = of;
   switch (op) {
@@ -85,6 +83,8 @@ Perturbed again(Op op, const Perturbed& r, const std::array<Perturbed, 4>& of) {
       return r;
   }
 }
+namespace {
+
 /// The operands of a node, as they were.
 std::array<Perturbed, 4> operands_of(const Trace::Node& n) {
   std::array<Perturbed, 4> out;
@@ -123,12 +123,14 @@ Perturbed rewritten(const Rewrite& rewriting, Op op, const Perturbed& r, std::ar
                     const std::array<std::int32_t, 4>& nodes, const Trace& trace) {
   const Unseen parts;
   const auto k = static_cast<std::size_t>(rewriting.operand);
+  if (rewriting.kind == RewriteKind::formula) return by_formula(*rewriting.formula, r, of, nodes, trace, trace.nodes.size());
   if (nodes[k] < 0) return r;
   const Trace::Node& operand = trace.nodes[static_cast<std::size_t>(nodes[k])];
   const auto value = [&](std::int32_t node) { return Perturbed::of(trace.nodes[static_cast<std::size_t>(node)].value); };
   const auto child = [](const Trace::Node& n, int i) { return i < 0 ? -1 : n.of[static_cast<std::size_t>(i)]; };
   switch (rewriting.kind) {
     case RewriteKind::none:
+    case RewriteKind::formula:
       return r;
     case RewriteKind::part: {
       std::int32_t part = child(operand, rewriting.path[0]);
@@ -326,8 +328,10 @@ Perturbed Perturbed::follow(Op op, const Perturbed& result, std::initializer_lis
   for (const Rewrite& rewriting : rewrites) {
     if (!b.trace || rewriting.kind == RewriteKind::none) break;
     const bool is_wild = rewriting.kind == RewriteKind::first_wins;  // it concerns every choice, whatever its shape is
-    if ((is_wild ? op != Op::choice : rewriting.shape != shape) ||
-        (!is_wild && rewriting.occurrence >= 0 && rewriting.occurrence != b.trace->met[shape]))
+    if (is_wild ? op != Op::choice : rewriting.shape != shape) continue;
+    const std::int32_t occurrence = b.trace->met[shape];
+    if (!is_wild && rewriting.occurrence >= 0 &&
+        rewriting.occurrence != (rewriting.period > 0 ? occurrence % rewriting.period : occurrence))
       continue;
     std::array<Perturbed, 4> operands;
     std::array<std::int32_t, 4> nodes{-1, -1, -1, -1};

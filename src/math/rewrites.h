@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
+
+#include "math/places.h"
 
 namespace rainref::perturbed {
 
@@ -18,8 +21,26 @@ enum class RewriteKind : std::uint8_t {
   commuted,          ///< an operation and the one of its operand are done in the other order: e clamp(x) for clamp(e x)
   commuted_outer_2,  ///< likewise two operations, both ends of a clamp, and the one below them
   commuted_inner_2,  ///< likewise an operation and the two below it
-  first_wins         ///< of choices that follow each other the first that holds stays: a loop runs the other way
+  first_wins,        ///< of choices that follow each other the first that holds stays: a loop runs the other way
+  formula            ///< another formula of what the operation is made of
 };
+
+/// A step of a formula, in postfix order.
+struct FormulaStep {
+  enum class Kind : std::uint8_t {
+    operation,  ///< `op` of what the last steps gave
+    part,       ///< the operand at the end of `path` from the place: which operand, which of that, ...; -1 ends it
+    number,
+    met  ///< what was met `back` times ago of a shape
+  };
+  Kind kind = Kind::operation;
+  Op op = Op::sum;
+  std::array<std::int8_t, 6> path{-1, -1, -1, -1, -1, -1};
+  float number = 0;
+  std::uint32_t shape = 0;
+  std::int32_t back = 1;
+};
+using Formula = std::vector<FormulaStep>;
 
 /// It needs Behaviour::trace, where the values of before stand.
 struct Rewrite {
@@ -29,6 +50,8 @@ struct Rewrite {
   std::int8_t operand = 0;                  ///< which one is other; of ..._all the term, of ..._first and ..._second the sum
   std::array<std::int8_t, 2> path{-1, -1};  ///< of part: which operand of the operand, and which of that; of over_all [0]: the factor;
                                             ///< of commuted [0]: the operand of the inner one that the outer one takes
+  std::int32_t period = 0;                  ///< of occurrence: each one that is so many on; 0: that one alone
+  const Formula* formula = nullptr;         ///< of formula: whoever makes the rewrite keeps it
 };
 
 /// One rewrite, or those of the components of a vector: the first of kind none ends them.

@@ -11,6 +11,7 @@ thread_local Draws current;
 
 std::uint32_t Draws::other_counter(std::uint32_t counter, std::size_t k) const {
   if (is_counter_0[k]) return 0;
+  if (moved[k] > 1) return counter / moved[k] + counter % moved[k] * moved[k];
   return counter / strides[k] + counter % strides[k] + static_cast<std::uint32_t>(counters_off[k]);
 }
 Block Draws::block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) const {

@@ -27,10 +27,15 @@ struct Draws {
 
   std::array<std::uint32_t, 2> strides{1, 1};  ///< a counter that is s a + b has lost the factor s: it is a + b
   std::array<bool, 2> is_counter_0{};          ///< a counter is left out
+  std::array<std::uint32_t, 2> moved{1, 1};    ///< a counter that is s a + b is a + s b: the factor stands at the other term
+  int place_bits = 0;                          ///< of a place so many upper bits count, the others are 0; 0: all
 
   Block block(std::uint64_t seed, Purpose purpose, std::uint32_t a, std::uint32_t b) const;
   /// The upper bits of a word, as the place of something.
-  std::uint32_t place(std::uint32_t word, int bits) const { return upper(word, bits, is_place_of_low_bits); }
+  std::uint32_t place(std::uint32_t word, int bits) const {
+    const std::uint32_t all = upper(word, bits, is_place_of_low_bits);
+    return place_bits > 0 && place_bits < bits ? all >> (bits - place_bits) << (bits - place_bits) : all;
+  }
   /// A column (0) or row (1) in fractions of so many bits.
   std::uint32_t fine(std::uint32_t place, int bits, std::size_t axis) const { return is_whole[axis] ? place >> bits << bits : place; }
   /// The upper bits of a word, as the number of a class.

@@ -1,0 +1,193 @@
+#include "faults/edit_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "faults/edits.h"
+#include "faults/place_faults.h"
+#include "faults/targets.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Formula;
+using perturbed::Op;
+using perturbed::Rewrite;
+using perturbed::RewriteKind;
+using perturbed::Rewrites;
+using Node = perturbed::Trace::Node;
+using Nodes = std::vector<std::int32_t>;
+
+constexpr std::int32_t most_alike = 4;  // of one shape that are tried one by one
+
+/// Whether an edit gives another number at one of the places of its shape.
+bool shows(const Probe& p, std::int32_t node, const Formula& formula) {
+  int asked = 0;
+  for (std::int32_t at = node; at < static_cast<std::int32_t>(p.trace.nodes.size()) && asked < 6; ++at) {
+    if (node_of(p, at).shape != node_of(p, node).shape) continue;
+    ++asked;
+    const float value = value_at(p, at, formula), right = node_of(p, at).value;
+    if (!(std::abs(static_cast<double>(value) - right) <= 1e-6 * std::abs(static_cast<double>(right)))) return true;
+  }
+  return false;
+}
+
+bool are_alike(const Probe& p, const Nodes& v) {
+  std::set<std::uint32_t> shapes;
+  for (const std::int32_t node : v) shapes.insert(node_of(p, node).shape);
+  return shapes.size() < v.size();
+}
+/// In a loop that meets the components, all of one shape, round by round: how many there are; else 0.
+std::int32_t period_of(const Probe& p, const Nodes& v) {
+  const auto n = static_cast<std::int32_t>(v.size());
+  for (std::int32_t k = 0; k < n; ++k) {
+    const Node& node = node_of(p, v[static_cast<std::size_t>(k)]);
+    if (node.shape != node_of(p, v[0]).shape || node.occurrence % n != k) return 0;
+  }
+  return p.trace.met.at(node_of(p, v[0]).shape) % n == 0 ? n : 0;
+}
+
+class Adder {
+ public:
+  Adder(std::vector<Fault>& out, const std::vector<float>& known, std::size_t most)
+      : out_(out), known_(std::make_shared<const std::vector<float>>(known)), most_(most) {}
+  bool is_full() const { return made_ >= most_; }
+
+  void operator()(const Probe& p, const Nodes& nodes, std::int32_t occurrence, const Edit& edit) {
+    if (is_full() || nodes.size() > Rewrites().size()) return;
+    auto formulas = std::make_shared<std::vector<Formula>>();
+    bool is_seen = false;
+    for (std::size_t c = 0; c < nodes.size(); ++c) {
+      formulas->push_back(formula_of(edit.made[edit.made.size() == 1 ? 0 : c]));
+      is_seen |= shows(p, nodes[c], formulas->back());
+    }
+    std::string key = edit.name + edit.sentence;
+    if (!is_seen || !done_.insert({std::move(key), occurrence}).second) return;
+    ++made_;
+    Rewrites all{};
+    for (std::size_t c = 0; c < nodes.size(); ++c) {
+      all[c].kind = RewriteKind::formula;
+      all[c].shape = node_of(p, nodes[c]).shape;
+      all[c].occurrence = occurrence >= 0 ? node_of(p, nodes[c]).occurrence : -1;
+      if (occurrence >= 0 && nodes.size() > 1) {
+        all[c].period = period_of(p, nodes);
+        if (all[c].period > 0) all[c].occurrence = static_cast<std::int32_t>(c);
+      }
+      all[c].formula = &(*formulas)[c];
+    }
+    Fault d;
+    d.name = edit.name;
+    d.sentence = edit.sentence;
+    if (nodes.size() > 1 && edit.made.size() == 1) d.name += ", in all components", d.sentence += ", and so in the other components";
+    d.rewrites = all;
+    d.at_texel = [known = known_, formulas](Texel, perturbed::Behaviour& b, std::vector<float>&) { b.known = known.get(); };
+    d.for_diagnosis = true;
+    d.is_one_of_many = true;
+    out_.push_back(std::move(d));
+  }
+
+ private:
+  std::vector<Fault>& out_;
+  std::shared_ptr<const std::vector<float>> known_;
+  std::set<std::pair<std::string, std::int32_t>> done_;
+  std::size_t made_ = 0, most_;
+};
+
+/// What belongs together as a vector: what a length is taken of, the arguments of named functions, what is alike but for the
+/// component, what the outputs are made of side by side.
+std::vector<Nodes> groups_of(const Probe& p) {
+  std::vector<Nodes> out;
+  std::set<std::vector<std::uint32_t>> done;
+  const auto add = [&](Nodes v) {
+    if (v.size() < 2 || v.size() > 3 || std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; })) return;
+    if (std::set<std::int32_t>(v.begin(), v.end()).size() < v.size()) return;
+    std::vector<std::uint32_t> shapes;
+    for (const std::int32_t i : v) {
+      if (is_leaf(node_of(p, i).op) || node_of(p, i).op == Op::lookup) return;
+      shapes.push_back(node_of(p, i).shape);
+    }
+    // What is alike in the components is told apart by its order, in a loop from round to round.
+    if (are_alike(p, v) && p.trace.met.at(shapes[0]) > 3 && period_of(p, v) == 0) return;
+    if (done.insert(shapes).second) out.push_back(std::move(v));
+  };
+  for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
+    const Node& n = node_of(p, at);
+    if (n.occurrence != 0 || n.op != Op::sum || n.of[0] < 0 || n.of[1] < 0) continue;
+    const auto squared = [&](std::int32_t i) { return i >= 0 && node_of(p, i).op == Op::square ? node_of(p, i).of[0] : -1; };
+    const Node& first = node_of(p, n.of[0]);
+    if (first.op == Op::sum) add({squared(first.of[0]), squared(first.of[1]), squared(n.of[1])});
+    add({squared(n.of[0]), squared(n.of[1])});
+  }
+  for (const std::vector<std::size_t>& v : vectors_of(p)) add({v.begin(), v.end()});
+  // From the outputs down, as far as it is by the same operations, and what stands there.
+  for (std::size_t first = 0; first < p.outputs.size() && first < 8; ++first)
+    for (const std::size_t n : {3u, 2u}) {
+      if (first + n > p.outputs.size()) continue;
+      std::vector<Nodes> open{
+          {p.outputs.begin() + static_cast<std::ptrdiff_t>(first), p.outputs.begin() + static_cast<std::ptrdiff_t>(first + n)}};
+      constexpr std::size_t most = 300;
+      for (std::size_t at = 0; at < open.size() && open.size() < most; ++at) {
+        const Nodes v = open[at];
+        if (std::any_of(v.begin(), v.end(), [](std::int32_t i) { return i < 0; })) continue;
+        add(v);
+        if (std::any_of(v.begin(), v.end(), [&](std::int32_t i) { return node_of(p, i).op != node_of(p, v[0]).op; })) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+          Nodes& below = open.emplace_back();
+          for (const std::int32_t i : v) below.push_back(node_of(p, i).of[k]);
+        }
+      }
+    }
+  return out;
+}
+
+}  // namespace
+
+void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, const std::vector<float>& known, std::size_t most,
+                     bool copies) {
+  Adder add(out, known, most);
+  for (const Probe& p : probes) {
+    for (const Nodes& v : groups_of(p)) {
+      for (const Edit& e : vector_edits_of(p, v)) add(p, v, are_alike(p, v) ? 0 : -1, e);
+    }
+    // A filter that is taken along rows and then along columns has the same weights in both.
+    std::map<std::string, std::pair<Nodes, std::vector<Edit>>> filters;
+    for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0;) {
+      if (node_of(p, at).occurrence != 0 || is_leaf(node_of(p, at).op)) continue;
+      for (Edit& e : weight_edits_of(p, at)) {
+        auto& [nodes, made] = filters[e.name];
+        nodes.push_back(at);
+        add(p, {at}, -1, e);
+        made.push_back(std::move(e));
+      }
+    }
+    for (const auto& [name, filter] : filters) {
+      if (filter.first.size() < 2 || filter.first.size() > Rewrites().size()) continue;
+      Edit all{{}, name + ", in all of these sums", filter.second[0].sentence + ", and so in the other sums of these weights"};
+      for (const Edit& e : filter.second) all.made.push_back(e.made[0]);
+      add(p, filter.first, -1, all);
+    }
+    for (const std::vector<std::size_t>& at : vectors_of(p)) {
+      const Nodes v(at.begin(), at.end());
+      for (const Edit& e : edits_of(p, v[0], false)) add(p, v, -1, e);
+    }
+    std::set<std::uint32_t> done;
+    for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
+      const Node& n = node_of(p, at);
+      if (is_leaf(n.op) || n.op == Op::lookup) continue;
+      const std::int32_t count = p.trace.met.at(n.shape);
+      if (n.occurrence != 0 && count > most_alike) continue;
+      const std::vector<Edit> edits = edits_of(p, at, copies);
+      for (const Edit& e : edits) {
+        if (n.occurrence == 0) add(p, {at}, -1, e);
+        if (count > 1 && count <= most_alike) add(p, {at}, n.occurrence, e);
+      }
+    }
+  }
+}
+
+}  // namespace rainref::faults

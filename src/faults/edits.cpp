@@ -1,0 +1,358 @@
+// What stands at one place of a pass text in place of what is meant: the same parts, put together otherwise.
+#include "faults/edits.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "faults/targets.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::FormulaStep;
+using perturbed::Op;
+using Node = perturbed::Trace::Node;
+
+bool is_dots(const std::string& text) { return text.find_first_not_of(".+-*/ ()") == std::string::npos; }
+bool is_constant(const Probe& p, const Expression& e) {
+  return e.step.kind == FormulaStep::Kind::number || (e.node >= 0 && node_of(p, e.node).op == Op::constant);
+}
+
+class Edits {
+ public:
+  Edits(const Probe& p, std::int32_t node, std::vector<Edit>& out)
+      : p_(p), node_(node), all_(expression_of(p, node, 3)), text_(words_for(p, node)), out_(out) {}
+
+  void run(bool copies) {
+    if (!all_.is_operation()) return;
+    swaps();
+    regrouped();
+    of_each_part();
+    curves();
+    norms();
+    functions();
+    updated();
+    if (copies) copied();
+  }
+
+ private:
+  void keep(Expression made, std::string name, std::string sentence) {
+    out_.push_back({{std::move(made)}, std::move(name), std::move(sentence)});
+  }
+  std::string instead(const Expression& made) const { return fmt::format("{} stands in place of {}", text_of(p_, made), text_); }
+
+  /// All parts below an operand, with a way to each.
+  static void parts(Expression& e, std::vector<Expression*>& out) {
+    out.push_back(&e);
+    for (Expression& below : e.of) parts(below, out);
+  }
+  /// Two parts, one below each of two operands, exchanged.
+  void swaps() {
+    for (std::size_t i = 0; i < all_.of.size(); ++i)
+      for (std::size_t j = i + 1; j < all_.of.size(); ++j) {
+        Expression made = all_;
+        std::vector<Expression*> first, second;
+        parts(made.of[i], first);
+        parts(made.of[j], second);
+        for (Expression* a : first)
+          for (Expression* b : second) {
+            const bool are_operands = a == &made.of[i] && b == &made.of[j];
+            if (a->node < 0 || b->node < 0 || a->node == b->node || (are_operands && is_symmetric(all_.step.op))) continue;
+            if (is_constant(p_, *a) != is_constant(p_, *b)) continue;
+            const std::string one = words_for(p_, a->node), other = words_for(p_, b->node);
+            if (is_dots(one) || is_dots(other)) continue;
+            std::swap(*a, *b);
+            const std::string of = one == other ? " of " + text_ : "";
+            keep(made, fmt::format("exchanged: {} and {}{}", one, other, of),
+                 fmt::format("in {} {} and {} stand in each other's place: {}", text_, one, other, text_of(p_, made)));
+            std::swap(*a, *b);
+          }
+      }
+  }
+  static bool is_symmetric(Op op) { return op == Op::sum || op == Op::product || op == Op::minimum || op == Op::maximum; }
+  static bool is_arithmetic(Op op) { return is_symmetric(op) || op == Op::difference || op == Op::quotient; }
+  static bool is_associative(Op a, Op b) { return a == b && is_symmetric(a); }
+
+  /// a (b c) for (a b) c, and the reverse.
+  void regrouped() {
+    if (!is_arithmetic(all_.step.op)) return;
+    for (const std::size_t k : {0u, 1u}) {
+      const Expression &inner = all_.of[k], &other = all_.of[1 - k];
+      if (!inner.is_operation() || !is_arithmetic(inner.step.op) || is_associative(all_.step.op, inner.step.op)) continue;
+      for (const std::size_t j : {0u, 1u}) {
+        // The outer operation takes part j of the inner one alone.
+        std::vector<Expression> outer{inner.of[j], other};
+        if (k == 1) std::swap(outer[0], outer[1]);
+        std::vector<Expression> made{operation(all_.step.op, outer), inner.of[1 - j]};
+        if (j == 1) std::swap(made[0], made[1]);
+        const Expression e = operation(inner.step.op, made);
+        const bool is_bound = inner.step.op == Op::maximum || inner.step.op == Op::minimum;
+        if (is_bound && (all_.step.op == Op::product || all_.step.op == Op::quotient))
+          keep(e, fmt::format("factor of one side: {}", text_of(p_, other)),
+               fmt::format("in {} {} {} one of the two alone, before the {}: {}", text_, text_of(p_, other),
+                           all_.step.op == Op::product ? "multiplies" : "divides", inner.step.op == Op::maximum ? "maximum" : "minimum",
+                           text_of(p_, e)));
+        else
+          keep(e, "grouped otherwise: " + text_of(p_, e), instead(e) + ": its parentheses stand elsewhere");
+      }
+    }
+  }
+
+  /// A map x -> a x + b of a sum, taken of each of its parts.
+  void of_each_part() {
+    const Expression deep = expression_of(p_, node_, 5);
+    std::vector<std::pair<Op, std::pair<bool, Expression>>> maps;  // from outside: operation, whether the constant is first, constant
+    const Expression* at = &deep;
+    while (at->is_operation() && at->of.size() == 2 && is_arithmetic(at->step.op) && maps.size() < 3) {
+      const bool is_first = is_constant(p_, at->of[0]), is_second = is_constant(p_, at->of[1]);
+      if (is_first == is_second) break;
+      maps.emplace_back(at->step.op, std::pair(is_first, at->of[is_first ? 0 : 1]));
+      at = &at->of[is_first ? 1 : 0];
+    }
+    if (maps.empty() || !at->is_operation() || (at->step.op != Op::sum && at->step.op != Op::difference)) return;
+    const auto mapped = [&](Expression e) {
+      for (auto m = maps.rbegin(); m != maps.rend(); ++m)
+        e = m->second.first ? operation(m->first, {m->second.second, std::move(e)}) : operation(m->first, {std::move(e), m->second.second});
+      return e;
+    };
+    // Of each term, or of one factor of each.
+    for (const int factor : {-1, 0, 1}) {
+      std::vector<Expression> terms = at->of;
+      bool is_there = true;
+      for (Expression& term : terms) {
+        if (factor < 0) {
+          term = mapped(term);
+        } else if (term.is_operation() && term.step.op == Op::product) {
+          Expression& one = term.of[static_cast<std::size_t>(factor)];
+          one = mapped(one);
+        } else {
+          is_there = false;
+        }
+      }
+      if (!is_there) continue;
+      const Expression e = operation(at->step.op, terms);
+      keep(e, fmt::format("of each part: {}", text_),
+           fmt::format("{}: what is done to the sum {} is done to each of its {}", instead(e), text_of(p_, *at),
+                       factor < 0 ? "terms" : "parts, before they are weighted"));
+    }
+  }
+
+  /// Another curve of one number, where the operation and all that it is made of are numbers and that one.
+  void curves() {
+    const std::int32_t variable = variable_of();
+    if (variable < 0) return;
+    const Expression x = part(variable);
+    if (!x.is_operation() && x.step.kind == FormulaStep::Kind::part && x.step.path[0] < 0) return;
+    const auto num = [](float v) { return number_of(v); };
+    const auto times = [](Expression a, Expression b) { return operation(Op::product, {std::move(a), std::move(b)}); };
+    const auto minus = [](Expression a, Expression b) { return operation(Op::difference, {std::move(a), std::move(b)}); };
+    const auto plus = [](Expression a, Expression b) { return operation(Op::sum, {std::move(a), std::move(b)}); };
+    const std::string v = words_for(p_, variable);
+    const auto add = [&](Expression e, const std::string& curve) {
+      keep(std::move(e), fmt::format("another curve: {} for {}", curve, text_),
+           fmt::format("of {} the curve {} stands in place of {}", v, curve, text_));
+    };
+    const Expression one = num(1), squared = times(x, x), rest = minus(one, x);
+    add(x, fmt::format("linear, {}", v));
+    add(times(squared, minus(num(3), times(num(2), x))), "the cubic smoothstep, x^2 (3 - 2 x)");
+    add(times(times(squared, x), plus(times(x, minus(times(x, num(6)), num(15))), num(10))), "the quintic smoothstep");
+    add(squared, "the square");
+    add(times(squared, x), "the cube");
+    add(times(squared, squared), "the fourth power");
+    add(operation(Op::root, {x}), "the root");
+    add(rest, "1 - x");
+    add(times(rest, rest), "(1 - x)^2");
+    add(minus(one, times(rest, rest)), "1 - (1 - x)^2");
+    add(minus(one, squared), "1 - x^2");
+    add(times(num(0.5f), minus(one, operation(Op::cosine, {times(num(3.14159265f), x)}))), "the cosine's, (1 - cos(pi x)) / 2");
+  }
+  /// The one node that is no number of which the operation is made, met twice at least; -1: there is none.
+  std::int32_t variable_of() const {
+    constexpr int deepest = 6;
+    std::int32_t found = -1;
+    int uses = 0;
+    const std::function<bool(std::int32_t, int)> is_of_one = [&](std::int32_t node, int depth) {
+      if (node < 0) return false;
+      const Node& n = node_of(p_, node);
+      if (n.op == Op::constant) return true;
+      if (node == found) return ++uses > 0;
+      const bool is_polynomial =
+          n.op == Op::sum || n.op == Op::difference || n.op == Op::product || n.op == Op::square || n.op == Op::negation;
+      if (is_polynomial && depth > 0 && node != last_of(node)) {
+        bool all = true;
+        for (std::size_t k = 0; k < (n.op == Op::square || n.op == Op::negation ? 1u : 2u); ++k) all &= is_of_one(n.of[k], depth - 1);
+        return all;
+      }
+      if (found >= 0) return false;
+      found = node;
+      return ++uses > 0;
+    };
+    // What is no polynomial is the variable: where several are, each node that others have in common is tried.
+    const Node& top = node_of(p_, node_);
+    if (top.op != Op::sum && top.op != Op::difference && top.op != Op::product && top.op != Op::square) return -1;
+    variable_ = -1;
+    if (is_of_one(node_, deepest) && uses >= 2 && found != node_) return found;
+    for (const std::int32_t candidate : shared()) {
+      variable_ = candidate;
+      found = candidate;
+      uses = 0;
+      const bool is_it = is_of_one(node_, deepest) && uses >= 2;
+      variable_ = -1;
+      if (is_it) return candidate;
+    }
+    return -1;
+  }
+  /// The node where a polynomial ends.
+  std::int32_t last_of(std::int32_t node) const { return node == variable_ ? node : -1; }
+  /// Nodes that are met more than once below the operation, from the top.
+  std::vector<std::int32_t> shared() const {
+    std::vector<std::int32_t> out, met;
+    std::vector<std::int32_t> open{node_};
+    constexpr std::size_t most = 64;
+    for (std::size_t k = 0; k < open.size() && k < most; ++k) {
+      if (open[k] < 0) continue;
+      const Node& n = node_of(p_, open[k]);
+      if (n.op == Op::constant) continue;
+      if (std::find(met.begin(), met.end(), open[k]) != met.end()) {
+        if (std::find(out.begin(), out.end(), open[k]) == out.end()) out.push_back(open[k]);
+        continue;
+      }
+      met.push_back(open[k]);
+      for (const std::int32_t below : n.of) open.push_back(below);
+    }
+    return out;
+  }
+  /// A node below the operation, by the first path to it.
+  Expression part(std::int32_t node) const {
+    Expression whole = expression_of(p_, node_, 6);
+    std::vector<Expression*> all;
+    parts(whole, all);
+    for (const Expression* e : all)
+      if (e->node == node) return *e;
+    Expression none;
+    none.step.kind = FormulaStep::Kind::part;
+    return none;
+  }
+
+  /// Other lengths of a vector.
+  void norms() {
+    if (all_.step.op != Op::root || !all_.of[0].is_operation() || all_.of[0].step.op != Op::sum) return;
+    std::vector<Expression> squares;
+    const std::function<bool(const Expression&)> collect = [&](const Expression& e) {
+      if (e.is_operation() && e.step.op == Op::sum) return collect(e.of[0]) && collect(e.of[1]);
+      if (!e.is_operation() || e.step.op != Op::square) return false;
+      squares.push_back(operation(Op::magnitude, {e.of[0]}));
+      return true;
+    };
+    if (!collect(all_.of[0]) || squares.size() < 2) return;
+    for (const Op op : {Op::sum, Op::maximum}) {
+      Expression e = squares[0];
+      for (std::size_t k = 1; k < squares.size(); ++k) e = operation(op, {e, squares[k]});
+      keep(e, fmt::format("another length: {} for {}", op == Op::sum ? "the sum of the sides" : "the longer side", text_), instead(e));
+    }
+  }
+
+  /// One operation for another.
+  void functions() {
+    const auto with = [&](Op op, const char* name, const char* why) {
+      const Expression e = operation(op, all_.of);
+      keep(e, fmt::format("{}: {}", name, text_of(p_, e)), fmt::format("{}: {}", instead(e), why));
+    };
+    switch (all_.step.op) {
+      case Op::sum:
+        return with(Op::product, "product for sum", "multiplied in place of added");
+      case Op::product:
+        return with(Op::sum, "sum for product", "added in place of multiplied");
+      case Op::fract:
+        return keep(clamped(all_.of[0]), "held for wrapped: " + text_,
+                    fmt::format("for {} {} is held to [0, 1]", text_, text_of(p_, all_.of[0])));
+      case Op::floor:
+        return keep(operation(Op::negation, {operation(Op::floor, {operation(Op::negation, {all_.of[0]})})}), "ceiling for floor: " + text_,
+                    fmt::format("for {} {} is rounded up", text_, text_of(p_, all_.of[0])));
+      case Op::minimum:
+      case Op::maximum:
+        if (all_.of[0].is_operation() && all_.of[0].step.op != all_.step.op &&
+            (all_.of[0].step.op == Op::minimum || all_.of[0].step.op == Op::maximum))
+          keep(operation(Op::fract, {all_.of[0].of[0]}), "wrapped for held: " + text_,
+               fmt::format("for {} stands the fraction of {}: it is wrapped in place of held", text_, text_of(p_, all_.of[0].of[0])));
+        return;
+      default:
+        return;
+    }
+  }
+  static Expression clamped(const Expression& e) {
+    return operation(Op::minimum, {operation(Op::maximum, {e, number_of(0)}), number_of(1)});
+  }
+
+  /// A part as it is after a step, elsewhere in the pass: life - dt for life.
+  void updated() {
+    std::vector<Expression*> all;
+    Expression made = all_;
+    parts(made, all);
+    for (Expression* to : all) {
+      if (to->is_operation() || to->node < 0 || (!is_constant(p_, *to) && node_of(p_, to->node).op != Op::load)) continue;
+      const std::string& name = p_.names[static_cast<std::size_t>(to->node)];
+      if (name.empty() || name.find_first_not_of("0123456789.-e") == std::string::npos) continue;
+      for (std::int32_t at = 0; at < static_cast<std::int32_t>(p_.trace.nodes.size()); ++at) {
+        const Node& n = node_of(p_, at);
+        if ((n.op != Op::sum && n.op != Op::difference) || n.occurrence != 0 || at == node_) continue;
+        const bool uses = std::any_of(n.of.begin(), n.of.end(), [&](std::int32_t of) {
+          return of >= 0 && node_of(p_, of).op == node_of(p_, to->node).op && p_.names[static_cast<std::size_t>(of)] == name;
+        });
+        if (!uses) continue;
+        const Expression after = elsewhere(p_, at, node_, {node_}, 3);
+        if (!can_be_had(after)) continue;
+        const Expression kept = *to;
+        const std::string wrong = words_for(p_, at);
+        *to = after;
+        keep(made, fmt::format("value of after: {} for {}", wrong, name),
+             fmt::format("in {} stands {} where {} is meant: the value of after a step", text_, wrong, name));
+        *to = kept;
+      }
+    }
+  }
+  static bool can_be_had(const Expression& e) {
+    if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
+    return std::all_of(e.of.begin(), e.of.end(), [](const Expression& of) { return can_be_had(of); });
+  }
+
+  /// One part in the place of another.
+  void copied() {
+    std::vector<Expression*> all;
+    Expression made = all_;
+    parts(made, all);
+    for (Expression* to : all)
+      for (const Expression* from : all) {
+        if (to == all[0] || to->node < 0 || from->node < 0 || to->node == from->node) continue;
+        if (!is_leaf(node_of(p_, from->node).op) && node_of(p_, from->node).op != Op::lookup) continue;
+        const std::string right = words_for(p_, to->node), wrong = words_for(p_, from->node);
+        if (is_dots(right) || is_dots(wrong) || right == wrong || to->is_operation()) continue;
+        const Expression kept = *to, other = *from;
+        *to = other;
+        keep(made, fmt::format("taken for another: {} for {}", wrong, right),
+             fmt::format("in {} stands {} where {} is meant", text_, wrong, right));
+        *to = kept;
+      }
+  }
+
+  const Probe& p_;
+  std::int32_t node_;
+  Expression all_;
+  std::string text_;
+  std::vector<Edit>& out_;
+  mutable std::int32_t variable_ = -1;
+};
+
+}  // namespace
+
+std::vector<Edit> edits_of(const Probe& p, std::int32_t node, bool copies) {
+  std::vector<Edit> out;
+  Edits(p, node, out).run(copies);
+  return out;
+}
+
+}  // namespace rainref::faults

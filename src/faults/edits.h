@@ -1,0 +1,48 @@
+// An operation of a pass text with what it is made of, as a small tree, and what a port's author may have written in its place.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "faults/probe.h"
+#include "math/rewrites.h"
+
+namespace rainref::faults {
+
+/// A formula as a tree: an operation, or what it is made of.
+struct Expression {
+  perturbed::FormulaStep step;      ///< the operation, or the part, number or met value that it is
+  std::vector<Expression> of = {};  ///< operands of an operation
+  std::int32_t node = -1;           ///< of the probe, where it stands there as it is
+
+  bool is_operation() const { return step.kind == perturbed::FormulaStep::Kind::operation; }
+};
+Expression number_of(float value);
+Expression operation(perturbed::Op op, std::vector<Expression> of);
+
+/// A node of a probe with what it is made of, so many operations deep; its parts are paths from it.
+Expression expression_of(const Probe& p, std::int32_t node, int depth);
+/// A node as something that may stand at another place `at`: numbers, what was met before, and what is computed of these. Nothing of
+/// `changed` is taken as it was met, because it is another number there. Of nodes that cannot be had: a part without a path.
+Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const std::vector<std::int32_t>& changed, int depth = 6);
+
+perturbed::Formula formula_of(const Expression& e);
+/// What a formula gives at a node of a probe.
+float value_at(const Probe& p, std::int32_t node, const perturbed::Formula& formula);
+/// It in the words of the pass, at most about 80 letters.
+std::string text_of(const Probe& p, const Expression& e);
+
+/// What may stand there in place of what is meant.
+struct Edit {
+  std::vector<Expression> made;  ///< of each place
+  std::string name, sentence;
+};
+/// Of one place. `copies`: parts that stand for each other, too.
+std::vector<Edit> edits_of(const Probe& p, std::int32_t node, bool copies);
+/// Of a weighted sum: other weights of its terms. Empty where it is none.
+std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
+/// Of the components of a vector.
+std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& vector);
+
+}  // namespace rainref::faults

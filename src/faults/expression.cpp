@@ -1,0 +1,173 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "faults/edits.h"
+#include "faults/targets.h"
+#include "math/formula.h"
+
+namespace rainref::faults {
+
+using perturbed::Formula;
+using perturbed::FormulaStep;
+using perturbed::Op;
+using Kind = FormulaStep::Kind;
+using Node = perturbed::Trace::Node;
+
+namespace {
+
+Expression built(const Probe& p, std::int32_t node, std::array<std::int8_t, 6> path, std::size_t length, int depth) {
+  Expression e;
+  e.node = node;
+  const Op op = node < 0 ? Op::constant : node_of(p, node).op;
+  const int takes = perturbed::operands_of(op);
+  if (node < 0 || depth == 0 || takes == 0 || length >= path.size() || (op == Op::comparison && length > 0)) {
+    e.step.kind = Kind::part;
+    e.step.path = path;
+    return e;
+  }
+  e.step.op = op;
+  for (int k = 0; k < takes; ++k) {
+    std::array<std::int8_t, 6> below = path;
+    below[length] = static_cast<std::int8_t>(k);
+    e.of.push_back(built(p, node_of(p, node).of[static_cast<std::size_t>(k)], below, length + 1, depth - 1));
+  }
+  return e;
+}
+void append(const Expression& e, Formula& out) {
+  for (const Expression& below : e.of) append(below, out);
+  out.push_back(e.step);
+}
+const char* sign_of(Op op) {
+  return op == Op::sum ? " + " : op == Op::difference ? " - " : op == Op::product ? " * " : op == Op::quotient ? " / " : nullptr;
+}
+const char* function_of(Op op) {
+  switch (op) {
+    case Op::minimum:
+      return "min";
+    case Op::maximum:
+      return "max";
+    case Op::magnitude:
+      return "abs";
+    case Op::root:
+      return "sqrt";
+    case Op::square:
+      return "square";
+    case Op::floor:
+      return "floor";
+    case Op::fract:
+      return "fract";
+    case Op::exponential:
+      return "exp";
+    case Op::exponential2:
+      return "exp2";
+    case Op::logarithm:
+      return "log";
+    case Op::power:
+      return "pow";
+    case Op::sine:
+      return "sin";
+    case Op::cosine:
+      return "cos";
+    case Op::angle:
+      return "atan2";
+    case Op::mix:
+      return "mix";
+    case Op::smoothstep:
+      return "smoothstep";
+    case Op::choice:
+      return "select";
+    default:
+      return "";
+  }
+}
+std::string text_so_deep(const Probe& p, const Expression& e, int depth) {
+  if (!e.is_operation()) {
+    if (e.step.kind == Kind::number && e.node < 0) return fmt::format("{:.6g}", e.step.number);
+    return e.node < 0 ? "..." : p.text(e.node, std::max(depth, 1));
+  }
+  if (depth == 0) return "...";
+  const Op op = e.step.op;
+  if (op == Op::negation) return "-" + text_so_deep(p, e.of[0], depth);
+  if (op == Op::comparison) return text_so_deep(p, e.of[0], depth - 1) + " < " + text_so_deep(p, e.of[1], depth - 1);
+  if (const char* sign = sign_of(op)) {
+    const auto side = [&](const Expression& of) {
+      const std::string text = text_so_deep(p, of, depth - 1);
+      return text.find(' ') != std::string::npos && text.back() != ')' ? fmt::format("({})", text) : text;
+    };
+    const std::string a = side(e.of[0]), b = side(e.of[1]);
+    const auto closed = [&](const Expression& of, const std::string& text) {
+      const bool is_sum = of.is_operation() ? sign_of(of.step.op) != nullptr : of.node >= 0 && sign_of(node_of(p, of.node).op);
+      return is_sum && text.front() != '(' && text.find(' ') != std::string::npos ? fmt::format("({})", text) : text;
+    };
+    return closed(e.of[0], a) + sign + closed(e.of[1], b);
+  }
+  if (!*function_of(op)) return text_so_deep(p, e.of[0], depth);
+  std::string out = std::string(function_of(op)) + "(";
+  for (std::size_t k = 0; k < e.of.size(); ++k) out += (k == 0 ? "" : ", ") + text_so_deep(p, e.of[k], depth - 1);
+  return out + ")";
+}
+
+}  // namespace
+
+Expression number_of(float value) {
+  Expression e;
+  e.step.kind = Kind::number;
+  e.step.number = value;
+  return e;
+}
+Expression operation(Op op, std::vector<Expression> of) {
+  Expression e;
+  e.step.op = op;
+  e.of = std::move(of);
+  return e;
+}
+Expression expression_of(const Probe& p, std::int32_t node, int depth) { return built(p, node, {-1, -1, -1, -1, -1, -1}, 0, depth); }
+
+Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const std::vector<std::int32_t>& changed, int depth) {
+  Expression e;
+  e.step.kind = Kind::part;  // without a path: it cannot be had
+  e.node = node;
+  if (node < 0) return e;
+  const Node& n = node_of(p, node);
+  const bool is_of_list =
+      p.names.size() > static_cast<std::size_t>(node) && p.names[static_cast<std::size_t>(node)].find(" of ") != std::string::npos;
+  if (n.op == Op::constant && !is_of_list) {
+    e.step.kind = Kind::number;
+    e.step.number = n.value;
+    return e;
+  }
+  const bool is_changed = std::find(changed.begin(), changed.end(), node) != changed.end();
+  if (node < at && !is_changed) {
+    e.step.kind = Kind::met;
+    e.step.shape = n.shape;
+    e.step.back = 0;
+    for (std::int32_t m = node; m < at; ++m) e.step.back += node_of(p, m).shape == n.shape;
+    return e;
+  }
+  const int takes = perturbed::operands_of(n.op);
+  if (takes == 0 || depth == 0) return e;
+  e.step.kind = Kind::operation;
+  e.step.op = n.op;
+  for (int k = 0; k < takes; ++k) e.of.push_back(elsewhere(p, n.of[static_cast<std::size_t>(k)], at, changed, depth - 1));
+  return e;
+}
+
+Formula formula_of(const Expression& e) {
+  Formula out;
+  append(e, out);
+  return out;
+}
+float value_at(const Probe& p, std::int32_t node, const Formula& formula) {
+  const Node& n = node_of(p, node);
+  std::array<perturbed::Perturbed, 4> of;
+  for (std::size_t k = 0; k < of.size(); ++k) of[k] = perturbed::Perturbed::of(n.with[k]);
+  return perturbed::by_formula(formula, perturbed::Perturbed::of(n.value), of, n.of, p.trace, static_cast<std::size_t>(node)).v;
+}
+std::string text_of(const Probe& p, const Expression& e) {
+  for (int depth = 4; depth > 1; --depth)
+    if (std::string text = text_so_deep(p, e, depth); text.size() <= 80) return text;
+  return text_so_deep(p, e, 1).substr(0, 80);
+}
+
+}  // namespace rainref::faults

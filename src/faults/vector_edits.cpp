@@ -1,0 +1,163 @@
+// What stands in place of a vector: its components exchanged or turned, a matrix left out or transposed.
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "faults/edits.h"
+#include "faults/targets.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::FormulaStep;
+using perturbed::Op;
+using Node = perturbed::Trace::Node;
+
+/// A component as a sum of coefficients times the components of another vector, which are nodes.
+struct Row {
+  struct Term {
+    std::int32_t coefficient, of;
+    bool is_negative;
+  };
+  std::vector<Term> terms;
+};
+bool is_coefficient(const Probe& p, std::int32_t node) { return node >= 0 && node_of(p, node).op == Op::constant; }
+
+std::optional<Row> row_of(const Probe& p, std::int32_t node, bool is_negative = false, int depth = 3) {
+  if (node < 0 || depth == 0) return {};
+  const Node& n = node_of(p, node);
+  if (n.op == Op::sum || n.op == Op::difference) {
+    std::optional<Row> a = row_of(p, n.of[0], is_negative, depth - 1),
+                       b = row_of(p, n.of[1], is_negative != (n.op == Op::difference), depth - 1);
+    if (!a || !b) return {};
+    a->terms.insert(a->terms.end(), b->terms.begin(), b->terms.end());
+    return a;
+  }
+  if (n.op != Op::product) return {};
+  for (const std::size_t k : {0u, 1u})
+    if (is_coefficient(p, n.of[k]) && !is_coefficient(p, n.of[1 - k]) && n.of[1 - k] >= 0)
+      return Row{{{n.of[k], n.of[1 - k], is_negative}}};
+  return {};
+}
+
+bool can_be_had(const Expression& e) {
+  if (e.step.kind == FormulaStep::Kind::part && e.step.path[0] < 0) return false;
+  return std::all_of(e.of.begin(), e.of.end(), can_be_had);
+}
+
+}  // namespace
+
+std::vector<Edit> vector_edits_of(const Probe& p, const std::vector<std::int32_t>& v) {
+  std::vector<Edit> out;
+  const std::size_t n = v.size();
+  const auto add = [&](std::vector<Expression> made, std::string name, std::string sentence) {
+    if (std::all_of(made.begin(), made.end(), can_be_had)) out.push_back({std::move(made), std::move(name), std::move(sentence)});
+  };
+  const auto component = [&](std::size_t from, std::size_t to) {
+    if (from == to) {
+      Expression own = expression_of(p, v[from], 1);
+      return own;
+    }
+    return elsewhere(p, v[from], v[to], v);
+  };
+  std::vector<std::string> words;
+  for (const std::int32_t node : v) words.push_back(words_for(p, node));
+  const auto name_of = [&](std::size_t k) { return words[k]; };
+  std::string vector = "(";
+  for (std::size_t k = 0; k < n; ++k) vector += (k == 0 ? "" : ", ") + words[k];
+  vector += ")";
+
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      std::vector<Expression> made;
+      for (std::size_t k = 0; k < n; ++k) made.push_back(component(k == i ? j : k == j ? i : k, k));
+      const std::string which = n == 3 ? fmt::format("{} and {} of ", "xyz"[i], "xyz"[j]) : "x and y of ";
+      add(made, fmt::format("components exchanged: {}{}", which, vector),
+          fmt::format("of {} {} and {} are exchanged: {} stands where {} belongs, and the reverse", vector, "xyz"[i], "xyz"[j], name_of(i),
+                      name_of(j)));
+      if (n != 2) continue;
+      for (const std::size_t turned : {0u, 1u}) {
+        std::vector<Expression> other = made;
+        other[turned] = operation(Op::negation, {other[turned]});
+        add(other, fmt::format("turned by a quarter: {}", vector),
+            fmt::format("{} is turned by a right angle: {} in place of (x, y)", vector, turned == 0 ? "(-y, x)" : "(y, -x)"));
+      }
+    }
+
+  // Of a matrix times a vector.
+  std::vector<Row> rows;
+  std::vector<std::int32_t> columns;
+  for (const std::int32_t node : v) {
+    const std::optional<Row> row = row_of(p, node);
+    if (!row) return out;
+    for (const Row::Term& t : row->terms)
+      if (std::find(columns.begin(), columns.end(), t.of) == columns.end()) columns.push_back(t.of);
+    rows.push_back(*row);
+  }
+  if (columns.size() != n) return out;
+  std::sort(columns.begin(), columns.end());
+  const auto of_vector = [&] {
+    std::string text = "(";
+    for (std::size_t k = 0; k < n; ++k) text += (k == 0 ? "" : ", ") + words_for(p, columns[k]);
+    return text + ")";
+  };
+  std::vector<Expression> bare;
+  for (std::size_t k = 0; k < n; ++k) bare.push_back(elsewhere(p, columns[k], v[k], v));
+  add(bare, fmt::format("matrix left out: {} for {}", of_vector(), vector),
+      fmt::format("{} stands in place of {}: the matrix, or the conversion to other axes, is left out", of_vector(), vector));
+
+  // The same with rows and columns exchanged: each coefficient with the other component, in the other row.
+  struct Entry {
+    std::int32_t coefficient = -1;
+    bool is_negative = false;
+  };
+  std::vector<std::vector<Entry>> m(n, std::vector<Entry>(n));
+  for (std::size_t r = 0; r < n; ++r)
+    for (const Row::Term& t : rows[r].terms) {
+      Entry& e = m[r][static_cast<std::size_t>(std::find(columns.begin(), columns.end(), t.of) - columns.begin())];
+      if (e.coefficient >= 0) return out;
+      e = {t.coefficient, t.is_negative};
+    }
+  const auto product = [&](const auto& entry, std::string name, std::string sentence) {
+    std::vector<Expression> made;
+    for (std::size_t r = 0; r < n; ++r) {
+      Expression sum = number_of(0);
+      bool is_first = true;
+      for (std::size_t c = 0; c < n; ++c) {
+        const Entry e = entry(r, c);
+        if (e.coefficient < 0) continue;
+        Expression term = operation(Op::product, {elsewhere(p, e.coefficient, v[r], v), elsewhere(p, columns[c], v[r], v)});
+        if (e.is_negative) term = operation(Op::negation, {std::move(term)});
+        sum = is_first ? std::move(term) : operation(Op::sum, {std::move(sum), std::move(term)});
+        is_first = false;
+      }
+      made.push_back(std::move(sum));
+    }
+    add(std::move(made), std::move(name), std::move(sentence));
+  };
+  std::string off_diagonal;
+  for (std::size_t r = 0; r < n; ++r)
+    for (std::size_t c = 0; c < n; ++c)
+      if (r != c && m[r][c].coefficient >= 0) off_diagonal += (off_diagonal.empty() ? "" : ", ") + words_for(p, m[r][c].coefficient);
+  product([&](std::size_t r, std::size_t c) { return m[c][r]; }, fmt::format("matrix transposed: {}", vector),
+          fmt::format("in {} rows and columns of the matrix are exchanged: {} goes with the other component, into the other one", vector,
+                      off_diagonal));
+  product([&](std::size_t r, std::size_t c) { return r == c ? m[r][c] : Entry{}; }, fmt::format("matrix' other terms left out: {}", vector),
+          fmt::format("in {} only the diagonal of the matrix counts: {} is left out", vector, off_diagonal));
+  if (n == 2) {
+    product(
+        [&](std::size_t r, std::size_t c) {
+          Entry e = m[r][c];
+          if (r != c) e.is_negative = !e.is_negative;
+          return e;
+        },
+        fmt::format("turned the other way: {}", vector),
+        fmt::format("in {} the terms off the diagonal, {}, have the other sign: it is turned the other way", vector, off_diagonal));
+    product([&](std::size_t r, std::size_t c) { return m[r][1 - c]; }, fmt::format("matrix with its columns exchanged: {}", vector),
+            fmt::format("in {} the components of {} are exchanged", vector, of_vector()));
+  }
+  return out;
+}
+
+}  // namespace rainref::faults

@@ -1,0 +1,90 @@
+// What stands in place of a filter: a sum of values, each with a number as its weight.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "faults/edits.h"
+#include "faults/targets.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::FormulaStep;
+using perturbed::Op;
+
+struct Tap {
+  float weight;
+  Expression value;
+};
+bool is_number(const Probe& p, const Expression& e) { return e.node >= 0 && !e.is_operation() && node_of(p, e.node).op == Op::constant; }
+
+/// Whether it is a weighted sum of its own: a row of a filter that is taken along columns too.
+bool is_weighted(const Probe& p, std::int32_t node) {
+  if (node < 0 || node_of(p, node).op != Op::sum) return false;
+  for (const std::int32_t of : node_of(p, node).of) {
+    if (of < 0 || node_of(p, of).op != Op::product) continue;
+    for (const std::size_t k : {0u, 1u})
+      if (const std::int32_t factor = node_of(p, of).of[k]; factor >= 0 && node_of(p, factor).op == Op::constant) return true;
+  }
+  return false;
+}
+bool collect(const Probe& p, const Expression& e, float weight, std::vector<Tap>& out, bool is_top = false) {
+  if (!is_top && is_weighted(p, e.node)) {
+    out.push_back({weight, e});
+    return true;
+  }
+  if (e.is_operation() && (e.step.op == Op::sum || e.step.op == Op::difference))
+    return collect(p, e.of[0], weight, out) && collect(p, e.of[1], e.step.op == Op::sum ? weight : -weight, out);
+  if (e.is_operation() && e.step.op == Op::product)
+    for (const std::size_t k : {0u, 1u})
+      if (is_number(p, e.of[k])) return collect(p, e.of[1 - k], weight * node_of(p, e.of[k].node).value, out);
+  if (e.is_operation() && e.step.op == Op::quotient && is_number(p, e.of[1]))
+    return collect(p, e.of[0], weight / node_of(p, e.of[1].node).value, out);
+  if (is_number(p, e)) return false;
+  out.push_back({weight, e});
+  return true;
+}
+
+}  // namespace
+
+std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node) {
+  std::vector<Edit> out;
+  const Op op = node_of(p, node).op;
+  if (op != Op::sum && op != Op::product && op != Op::quotient) return out;
+  std::vector<Tap> taps;
+  std::set<float> weights;
+  if (!collect(p, expression_of(p, node, 4), 1, taps, true) || taps.size() < 3) return out;
+  float total = 0;
+  for (const Tap& t : taps) weights.insert(t.weight), total += t.weight;
+  if (weights.size() < 2) return out;
+  const auto sum_with = [&](const auto& weight_of) {
+    Expression sum;
+    for (std::size_t k = 0; k < taps.size(); ++k) {
+      Expression term = operation(Op::product, {number_of(weight_of(taps[k])), taps[k].value});
+      sum = k == 0 ? std::move(term) : operation(Op::sum, {std::move(sum), std::move(term)});
+    }
+    return sum;
+  };
+  std::string text;
+  for (const Tap& t : taps) text += fmt::format("{}{:.4g}", text.empty() ? "" : ", ", t.weight);
+  const float equal = total / static_cast<float>(taps.size());
+  const std::string all = words_for(p, node);
+  if (equal != 0)
+    out.push_back(
+        {{sum_with([&](const Tap&) { return equal; })},
+         fmt::format("equal weights: {:.4g} for {}", equal, text),
+         fmt::format("the {} terms of {} all have the weight {:.4g}, a box, where they should have {}", taps.size(), all, equal, text)});
+  for (const float a : weights)
+    for (const float b : weights)
+      if (a < b)
+        out.push_back({{sum_with([&](const Tap& t) { return t.weight == a   ? b
+                                                            : t.weight == b ? a
+                                                                            : t.weight; })},
+                       fmt::format("weights exchanged: {:.4g} and {:.4g} of {}", a, b, text),
+                       fmt::format("of the weights {} of {} those of {:.4g} and {:.4g} are exchanged", text, all, a, b)});
+  return out;
+}
+
+}  // namespace rainref::faults

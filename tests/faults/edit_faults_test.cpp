@@ -1,0 +1,174 @@
+// Parts of an operation put together otherwise: passes made up here, none of them an effect's.
+#include "faults/edit_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "random/draws.h"
+
+namespace rainref::faults {
+namespace {
+
+using perturbed::Op;
+using perturbed::Perturbed;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+using Numbers = std::vector<float>;
+using Pass = std::function<std::vector<Perturbed>(const Numbers&)>;
+
+Perturbed load(float v) { return Perturbed::load(&v); }
+
+/// What a pass gives with a mistake.
+Numbers given(const Pass& pass, const Numbers& in, const Fault& d) {
+  perturbed::Behaviour b = d.behaviour;
+  std::vector<float> unused;
+  if (d.at_texel) d.at_texel({0, 0}, b, unused);
+  perturbed::Trace trace;
+  b.trace = &trace;
+  const perturbed::RewriteScope rewriting(d.rewrites.value_or(perturbed::Rewrites()));
+  const perturbed::Scope scope(b);
+  Numbers out;
+  for (const Perturbed& v : pass(in)) out.push_back(v.v);
+  return out;
+}
+/// Names of what is tried of `right` that gives what `port` gives, at three inputs; "none" where nothing does.
+std::vector<std::string> found(const Pass& right, const std::function<Numbers(const Numbers&)>& port, Numbers literals,
+                               bool copies = false) {
+  std::sort(literals.begin(), literals.end());
+  const std::vector<Numbers> inputs{{0.31f, 0.72f, 0.19f, 1.7f}, {0.83f, 0.27f, 0.55f, 2.3f}, {0.47f, 0.91f, 0.66f, 1.2f}};
+  Probe probe{{0, 0}, {}, {}};
+  perturbed::Behaviour following;
+  following.trace = &probe.trace;
+  following.known = &literals;
+  {
+    const perturbed::Scope scope(following);
+    for (const Perturbed& v : right(inputs[0])) probe.outputs.push_back(v.node());
+  }
+  for (const perturbed::Trace::Node& n : probe.trace.nodes) {
+    const auto input = std::find(inputs[0].begin(), inputs[0].end(), n.value);
+    probe.names.push_back(n.op == Op::load       ? fmt::format("in.{}", "xyzw"[input - inputs[0].begin()])
+                          : n.op == Op::constant ? fmt::format("{}", n.value)
+                                                 : "");
+  }
+  std::vector<Fault> all;
+  add_edit_faults(all, {probe}, literals, 100000, copies);
+  std::vector<std::string> names;
+  for (const Fault& d : all)
+    if (std::all_of(inputs.begin(), inputs.end(), [&](const Numbers& in) {
+          const Numbers made = given(right, in, d), wanted = port(in);
+          for (std::size_t k = 0; k < wanted.size(); ++k)
+            if (!(std::abs(made[k] - wanted[k]) <= 1e-6f * (1 + std::abs(wanted[k])))) return false;
+          return true;
+        }))
+      names.push_back(d.name);
+  return names.empty() ? std::vector<std::string>{"none"} : names;
+}
+std::string first(const Pass& right, const std::function<Numbers(const Numbers&)>& port, Numbers literals = {}) {
+  return found(right, port, std::move(literals))[0];
+}
+
+// (x + z) y, of which the port has (y + z) x.
+TEST(EditFaults, TwoPartsAreExchanged) {
+  const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{fract((load(in[0]) + load(in[2])) * load(in[1]))}; };
+  const auto port = [](const Numbers& in) {
+    const float v = (in[1] + in[2]) * in[0];
+    return Numbers{v - std::floor(v)};
+  };
+  EXPECT_EQ(first(right, port), "exchanged: in.x and in.y");
+}
+// max(x, y) w, of which the port multiplies y alone; and x / (y w), which the port takes for x / y w.
+TEST(EditFaults, PartsAreGroupedOtherwise) {
+  const Pass larger = [](const Numbers& in) { return std::vector<Perturbed>{max(load(in[0]), load(in[1])) * load(in[3])}; };
+  EXPECT_EQ(first(larger, [](const Numbers& in) { return Numbers{std::max(in[0], in[1] * in[3])}; }), "factor of one side: in.w");
+  const Pass quotient = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) / (load(in[1]) * load(in[3]))}; };
+  EXPECT_THAT(first(quotient, [](const Numbers& in) { return Numbers{in[0] / in[1] * in[3]}; }), StartsWith("grouped otherwise"));
+}
+// 2 (x y + z w) - 1, of which the port unpacks y and w each.
+TEST(EditFaults, AMapOfASumIsTakenOfItsParts) {
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{Perturbed(2.0f) * (load(in[0]) * load(in[1]) + load(in[2]) * load(in[3])) - Perturbed(1.0f)};
+  };
+  const auto port = [](const Numbers& in) { return Numbers{in[0] * (2 * in[1] - 1) + in[2] * (2 * in[3] - 1)}; };
+  EXPECT_THAT(first(right, port, {1, 2}), StartsWith("of each part"));
+}
+TEST(EditFaults, AnotherCurveOfOneNumber) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed t = load(in[0]);
+    return std::vector<Perturbed>{t * t * t * (t * (t * Perturbed(6.0f) - Perturbed(15.0f)) + Perturbed(10.0f)) + load(in[3])};
+  };
+  const auto port = [](const Numbers& in) { return Numbers{in[0] * in[0] * (3 - 2 * in[0]) + in[3]}; };
+  EXPECT_THAT(first(right, port, {6, 10, 15}), HasSubstr("another curve: the cubic smoothstep"));
+}
+// The components of a matrix' product are the vector itself, or those of the transposed one.
+TEST(EditFaults, AMatrixIsLeftOutOrTransposed) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed x = load(in[0]), y = load(in[1]);
+    const Perturbed u = Perturbed(2.0f) * x, v = Perturbed(5.0f) * x + Perturbed(3.0f) * y;
+    return std::vector<Perturbed>{sqrt(square(u) + square(v))};
+  };
+  const auto length = [](float a, float b) { return Numbers{std::sqrt(a * a + b * b)}; };
+  EXPECT_THAT(first(right, [&](const Numbers& in) { return length(in[0], in[1]); }, {2, 3, 5}), StartsWith("matrix left out"));
+  EXPECT_THAT(first(right, [&](const Numbers& in) { return length(2 * in[0] + 5 * in[1], 3 * in[1]); }, {2, 3, 5}),
+              StartsWith("matrix transposed"));
+}
+// (x, 1, y) normalized, of which the port has (x, y, 1).
+TEST(EditFaults, ComponentsAreExchanged) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed x = load(in[0]) * Perturbed(3.0f), y = load(in[1]) * Perturbed(3.0f), one(1.0f);
+    const Perturbed inverse = one / sqrt(square(x) + square(one) + square(y));
+    return std::vector<Perturbed>{inverse * x, inverse * one, inverse * y};
+  };
+  const auto port = [](const Numbers& in) {
+    const float x = in[0] * 3, y = in[1] * 3, inverse = 1 / std::sqrt(x * x + y * y + 1);
+    return Numbers{inverse * x, inverse * y, inverse};
+  };
+  EXPECT_THAT(found(right, port, {1, 3}), testing::Contains(StartsWith("components exchanged: y and z")));
+}
+// 1/2, 1/4, 1/4, of which the port makes a box.
+TEST(EditFaults, WeightsOfAFilter) {
+  const Pass right = [](const Numbers& in) {
+    return std::vector<Perturbed>{Perturbed(0.5f) * load(in[1]) + Perturbed(0.25f) * (load(in[0]) + load(in[2]))};
+  };
+  EXPECT_THAT(first(right, [](const Numbers& in) { return Numbers{(in[0] + in[1] + in[2]) / 3}; }, {0.25f, 0.5f}),
+              StartsWith("equal weights: 0.3333"));
+  EXPECT_THAT(first(right, [](const Numbers& in) { return Numbers{0.25f * in[1] + 0.5f * (in[0] + in[2])}; }, {0.25f, 0.5f}),
+              StartsWith("weights exchanged"));
+}
+// The value of after a step, which the pass has only later.
+TEST(EditFaults, AValueOfAfter) {
+  const Pass right = [](const Numbers& in) {
+    const Perturbed life = load(in[0]), dt = load(in[2]);
+    const Perturbed phase = fract(life * Perturbed(64.0f));
+    return std::vector<Perturbed>{phase, life - dt};
+  };
+  const auto port = [](const Numbers& in) {
+    const float v = (in[0] - in[2]) * 64;
+    return Numbers{v - std::floor(v), in[0] - in[2]};
+  };
+  EXPECT_THAT(first(right, port, {64}), StartsWith("value of after: in.x - in.z for in.x"));
+}
+TEST(EditFaults, WhatIsStrangeHasNone) {
+  const Pass right = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) * Perturbed(3.0f) + load(in[1])}; };
+  EXPECT_EQ(first(right, [](const Numbers& in) { return Numbers{std::sin(91 * in[0] + in[2])}; }, {3}), "none");
+}
+
+// 4 a + b drawn as a + 4 b, and a place of fewer bits.
+TEST(Draws, ACounterWhoseFactorStandsAtTheOtherTermAndPlacesOfFewerBits) {
+  random::Draws d;
+  d.moved = {1, 4};
+  EXPECT_EQ(d.block(9, random::Purpose::screen_drop, 7, 4 * 5 + 3), random::block(9, random::Purpose::screen_drop, 7, 5 + 4 * 3));
+  random::Draws few;
+  few.place_bits = 16;
+  EXPECT_EQ(few.place(0x12345678u, 24), 0x123400u);
+  EXPECT_EQ(random::Draws().place(0x12345678u, 24), 0x123456u);
+}
+
+}  // namespace
+}  // namespace rainref::faults
