@@ -1,9 +1,13 @@
 #include "capture/bound_texture.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
 
 #include <fmt/format.h>
 
+#include "base/hash.h"
 #include "image/colour.h"
 #include "math/half.h"
 #include "math/unorm.h"
@@ -27,6 +31,44 @@ const CaseInput& input_of(const PassCase& c, std::string_view name, bool records
   if (input->array.is_records != records)
     throw Error(ExitCode::port_files, fmt::format("{}: input '{}': expected {}", c.folder(), name, records ? "records" : "an image"));
   return *input;
+}
+
+std::vector<float> taken_of(const Array& a, int levels, int first, int taken) {
+  const auto channels = static_cast<std::size_t>(info(a.format).channels);
+  std::vector<float> texels;
+  for (int l = 0; l < levels; ++l) {
+    const std::vector<float> all = decoded(a, l);
+    for (std::size_t i = 0; i + channels <= all.size(); i += channels) {
+      for (int c = 0; c < taken; ++c) texels.push_back(all[i + static_cast<std::size_t>(first + c)]);
+    }
+  }
+  return texels;
+}
+
+// Known as long as somebody holds them, by the hash of the bytes that they are made of.
+using Texels = std::shared_ptr<const std::vector<float>>;
+using Known = std::map<std::tuple<std::uint64_t, std::uint64_t, Format, int, int, int>, std::weak_ptr<const std::vector<float>>>;
+Texels shared_texels(const Array& a, int levels, int first, int taken) {
+  const auto made = [&] { return std::make_shared<const std::vector<float>>(taken_of(a, levels, first, taken)); };
+  constexpr std::size_t large = 1 << 16;
+  if (levels == 0 || a.levels[0].size() < large) return made();
+  Hasher hasher(0);
+  for (int l = 0; l < levels; ++l) hasher.add(a.levels[static_cast<std::size_t>(l)]);
+  const Hash128 hash = hasher.finish();
+  static std::mutex& mutex = *new std::mutex;
+  static Known& known = *new Known;
+  const Known::key_type key{hash.high, hash.low, a.format, levels, first, taken};
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto found = known.find(key); found != known.end()) {
+      if (Texels texels = found->second.lock()) return texels;
+    }
+  }
+  const Texels texels = made();
+  const std::lock_guard lock(mutex);
+  std::erase_if(known, [](const auto& one) { return one.second.expired(); });
+  known[key] = texels;
+  return texels;
 }
 
 }  // namespace
@@ -66,19 +108,18 @@ BoundTexture::BoundTexture(const CaseInput& input, int first, int count) {
   view_.address_u = input.address_u;
   view_.address_v = input.address_v;
   for (int c = 0; c < taken; ++c) view_.border[c] = input.border[static_cast<std::size_t>(first + c)];
+  std::int32_t texels = 0;
   for (int l = 0; l < view_.levels; ++l) {
     view_.width[l] = a.level_width(l);
     view_.height[l] = a.level_height(l);
-    view_.offset[l] = static_cast<std::int32_t>(texels_.size() / static_cast<std::size_t>(taken));
-    const std::vector<float> all = decoded(a, l);
-    for (std::size_t i = 0; i + static_cast<std::size_t>(channels) <= all.size(); i += static_cast<std::size_t>(channels)) {
-      for (int c = 0; c < taken; ++c) texels_.push_back(all[i + static_cast<std::size_t>(first + c)]);
-    }
+    view_.offset[l] = texels;
+    texels += static_cast<std::int32_t>(a.levels[static_cast<std::size_t>(l)].size() / a.element_bytes());
   }
+  texels_ = shared_texels(a, view_.levels, first, taken);
 }
 Texture BoundTexture::view() const {
   Texture t = view_;
-  t.texels = texels_.data();
+  if (texels_) t.texels = texels_->data();
   return t;
 }
 

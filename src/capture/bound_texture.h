@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstring>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace rainref::capture {
 std::vector<float> decoded(const Array& image, int level = 0);
 
 /// A Texture over the decoded values of an input, with all its levels, address rules and border. Some channels of it,
-/// `count` from `first` on, or all (0).
+/// `count` from `first` on, or all (0). Large ones of the same values share them: a search for causes binds one case hundreds of times.
 class BoundTexture {
  public:
   BoundTexture() = default;
@@ -23,7 +24,7 @@ class BoundTexture {
   Texture view() const;
 
  private:
-  std::vector<float> texels_;
+  std::shared_ptr<const std::vector<float>> texels_;
   Texture view_;
 };
 
