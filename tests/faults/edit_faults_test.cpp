@@ -83,10 +83,10 @@ TEST(EditFaults, TwoPartsAreExchanged) {
   };
   EXPECT_EQ(first(right, port), "exchanged: in.x and in.y");
 }
-// max(x, y) w, of which the port multiplies y alone; and x / (y w), which the port takes for x / y w.
+// max(x, y) w, of which the port multiplies x alone; and x / (y w), which the port takes for x / y w.
 TEST(EditFaults, PartsAreGroupedOtherwise) {
   const Pass larger = [](const Numbers& in) { return std::vector<Perturbed>{max(load(in[0]), load(in[1])) * load(in[3])}; };
-  EXPECT_EQ(first(larger, [](const Numbers& in) { return Numbers{std::max(in[0], in[1] * in[3])}; }), "factor of one side: in.w");
+  EXPECT_EQ(first(larger, [](const Numbers& in) { return Numbers{std::max(in[0] * in[3], in[1])}; }), "factor of one side: in.w");
   const Pass quotient = [](const Numbers& in) { return std::vector<Perturbed>{load(in[0]) / (load(in[1]) * load(in[3]))}; };
   EXPECT_THAT(first(quotient, [](const Numbers& in) { return Numbers{in[0] / in[1] * in[3]}; }), StartsWith("grouped otherwise"));
 }
