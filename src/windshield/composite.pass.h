@@ -71,8 +71,8 @@ template <class N>
 RAINREF_FN N row_times(const float* row, N px, N py) {
   return sum_any_order(N(row[0]) * px, N(row[1]) * py, N(row[2]));
 }
-template <class N>
-RAINREF_FN GlassPoint<N> glass_point(const CompositeUniforms& c, int column, int row) {
+template <class N, class Uniforms>
+RAINREF_FN GlassPoint<N> glass_point(const Uniforms& c, int column, int row) {
   const N px = N::index(column) + N(0.5f), py = N(static_cast<float>(row) + 0.5f), zero(0.0f), one(1.0f);
   const N toward = row_times(c.w_row, px, py);
   // Beside and behind the eye there is no glass; the quotient stays finite all the same.
@@ -110,12 +110,12 @@ template <class N>
 struct ScenePoint {
   N u, v;
 };
-template <class N>
-RAINREF_FN N scene_u(const CompositeUniforms& c, N x) {
+template <class N, class Uniforms>
+RAINREF_FN N scene_u(const Uniforms& c, N x) {
   return N(0.5f) + x * N(c.scene_scale[0]);
 }
-template <class N>
-RAINREF_FN N scene_v(const CompositeUniforms& c, N y) {
+template <class N, class Uniforms>
+RAINREF_FN N scene_v(const Uniforms& c, N y) {
   return N(0.5f) + y * N(c.scene_scale[1]);
 }
 

@@ -27,10 +27,12 @@ const std::vector<capture::PassEvaluations>& evaluations() {
          "a record has the ends of its blade as places on the glass and as pivot, axis and "
          "radii, rounded each; the pass takes the others than the port",
          bind_wipe_from_ends}}},
+      {"condense", pass::bind<CondensePass, scalar::CondensePassText>},
       {"normals", pass::bind<NormalsPass, scalar::NormalsPassText>},
       {"blur_pyramid", blur_pyramid::bind_blur},
       {"falling_rain", pass::bind<FallingRainPass, scalar::FallingRainPassText>},
       {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
+      {"mist", pass::bind<MistPass, scalar::MistPassText>},
       {"join_panes", pass::bind<JoinPanesPass, scalar::JoinPanesPassText>},
       {"display", pass::bind_display}};
   return all;

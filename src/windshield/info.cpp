@@ -1,3 +1,4 @@
+#include "windshield/condense.pass.h"
 #include "windshield/falling_rain.pass.h"
 #include "windshield/info.h"
 
@@ -33,6 +34,7 @@ EffectInfo make() {
                  drops::splat_info({"wipe_drops", "merge"}),
                  pass::info_of<PersistPass>(),
                  pass::info_of<WipeTexturePass>(),
+                 pass::info_of<CondensePass>(),
                  pass::info_of<NormalsPass>(),
                  blur_pyramid::blur_info("", ""),
                  pass::info_of<FallingRainPass>()};
@@ -43,6 +45,7 @@ EffectInfo make() {
   info.buffers.push_back(
       {"previous_height", "r16f", "Height of the frame before, wiped.", "mm", {0, 8}, "none", "none", "none", "", "", "as-published"});
   append(info.buffers, pass::buffers_of<WipeTexturePass>());
+  append(info.buffers, pass::buffers_of<CondensePass>());
   append(info.buffers, pass::buffers_of<NormalsPass>());
   append(info.buffers, blur_pyramid::blur_buffers());
   append(info.buffers, picture_buffers());

@@ -2,6 +2,7 @@
 #include "pass/run.h"
 #include "windshield/composite.pass.h"
 #include "windshield/join_panes.pass.h"
+#include "windshield/mist.pass.h"
 
 #define RAINREF_KERNELS "windshield/kernels_picture.cpp"
 #include "math/foreach_target.h"
@@ -16,13 +17,16 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "image/sampling_lanes-inl.h"
 #include "windshield/composite.pass.h"
 #include "windshield/join_panes.pass.h"
+#include "windshield/mist.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 RAINREF_PASS_ROWS(CompositePass)
+RAINREF_PASS_ROWS(MistPass)
 RAINREF_PASS_ROWS(JoinPanesPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, CompositePass)
+RAINREF_PASS_DISPATCH(windshield, MistPass)
 RAINREF_PASS_DISPATCH(windshield, JoinPanesPass)
 #endif

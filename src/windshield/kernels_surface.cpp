@@ -1,8 +1,9 @@
-// persist, wipe_texture, normals and falling_rain in lanes; compiled once for each SIMD target.
+// persist, wipe_texture, condense, normals and falling_rain in lanes; compiled once for each SIMD target.
 #include <algorithm>
 #include <vector>
 
 #include "pass/run.h"
+#include "windshield/condense.pass.h"
 #include "windshield/falling_rain.pass.h"
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
@@ -19,6 +20,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
 #include "windshield/wipe_texture.pass.h"
+#include "windshield/condense.pass.h"
 #include "windshield/falling_rain.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
@@ -79,6 +81,7 @@ void WipeTexturePassRows(const WipeTextureUniforms& u, bool corrected, Rounding 
 }
 RAINREF_PASS_ROWS(NormalsPass)
 RAINREF_PASS_ROWS(PersistPass)
+RAINREF_PASS_ROWS(CondensePass)
 RAINREF_PASS_ROWS(FallingRainPass)
 RAINREF_TARGET_END(windshield)
 
@@ -86,5 +89,6 @@ RAINREF_TARGET_END(windshield)
 RAINREF_PASS_DISPATCH(windshield, WipeTexturePass)
 RAINREF_PASS_DISPATCH(windshield, NormalsPass)
 RAINREF_PASS_DISPATCH(windshield, PersistPass)
+RAINREF_PASS_DISPATCH(windshield, CondensePass)
 RAINREF_PASS_DISPATCH(windshield, FallingRainPass)
 #endif

@@ -3,13 +3,14 @@
 #include "pass/display.h"
 #include "pass/info.h"
 #include "windshield/join_panes.pass.h"
+#include "windshield/mist.pass.h"
 
 namespace rainref::windshield {
 using namespace rainref::scene;
 using namespace rainref::capture;
 
 std::vector<PassInfo> picture_passes() {
-  return {pass::info_of<CompositePass>(), pass::info_of<JoinPanesPass>(), pass::display_info("composite")};
+  return {pass::info_of<CompositePass>(), pass::info_of<MistPass>(), pass::info_of<JoinPanesPass>(), pass::display_info("composite")};
 }
 
 std::vector<BufferInfo> picture_buffers() {

@@ -10,6 +10,7 @@
 #include "math/rearranged.h"
 #include "windshield/composite.pass.h"
 #include "windshield/join_panes.pass.h"
+#include "windshield/mist.pass.h"
 
 namespace rainref::windshield::scalar {
 using namespace rainref::scalar;
@@ -23,6 +24,7 @@ using namespace rainref::scalar;
 #include "image/sampling_rearranged-inl.h"
 #include "windshield/composite.pass.h"
 #include "windshield/join_panes.pass.h"
+#include "windshield/mist.pass.h"
 #undef RAINREF_FN
 #undef RAINREF_LAMBDA
 

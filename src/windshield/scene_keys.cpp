@@ -48,6 +48,24 @@ const std::vector<MemberParameter<Settings>>& falling_members() {
       real<&S::falling, &F::gain>("falling_rain.gain", "1", 0, 1000, "Radiance of the drops over that of physics.")};
   return table;
 }
+/// The mist of condensed water on the glass.
+const std::vector<MemberParameter<Settings>>& condensation_members() {
+  using S = Settings;
+  using C = CondensationSettings;
+  static const std::vector<MemberParameter<S>> table{
+      boolean<&S::condensation, &C::on>("condensation.on", "Mist lies on the glass; drops, their trails and blades clear it.")
+          .only(correct),
+      real<&S::condensation, &C::tau>("condensation.tau", "s", 0.01, 600, "Time in which cleared glass mists over to 1 - 1/e of all.")
+          .only(correct),
+      real<&S::condensation, &C::most>("condensation.most", "1", 0, 1, "Share of the light that it scatters where nothing clears it.")
+          .only(correct),
+      real<&S::condensation, &C::water>("condensation.water", "mm", 1e-6, 10, "Height of water that takes all of the mist up.")
+          .only(correct),
+      real<&S::condensation, &C::blur_lod>("condensation.blur_lod", "1", 0, 12, "Mip level of the picture behind it.").only(correct),
+      real<&S::condensation, &C::veil>("condensation.veil", "1", 0, 1, "Share of the scattered light that comes from all the scene.")
+          .only(correct)};
+  return table;
+}
 const std::vector<MemberParameter<Settings>>& step_members() {
   static const std::vector<MemberParameter<Settings>> table{
       integer<&Settings::substeps>("windshield.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct)};
@@ -64,6 +82,7 @@ std::vector<Parameter> make() {
   append(all, parameters_of(scene_members()));
   append(all, effect::sequence_parameters());
   append(all, parameters_of(falling_members()));
+  append(all, parameters_of(condensation_members()));
   append(all, parameters_of(picture_parameters()));
   return all;
 }
@@ -117,6 +136,7 @@ Settings settings_from(const Config& config) {
   apply(picture_parameters(), config, s.picture);
   apply(scene_members(), config, s);
   apply(falling_members(), config, s);
+  apply(condensation_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
   constexpr double most = 300000;

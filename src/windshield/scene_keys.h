@@ -9,6 +9,7 @@
 #include "math/constants.h"
 #include "scene/config.h"
 #include "scene/parameter.h"
+#include "windshield/condensation.h"
 #include "windshield/falling_rain.h"
 #include "windshield/motion_host.h"
 #include "windshield/picture.h"
@@ -40,6 +41,7 @@ struct Settings {
   PictureSettings picture;
   std::array<int, 2> scene_size{1280, 720};
   FallingRainSettings falling;
+  CondensationSettings condensation;
   double street_start = 0;
   bool clear_lane = false;
   int keyframes = 1;

@@ -43,6 +43,9 @@ double wiped_grid(double tau) {
   constexpr std::uint64_t exponent = 0x7ff0000000000000u;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(tau) & exponent) * 0x1p-19;
 }
+float whole_step(double fps, int frame, double grid) {
+  return static_cast<float>(nearest((frame + 1) / fps, grid) - nearest(frame / fps, grid));
+}
 float wiped_limit(double tau) { return static_cast<float>(wiped_grid(tau) * 0x1p24); }
 
 WipeTextureUniforms wipe_texture_uniforms(const SurfaceSettings& s, int frame) {
@@ -56,9 +59,7 @@ WipeTextureUniforms wipe_texture_uniforms(const SurfaceSettings& s, int frame) {
   u.axis_length[0] = static_cast<float>(s.frame[0]);
   u.axis_length[1] = static_cast<float>(s.frame[2]);
   if (s.corrected) {
-    const double grid = wiped_grid(s.mask_tau);
-    // The difference of two whole multiples, so that all frames together make the time that has passed.
-    u.dt = static_cast<float>(nearest((frame + 1) / s.fps, grid) - nearest(frame / s.fps, grid));
+    u.dt = whole_step(s.fps, frame, wiped_grid(s.mask_tau));
     u.inverse_tau = static_cast<float>(1 / s.mask_tau);
     u.wiped_limit = wiped_limit(s.mask_tau);
   } else {

@@ -37,6 +37,8 @@ void read_surface(const scene::Config& config, const std::string& prefix, Surfac
 /// wiped_limit (about 32 tau), whatever the frame rate. [s]
 double wiped_grid(double tau);
 float wiped_limit(double tau);
+/// The time of a frame as a difference of two whole multiples of the grid, so that all frames together make the time that has passed.
+float whole_step(double fps, int frame, double grid);
 
 /// Everything but the number of wipers, for the frame. In double, each rounded once.
 WipeTextureUniforms wipe_texture_uniforms(const SurfaceSettings& settings, int frame);

@@ -1,11 +1,12 @@
-// The scalar evaluations of persist, wipe_texture, normals and falling_rain: Scalar, Enclosure and Perturbed. A namespace of their own, so
-// that argument types of this room do not pull them into the lanes.
+// The scalar evaluations of persist, wipe_texture, condense, normals and falling_rain: Scalar, Enclosure and Perturbed. A namespace of
+// their own, so that argument types of this room do not pull them into the lanes.
 #pragma once
 
 #include "math/perturbed.h"
 #include "math/enclosure.h"
 #include "math/scalar.h"
 #include "math/rearranged.h"
+#include "windshield/condense.pass.h"
 #include "windshield/falling_rain.pass.h"
 #include "windshield/segment_distance_enclosed.h"
 #include "windshield/surface.h"
@@ -17,6 +18,7 @@ using namespace rainref::scalar;
 #define RAINREF_LAMBDA
 #include "windshield/normals.pass.h"
 #include "windshield/persist.pass.h"
+#include "windshield/condense.pass.h"
 #include "windshield/wipe_texture.pass.h"
 #include "windshield/falling_rain.pass.h"
 #undef RAINREF_FN

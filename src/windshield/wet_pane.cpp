@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pass/run.h"
+#include "windshield/mist.pass.h"
 #include "windshield/motion_host.h"
 #include "windshield/panes.h"
 #include "windshield/wipe_drops.h"
@@ -49,6 +50,9 @@ WetPane::WetPane(const Settings& settings, int number, const parallel::Executor&
   mask_ = make_mask(settings_.surface);
   if (corrected_) wiped_ = make_wiped(settings_.surface);
   normal_ = Image(Format::rgba16f, w, h);
+  if (!settings_.condensation.on) return;
+  clear_time_ = make_clear_time(settings_.condensation, settings_.surface);
+  condensation_ = Image(Format::r16f, w, h);
 }
 
 /// body computes it.
@@ -129,6 +133,7 @@ void WetPane::wipe(const pass::Moment& now, std::int64_t n, double t) {
 void WetPane::list_state(state::Items& items) {
   water_.list_state(items);
   if (settings_.surface.height_tau > 0) items.image("height", height_);
+  if (settings_.condensation.on) items.image("clear_time", clear_time_);
   if (!has_blades_) return;
   if (corrected_)
     items.image("wiped", wiped_);
@@ -150,6 +155,18 @@ void WetPane::leave_traces(const pass::Moment& now, int frame) {
   }
 
   if (has_blades_) wipe_texture(now, frame);
+  if (settings_.condensation.on) condense(now, frame);
+}
+
+void WetPane::condense(const pass::Moment& now, int frame) {
+  pass::HostIo<CondensePass> io;
+  io.height = height_;
+  io.wiped = wiped_;
+  io.clear_time = clear_time_;
+  io.condensation = condensation_;
+  io.new_clear_time = clear_time_;
+  const CondenseUniforms uniforms = condense_uniforms(settings_.condensation, settings_.surface, frame);
+  draw_all(pass::Run<CondensePass>(uniforms, corrected_, settings_.surface.rounding, io), now, executor_);
 }
 
 void WetPane::draw(const pass::Moment& now, int frame) {
@@ -180,6 +197,15 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
   seen.glints = lights;
   seen.colour = colour;
   draw_all(pass::Run<CompositePass>(view_, corrected_, settings_.surface.rounding, seen), now, executor_, before);
+}
+
+void WetPane::mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const {
+  pass::HostIo<MistPass> io;
+  io.blurred.set(pyramid.view(), levels);
+  io.condensation = condensation_;
+  io.colour = colour;
+  io.misted = colour;
+  draw_all(pass::Run<MistPass>(mist_uniforms(settings_.condensation, view_), corrected_, settings_.surface.rounding, io), now, executor_);
 }
 
 std::vector<DropView> WetPane::drops() const {

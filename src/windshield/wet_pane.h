@@ -25,11 +25,13 @@ class WetPane {
   void step(const pass::Moment& now, std::int64_t n, double t, const VehicleState& car, const Weather& weather);
   /// splat to normals of frame number `frame`.
   void draw(const pass::Moment& now, int frame);
-  /// Of these the ones that leave something for later frames: splat to wipe_texture.
+  /// Of these the ones that leave something for later frames: splat to condense.
   void leave_traces(const pass::Moment& now, int frame);
   /// composite: the scene through it, into a picture of the camera's size. `before`: seconds that the host spent on it already.
   void composite(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels,
                  const Image& scene_depth, std::span<const Glint> lights, Image& colour, double before);
+  /// mist, on what composite made; for panes with condensation.
+  void mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const;
 
   /// What it holds between frames; the blades of a frame are given anew by the steps of it.
   void list_state(state::Items& items);
@@ -45,6 +47,7 @@ class WetPane {
   const Image& height() const { return height_; }
   const Image& mask() const { return mask_; }
   const Image& normal() const { return normal_; }
+  const Image& condensation() const { return condensation_; }
   const Image& film() const { return water_.film; }
 
  private:
@@ -53,6 +56,7 @@ class WetPane {
   std::vector<Wiper> swept(std::int64_t n, double t, double dt) const;
   void wipe(const pass::Moment& now, std::int64_t n, double t);
   void wipe_texture(const pass::Moment& now, int frame);
+  void condense(const pass::Moment& now, int frame);
   drops::Exposure exposure(std::int64_t n, double t, const VehicleState& car, const Weather& weather) const;
 
   Settings settings_;
@@ -64,7 +68,8 @@ class WetPane {
   drops::WetGlass water_;
   std::vector<Wiper> wipers_;  ///< of the frame
   Image height_, mask_, wiped_, normal_;
-  Image previous_height_;  ///< where it persists
+  Image previous_height_;            ///< where it persists
+  Image clear_time_, condensation_;  ///< with condensation
 };
 
 /// The wind as the car meets it, in its axes [m/s], of a wind in world axes.

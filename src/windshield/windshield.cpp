@@ -127,6 +127,7 @@ void Windshield::State::look_through(const pass::Moment& now) {
     of_pane.step = static_cast<int>(k);
     Image& seen = k == 0 ? colour : pane_colour;
     panes[k]->composite(of_pane, *pyramid, levels, scene.depth, lights, seen, k == 0 ? refreshed : 0);
+    if (settings.condensation.on) panes[k]->mist(of_pane, *pyramid, levels, seen);
     if (k == 0) continue;
     pass::HostIo<JoinPanesPass> io;
     io.pane_colour = pane_colour;
@@ -235,6 +236,10 @@ const Image& Windshield::film(int pane) const {
 const Image& Windshield::normal(int pane) const {
   const FloatingPointGuard guard;
   return state_->pane(pane).normal();
+}
+const Image& Windshield::condensation(int pane) const {
+  const FloatingPointGuard guard;
+  return state_->pane(pane).condensation();
 }
 const Image& Windshield::scene_colour() const { return state_->scene.colour; }
 const Image& Windshield::scene_depth() const { return state_->scene.depth; }

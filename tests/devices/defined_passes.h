@@ -34,7 +34,9 @@ bool with_defined_pass(const capture::PassCase& c, const F& f) {
   RAINREF_PASS("edge_splash", "splash", !c.corrected(), edge_splash::PublishedSplashPass, edge_splash::scalar::PublishedSplashPassText);
   RAINREF_PASS("windshield", "wipe_texture", true, windshield::WipeTexturePass, windshield::scalar::WipeTexturePassText);
   RAINREF_PASS("windshield", "normals", true, windshield::NormalsPass, windshield::scalar::NormalsPassText);
+  RAINREF_PASS("windshield", "condense", true, windshield::CondensePass, windshield::scalar::CondensePassText);
   RAINREF_PASS("windshield", "composite", true, windshield::CompositePass, windshield::scalar::CompositePassText);
+  RAINREF_PASS("windshield", "mist", true, windshield::MistPass, windshield::scalar::MistPassText);
   RAINREF_PASS("rainy_glass", "bake_raindrops", true, rainy_glass::BakeRaindropsPass, rainy_glass::scalar::BakeRaindropsPassText);
   RAINREF_PASS("rainy_glass", "bake_rivulets", true, rainy_glass::BakeRivuletsPass, rainy_glass::scalar::BakeRivuletsPassText);
   RAINREF_PASS("rainy_glass", "rain_on_glass", true, rainy_glass::RainOnGlassPass, rainy_glass::RainOnGlassText);

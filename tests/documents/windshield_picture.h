@@ -99,6 +99,30 @@ inline bool join_panes(const Run& r, int x, int y, float* out) {
   return true;
 }
 
+inline bool condense(const Run& r, int x, int y, float* out) {
+  const float taken = std::min(r.at("height", x, y) * r.u("inverse_water"), 1.0f), wiped = r.at("wiped", x, y);
+  const float grown = std::min(r.at("clear_time", x, y) + r.u("dt"), r.u("limit")) * (1 - constant(r, 1, 0.9f) * taken);
+  out[1] = std::min(grown, wiped < r.u("wiped_limit") ? wiped : r.u("limit"));
+  out[0] = r.u("most") * (1 - exponential(-(out[1] * r.u("inverse_tau"))));
+  return true;
+}
+
+inline bool mist(const Run& r, int x, int y, float* out) {
+  const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
+  const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f), u = dot(r.u3("u_row"), q) * k, v = dot(r.u3("v_row"), q) * k;
+  const bool on = m > 1e-6f && u >= 0 && u <= 1 && v >= 0 && v <= 1;
+  const float share = on ? constant(r, 1, 0.9f) * r.linear("condensation", saturate(u), saturate(v)) : 0;
+  const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
+  const Float2 S{0.5f + G.x * r.u("scene_scale", 0), 0.5f + G.y * r.u("scene_scale", 1)};
+  const Float3 light = mix(r.trilinear3("blurred", S.x, S.y, r.u("lod")), r.trilinear3("blurred", S.x, S.y, 15), r.u("veil"));
+  const Float3 colour = mix(r.rgb("colour", x, y), light, share);
+  out[0] = colour.x;
+  out[1] = colour.y;
+  out[2] = colour.z;
+  out[3] = 1;
+  return true;
+}
+
 inline bool composite_corrected(const Run& r, int x, int y, float* out) {
   const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
   const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f);
@@ -218,6 +242,23 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
                   S′ = ½ + mix(b.xy / max(b.z, .05), G, share) · scene_scale
                   colour = mix(mix(sharp(S′), blur(S′), wetness · wet · (1 − vis)), inner · blur(S′), F)
                   glints as above with film = vis (1 − mask²) for vis and eye = −d, facing −N;   mix(cabin, colour, on glass))"}}},
+      {{"windshield-corrected"},
+       "condense",
+       "wrong constant",
+       condense,
+       nullptr,
+       {{document,
+         R"(condense          taken = min(height · inverse_water, 1);   wiped = limit unless wiped < wiped_limit
+                  clear_time = min(min(clear_time + dt, limit) (1 − taken), wiped);   condensation = most (1 − exp(−(clear_time · inverse_tau))))"}}},
+      {{"windshield-corrected"},
+       "mist",
+       "wrong constant",
+       mist,
+       nullptr,
+       {composite_of_both,
+        {document,
+         R"(mist              share = condensation at (u, v), 0 beside the glass;   (u, v) and S as above
+                  colour = mix(colour, mix(level lod of blurred, level 15 or its last, veil), share), both levels trilinear at S)"}}},
       {{"windshield-as-published"},
        "persist",
        "wrong constant",

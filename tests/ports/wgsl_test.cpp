@@ -117,14 +117,15 @@ class Wgsl : public testing::Test {
 
 TEST_F(Wgsl, APassOfEachKindPassesUnderWebgpu) {
   const Files port = port_files();
-  const std::pair<const char*, const char*> kinds[]{
-      {"puddle-as-published", "display"},     // one image
-      {"puddle-shore", "shade"},              // mip levels, a border
-      {"puddle-corrected", "surface_hit"},    // two images
-      {"puddle-corrected", "raindrops"},      // a list
-      {"screen_drops-corrected", "merge"},    // a list and an image
-      {"windshield-closing", "wipe_texture"}  // three images of two formats
-  };
+  const std::pair<const char*, const char*> kinds[]{{"puddle-as-published", "display"},      // one image
+                                                    {"puddle-shore", "shade"},               // mip levels, a border
+                                                    {"puddle-corrected", "surface_hit"},     // two images
+                                                    {"puddle-corrected", "raindrops"},       // a list
+                                                    {"screen_drops-corrected", "merge"},     // a list and an image
+                                                    {"windshield-closing", "wipe_texture"},  // three images of two formats
+                                                    {"puddle-shore", "wave_step"},           // a rim
+                                                    {"windshield-mist", "condense"},
+                                                    {"windshield-mist", "mist"}};
   for (const auto& [pack, pass] : kinds) {
     const Outcome outcome = judged(source + "/tests/packs/" + pack, pass, port);
     EXPECT_EQ(outcome.code, 0) << outcome.text;

@@ -73,6 +73,7 @@ inline std::vector<StateScene> state_scenes() {
                            "world.wind_key_frames=0 0 0 0; 1 3 -6 0", "windshield.rounding=rtz"});
     std::erase_if(all.back().text.set,
                   [](const std::string& s) { return s.starts_with("rain.rate=") || s.starts_with("windshield.spawn_rate="); });
+    if (corrected) windshield("condensation", {"scene.moves=false", "condensation.on=true", "condensation.tau=1"});
     if (!corrected) {
       windshield("trails", {"scene.moves=false", "windshield.height_tau=0.5", "windshield.blend=max"});
       windshield("float", {"scene.moves=false", "windshield.accumulate=float"});

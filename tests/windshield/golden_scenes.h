@@ -68,6 +68,8 @@ inline std::vector<GoldenScene> golden_scenes() {
   scenes.push_back({"windshield/as-published/trails", "as-published", std::string(wet_drive) + "height_tau = 0.5\nblend = 'max'\n"});
   scenes.push_back({"windshield/corrected/behind", "corrected",
                     std::string(wet_drive) + "[rain]\nrate = 120\n[falling_rain]\non = true\nexposure = 0.02\ngain = 10\n"});
+  scenes.push_back({"windshield/corrected/condensation", "corrected",
+                    std::string(wet_drive) + "[rain]\nrate = 120\n[condensation]\non = true\ntau = 2\n"});
   // Three panes and a weather that changes.
   scenes.push_back(
       {"windshield/corrected/panes", "corrected",

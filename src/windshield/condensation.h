@@ -1,0 +1,27 @@
+// The mist of condensed water on the glass: what a scene says of it, and the host's values and state.
+#pragma once
+
+#include "rainref/image.h"
+#include "windshield/condense.pass.h"
+#include "windshield/mist.pass.h"
+#include "windshield/surface.h"
+
+namespace rainref::windshield {
+
+struct CondensationSettings {
+  bool on = false;
+  double tau = 20;      ///< time constant of its growth [s]
+  double most = 0.85;   ///< what it grows to: share of the light that it scatters
+  double water = 0.02;  ///< height of water that takes all of it up [mm]
+  double blur_lod = 4;  ///< mip level of what shows through it
+  double veil = 0.25;   ///< share of the scattered light that comes from the scene as a whole
+};
+
+/// For the frame. In double, each rounded once.
+CondenseUniforms condense_uniforms(const CondensationSettings& settings, const SurfaceSettings& surface, int frame);
+/// Of a pane that is seen so.
+MistUniforms mist_uniforms(const CondensationSettings& settings, const CompositeUniforms& seen);
+/// Glass that was never cleared: clear_time at its limit.
+Image make_clear_time(const CondensationSettings& settings, const SurfaceSettings& surface);
+
+}  // namespace rainref::windshield
