@@ -77,7 +77,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   rendered.pass(half);
   const bool moves = own && s.scene_moves;
   if (own && !moves) m.pass(rendered.peak());
-  m.hold(view);
+  m.hold(s.shows_blades ? 2 * view : view);
   // Two pictures of the street, of which the view is made: at the start one alone, for there is no way yet. A car that comes to the next
   // one has both while that is rendered.
   const double apart = StreetDrive::spacing / s.keyframes, way = vehicle.at((frames - 1) / s.fps).distance;

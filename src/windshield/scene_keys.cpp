@@ -30,6 +30,8 @@ const std::vector<MemberParameter<Settings>>& scene_members() {
       real<&S::street_start>("scene.start", "m", 0, 1e6, "Place on the street at time 0."),
       boolean<&S::scene_moves>("scene.moves", "The street passes as the car drives; false: it stands still."),
       boolean<&S::clear_lane>("scene.clear_lane", "No car of the street stands in this one's lane: a drive would go through it."),
+      boolean<&S::shows_blades>("scene.blades", "The wipers stand in the scene's picture, dark and out of focus; not in traced pictures.")
+          .only(correct),
       integer<&S::keyframes>("scene.keyframes", "1", 1, 24,
                              "Pictures of the street in 12 m of way, of which the views between are made: the more, the less cars close by "
                              "warp, and the longer it takes.")};

@@ -46,6 +46,7 @@ struct Settings {
   bool clear_lane = false;
   int keyframes = 1;
   bool scene_moves = true;
+  bool shows_blades = false;
 };
 
 std::span<const scene::Parameter> parameters();

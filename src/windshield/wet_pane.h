@@ -40,6 +40,8 @@ class WetPane {
   void sweep(std::int64_t n, double t, double dt);
 
   const Settings& settings() const { return settings_; }
+  /// Records of the frame's steps, in order.
+  std::span<const Wiper> wipers() const { return wipers_; }
   const CompositeUniforms& view() const { return view_; }
   const Glass& glass() const { return glass_; }
   std::vector<DropView> drops() const;

@@ -9,6 +9,7 @@
 #include "base/floating_point.h"
 #include "capture/pass_clock.h"
 #include "effect/picture_sequence.h"
+#include "image/flipped.h"
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/falling_rain.pass.h"
@@ -53,11 +54,26 @@ void Windshield::State::step(Recorder* recorder, int substep) {
   ++steps;
 }
 
-/// The scene as the camera sees it in this frame; whether it is another one than before.
+/// The scene as the camera sees it in this frame, with the blades where they are to be seen; whether it is another one than before.
 bool Windshield::State::look() {
+  const bool is_new = look_at_scene();
+  if (!settings.shows_blades) return is_new;
+  scene::Camera eye = camera(settings.picture);
+  eye.vertical_fov_deg = widened_fov(settings.picture);
+  std::vector<SeenBlade> now;
+  for (const auto& pane : panes) add_seen(now, pane->wipers(), pane->glass(), eye);
+  if (!is_new && now == blades) return false;
+  blades = std::move(now);
+  scene.colour = copy_of(without_blades.colour);
+  scene.depth = copy_of(without_blades.depth);
+  const double half_height = eye.half_height();
+  draw_blades(blades, {half_height * settings.picture.width / settings.picture.height, half_height}, scene, executor);
+  return true;
+}
+bool Windshield::State::look_at_scene() {
   if (!own_scene) return std::exchange(scene_is_new, false) || levels.empty();
   const bool moves = settings.scene_moves;
-  return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, scene);
+  return street->look(moves ? vehicle.at(frame * frame_time()).distance : 0, moves, looked_at());
 }
 
 /// falling_rain, on level 0 of the pyramid.
@@ -158,12 +174,12 @@ void Windshield::show(Surroundings scene) {
   const FloatingPointGuard guard;
   State& s = *state_;
   if (s.own_scene) throw Error(ExitCode::usage, "scene.image: expected pictures from the start, found the street made here");
-  if (scene.colour.width() != s.scene.colour.width() || scene.colour.height() != s.scene.colour.height())
-    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} texels as before, found {}x{}", s.scene.colour.width(),
-                                             s.scene.colour.height(), scene.colour.width(), scene.colour.height()));
+  if (scene.colour.width() != s.looked_at().colour.width() || scene.colour.height() != s.looked_at().colour.height())
+    throw Error(ExitCode::usage, fmt::format("scene.image: expected {}x{} texels as before, found {}x{}", s.looked_at().colour.width(),
+                                             s.looked_at().colour.height(), scene.colour.width(), scene.colour.height()));
   State::check_pictures(scene);
-  s.scene.colour = std::move(scene.colour);
-  s.scene.depth = std::move(scene.depth);
+  s.looked_at().colour = std::move(scene.colour);
+  s.looked_at().depth = std::move(scene.depth);
   s.scene_is_new = true;
 }
 

@@ -12,6 +12,7 @@
 #include "rainref/error.h"
 #include "rainref/windshield.h"
 #include "state/items.h"
+#include "windshield/blades_seen.h"
 #include "windshield/falling_rain.h"
 #include "windshield/memory.h"
 #include "windshield/panes.h"
@@ -56,6 +57,8 @@ struct Windshield::State {
   Image colour, pane_colour, picture;
   CodeTable display;
   SceneView scene;
+  SceneView without_blades;  // where they are drawn: what lies behind
+  std::vector<SeenBlade> blades;
   bool own_scene, scene_is_new = false;
   std::optional<StreetDrive> street;
   std::vector<Image> levels;
@@ -84,8 +87,8 @@ struct Windshield::State {
                      StreetOptions{settings.street_start, settings.seed, settings.clear_lane, settings.keyframes, vehicle.at(0).speed == 0},
                      executor);
     } else {
-      scene.colour = std::move(surroundings.colour);
-      scene.depth = std::move(surroundings.depth);
+      looked_at().colour = std::move(surroundings.colour);
+      looked_at().depth = std::move(surroundings.depth);
     }
   }
 
@@ -105,7 +108,9 @@ struct Windshield::State {
 
   void list(state::Items& items);
   void step(Recorder* recorder, int substep);
+  SceneView& looked_at() { return settings.shows_blades ? without_blades : scene; }
   bool look();
+  bool look_at_scene();
   void rain_behind(const pass::Moment& now);
   void look_through(const pass::Moment& now);
 };
