@@ -49,11 +49,17 @@ RAINREF_FN Level<N> uniform_level(const T& t, int level) {
   l.height_number = N(static_cast<float>(t.height[level]));
   return l;
 }
+/// Whether `level` is the same for every element, and then that level: for lanes, see sampling_lanes-inl.h.
+template <class N, class T>
+RAINREF_FN bool is_uniform(const T&, const typename N::Int&, Level<N>&) {
+  return false;
+}
 /// A level of each element's own, held within those that there are.
 template <class N, class T>
 RAINREF_FN Level<N> level_of(const T& t, typename N::Int wanted) {
   const auto level = clamp_index(wanted, N::uniform_int(t.levels));
   Level<N> l;
+  if (is_uniform<N>(t, level, l)) return l;
   // Each level halves the side above it, rounded down, to no less than 1.
   const auto one = N::uniform_int(1);
   l.width = max_index(shift_right(N::uniform_int(t.width[0]), level), one);

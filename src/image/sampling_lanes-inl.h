@@ -1,7 +1,15 @@
 // Lookups of sampling-inl.h that lanes make sooner, because a gather costs by the element: the channels of a texel, and the two
 // texels of a row that a bilinear lookup takes, are gathered as one word. The same values. Text only: include it right after
 // sampling-inl.h.
-#if HWY_TARGET <= HWY_AVX2
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+/// Where all lanes want one level, which neighbouring elements mostly do, it is a uniform one.
+template <class N, class T>
+requires(std::same_as<N, Lanes>) RAINREF_FN bool is_uniform(const T& t, const typename N::Int& level, Level<N>& out) {
+  const std::int32_t first = hn::GetLane(level.i);
+  if (!hn::AllTrue(Lanes::DI(), hn::Eq(level.i, hn::Set(Lanes::DI(), first)))) return false;
+  out = uniform_level<N>(t, first);
+  return true;
+}
 /// 32-bit words a and b (low and high half of the lanes) of 64-bit elements, apart again.
 struct WordPair {
   hn::Vec<Lanes::DI> first, second;
@@ -15,14 +23,19 @@ RAINREF_FN WordPair gather_words(const void* from, hn::Vec<Lanes::DI> bytes) {
     return hn::LoadU(hn::Full64<std::int32_t>(), reinterpret_cast<const std::int32_t*>(static_cast<const char*>(from) + at[i]));
   };
   const auto two = [&](int i) RAINREF_LAMBDA { return hn::Combine(hn::Full128<std::int32_t>(), one(i + 1), one(i)); };
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
   const auto four = [&](int i) RAINREF_LAMBDA { return hn::Combine(hn::Full256<std::int32_t>(), two(i + 2), two(i)); };
 #if HWY_TARGET <= HWY_AVX3
   const auto low = hn::Combine(d, four(4), four(0)), high = hn::Combine(d, four(12), four(8));
 #else
   const auto low = four(0), high = four(4);
 #endif
+#else
+  const auto low = two(0), high = two(2);
+#endif
   return {hn::ConcatEven(d, high, low), hn::ConcatOdd(d, high, low)};
 }
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
 /// The halves in the low and in the high 16 bits of each word.
 RAINREF_FN Lanes widen_low(hn::Vec<Lanes::DI> words) {
   const hn::Rebind<hwy::float16_t, Lanes::D> d16;
@@ -31,7 +44,12 @@ RAINREF_FN Lanes widen_low(hn::Vec<Lanes::DI> words) {
 RAINREF_FN Lanes widen_high(hn::Vec<Lanes::DI> words) {
   return widen_low(hn::BitCast(Lanes::DI(), hn::ShiftRight<16>(hn::BitCast(Lanes::DU(), words))));
 }
+#endif
 
+/// The two texels of a row: the one at `left`, and the one at `right`, which is that one's neighbour or at an edge the same.
+struct TexelPair {
+  Lanes left, right;
+};
 /// Four words from each byte offset on, apart: a load of 16 bytes for each lane, in place of two gathers or four.
 struct FourWords {
   hn::Vec<Lanes::DI> word[4];
@@ -45,13 +63,17 @@ RAINREF_FN FourWords load_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   const auto block = [&](int i) RAINREF_LAMBDA {
     return hn::LoadU(hn::Full128<std::int32_t>(), reinterpret_cast<const std::int32_t*>(static_cast<const char*>(from) + at[i]));
   };
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
   const auto two = [&](int i) RAINREF_LAMBDA { return hn::Combine(hn::Full256<std::int32_t>(), block(i + 4), block(i)); };
+#endif
   // Of lanes i, i + 4, i + 8 ...: a block of 16 bytes each.
   const auto every_fourth = [&](int i) RAINREF_LAMBDA {
-#if HWY_TARGET <= HWY_AVX3
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
     return hn::Combine(d, two(i + 8), two(i));
-#else
+#elif HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
     return two(i);
+#else
+    return block(i);
 #endif
   };
   const auto a = every_fourth(0), b = every_fourth(1), c = every_fourth(2), e = every_fourth(3);
@@ -65,8 +87,8 @@ RAINREF_FN FourWords load_words(const void* from, hn::Vec<Lanes::DI> bytes) {
   return out;
 }
 template <int First, int Count, class N, class T, class Line>
-requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float>&& T::channels == 4 && T::address_u != Address::border &&
-         T::address_v != Address::border && First % 2 == 0 &&
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && (T::channels == 2 || T::channels == 4) &&
+         T::address_u != Address::border && T::address_v != Address::border && First % 2 == 0 &&
          Count == 2) RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
   const auto bytes = hn::ShiftLeft<2>((row.place + column.place).i);
   Channels<N, Count> out;
@@ -86,6 +108,7 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float>&& T::c
   RAINREF_UNROLL for (int k = 0; k < Count; ++k) out[k] = hn::BitCast(Lanes::D(), w.word[First + k]);
   return out;
 }
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
 template <int First, int Count, class N, class T, class Line>
 requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, Half>&& T::channels == 4 && First == 0 &&
          Count > 2) RAINREF_FN Channels<N, Count> load_texel(const T& t, const Line& column, const Line& row) {
@@ -108,10 +131,6 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, Half>&& T::ch
   return out;
 }
 
-/// The two texels of a row: the one at `left`, and the one at `right`, which is that one's neighbour or at an edge the same.
-struct TexelPair {
-  Lanes left, right;
-};
 template <class T, class Line>
 RAINREF_FN TexelPair load_pair(const T& t, const Line& left, const Line& right, const Line& row) {
   const auto place = (row.place + left.place).i;
@@ -138,6 +157,7 @@ requires(std::same_as<N, Lanes>&& Pitched<T>&& T::channels == 1 && T::address_u 
   out[0] = blend(t.precision, low.left, low.right, high.left, high.right, x - x0, y - y0);
   return out;
 }
+#endif
 /// Of a texture that nothing need follow: the pair ends at the last column.
 template <int First, int Count, class N, class T>
 requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 &&
@@ -170,6 +190,85 @@ requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pi
   return out;
 }
 
+/// With a border: what lies outside is taken from no texel.
+template <int First, int Count, class N, class T>
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 &&
+         T::address_u == Address::border && T::address_v == Address::border && Count == 1 &&
+         First == 0) RAINREF_FN Channels<N, Count> sample_level(const T& t, const Level<N>& l, N u, N v) {
+  const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
+  const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0, border(t.border[0]), zero(0.0f), one(1.0f);
+  // Of texel x0 and of the next one; the coordinate lies in [-1, size].
+  const N last_x = l.width_number - one, last_y = l.height_number - one;
+  const auto left = (x0 >= zero) & (x0 <= last_x), right = x0 < last_x, low = (y0 >= zero) & (y0 <= last_y), high = y0 < last_y;
+  Channels<N, Count> out;
+  TexelPair a{border, border}, b = a;
+  if (any((left | right) & (low | high))) {
+    const auto xi = to_int(x0), yi = to_int(y0);
+    const auto first = texel_column<N>(t, l, xi), second = texel_column<N>(t, l, xi + 1);
+    const auto row = texel_row<N>(t, l, yi), next = texel_row<N>(t, l, yi + 1);
+    if (t.levels == 1 && t.width[0] >= 2) {
+      const auto column = hn::Min(first.place.i, (l.width + -2).i);
+      const Lanes::Mask at_last{hn::RebindMask(Lanes::D(), hn::Gt(first.place.i, column))};
+      const auto pair = [&](const auto& line) RAINREF_LAMBDA {
+        const WordPair words = gather_words(t.texels, hn::ShiftLeft<2>(hn::Add(line.place.i, column)));
+        const Lanes here(hn::BitCast(Lanes::D(), words.first)), there(hn::BitCast(Lanes::D(), words.second));
+        return TexelPair{select(at_last, there, here), select(x0 < zero, here, there)};
+      };
+      a = pair(row);
+      b = pair(next);
+    } else {
+      a = {fetch(t.texels, row.place + first.place, N()), fetch(t.texels, row.place + second.place, N())};
+      b = {fetch(t.texels, next.place + first.place, N()), fetch(t.texels, next.place + second.place, N())};
+    }
+    a = {select(left & low, a.left, border), select(right & low, a.right, border)};
+    b = {select(left & high, b.left, border), select(right & high, b.right, border)};
+  }
+  out[0] = blend(t.precision, a.left, a.right, b.left, b.right, fx, fy);
+  return out;
+}
+/// The twelve texels are four of two rows and two of two more, unless a lane looks over an edge.
+template <int Channel, class N, class T>
+requires(std::same_as<N, Lanes>&& std::same_as<typename T::Stored, float> && !Pitched<T> && T::channels == 1 && Channel == 0 &&
+         T::address_u == Address::clamp &&
+         T::address_v == Address::clamp) RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
+  const Level<N> l = uniform_level<N>(t, 0);
+  const N x = texel_coordinate(t.address_u, u, l.width_number), y = texel_coordinate(t.address_v, v, l.height_number);
+  const N x0 = floor(x), y0 = floor(y), fx = x - x0, fy = y - y0, one(1.0f), two(2.0f);
+  const auto xi = to_int(x0), yi = to_int(y0);
+  // Rows p q r s, columns 0 to 3.
+  N p1, p2, q0, q1, q2, q3, r0, r1, r2, r3, s1, s2;
+  const auto within = (x0 >= one) & (x0 + two < l.width_number) & (y0 >= one) & (y0 + two < l.height_number);
+  if (any(!within)) {
+    const auto a = texel_column<N>(t, l, xi + -1), b = texel_column<N>(t, l, xi), c = texel_column<N>(t, l, xi + 1),
+               d = texel_column<N>(t, l, xi + 2);
+    const auto p = texel_row<N>(t, l, yi + -1), q = texel_row<N>(t, l, yi), r = texel_row<N>(t, l, yi + 1), s = texel_row<N>(t, l, yi + 2);
+    const auto texel = [&](const auto& column, const auto& row) RAINREF_LAMBDA { return load_texel<0, 1, N>(t, column, row)[0]; };
+    p1 = texel(b, p), p2 = texel(c, p);
+    q0 = texel(a, q), q1 = texel(b, q), q2 = texel(c, q), q3 = texel(d, q);
+    r0 = texel(a, r), r1 = texel(b, r), r2 = texel(c, r), r3 = texel(d, r);
+    s1 = texel(b, s), s2 = texel(c, s);
+  } else {
+    const auto pitch = hn::ShiftLeft<2>(l.width.i);
+    const auto q = hn::Add(hn::Mul(yi.i, pitch), hn::ShiftLeft<2>(xi.i)), r = hn::Add(q, pitch);
+    const auto number = [](hn::Vec<Lanes::DI> word) RAINREF_LAMBDA { return Lanes(hn::BitCast(Lanes::D(), word)); };
+    const auto two_of = [&](N& first, N& second, hn::Vec<Lanes::DI> place) RAINREF_LAMBDA {
+      const WordPair w = gather_words(t.texels, place);
+      first = number(w.first), second = number(w.second);
+    };
+    const auto four_of = [&](N& a, N& b, N& c, N& d, hn::Vec<Lanes::DI> place) RAINREF_LAMBDA {
+      const FourWords w = load_words(t.texels - 1, place);
+      a = number(w.word[0]), b = number(w.word[1]), c = number(w.word[2]), d = number(w.word[3]);
+    };
+    two_of(p1, p2, hn::Sub(q, pitch));
+    four_of(q0, q1, q2, q3, q);
+    four_of(r0, r1, r2, r3, r);
+    two_of(s1, s2, hn::Add(r, pitch));
+  }
+  const auto filtered = [&](N e, N f, N g, N h) RAINREF_LAMBDA { return blend(t.precision, e, f, g, h, fx, fy); };
+  return {filtered(q0, q1, r0, r1), filtered(q2, q3, r2, r3), filtered(p1, p2, q1, q2), filtered(r1, r2, s1, s2)};
+}
+
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
 /// The same of four halves a texel.
 template <int Count>
 struct ColourPair {
@@ -202,4 +301,5 @@ requires(std::same_as<N, Lanes>&& Pitched<T>&& std::same_as<typename T::Stored, 
       blend(t.precision, low.left[k], low.right[k], high.left[k], high.right[k], fx, fy);
   return out;
 }
+#endif
 #endif

@@ -75,15 +75,18 @@ struct Lanes {
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
     return hn::PromoteTo(D(), hn::LoadU(hn::Rebind<hwy::float16_t, D>(), reinterpret_cast<const hwy::float16_t*>(p)));
 #else
+    return of_half_codes(hn::PromoteTo(DU(), hn::LoadU(DH(), reinterpret_cast<const std::uint16_t*>(p))));
+#endif
+  }
+  /// The numbers of half codes.
+  static HWY_INLINE HWY_ATTR Lanes of_half_codes(hn::Vec<DU> bits) {
     // The exponent moves by a multiplication with 2^112: exact, subnormals included. An infinity, which an overflowing
     // store leaves, would come out as 2^16.
-    const auto bits = hn::PromoteTo(DU(), hn::LoadU(DH(), reinterpret_cast<const std::uint16_t*>(p)));
     const auto code = hn::And(bits, hn::Set(DU(), 0x7fffu));
     const auto sign = hn::BitCast(D(), hn::ShiftLeft<16>(hn::And(bits, hn::Set(DU(), 0x8000u))));
     const V scaled = hn::Mul(hn::BitCast(D(), hn::ShiftLeft<13>(code)), hn::Set(D(), 0x1p112f));
     const V infinity = hn::BitCast(D(), hn::Set(DU(), 0x7f800000u));
     return hn::Or(hn::IfThenElse(hn::RebindMask(D(), hn::Eq(code, hn::Set(DU(), 0x7c00u))), infinity, scaled), sign);
-#endif
   }
   static HWY_INLINE HWY_ATTR Lanes load(const Unorm8* p) {
     const auto code = hn::PromoteTo(DI(), hn::LoadU(DB(), reinterpret_cast<const std::uint8_t*>(p)));
@@ -160,11 +163,18 @@ struct Lanes {
 
   /// Half codes in 16-bit lanes.
   HWY_INLINE HWY_ATTR hn::Vec<DH> half_codes(Rounding rounding) const {
+#if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
+    if (rounding == Rounding::rne) return hn::BitCast(DH(), hn::DemoteTo(hn::Rebind<hwy::float16_t, D>(), hn::Add(v, hn::Zero(D()))));
+#endif
+    return hn::DemoteTo(DH(), hn::BitCast(DI(), half_words(rounding)));
+  }
+  /// The same in 32-bit lanes.
+  HWY_INLINE HWY_ATTR hn::Vec<DU> half_words(Rounding rounding) const {
     const V x = hn::Add(v, hn::Zero(D()));
 #if HWY_TARGET <= HWY_AVX2 && HWY_TARGET != HWY_SCALAR
     const auto nearest = hn::DemoteTo(hn::Rebind<hwy::float16_t, D>(), x);
-    if (rounding == Rounding::rne) return hn::BitCast(DH(), nearest);
     const auto codes = hn::PromoteTo(DU(), hn::BitCast(DH(), nearest));
+    if (rounding == Rounding::rne) return codes;
     const V back = hn::PromoteTo(D(), nearest);
 #else
     const auto bits = hn::BitCast(DU(), x), sign = hn::And(hn::ShiftRight<16>(bits), hn::Set(DU(), 0x8000u));
@@ -179,7 +189,7 @@ struct Lanes {
     auto code = hn::IfThenElse(below(0x38800000), subnormal, normal);
     code = hn::IfThenElse(below(0x477ff000), code, hn::Set(DU(), 0x7c00u));
     const auto codes = hn::Or(code, sign);
-    if (rounding == Rounding::rne) return hn::DemoteTo(DH(), hn::BitCast(DI(), codes));
+    if (rounding == Rounding::rne) return codes;
     const auto finite = hn::BitCast(D(), hn::ShiftLeft<13>(code));
     const V scaled = hn::Mul(finite, hn::Set(D(), 0x1p112f));
     const V infinity = hn::BitCast(D(), hn::Set(DU(), 0x7f800000u));
@@ -187,8 +197,7 @@ struct Lanes {
 #endif
     // Toward zero: one code less where the nearest lies further out.
     const auto out = hn::Gt(hn::Abs(back), hn::Abs(x));
-    const auto cut = hn::IfThenElse(hn::RebindMask(DU(), out), hn::Sub(codes, hn::Set(DU(), 1u)), codes);
-    return hn::DemoteTo(DH(), hn::BitCast(DI(), cut));
+    return hn::IfThenElse(hn::RebindMask(DU(), out), hn::Sub(codes, hn::Set(DU(), 1u)), codes);
   }
   /// 8-bit codes, as to_unorm8.
   HWY_INLINE HWY_ATTR hn::Vec<DB> unorm8_codes(Rounding rounding) const {
@@ -231,7 +240,23 @@ HWY_INLINE void store(Unorm8* p, Lanes x, Rounding rounding, int count) {
 
 /// Four interleaved channels of size() texels. Rows of an Image have room for whole vectors, so there is no tail.
 HWY_INLINE void load4(const float* p, Lanes (&c)[4]) { hn::LoadInterleaved4(Lanes::D(), p, c[0].v, c[1].v, c[2].v, c[3].v); }
+#undef RAINREF_HALF_TEXELS
+#if (HWY_TARGET > HWY_AVX2 || !HWY_ARCH_X86) && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#define RAINREF_HALF_TEXELS 1  // without instructions for halves, two channels at a time are a 32-bit word of a vector of four
+#else
+#define RAINREF_HALF_TEXELS 0
+#endif
 HWY_INLINE void load4(const Half* p, Lanes (&c)[4]) {
+#if RAINREF_HALF_TEXELS
+  const Lanes::DU d;
+  const std::uint32_t* const words = reinterpret_cast<const std::uint32_t*>(p);
+  const auto low = hn::LoadU(d, words), high = hn::LoadU(d, words + 4), mask = hn::Set(d, 0xffffu);
+  const auto rg = hn::ConcatEven(d, high, low), ba = hn::ConcatOdd(d, high, low);
+  c[0] = Lanes::of_half_codes(hn::And(rg, mask));
+  c[1] = Lanes::of_half_codes(hn::ShiftRight<16>(rg));
+  c[2] = Lanes::of_half_codes(hn::And(ba, mask));
+  c[3] = Lanes::of_half_codes(hn::ShiftRight<16>(ba));
+#else
   const Lanes::DH d;
   auto r = hn::Zero(d), g = r, b = r, a = r;
   hn::LoadInterleaved4(d, reinterpret_cast<const std::uint16_t*>(p), r, g, b, a);
@@ -239,16 +264,13 @@ HWY_INLINE void load4(const Half* p, Lanes (&c)[4]) {
   const auto widen = [](auto v)
                          HWY_ATTR { return Lanes(hn::PromoteTo(Lanes::D(), hn::BitCast(hn::Rebind<hwy::float16_t, Lanes::D>(), v))); };
 #else
-  HWY_ALIGN std::uint16_t codes[HWY_MAX_BYTES / sizeof(std::uint16_t)];
-  const auto widen = [&](auto v) HWY_ATTR {
-    hn::StoreU(v, d, codes);
-    return Lanes::load(reinterpret_cast<const Half*>(codes));
-  };
+  const auto widen = [](auto v) HWY_ATTR { return Lanes::of_half_codes(hn::PromoteTo(Lanes::DU(), v)); };
 #endif
   c[0] = widen(r);
   c[1] = widen(g);
   c[2] = widen(b);
   c[3] = widen(a);
+#endif
 }
 HWY_INLINE void store4(float* p, const Lanes (&c)[4], Rounding) {
   const Lanes::D d;
@@ -256,8 +278,21 @@ HWY_INLINE void store4(float* p, const Lanes (&c)[4], Rounding) {
   hn::StoreInterleaved4(hn::Add(c[0].v, zero), hn::Add(c[1].v, zero), hn::Add(c[2].v, zero), hn::Add(c[3].v, zero), d, p);
 }
 HWY_INLINE void store4(Half* p, const Lanes (&c)[4], Rounding rounding) {
+#if RAINREF_HALF_TEXELS
+  const Lanes::DU d;
+  const hn::Repartition<std::uint16_t, Lanes::DU> codes;
+  const auto two = [&](Lanes low, Lanes high) HWY_ATTR __attribute__((always_inline)) {
+    const auto both = hn::BitCast(codes, hn::Or(low.half_words(rounding), hn::ShiftLeft<16>(high.half_words(rounding))));
+    return hn::BitCast(d, hn::IfThenZeroElse(hn::Eq(both, hn::Set(codes, std::uint16_t{0x8000})), both));  // as stored_half
+  };
+  const auto rg = two(c[0], c[1]), ba = two(c[2], c[3]);
+  std::uint32_t* const words = reinterpret_cast<std::uint32_t*>(p);
+  hn::StoreU(hn::InterleaveLower(d, rg, ba), d, words);
+  hn::StoreU(hn::InterleaveUpper(d, rg, ba), d, words + 4);
+#else
   hn::StoreInterleaved4(stored_half(c[0], rounding), stored_half(c[1], rounding), stored_half(c[2], rounding), stored_half(c[3], rounding),
                         Lanes::DH(), reinterpret_cast<std::uint16_t*>(p));
+#endif
 }
 HWY_INLINE void store4(Unorm8* p, const Lanes (&c)[4], Rounding rounding) {
   hn::StoreInterleaved4(c[0].unorm8_codes(rounding), c[1].unorm8_codes(rounding), c[2].unorm8_codes(rounding), c[3].unorm8_codes(rounding),

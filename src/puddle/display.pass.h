@@ -51,8 +51,12 @@ RAINREF_FN Vec3<N> display_as_published(const DisplayUniforms& u, const Vec3<N>&
 }
 /// Corrected: exposure, a vignette that ends at black, sRGB.
 template <class N>
+RAINREF_FN Vec3<N> exposed(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
+  return (max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour;
+}
+template <class N>
 RAINREF_FN Vec3<N> display_corrected(const DisplayUniforms& u, const Vec3<N>& colour, int px, int py) {
-  return display_code((max(vignette<N>(u, px, py), N(0.0f)) * N(u.exposure)) * colour);
+  return display_code(exposed(u, colour, px, py));
 }
 struct DisplayPassText {
   template <class N, bool corrected, class Io>

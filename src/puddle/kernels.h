@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "image/code_steps.h"
+#include "pass/definition.h"
+#include "puddle/shade.pass.h"
 #include "rainref/executor.h"
 #include "puddle/uniforms.h"
 #include "rainref/image.h"
@@ -50,5 +53,15 @@ void extents_of_rows(const float* decoded, int width, int height, float rest, co
 
 /// as published: drop i of the frame for i in [0, uniforms.drop_count).
 std::vector<Drop> raindrops_as_published(const RaindropsUniforms& uniforms);
+
+/// shade, corrected, with a ground_reach: what the pass writes, sooner where the surroundings' own ground is all there is. No texel of the
+/// environment or the ground may be as large as 1e12.
+void shade_or_background(const ShadeUniforms& u, Rounding rounding, const pass::HostIo<ShadePass>& io, const parallel::Tile& tile);
+/// display, corrected, of a radiance that exposure and vignette are in: the codes of [0, 1].
+CodeSteps display_steps(Rounding rounding);
+/// The same for each of count numbers, by the pass's own arithmetic.
+void display_codes(Rounding rounding, const float* x, std::uint8_t* code, int count);
+/// display, corrected, by these steps: what the pass writes.
+void display_by_steps(const DisplayUniforms& u, const CodeSteps& steps, const Image& colour, Image& picture, const parallel::Tile& tile);
 
 }  // namespace rainref::puddle

@@ -64,6 +64,8 @@ struct Puddle::State {
   std::shared_ptr<const Bed> bed;  // of the corrected variant
   TextureData water;               // one channel of the wave, decoded
   Image hit, normal, noise, colour, picture;
+  CodeSteps display;         // of the corrected variant
+  bool is_moderate = false;  // of that variant: shade_or_background may stand for shade
 
   State(const Settings& s, const Surroundings& around, const parallel::Executor& e)
       : settings(s),
@@ -79,7 +81,11 @@ struct Puddle::State {
     set_rest();
     sky = sky_of(s, around, parallel::rows_of(e));
     ground = ground_of(s, around, parallel::rows_of(e));
-    if (corrected) bed = bed_of(s);
+    if (corrected) {
+      bed = bed_of(s);
+      display = display_steps(s.rounding);
+      is_moderate = are_moderate(sky->environment.view(), ground->tile.view());
+    }
     environment_is_cube = around.environment_is_cube;
     hit = Image(Format::rgba32f, s.width, s.height);
     normal = Image(Format::rgba16f, s.width, s.height);
@@ -92,6 +98,17 @@ struct Puddle::State {
   }
 
   bool environment_is_cube = false;
+
+  /// Whether every texel is known to be less than 1e12: of the environment, which has none below 0, by its mean.
+  static bool are_moderate(const Texture& environment, const Texture& tile) {
+    const int last = environment.levels - 1;
+    if (environment.width[last] != 1 || environment.height[last] != 1) return false;
+    const double texels = static_cast<double>(environment.width[0]) * environment.height[0];
+    for (int k = 0; k < 3; ++k)
+      if (!(environment.texels[4 * static_cast<std::ptrdiff_t>(environment.offset[last]) + k] * texels < 1e12)) return false;
+    const std::ptrdiff_t values = 4 * static_cast<std::ptrdiff_t>(tile.width[0]) * tile.height[0];
+    return std::all_of(tile.texels, tile.texels + values, [](float x) { return x > -1e12f && x < 1e12f; });
+  }
 
   /// Where there is none: null.
   const Image* shore() const { return bed && !bed->shore.empty() ? &bed->shore : nullptr; }
@@ -300,14 +317,21 @@ void Puddle::render(Recorder* recorder) {
   pass::HostIo<DisplayPass> at_display;
   at_display.colour = s.colour;
   at_display.picture = s.picture;
-  pass::Run<DisplayPass> display(display_uniforms(s.settings), corrected, rounding, at_display);
+  const DisplayUniforms of_display = display_uniforms(s.settings);
+  pass::Run<DisplayPass> display(of_display, corrected, rounding, at_display);
 
   // These passes read no neighbours, so that a tile goes through all of them while it lies in the cache.
   s.executor.for_tiles(s.settings.width, s.settings.height, s.settings.width, picture_tile_rows, [&](const parallel::Tile& tile) {
     surface_hit.tile(tile);
     if (ground_noise) ground_noise->tile(tile);
-    shade.tile(tile);
-    display.tile(tile);
+    if (s.is_moderate && of_shade.ground_reach > 0)
+      shade.tile([&] { shade_or_background(of_shade, rounding, at_shade, tile); });
+    else
+      shade.tile(tile);
+    if (s.display.empty())
+      display.tile(tile);
+    else
+      display.tile([&] { display_by_steps(of_display, s.display, s.colour, s.picture, tile); });
   });
   // What they read, none of them overwrites: their starts may be recorded after all have run.
   const int threads = s.executor.threads();

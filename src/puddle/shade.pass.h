@@ -199,6 +199,18 @@ RAINREF_FN Vec3<N> shade_as_published(const ShadeUniforms& u, const Texture& env
 }
 
 // ---- corrected -----------------------------------------------------------------------------------------------------
+/// What is seen along a view ray that meets nothing of ours.
+template <class N>
+RAINREF_FN Vec3<N> background(const ShadeUniforms& u, const Texture& environment, const Vec3<N>& view) {
+  return sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
+}
+/// The share of the surroundings' own ground at a place, in extents of the puddle: 0 over its rectangle, 1 from ground_reach on.
+template <class N>
+RAINREF_FN N share_beyond(const ShadeUniforms& u, N across, N along) {
+  const N half(0.5f), zero(0.0f);
+  const N out_x = max(abs(across) - half, zero), out_z = max(abs(along) - half, zero);
+  return smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z)));
+}
 // Water over a bed of varying depth, wet ground around it. Coverage w goes from 0 (wet ground) to 1 (water) over the
 // first shore_width metres of depth; normal, gloss and the refracted offset follow w, so the shore has no seam.
 //   L = F E(reflected) + (1 - F) [T albedo + (1 - T) tint] ambient,   T = exp(-turbidity (path down + path up))
@@ -208,7 +220,7 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   const Vec3<N> view = camera_ray(u.camera, N::index(px), N(static_cast<float>(py)));
   const N zero(0.0f), one(1.0f), half(0.5f);
   const auto hit = s.flag > half;
-  if (!any(hit)) return sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
+  if (!any(hit)) return background(u, environment, view);
   const Vec3<N>& p = s.position;
   const N across = p.x * N(u.inverse_size[0]), along = p.z * N(u.inverse_size[1]);  // within 1/2: over the puddle's rectangle
   const N depth = sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(bed), across + half, along + half)[0];
@@ -255,12 +267,10 @@ RAINREF_FN Vec3<N> shade_corrected(const ShadeUniforms& u, const Texture& enviro
   if (u.fog_depth > 0.0f) surface = mix(Vec3<N>(u.fog_colour), surface, transmittance(N(u.fog_depth), distance));
   if (u.ground_reach > 0.0f) {
     // The asphalt made here ends where the surroundings' own ground begins; without hit nothing is taken of this.
-    const N out_x = max(abs(across) - half, zero), out_z = max(abs(along) - half, zero);
-    const N own = smoothstep(0.0f, u.ground_reach, sqrt(square(out_x) + square(out_z)));
+    const N own = share_beyond(u, across, along);
     const auto leaves = hit & (own > zero);
     if (any(leaves)) {
-      const Vec3<N> beyond = sample_environment(environment, u.environment_is_cube != 0, rotate_y(view, u.rotation), N(u.background_level));
-      surface = select(leaves, mix(surface, beyond, own), surface);
+      surface = select(leaves, mix(surface, background(u, environment, view), own), surface);
     }
   }
   return select(hit, surface, reflected);

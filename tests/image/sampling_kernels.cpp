@@ -9,8 +9,9 @@
 
 RAINREF_TARGET_BEGIN(test)
 #define RAINREF_FN HWY_INLINE HWY_ATTR
-#define RAINREF_LAMBDA HWY_ATTR
+#define RAINREF_LAMBDA HWY_ATTR __attribute__((always_inline))
 #include "image/sampling-inl.h"
+#include "image/sampling_lanes-inl.h"
 #include "image/environment-inl.h"
 #include "image/sampling_lookup-inl.h"
 #undef RAINREF_FN

@@ -7,7 +7,23 @@
 
 namespace rainref::test {
 
-enum class Lookup { nearest, bilinear, bilinear_of_level_1, trilinear, mip, middle_channels, latlong, latlong_mip, cube };
+enum class Lookup {
+  nearest,
+  bilinear,
+  bilinear_of_level_1,
+  trilinear,
+  mip,
+  middle_channels,
+  latlong,
+  latlong_mip,
+  cube,
+  // Of textures whose rules and channels are fixed, as the kernels of passes take them.
+  clamped,     ///< one channel, clamp
+  bordered,    ///< one channel, border
+  neighbours,  ///< one channel, clamp: left, right, down, up
+  pair,        ///< two channels, repeat, mip
+  colour       ///< four channels, repeat, trilinear
+};
 
 /// Coordinates u and v, or a direction (u, v, w); lod where the lookup has one.
 struct Place {

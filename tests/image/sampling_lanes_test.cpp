@@ -1,6 +1,7 @@
 // Lookups by the lanes of every SIMD target against the scalar evaluation, bit for bit.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -67,6 +68,28 @@ TEST(SamplingLanes, DoNotDependOnWhichLanesNeedASecondLevel) {
     places[i].lod = run == 0 ? 0.0f : run == 1 ? 2.0f : run == 2 ? static_cast<float>(i % 5) : i % 16 == 3 ? 1.5f : 0.0f;
   }
   check(Lookup::trilinear, data, places);
+}
+
+// What lanes make sooner of textures with fixed rules: far inside, at each edge, over it, and of images too small for the short ways.
+TEST(SamplingLanes, HaveTheBitsOfTheScalarEvaluationUnderFixedRules) {
+  std::vector<Place> places = tricky_places(), inside = places;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    inside[i] = {0.4f + static_cast<float>(i % 61) / 400, 0.4f + static_cast<float>(i % 53) / 400, 0, static_cast<float>(i / 32 % 5)};
+  for (const auto& [width, height] : {std::array{64, 48}, std::array{13, 6}, std::array{4, 4}, std::array{3, 5}, std::array{1, 2}}) {
+    for (const std::vector<Place>* some : {&places, &inside}) {
+      const TextureData clamped = noise_texture(width, height, 1, Address::clamp, Address::clamp);
+      check(Lookup::clamped, clamped, *some);
+      check(Lookup::neighbours, clamped, *some);
+      TextureData bordered = noise_texture(width, height, 1, Address::border, Address::border);
+      check(Lookup::bordered, bordered, *some);
+      check(Lookup::bordered,
+            TextureData(std::vector<float>(bordered.view().texels, bordered.view().texels + width * height), 1, width, height,
+                        Address::border, Address::border),
+            *some);
+      check(Lookup::pair, noise_texture(width, height, 2, Address::repeat, Address::repeat), *some);
+      check(Lookup::colour, noise_texture(width, height, 4, Address::repeat, Address::repeat), *some);
+    }
+  }
 }
 
 TEST(SamplingLanes, HaveTheBitsOfTheScalarEvaluationByDirection) {

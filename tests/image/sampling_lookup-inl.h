@@ -34,5 +34,18 @@ RAINREF_FN void look_up(Lookup lookup, const Texture& t, N u, N v, N w, N lod, N
       return put_colour(sample_environment(t, false, direction, lod));
     case Lookup::cube:
       return put_colour(sample_environment(t, true, direction, lod));
+    case Lookup::clamped:
+      return put(sample_bilinear<0, 1, N>(fixed_texture<Address::clamp, Address::clamp, 1>(t), u, v), 0, 1);
+    case Lookup::bordered:
+      return put(sample_bilinear<0, 1, N>(fixed_texture<Address::border, Address::border, 1>(t), u, v), 0, 1);
+    case Lookup::neighbours: {
+      const Neighbours<N> near = sample_neighbours<0, N>(fixed_texture<Address::clamp, Address::clamp, 1>(t), u, v);
+      out[0] = near.left, out[1] = near.right, out[2] = near.down, out[3] = near.up;
+      return;
+    }
+    case Lookup::pair:
+      return put(sample_mip<0, 2, N>(fixed_texture<Address::repeat, Address::repeat, 2>(t), u, v, lod), 0, 2);
+    case Lookup::colour:
+      return put(sample_trilinear<0, 3, N>(fixed_texture<Address::repeat, Address::repeat, 4>(t), u, v, lod), 0, 3);
   }
 }

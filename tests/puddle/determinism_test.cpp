@@ -63,6 +63,7 @@ Settings settings(Variant variant, int width, Format storage = Format::rg16f) {
     s.cell_size = 0.05;
     s.shape = Shape::basin;
     s.rain_rate = 60;
+    s.ground_reach = 0.3;  // the street's own ground is seen in whole vectors, in parts of them and not at all
     s.camera_position = {0.2, 0.5, 0.9};
     s.camera_target = {0, 0, 0};
   }
