@@ -10,6 +10,7 @@
 #include "faults/case_adder.h"
 #include "faults/whole_faults.h"
 #include "image/colour.h"
+#include "math/scalar.h"
 
 namespace rainref::faults {
 namespace {
@@ -262,6 +263,7 @@ void add_named_constants(std::vector<Fault>& out, const Constants& constants, bo
 void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants& constants) {
   const float aspect = p.model.height() > 0 ? static_cast<float>(p.model.width()) / static_cast<float>(p.model.height()) : 1.0f;
   constexpr float pi = std::numbers::pi_v<float>;
+  using Number = scalar::Scalar<float>;
   for (const auto& [value, name, is_literal] : constants) {
     if (value == 0) continue;
     const Replacer as(out, value, name);
@@ -275,10 +277,10 @@ void add_odd_constants(std::vector<Fault>& out, const Probed& p, const Constants
     as(value * (pi / 180), "in degrees");
     as(value / (pi / 180), "in degrees for radians");
     // A number of stops, decibels or octaves is taken for a factor, or the reverse.
-    if (std::abs(value) < 60) as(std::exp2(value), "as a power of two");
-    if (std::abs(value) < 60) as(std::exp(value), "as an exponent of e");
-    if (value > 0) as(std::log2(value), "as its logarithm to base two");
-    if (value > 0) as(std::log(value), "as its logarithm");
+    if (std::abs(value) < 60) as(exp2(Number(value)).v, "as a power of two");
+    if (std::abs(value) < 60) as(exp(Number(value)).v, "as an exponent of e");
+    if (value > 0) as(log(Number(value)).v / std::numbers::ln2_v<float>, "as its logarithm to base two");
+    if (value > 0) as(log(Number(value)).v, "as its logarithm");
     as(value * value * value, "cubed");
     as(std::floor(value), "cut to a whole number");
     as(std::floor(value + 0.5f), "rounded to a whole number");
