@@ -41,7 +41,9 @@ TEST(CodeSteps, MayStandAtTheEndsOfBuckets) {
     const CodeSteps steps = steps_of(code);
     ASSERT_FALSE(steps.empty());
     for (const float x : {0.0f, 0x1p-149f, 0x1p-20f, std::nextafter(at, -1.0f), at, std::nextafter(at, 2.0f), 0.25f, 1.0f})
-      if (x >= 0 && x <= 1) ASSERT_EQ(looked_up(steps, x), code(x)) << at << ' ' << x;
+      if (x >= 0 && x <= 1) {
+        ASSERT_EQ(looked_up(steps, x), code(x)) << at << ' ' << x;
+      }
   }
 }
 TEST(CodeSteps, AreNoneWhereABucketWouldNeedTwo) {

@@ -23,7 +23,7 @@ int looked_up(const CodeSteps& steps, std::uint32_t bits) {
 }
 
 // The code never falls: so the table, which knows its steps alone, has every code. Tried around each step, and through all floats of [0, 1]
-// in strides; RAINREF_STRIDE=1 takes every one of them (some minutes).
+// in strides; RAINREF_STRIDE=1 takes every one of them (half a minute).
 TEST(PuddleDisplaySteps, HaveTheCodesOfThePass) {
   const char* wanted = std::getenv("RAINREF_STRIDE");
   const std::uint32_t stride = wanted ? static_cast<std::uint32_t>(std::atoi(wanted)) : 1021, end = std::bit_cast<std::uint32_t>(1.0f) + 1;
