@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "math/half.h"
 
@@ -21,6 +22,15 @@ double covered(double at, double low, double high, double soft) {
   return std::clamp((at - low) / soft + 0.5, 0.0, 1.0) * std::clamp((high - at) / soft + 0.5, 0.0, 1.0);
 }
 
+/// A blade or its arm in the plane of its middle, `height` before the glass: along from `first` to `last`, across at most `half`.
+struct Part {
+  double height, first, last, half;
+};
+Part part_of(const SeenBlade& b, bool is_arm) {
+  return is_arm ? Part{arm_height, -0.02, 0.5 * (b.inner + b.outer), arm_at_pivot} : Part{blade_height, b.inner, b.outer, b.half_width};
+}
+double soft_at(double depth, double texel) { return std::max(pupil, 1.5 * depth * texel); }
+
 struct Cover {
   double share = 0, depth = 0;
 };
@@ -31,16 +41,57 @@ Cover cover_of(const SeenBlade& b, double x, double y, double texel) {
   const double towards = glm::dot(b.out, ray);
   if (!(towards > 1e-3)) return cover;
   for (const bool is_arm : {false, true}) {
-    const double depth = (glm::dot(b.pivot, b.out) + (is_arm ? arm_height : blade_height)) / towards;
+    const Part part = part_of(b, is_arm);
+    const double depth = (glm::dot(b.pivot, b.out) + part.height) / towards;
     if (!(depth > 0)) continue;
     const Vector3 p = depth * ray - b.pivot;
-    const double along = glm::dot(p, b.along), across = glm::dot(p, b.across), soft = std::max(pupil, 1.5 * depth * texel);
-    const double end = 0.5 * (b.inner + b.outer);
-    const double half = is_arm ? arm_at_pivot + (arm_at_blade - arm_at_pivot) * std::clamp(along / end, 0.0, 1.0) : b.half_width;
-    const double share = covered(along, is_arm ? -0.02 : b.inner, is_arm ? end : b.outer, soft) * covered(across, -half, half, soft);
+    const double along = glm::dot(p, b.along), across = glm::dot(p, b.across), soft = soft_at(depth, texel);
+    const double half = is_arm ? arm_at_pivot + (arm_at_blade - arm_at_pivot) * std::clamp(along / part.last, 0.0, 1.0) : part.half;
+    const double share = covered(along, part.first, part.last, soft) * covered(across, -half, half, soft);
     if (share > cover.share) cover = {share, depth};
   }
   return cover;
+}
+
+/// What may be hidden of the plane at distance 1: four corners in their order, or everything where one of them is not before the eye.
+struct Outline {
+  std::array<std::array<double, 2>, 4> corners{};
+  bool is_everything = false;
+};
+Outline outline_of(const SeenBlade& b, bool is_arm, double texel) {
+  const Part part = part_of(b, is_arm);
+  Outline all;
+  all.is_everything = true;
+  double soft = pupil;
+  for (int go = 0; go < 2; ++go) {  // the softness hangs on the depth; a metre beyond it changes little
+    Outline outline;
+    double deepest = 0;
+    const double low = part.first - soft, high = part.last + soft, half = part.half + soft;
+    const double places[4][2] = {{low, -half}, {high, -half}, {high, half}, {low, half}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector3 p = b.pivot + part.height * b.out + places[k][0] * b.along + places[k][1] * b.across;
+      if (!(p.z > 0.05)) return all;
+      outline.corners[k] = {p.x / p.z, p.y / p.z};
+      deepest = std::max(deepest, p.z);
+    }
+    if (go == 1) return outline;
+    soft = soft_at(deepest + 1, texel);
+  }
+  return all;
+}
+/// Of the rows from `low` to `high`, from where to where; nothing: the first is above the second.
+std::array<double, 2> extent(const Outline& o, double low, double high) {
+  constexpr double far = 1e30;
+  if (o.is_everything) return {-far, far};
+  std::array<double, 2> found{far, -far};
+  const auto take = [&](double x) { found = {std::min(found[0], x), std::max(found[1], x)}; };
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto &from = o.corners[k], &to = o.corners[(k + 1) % 4];
+    if (from[1] >= low && from[1] <= high) take(from[0]);
+    for (const double y : {low, high})
+      if ((from[1] < y) != (to[1] < y)) take(from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1]));
+  }
+  return found;
 }
 
 }  // namespace
@@ -67,10 +118,23 @@ void draw_blades(std::span<const SeenBlade> blades, const std::array<double, 2>&
                  const parallel::Executor& executor) {
   const int width = view.colour.width(), height = view.colour.height();
   const double step_x = 2 * half_size[0] / width, step_y = 2 * half_size[1] / height;
+  std::vector<Outline> outlines;
+  for (const SeenBlade& b : blades)
+    for (const bool is_arm : {false, true}) outlines.push_back(outline_of(b, is_arm, step_y));
   executor.for_tiles(width, height, width, 8, [&](const parallel::Tile& tile) {
-    for (int row = tile.y0; row < tile.y1; ++row)
-      for (int column = 0; column < width; ++column) {
-        const double x = (column + 0.5) * step_x - half_size[0], y = (row + 0.5) * step_y - half_size[1];
+    for (int row = tile.y0; row < tile.y1; ++row) {
+      const double y = (row + 0.5) * step_y - half_size[1];
+      double first = half_size[0], last = -half_size[0];
+      for (const Outline& o : outlines) {
+        const auto [low, high] = extent(o, y - step_y, y + step_y);
+        first = std::min(first, low);
+        last = std::max(last, high);
+      }
+      const auto column_of = [&](double x) {
+        return static_cast<int>((std::clamp(x, -half_size[0], half_size[0]) + half_size[0]) / step_x);
+      };
+      for (int column = std::max(0, column_of(first) - 1); column < std::min(width, column_of(last) + 2); ++column) {
+        const double x = (column + 0.5) * step_x - half_size[0];
         Cover cover;
         for (const SeenBlade& b : blades) {
           const Cover more = cover_of(b, x, y, step_y);
@@ -84,6 +148,7 @@ void draw_blades(std::span<const SeenBlade> blades, const std::array<double, 2>&
         }
         if (cover.share > 0.5) view.depth.row<float>(row)[column] = static_cast<float>(cover.depth);
       }
+    }
   });
 }
 
