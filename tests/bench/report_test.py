@@ -114,7 +114,7 @@ class Documents(unittest.TestCase):
             result = document.read(os.path.join(FOLDER, name))
             self.assertTrue(all(row["hash"] for row in result["rows"] if not row["row"].startswith("wipe_texture")), name)
             self.assertIn("others_during_percent", result["idle"])
-            there = {p["peer"] for p in result["peers"]} | {s["peer"] for s in result["skipped"] if not s["peer"].startswith("start/")}
+            there = {p["peer"] for p in result["peers"]} | {s["peer"] for s in result["skipped"] if not s["peer"].startswith("PNG of ")}
             self.assertEqual(there, {"embree", "numpy", "numba", "lavapipe"}, f"{name}: measured or named as skipped")
             counts = sorted({row["threads"] for row in result["rows"]})
             self.assertEqual(counts[0], 1)
