@@ -80,6 +80,15 @@ void copy_channel(const std::byte* in, int count, std::size_t texel_bytes, std::
   for (int x = 0; x < count; ++x) std::memcpy(out + x * texel_bytes, in + x * Bytes, Bytes);
 }
 
+/// Both channels of a texel: what a compiler makes vectors of.
+template <std::size_t Bytes>
+void copy_channels(const std::byte* first, const std::byte* second, int count, std::byte* out) {
+  for (int x = 0; x < count; ++x) {
+    std::memcpy(out + 2 * x * Bytes, first + x * Bytes, Bytes);
+    std::memcpy(out + (2 * x + 1) * Bytes, second + x * Bytes, Bytes);
+  }
+}
+
 }  // namespace
 
 void BufferView::copy_row(int y, std::byte* out) const {
@@ -88,6 +97,10 @@ void BufferView::copy_row(int y, std::byte* out) const {
     return;
   }
   const std::size_t channel_bytes = info(format).channel_bytes, texel_bytes = info(format).texel_bytes();
+  if (parts.size() == 2 && texel_bytes == 2 * channel_bytes && channel_bytes != 1) {
+    const auto copy = channel_bytes == 2 ? copy_channels<2> : copy_channels<4>;
+    return copy(parts[0]->row_bytes(y), parts[1]->row_bytes(y), width(), out);
+  }
   std::memset(out, 0, row_bytes());
   for (std::size_t c = 0; c < parts.size(); ++c) {
     const auto copy = channel_bytes == 1 ? copy_channel<1> : channel_bytes == 2 ? copy_channel<2> : copy_channel<4>;

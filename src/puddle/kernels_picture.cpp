@@ -41,6 +41,10 @@ RAINREF_FN Neighbours<N> sample_neighbours(const T& t, N u, N v) {
   const auto a = sample_neighbours<Channel, Lanes>(t, u.a, v.a), b = sample_neighbours<Channel, Lanes>(t, u.b, v.b);
   return {N(a.left, b.left), N(a.right, b.right), N(a.down, b.down), N(a.up, b.up)};
 }
+// Called, not inlined, as the loops below: shade looks up twice, and engines of WebAssembly keep the vectors of a huge function in memory.
+inline HWY_NOINLINE HWY_ATTR Vec3<Lanes> sample_environment(const Texture& t, bool is_cube, const Vec3<Lanes>& d, Lanes lod) {
+  return sample_environment<Lanes>(t, is_cube, d, lod);
+}
 #include "puddle/surface_hit.pass.h"
 #include "puddle/shade.pass.h"
 #include "puddle/display.pass.h"
@@ -64,8 +68,8 @@ HWY_INLINE HWY_ATTR void give_hit(HitIo& io, int x, int count, const Vec3<Lanes>
 // A round of the march waits for the one before: for quotients, a lookup, a root. Two rays of a row side by side, in each lane, keep the
 // processor busy meanwhile.
 template <bool corrected, Address edge>
-HWY_ATTR void paired_hit_rows(const SurfaceHitUniforms& uniforms, Rounding rounding, const pass::HostIo<SurfaceHitPass>& host,
-                              const parallel::Tile& tile) {
+HWY_NOINLINE HWY_ATTR void paired_hit_rows(const SurfaceHitUniforms& uniforms, Rounding rounding, const pass::HostIo<SurfaceHitPass>& host,
+                                           const parallel::Tile& tile) {
   const SurfaceHitUniforms u = uniforms;
   const auto wave = fixed_texture<edge, edge, 1>(*host.wave.texture);
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -105,8 +109,8 @@ RAINREF_PASS_ROWS(DisplayPass)
 
 // Where nothing of ours is seen in any lane, the picture behind is all that shade gives: what it would make of the ground there has the
 // weight 0, and is finite, as the caller knows.
-HWY_ATTR void ShadeOrBackground(const ShadeUniforms& uniforms, Rounding rounding, const pass::HostIo<ShadePass>& host,
-                                const parallel::Tile& tile) {
+HWY_NOINLINE HWY_ATTR void ShadeOrBackground(const ShadeUniforms& uniforms, Rounding rounding, const pass::HostIo<ShadePass>& host,
+                                             const parallel::Tile& tile) {
   const ShadeUniforms u = uniforms;
   const Lanes one(1.0f), half(0.5f);
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -155,8 +159,8 @@ HWY_INLINE HWY_ATTR hn::Vec<Lanes::DI> code_of(const CodeSteps::Bucket* buckets,
   // True is -1.
   return hn::Sub(code, hn::BitCast(d, hn::VecFromMask(Lanes::D(), (held >= step).m)));
 }
-HWY_ATTR void DisplayBySteps(const DisplayUniforms& uniforms, const CodeSteps& steps, const Image& colour, Image& picture,
-                             const parallel::Tile& tile) {
+HWY_NOINLINE HWY_ATTR void DisplayBySteps(const DisplayUniforms& uniforms, const CodeSteps& steps, const Image& colour, Image& picture,
+                                          const parallel::Tile& tile) {
   const DisplayUniforms u = uniforms;
   const CodeSteps::Bucket* const buckets = steps.data();
   const Lanes::DI d;
