@@ -14,6 +14,7 @@ struct Case {
   const char* scene;  ///< below scenes/
   std::vector<std::string> set;
   const char* pictures = "none";
+  double untouched = 0;  ///< share of what is stated that may be zeros which nobody wrote, and so no memory
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
@@ -43,7 +44,9 @@ TEST_P(StatedMemory, IsWithinATenthOfThePeak) {
   const auto memory = nlohmann::json::parse(contents(folder / "out/summary.json")).at("memory");
   const double stated = memory.at("stated").get<double>(), taken = memory.at("taken").get<double>();
   EXPECT_GT(taken, 24.0 * (1 << 20)) << "the program itself takes half of that";
-  EXPECT_NEAR(stated / taken, 1, 0.1) << fmt::format("stated {:.1f} MiB, taken {:.1f} MiB", stated / (1 << 20), taken / (1 << 20));
+  EXPECT_LE(taken / stated, 1.1) << fmt::format("stated {:.1f} MiB, taken {:.1f} MiB", stated / (1 << 20), taken / (1 << 20));
+  EXPECT_LE((1 - c.untouched) * stated / taken, 1.1)
+      << fmt::format("stated {:.1f} MiB, taken {:.1f} MiB", stated / (1 << 20), taken / (1 << 20));
 }
 
 const std::string sky = "environment.image=sky.npy", ground = "puddle.ground_image=sky.npy";
@@ -55,9 +58,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"puddle_exr", "puddle/default.toml", {sky, ground, "puddle.grid=[64, 64]", "run.size=[640, 640]", "run.supersample=1"}, "exr"},
         Case{"puddle_street", "puddle/default.toml", {}},
         Case{"puddle_as_published", "puddle/as_published.toml", {sky, ground, "run.size=[1280, 1280]"}},
-        Case{"edge_splash", "edge_splash/default.toml", {"run.size=[704, 704]"}},
-        Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[512, 512]"}, "png"},
-        Case{"edge_splash_as_published", "edge_splash/as_published.toml", {"run.size=[640, 640]"}},
+        Case{"edge_splash", "edge_splash/default.toml", {"run.size=[704, 704]"}, "none", 0.2},
+        Case{"edge_splash_png", "edge_splash/default.toml", {"run.size=[512, 512]"}, "png", 0.1},
+        Case{"edge_splash_as_published", "edge_splash/as_published.toml", {"run.size=[640, 640]"}, "none", 0.1},
         Case{"edge_splash_street", "edge_splash/street.toml", {"run.size=[512, 512]"}},
         Case{"screen_drops", "screen_drops/default.toml", {"run.size=[512, 512]"}},
         Case{"screen_drops_cells", "screen_drops/default.toml", {"run.size=[256, 256]", "drops.largest_radius=0.2"}},
