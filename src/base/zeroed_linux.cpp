@@ -38,7 +38,7 @@ std::byte* take(std::size_t bytes) {
   }
   if (bytes > SIZE_MAX / 2) return nullptr;
   // One that may hold a large page begins with one: what was mapped before and behind it goes back.
-  const std::size_t page = page_bytes(), more = bytes < large_page ? 0 : large_page, shift = next_shift();
+  const std::size_t more = bytes < large_page ? 0 : large_page, shift = next_shift();
   const std::size_t kept = whole_pages(shift + bytes);
   void* const mapped = ::mmap(nullptr, kept + more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) return nullptr;
