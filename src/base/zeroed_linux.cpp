@@ -17,7 +17,7 @@ constexpr std::size_t shift_by = 512, shifts = 8;  // within a page
 
 /// Where a block begins in its first page: elsewhere than the one before. Of two blocks that begin alike, as rows of the newest and of the
 /// previous wave would, Intel's cores take a load of one for a read of what was just stored to the other, by the last twelve bits of the
-/// address, and wait for the store ("4K aliasing"). Waves of floats came down to a third on one thread of a Xeon, to an eighth on sixteen.
+/// address, and wait for the store ("4K aliasing").
 std::size_t next_shift() {
   static std::atomic<std::size_t> turn{0};
   return turn.fetch_add(1, std::memory_order_relaxed) % shifts * shift_by;

@@ -32,7 +32,7 @@ class Edits {
     swaps();
     regrouped();
     of_each_part();
-    curves();
+    for (Edit& e : curve_edits_of(p_, node_)) out_.push_back(std::move(e));
     norms();
     functions();
     updated();
@@ -45,11 +45,6 @@ class Edits {
   }
   std::string instead(const Expression& made) const { return fmt::format("{} stands in place of {}", text_of(p_, made), text_); }
 
-  /// All parts below an operand, with a way to each.
-  static void parts(Expression& e, std::vector<Expression*>& out) {
-    out.push_back(&e);
-    for (Expression& below : e.of) parts(below, out);
-  }
   /// Two parts, one below each of two operands, exchanged.
   void swaps() {
     for (std::size_t i = 0; i < all_.of.size(); ++i)
@@ -139,103 +134,6 @@ class Edits {
            fmt::format("{}: what is done to the sum {} is done to each of its {}", instead(e), text_of(p_, *at),
                        factor < 0 ? "terms" : "parts, before they are weighted"));
     }
-  }
-
-  /// Another curve of one number, where the operation and all that it is made of are numbers and that one.
-  void curves() {
-    const std::int32_t variable = variable_of();
-    if (variable < 0) return;
-    const Expression x = part(variable);
-    if (!x.is_operation() && x.step.kind == FormulaStep::Kind::part && x.step.path[0] < 0) return;
-    const auto num = [](float v) { return number_of(v); };
-    const auto times = [](Expression a, Expression b) { return operation(Op::product, {std::move(a), std::move(b)}); };
-    const auto minus = [](Expression a, Expression b) { return operation(Op::difference, {std::move(a), std::move(b)}); };
-    const auto plus = [](Expression a, Expression b) { return operation(Op::sum, {std::move(a), std::move(b)}); };
-    const std::string v = words_for(p_, variable);
-    const auto add = [&](Expression e, const std::string& curve) {
-      keep(std::move(e), fmt::format("another curve: {} for {}", curve, text_),
-           fmt::format("of {} the curve {} stands in place of {}", v, curve, text_));
-    };
-    const Expression one = num(1), squared = times(x, x), rest = minus(one, x);
-    add(x, fmt::format("linear, {}", v));
-    add(times(squared, minus(num(3), times(num(2), x))), "the cubic smoothstep, x^2 (3 - 2 x)");
-    add(times(times(squared, x), plus(times(x, minus(times(x, num(6)), num(15))), num(10))), "the quintic smoothstep");
-    add(squared, "the square");
-    add(times(squared, x), "the cube");
-    add(times(squared, squared), "the fourth power");
-    add(operation(Op::root, {x}), "the root");
-    add(rest, "1 - x");
-    add(times(rest, rest), "(1 - x)^2");
-    add(minus(one, times(rest, rest)), "1 - (1 - x)^2");
-    add(minus(one, squared), "1 - x^2");
-    add(times(num(0.5f), minus(one, operation(Op::cosine, {times(num(3.14159265f), x)}))), "the cosine's, (1 - cos(pi x)) / 2");
-  }
-  /// The one node that is no number of which the operation is made, met twice at least; -1: there is none.
-  std::int32_t variable_of() const {
-    constexpr int deepest = 6;
-    std::int32_t found = -1;
-    int uses = 0;
-    const std::function<bool(std::int32_t, int)> is_of_one = [&](std::int32_t node, int depth) {
-      if (node < 0) return false;
-      const Node& n = node_of(p_, node);
-      if (n.op == Op::constant) return true;
-      if (node == found) return ++uses > 0;
-      const bool is_polynomial =
-          n.op == Op::sum || n.op == Op::difference || n.op == Op::product || n.op == Op::square || n.op == Op::negation;
-      if (is_polynomial && depth > 0 && node != last_of(node)) {
-        bool all = true;
-        for (std::size_t k = 0; k < (n.op == Op::square || n.op == Op::negation ? 1u : 2u); ++k) all &= is_of_one(n.of[k], depth - 1);
-        return all;
-      }
-      if (found >= 0) return false;
-      found = node;
-      return ++uses > 0;
-    };
-    // What is no polynomial is the variable: where several are, each node that others have in common is tried.
-    const Node& top = node_of(p_, node_);
-    if (top.op != Op::sum && top.op != Op::difference && top.op != Op::product && top.op != Op::square) return -1;
-    variable_ = -1;
-    if (is_of_one(node_, deepest) && uses >= 2 && found != node_) return found;
-    for (const std::int32_t candidate : shared()) {
-      variable_ = candidate;
-      found = candidate;
-      uses = 0;
-      const bool is_it = is_of_one(node_, deepest) && uses >= 2;
-      variable_ = -1;
-      if (is_it) return candidate;
-    }
-    return -1;
-  }
-  /// The node where a polynomial ends.
-  std::int32_t last_of(std::int32_t node) const { return node == variable_ ? node : -1; }
-  /// Nodes that are met more than once below the operation, from the top.
-  std::vector<std::int32_t> shared() const {
-    std::vector<std::int32_t> out, met;
-    std::vector<std::int32_t> open{node_};
-    constexpr std::size_t most = 64;
-    for (std::size_t k = 0; k < open.size() && k < most; ++k) {
-      if (open[k] < 0) continue;
-      const Node& n = node_of(p_, open[k]);
-      if (n.op == Op::constant) continue;
-      if (std::find(met.begin(), met.end(), open[k]) != met.end()) {
-        if (std::find(out.begin(), out.end(), open[k]) == out.end()) out.push_back(open[k]);
-        continue;
-      }
-      met.push_back(open[k]);
-      for (const std::int32_t below : n.of) open.push_back(below);
-    }
-    return out;
-  }
-  /// A node below the operation, by the first path to it.
-  Expression part(std::int32_t node) const {
-    Expression whole = expression_of(p_, node_, 6);
-    std::vector<Expression*> all;
-    parts(whole, all);
-    for (const Expression* e : all)
-      if (e->node == node) return *e;
-    Expression none;
-    none.step.kind = FormulaStep::Kind::part;
-    return none;
   }
 
   /// Other lengths of a vector.
@@ -344,7 +242,6 @@ class Edits {
   Expression all_;
   std::string text_;
   std::vector<Edit>& out_;
-  mutable std::int32_t variable_ = -1;
 };
 
 }  // namespace

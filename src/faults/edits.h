@@ -27,6 +27,9 @@ Expression expression_of(const Probe& p, std::int32_t node, int depth);
 /// `changed` is taken as it was met, because it is another number there. Of nodes that cannot be had: a part without a path.
 Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const std::vector<std::int32_t>& changed, int depth = 6);
 
+/// It and all that it is made of, from the top.
+void parts(Expression& e, std::vector<Expression*>& out);
+
 perturbed::Formula formula_of(const Expression& e);
 /// What a formula gives at a node of a probe.
 float value_at(const Probe& p, std::int32_t node, const perturbed::Formula& formula);
@@ -40,6 +43,8 @@ struct Edit {
 };
 /// Of one place. `copies`: parts that stand for each other, too.
 std::vector<Edit> edits_of(const Probe& p, std::int32_t node, bool copies);
+/// Of an operation that is a polynomial of one number: another curve of it. Empty where it is none.
+std::vector<Edit> curve_edits_of(const Probe& p, std::int32_t node);
 /// Of a weighted sum: other weights of its terms. Empty where it is none.
 std::vector<Edit> weight_edits_of(const Probe& p, std::int32_t node);
 /// Of the components of a vector.

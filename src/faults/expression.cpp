@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "faults/edits.h"
+#include "faults/operation_names.h"
 #include "faults/targets.h"
 #include "math/formula.h"
 
@@ -38,49 +39,6 @@ void append(const Expression& e, Formula& out) {
   for (const Expression& below : e.of) append(below, out);
   out.push_back(e.step);
 }
-const char* sign_of(Op op) {
-  return op == Op::sum ? " + " : op == Op::difference ? " - " : op == Op::product ? " * " : op == Op::quotient ? " / " : nullptr;
-}
-const char* function_of(Op op) {
-  switch (op) {
-    case Op::minimum:
-      return "min";
-    case Op::maximum:
-      return "max";
-    case Op::magnitude:
-      return "abs";
-    case Op::root:
-      return "sqrt";
-    case Op::square:
-      return "square";
-    case Op::floor:
-      return "floor";
-    case Op::fract:
-      return "fract";
-    case Op::exponential:
-      return "exp";
-    case Op::exponential2:
-      return "exp2";
-    case Op::logarithm:
-      return "log";
-    case Op::power:
-      return "pow";
-    case Op::sine:
-      return "sin";
-    case Op::cosine:
-      return "cos";
-    case Op::angle:
-      return "atan2";
-    case Op::mix:
-      return "mix";
-    case Op::smoothstep:
-      return "smoothstep";
-    case Op::choice:
-      return "select";
-    default:
-      return "";
-  }
-}
 std::string text_so_deep(const Probe& p, const Expression& e, int depth) {
   if (!e.is_operation()) {
     if (e.step.kind == Kind::number && e.node < 0) return fmt::format("{:.6g}", e.step.number);
@@ -90,14 +48,14 @@ std::string text_so_deep(const Probe& p, const Expression& e, int depth) {
   const Op op = e.step.op;
   if (op == Op::negation) return "-" + text_so_deep(p, e.of[0], depth);
   if (op == Op::comparison) return text_so_deep(p, e.of[0], depth - 1) + " < " + text_so_deep(p, e.of[1], depth - 1);
-  if (const char* sign = sign_of(op)) {
+  if (const char* sign = sign_of(op); *sign) {
     const auto side = [&](const Expression& of) {
       const std::string text = text_so_deep(p, of, depth - 1);
       return text.find(' ') != std::string::npos && text.back() != ')' ? fmt::format("({})", text) : text;
     };
     const std::string a = side(e.of[0]), b = side(e.of[1]);
     const auto closed = [&](const Expression& of, const std::string& text) {
-      const bool is_sum = of.is_operation() ? sign_of(of.step.op) != nullptr : of.node >= 0 && sign_of(node_of(p, of.node).op);
+      const bool is_sum = *sign_of(of.is_operation() ? of.step.op : of.node >= 0 ? node_of(p, of.node).op : Op::constant);
       return is_sum && text.front() != '(' && text.find(' ') != std::string::npos ? fmt::format("({})", text) : text;
     };
     return closed(e.of[0], a) + sign + closed(e.of[1], b);
@@ -153,6 +111,10 @@ Expression elsewhere(const Probe& p, std::int32_t node, std::int32_t at, const s
   return e;
 }
 
+void parts(Expression& e, std::vector<Expression*>& out) {
+  out.push_back(&e);
+  for (Expression& below : e.of) parts(below, out);
+}
 Formula formula_of(const Expression& e) {
   Formula out;
   append(e, out);

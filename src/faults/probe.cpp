@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "faults/operation_names.h"
 #include "judge/rearrange.h"
 #include "rainref/error.h"
 
@@ -141,48 +142,6 @@ void name_changed(Probe& probe, std::vector<double>& least, const Trace& changed
            : touched.value && a.value == -*touched.value ? "-" + touched.name
                                                          : "f(" + touched.name + ")";
   }
-}
-
-const char* function_of(Op op) {
-  switch (op) {
-    case Op::minimum:
-      return "min";
-    case Op::maximum:
-      return "max";
-    case Op::magnitude:
-      return "abs";
-    case Op::root:
-      return "sqrt";
-    case Op::square:
-      return "square";
-    case Op::floor:
-      return "floor";
-    case Op::fract:
-      return "fract";
-    case Op::exponential:
-      return "exp";
-    case Op::exponential2:
-      return "exp2";
-    case Op::logarithm:
-      return "log";
-    case Op::power:
-      return "pow";
-    case Op::sine:
-      return "sin";
-    case Op::cosine:
-      return "cos";
-    case Op::angle:
-      return "atan2";
-    case Op::mix:
-      return "mix";
-    case Op::smoothstep:
-      return "smoothstep";
-    default:
-      return "";
-  }
-}
-const char* sign_of(Op op) {
-  return op == Op::sum ? " + " : op == Op::difference ? " - " : op == Op::product ? " * " : op == Op::quotient ? " / " : "";
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ inline bool falling_rain(const Run& r, int x, int y, float* out) {
   const auto number = [&](int i, const char* member, int k = 0) { return r.of("streaks", i, member, k); };
   for (int i = 0; i < r.count("streaks"); ++i) {
     const float distance = segment(at, {number(i, "opened"), number(i, "opened", 1)}, {number(i, "closed"), number(i, "closed", 1)});
-    const float covered = saturate(0.5f + constant(r, 1, 3) * number(i, "radius") - distance),
+    const float covered = saturate(0.5f + (constant(r, 1, 3) * number(i, "radius") - distance)),
                 before = saturate((r.at("scene_depth", x, y) - number(i, "depth")) * r.u("sharpness"));
     colour = mix(colour, Float3{number(i, "radiance"), number(i, "radiance", 1), number(i, "radiance", 2)},
                  number(i, "opacity") * covered * before);
@@ -273,7 +273,7 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
        {{document,
          R"(the plane (`frame` is in metres a texel here). seg(p, a, b): t = saturate((p − a)·(b − a) / max(|b − a|², 10⁻¹²)), |p − a − t (b − a)|.)"},
         {document,
-         R"(each streak in order    colour = mix(colour, radiance, opacity · saturate(½ + radius − seg((x, y), opened, closed)) · saturate((scene_depth − depth) sharpness)))"}}},
+         R"(each streak in order    colour = mix(colour, radiance, opacity · saturate(½ + (radius − seg((x, y), opened, closed))) · saturate((scene_depth − depth) sharpness)))"}}},
       {both,
        "join_panes",
        "wrong constant",

@@ -32,7 +32,7 @@ void main() {
   vec3 colour = texelFetch(scene, texel, 0).rgb;
   for (int i = 0; i < u.streak_count; ++i) {
     Streak s = streaks[i];
-    float covered = clamp(0.5 + s.radius - segment_distance(centre, s.opened, s.closed), 0.0, 1.0);
+    float covered = clamp(0.5 + (s.radius - segment_distance(centre, s.opened, s.closed)), 0.0, 1.0);
     float before = clamp((depth - s.depth) * u.sharpness, 0.0, 1.0);
     colour = mix(colour, s.radiance, s.opacity * covered * before);
   }

@@ -28,7 +28,7 @@ fn main(@builtin(position) place: vec4f) -> @location(0) vec4f {
   var colour = textureLoad(blurred, texel, 0).rgb;
   for (var i = 0; i < u.streak_count; i++) {
     let s = streaks[i];
-    let covered = clamp(0.5 + s.radius - segment_distance(centre, s.opened, s.closed), 0.0, 1.0);
+    let covered = clamp(0.5 + (s.radius - segment_distance(centre, s.opened, s.closed)), 0.0, 1.0);
     let before = clamp((depth - s.depth) * u.sharpness, 0.0, 1.0);
     colour = mix(colour, s.radiance, s.opacity * covered * before);
   }
