@@ -58,6 +58,8 @@ struct Settings {
   int bed_columns = 768;  ///< of the image of a natural bed; its rows follow the grid
   bool exact_fresnel = true;
   double rain_rate = 5, smallest_drop = 1.6;
+  std::string shelter;  ///< roofs over the water, "x0 z0 x1 z1; ..." [m]
+  std::string objects;  ///< that move through it, "radius depth: time x z, ...; ..." [m, s]
 
   std::array<double, 3> camera_position{0.25, 0.36, 1.8}, camera_target{0.0, 0.0, 0.1}, camera_up{0, 1, 0};  ///< world, y up [m]
   double vertical_fov_deg = 36;
@@ -74,6 +76,7 @@ struct Surroundings {
   bool environment_is_encoded = false;  ///< display-encoded rather than linear
   Image ground;                         ///< 4 channels, a tile; empty: asphalt made here
   bool ground_is_encoded = false;
+  Image shelter;  ///< corrected: over the water's rectangle, in its first channel the share of the rain that falls; empty: all of it
 };
 
 /// A puddle and its water. Advance it frame by frame; every buffer has the same bits whatever the executor's threads

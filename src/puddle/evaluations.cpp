@@ -20,7 +20,9 @@ std::vector<capture::Array> recompute_raindrops(const PassCase& c) {
   for (const CountThreshold& t : capture::records_of<CountThreshold>(capture::record_input(c, "count_thresholds")))
     thresholds.push_back(t.threshold);
   const std::vector<Drop> craters = capture::records_of<Drop>(capture::record_input(c, "craters"));
-  const std::vector<Drop> drops = drops_of(capture::uniforms_of<RainfallUniforms>(c), craters, thresholds);
+  const std::vector<ShelterCell> shelter = capture::records_of<ShelterCell>(capture::record_input(c, "shelter"));
+  const std::vector<Drop> objects = capture::records_of<Drop>(capture::record_input(c, "objects"));
+  const std::vector<Drop> drops = drops_of(capture::uniforms_of<RainfallUniforms>(c), {craters, thresholds, shelter, objects});
   capture::Array out = c.outputs.front().array;
   out.width = static_cast<int>(drops.size());
   const auto bytes = std::as_bytes(std::span(drops));

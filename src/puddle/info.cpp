@@ -24,6 +24,9 @@ EffectInfo make() {
       "CountThreshold",
       {member<&CountThreshold::threshold>("threshold", "1", "A word not below k thresholds draws first_count + k drops.")});
 
+  const UniformBlock cell =
+      record<ShelterCell>("ShelterCell", {member<&ShelterCell::open>("open", "1", "Of 65536 drops over this cell so many fall.")});
+
   EffectInfo info;
   info.name = "puddle";
   info.passes = {
@@ -53,6 +56,18 @@ EffectInfo make() {
        "",
        "CountThreshold",
        correct},
+      {"shelter",
+       "records",
+       "Where a roof keeps rain off: cells over the water, row-major.",
+       "1",
+       {0, 65536},
+       "none",
+       "none",
+       "none",
+       "",
+       "ShelterCell",
+       correct},
+      {"objects", "records", "What objects in the water do in this step.", "1", {-1e6, 1e6}, "none", "none", "none", "", "Drop", correct},
   };
   const auto append = [&](const std::vector<BufferInfo>& more) { info.buffers.insert(info.buffers.end(), more.begin(), more.end()); };
   append(pass::buffers_of<PublishedRaindropsPass, RaindropsPass>());
@@ -78,7 +93,7 @@ EffectInfo make() {
   });
   append(pass::buffers_of<ShadePass>());
   append(pass::buffers_of<DisplayPass>());
-  info.records = {drop, threshold};
+  info.records = {drop, threshold, cell};
   return info;
 }
 

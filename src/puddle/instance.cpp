@@ -51,6 +51,8 @@ Surroundings surroundings(const scene::Config& config, const parallel::Executor&
     s.ground = flipped(picture.image);
     s.ground_is_encoded = picture.srgb_encoded;
   }
+  if (config.variant() == "corrected" && effect::is_named(config, "rain.shelter_image"))
+    s.shelter = flipped(effect::read_input(config, "rain.shelter_image", inputs).image);
   return s;
 }
 

@@ -56,6 +56,7 @@ MemoryPeak memory(const Settings& s, const PictureSizes& sizes) {
          Image::memory_bytes(Format::rgba8, s.width, s.height));
   if (!corrected) m.hold(Image::memory_bytes(Format::r32f, s.width, s.height));
   m.hold(wave_floats);  // decoded for lookups
+  if (!s.shelter.empty()) m.hold(sizeof(ShelterCell) * static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows));
   m.release(made);
   if (corrected) {
     const std::uint64_t blocks = static_cast<std::uint64_t>((columns + extent_block - 1) / extent_block) *

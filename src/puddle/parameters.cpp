@@ -74,6 +74,16 @@ const std::vector<MemberParameter<Settings>>& members() {
       real<&Settings::rain_rate>("rain.rate", "mm/h", 0, 200, "Rain rate; drops follow Marshall and Palmer's size distribution.")
           .only(correct),
       real<&Settings::smallest_drop>("rain.smallest_drop", "mm", 0, 5, "Drops below this diameter leave no crater.").only(correct),
+      {text("rain.shelter", "", "Roofs over the water, under which no rain falls: \"x0 z0 x1 z1; ...\", world metres.").only(correct),
+       [](Settings& s, const Value& v) { s.shelter = std::get<std::string>(v); }, [](const Settings& s) { return Value(s.shelter); }},
+      text("rain.shelter_image", "",
+           "Picture over the water's rectangle, least z at its lower edge: white where all rain falls, black where none does.")
+          .only(correct),
+      {text("puddle.objects", "",
+            "Round objects that move through the water: \"radius depth: time x z, time x z, ...; ...\" in m and s; depth: how far the "
+            "middle presses it down.")
+           .only(correct),
+       [](Settings& s, const Value& v) { s.objects = std::get<std::string>(v); }, [](const Settings& s) { return Value(s.objects); }},
       text("environment.image", "", "Picture of the surroundings, EXR, HDR or PNG; empty: the street at night made here."),
       choice("environment.layout", {"latlong", "cube"}, "latlong",
              "Latitude/longitude panorama, or six cube faces in a row or column (+x -x +y -y +z -z)."),

@@ -17,6 +17,7 @@
 #include "puddle/host.h"
 #include "puddle/kernels.h"
 #include "puddle/memory.h"
+#include "puddle/objects.h"
 #include "puddle/raindrops.pass.h"
 #include "puddle/rainfall.h"
 #include "puddle/scenery.h"
@@ -58,6 +59,7 @@ struct Puddle::State {
   Image newest, previous, rest_row;
   float stored_rest = 0;  // encoding.rest as the storage rounds it
   Rainfall rainfall;
+  Objects objects;
 
   std::shared_ptr<const Sky> sky;
   std::shared_ptr<const Ground> ground;
@@ -72,7 +74,8 @@ struct Puddle::State {
         executor(e),
         corrected(s.variant == Variant::corrected),
         encoding(puddle::encoding(s)),
-        rainfall(corrected ? s : no_rain(s), 1 / encoding.scale) {
+        rainfall(corrected ? s : no_rain(s), 1 / encoding.scale, corrected ? shelter_of(s, around.shelter) : Shelter{}),
+        objects(s, 1 / encoding.scale) {
     const auto [columns, rows] = wave_size(s);
     const Format format = channel_format(s.storage);
     newest = Image(format, columns, rows);
@@ -146,7 +149,7 @@ struct Puddle::State {
     std::vector<std::vector<Drop>> drops(static_cast<std::size_t>(count));
     executor.for_range(count, 1, [&](std::int64_t k, std::int64_t) {
       drops[static_cast<std::size_t>(k)] =
-          corrected ? rainfall.drops(first + k) : raindrops_as_published(raindrops_uniforms(settings, frame));
+          corrected ? rainfall.drops(first + k, objects.records(first + k)) : raindrops_as_published(raindrops_uniforms(settings, frame));
     });
     return drops;
   }
@@ -160,8 +163,11 @@ struct Puddle::State {
       pass::HostIo<RaindropsPass> io;
       io.craters = rainfall.craters();
       io.count_thresholds = rainfall.count_thresholds();
+      io.shelter = rainfall.shelter();
+      const std::vector<Drop> moved = objects.records(step);
+      io.objects = moved;
       io.drops = drops;
-      run(pass::Run<RaindropsPass>(rainfall.uniforms(step), true, settings.rounding, io));
+      run(pass::Run<RaindropsPass>(rainfall.uniforms(step, moved.size()), true, settings.rounding, io));
     } else {
       pass::HostIo<PublishedRaindropsPass> io;
       io.drops = drops;

@@ -33,7 +33,7 @@ struct PublishedRaindropsPass {
   };
 };
 struct RaindropsPass {
-  static constexpr pass::About about{"raindrops", raindrops_sentence, {}, {1, capture::Judge::bits}};
+  static constexpr pass::About about{"raindrops", raindrops_sentence, {}, {2, capture::Judge::bits}};
   using Uniforms = RainfallUniforms;
   static scene::UniformBlock uniforms() {
     using scene::member;
@@ -45,12 +45,17 @@ struct RaindropsPass {
                              member<&U::columns>("columns", "texel", {1, 65536}, "Columns of the wave."),
                              member<&U::rows>("rows", "texel", {1, 65536}, "Rows of the wave."),
                              member<&U::boundary>("boundary", "1", {0, 2}, "0: reflecting, 1: periodic, 2: fixed."),
-                             member<&U::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list.")});
+                             member<&U::threshold_count>("threshold_count", "1", {0, 16000}, "Thresholds in the list."),
+                             member<&U::shelter_columns>("shelter_columns", "1", {0, 8192}, "Columns of the shelter; 0: there is none."),
+                             member<&U::shelter_rows>("shelter_rows", "1", {0, 8192}, "Its rows."),
+                             member<&U::object_count>("object_count", "1", {0, 1 << 16}, "Records of objects in the list.")});
   }
   template <class B>
   struct Io {
     typename B::template Records<Drop> craters = pass::In{.name = "craters"};
     typename B::template Records<std::uint32_t> count_thresholds = pass::In{.name = "count_thresholds", .count = "threshold_count"};
+    typename B::template Records<ShelterCell> shelter = pass::In{.name = "shelter"};
+    typename B::template Records<Drop> objects = pass::In{.name = "objects", .count = "object_count"};
     typename B::template List<Drop> drops = raindrops_out;
   };
 };

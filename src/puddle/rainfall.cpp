@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,88 +17,110 @@ namespace {
 constexpr double energy_share = 0.01;                            // of the impact that goes into the wave; the rest splashes and stirs
 constexpr double crater_per_diameter = 7;                        // crater radius over drop diameter
 constexpr std::int32_t reflecting = 0, periodic = 1, fixed = 2;  // RainfallUniforms::boundary
-constexpr double least_radius = 3;                               // texels; a smaller crater would not be resolved, so its energy is spread
 
-/// A drop with its images beyond the edges, as Rainfall::drops says.
-void add_with_images(const Drop& drop, const RainfallUniforms& u, std::vector<Drop>& out) {
+}  // namespace
+
+WaterEdges edges_of(const Settings& s) {
+  return {static_cast<std::uint32_t>(s.grid[0]), static_cast<std::uint32_t>(s.grid[1]),
+          s.boundary == Boundary::reflecting ? reflecting
+          : s.boundary == Boundary::periodic ? periodic
+                                             : fixed};
+}
+
+void add_with_images(const Drop& drop, const WaterEdges& e, std::vector<Drop>& out) {
   out.push_back(drop);
-  if (u.boundary == fixed) return;
+  if (e.boundary == fixed) return;
+  const auto reaches = [&](float at, std::uint32_t size) { return at + drop.radius > 0 && at - drop.radius < static_cast<float>(size); };
   // The place, and its image beyond the lower and the upper edge of a side; exact, because places have few bits.
   const auto images = [&](float at, std::uint32_t size) {
     const auto side = static_cast<float>(size);
-    return u.boundary == periodic ? std::array{at, at - side, at + side} : std::array{at, -at, 2 * side - at};
+    return e.boundary == periodic ? std::array{at, at - side, at + side} : std::array{at, -at, 2 * side - at};
   };
-  const auto reaches = [&](float at, std::uint32_t size) { return at + drop.radius > 0 && at - drop.radius < static_cast<float>(size); };
-  const auto xs = images(drop.x, u.columns), ys = images(drop.y, u.rows);
+  const auto xs = images(drop.x, e.columns), ys = images(drop.y, e.rows);
   for (std::size_t j = 0; j < ys.size(); ++j) {
     for (std::size_t i = 0; i < xs.size(); ++i) {
-      if ((i > 0 || j > 0) && reaches(xs[i], u.columns) && reaches(ys[j], u.rows))
+      if ((i > 0 || j > 0) && reaches(xs[i], e.columns) && reaches(ys[j], e.rows))
         out.push_back({xs[i], ys[j], drop.amplitude, drop.radius});
     }
   }
 }
 
-}  // namespace
-
 double crater_depth(double diameter, double speed, double radius) {
   return __builtin_sqrt(energy_share * diameter * diameter * diameter * speed * speed * 35 / (18 * standard_gravity * radius * radius));
 }
 
-Rainfall::Rainfall(const Settings& s, double stored_per_metre)
-    : seed_(s.seed), width_(static_cast<std::uint32_t>(s.grid[0])), height_(static_cast<std::uint32_t>(s.grid[1])), boundary_(s.boundary) {
+Rainfall::Rainfall(const Settings& s, double stored_per_metre, Shelter shelter)
+    : seed_(s.seed), edges_(edges_of(s)), shelter_(std::move(shelter)) {
   const rain::DropSizes sizes_of_rain(s.rain_rate, s.smallest_drop);
   const double area = s.grid[0] * s.cell_size * (s.grid[1] * s.cell_size);
   mean_ = sizes_of_rain.flux() * area / s.step_rate;
   count_ = random::PoissonTable(mean_);
   for (const double diameter_mm : sizes_of_rain.quantiles(sizes)) {
     const double diameter = diameter_mm * 1e-3;
-    const double radius = std::max(crater_per_diameter * diameter, least_radius * s.cell_size);
+    const double radius = std::max(crater_per_diameter * diameter, least_crater_radius * s.cell_size);
     const double depth = crater_depth(diameter, rain::terminal_velocity(diameter_mm), radius);
     craters_.push_back({0, 0, static_cast<float>(-depth * s.drop_intensity * stored_per_metre), static_cast<float>(radius / s.cell_size)});
   }
 }
 
-std::vector<Drop> drops_of(const RainfallUniforms& u, std::span<const Drop> craters, std::span<const std::uint32_t> thresholds) {
-  std::vector<Drop> out;
-  if (craters.empty()) return out;
+std::vector<Drop> drops_of(const RainfallUniforms& u, const RainTables& tables) {
+  const auto& [craters, thresholds, shelter, objects] = tables;
   constexpr std::int32_t most = 4 * static_cast<std::int32_t>(random::PoissonTable::max_mean);
-  if (craters.size() != Rainfall::sizes || u.threshold_count < 0 || static_cast<std::size_t>(u.threshold_count) > thresholds.size() ||
-      u.first_count < 0 || u.first_count > most || u.threshold_count > most) {
+  if ((!craters.empty() && craters.size() != Rainfall::sizes) || u.threshold_count < 0 ||
+      static_cast<std::size_t>(u.threshold_count) > thresholds.size() || u.first_count < 0 || u.first_count > most ||
+      u.threshold_count > most) {
     throw Error(
         ExitCode::port_files,
         fmt::format(
             "raindrops: expected {} craters and at most {} thresholds, found {} craters, {} thresholds, first_count {}, threshold_count {}",
             int{Rainfall::sizes}, most, craters.size(), thresholds.size(), u.first_count, u.threshold_count));
   }
+  if (u.shelter_columns > 65536 || u.shelter_rows > 65536 || std::uint64_t{u.shelter_columns} * u.shelter_rows != shelter.size() ||
+      u.object_count < 0 || static_cast<std::size_t>(u.object_count) > objects.size()) {
+    throw Error(ExitCode::port_files, fmt::format("raindrops: expected a shelter of {} x {} and {} objects, found {} and {} records",
+                                                  u.shelter_columns, u.shelter_rows, u.object_count, shelter.size(), objects.size()));
+  }
+  std::vector<Drop> out;
   const std::uint64_t seed = u.seed[0] | static_cast<std::uint64_t>(u.seed[1]) << 32;
   const auto used = thresholds.first(static_cast<std::size_t>(u.threshold_count));
   const random::Draws& draws = random::draws();
   const std::uint32_t word = draws.block(seed, random::Purpose::puddle_drop_count, u.step, 0)[0];
   const auto passed = static_cast<std::uint32_t>(std::upper_bound(used.begin(), used.end(), word) - used.begin());
-  const auto count = u.first_count + static_cast<int>(draws.count(passed, static_cast<std::uint32_t>(used.size())));
+  const auto drawn = u.first_count + static_cast<int>(draws.count(passed, static_cast<std::uint32_t>(used.size())));
+  const int count = craters.empty() ? 0 : drawn;
   for (int i = 0; i < count; ++i) {
     const random::Block r = draws.block(seed, random::Purpose::puddle_drop, u.step, static_cast<std::uint32_t>(i));
+    if (!shelter.empty()) {
+      const std::uint32_t column = (draws.place(r[0], 16) * u.shelter_columns) >> 16, row = (draws.place(r[1], 16) * u.shelter_rows) >> 16;
+      if (draws.place(r[3], 16) >= shelter[column + std::size_t{u.shelter_columns} * row].open) continue;
+    }
     Drop drop = craters[draws.choice(r[2], 10)];
     drop.x = static_cast<float>(draws.fine((draws.place(r[0], 16) * u.columns) >> 8, 8, 0)) * 0x1p-8f;
     drop.y = static_cast<float>(draws.fine((draws.place(r[1], 16) * u.rows) >> 8, 8, 1)) * 0x1p-8f;
-    add_with_images(drop, u, out);
+    add_with_images(drop, {u.columns, u.rows, u.boundary}, out);
   }
+  out.insert(out.end(), objects.begin(), objects.begin() + u.object_count);
   return out;
 }
 
-std::vector<Drop> Rainfall::drops(std::int64_t step) const { return drops_of(uniforms(step), craters_, count_.thresholds()); }
+std::vector<Drop> Rainfall::drops(std::int64_t step, std::span<const Drop> objects) const {
+  return drops_of(uniforms(step, objects.size()), {craters_, count_.thresholds(), shelter_.cells, objects});
+}
 
-RainfallUniforms Rainfall::uniforms(std::int64_t step) const {
+RainfallUniforms Rainfall::uniforms(std::int64_t step, std::size_t objects) const {
   RainfallUniforms u{};
   u.seed[0] = static_cast<std::uint32_t>(seed_);
   u.seed[1] = static_cast<std::uint32_t>(seed_ >> 32);
   // Steps beyond 2^32 start over: at 240 steps a second after 207 days.
   u.step = static_cast<std::uint32_t>(step);
   u.first_count = count_.first();
-  u.columns = width_;
-  u.rows = height_;
-  u.boundary = boundary_ == Boundary::reflecting ? reflecting : boundary_ == Boundary::periodic ? periodic : fixed;
+  u.columns = edges_.columns;
+  u.rows = edges_.rows;
+  u.boundary = edges_.boundary;
   u.threshold_count = static_cast<std::int32_t>(count_.thresholds().size());
+  u.shelter_columns = static_cast<std::uint32_t>(shelter_.columns);
+  u.shelter_rows = static_cast<std::uint32_t>(shelter_.rows);
+  u.object_count = static_cast<std::int32_t>(objects);
   return u;
 }
 

@@ -5,26 +5,47 @@
 #include <span>
 #include <vector>
 
+#include "puddle/shelter.h"
 #include "puddle/uniforms.h"
 #include "random/poisson.h"
 #include "rainref/puddle.h"
 
 namespace rainref::puddle {
 
-/// The drops of a step, from what the GPU takes: the count by thresholds, ascending, place and size from a hash of (seed,
-/// step, i). Throws Error(port_files) when the uniforms name more thresholds, size classes or drops than there can be.
-std::vector<Drop> drops_of(const RainfallUniforms& uniforms, std::span<const Drop> craters, std::span<const std::uint32_t> thresholds);
+/// [texels]; a smaller crater would not be resolved, so its energy is spread.
+inline constexpr double least_crater_radius = 3;
+
+/// The water's rectangle as drops take it.
+struct WaterEdges {
+  std::uint32_t columns, rows;
+  std::int32_t boundary;  ///< RainfallUniforms::boundary
+};
+WaterEdges edges_of(const Settings& settings);
+/// Appends a drop in the rectangle and its images beyond the edges, as Rainfall::drops says.
+void add_with_images(const Drop& drop, const WaterEdges& edges, std::vector<Drop>& out);
+
+/// What raindrops takes besides its uniforms.
+struct RainTables {
+  std::span<const Drop> craters;
+  std::span<const std::uint32_t> thresholds;
+  std::span<const ShelterCell> shelter;  ///< row-major; empty: none
+  std::span<const Drop> objects;         ///< what the objects do in this step
+};
+/// The drops of a step, from what the GPU takes: the count by thresholds, ascending, place, size and whether a roof holds it off from a
+/// hash of (seed, step, i); behind them the records of objects. Throws Error(port_files) when the uniforms name more thresholds, size
+/// classes, drops, objects or another shelter than there can be.
+std::vector<Drop> drops_of(const RainfallUniforms& uniforms, const RainTables& tables);
 
 /// Drops of step k are a function of (seed, k): the count by a Poisson table, place and size from a hash of (seed, k, i).
 class Rainfall {
  public:
   /// stored_per_metre: stored units in a metre of height.
-  Rainfall(const Settings& settings, double stored_per_metre);
+  Rainfall(const Settings& settings, double stored_per_metre, Shelter shelter = {});
 
   /// Places are multiples of 1/256 texel: x = ((word >> 16) * width >> 8) / 256, exact in float. A crater that reaches
   /// over an edge comes with its mirror images (reflecting) or its copies on the other side (periodic), so that the edge
-  /// takes no water away.
-  std::vector<Drop> drops(std::int64_t step) const;
+  /// takes no water away. Behind them what objects do in this step.
+  std::vector<Drop> drops(std::int64_t step, std::span<const Drop> objects = {}) const;
 
   /// Expected drops in a step.
   double mean() const { return mean_; }
@@ -33,14 +54,15 @@ class Rainfall {
   const Drop& crater(int size_class) const { return craters_[static_cast<std::size_t>(size_class)]; }
 
   /// What drops(step) depends on, for those who draw them elsewhere.
-  RainfallUniforms uniforms(std::int64_t step) const;
+  RainfallUniforms uniforms(std::int64_t step, std::size_t objects = 0) const;
   const std::vector<Drop>& craters() const { return craters_; }
   const std::vector<std::uint32_t>& count_thresholds() const { return count_.thresholds(); }
+  const std::vector<ShelterCell>& shelter() const { return shelter_.cells; }
 
  private:
   std::uint64_t seed_;
-  std::uint32_t width_, height_;
-  Boundary boundary_;
+  WaterEdges edges_;
+  Shelter shelter_;
   double mean_ = 0;
   random::PoissonTable count_;
   std::vector<Drop> craters_;

@@ -31,10 +31,18 @@ struct RainfallUniforms {
   std::uint32_t columns, rows;  ///< cells of the wave
   std::int32_t boundary;        ///< 0 reflecting, 1 periodic, 2 fixed
   std::int32_t threshold_count;
+  std::uint32_t shelter_columns, shelter_rows;  ///< of the records ShelterCell; 0: it rains everywhere
+  std::int32_t object_count;                    ///< records of objects in this step
+  std::int32_t padding0;
 };
 /// A word not below k thresholds draws first_count + k drops.
 struct CountThreshold {
   std::uint32_t threshold;
+};
+
+/// Rain over a cell of the shelter.
+struct ShelterCell {
+  std::uint32_t open;  ///< of 65536 drops so many fall
 };
 
 struct WaveStepUniforms {
@@ -113,7 +121,7 @@ struct DisplayUniforms {
   float width, height;
 };
 
-static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(RainfallUniforms) == 32 && sizeof(WaveStepUniforms) == 48);
+static_assert(sizeof(Drop) == 16 && sizeof(RaindropsUniforms) == 32 && sizeof(RainfallUniforms) == 48 && sizeof(WaveStepUniforms) == 48);
 static_assert(sizeof(CameraUniforms) == 64 && sizeof(SurfaceHitUniforms) == 144 && sizeof(GroundNoiseUniforms) == 80);
 static_assert(sizeof(ShadeUniforms) == 176 && sizeof(DisplayUniforms) == 16);
 

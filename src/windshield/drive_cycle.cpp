@@ -12,7 +12,7 @@
 #include "base/number_text.h"
 #include "base/read_file.h"
 #include "rainref/error.h"
-#include "windshield/rows_of_text.h"
+#include "scene/rows_of_text.h"
 
 namespace rainref::windshield {
 namespace {
@@ -83,10 +83,10 @@ DriveCycle parse_drive_cycle(std::string_view csv, const std::string& file) {
   std::vector<int> column;
   std::size_t width = 0;
   Rows rows(false);
-  for (const std::string_view text : split(csv, '\n')) {
+  for (const std::string_view text : scene::split(csv, '\n')) {
     ++line;
     if (text.empty() || text.front() == '#') continue;
-    const std::vector<std::string_view> fields = split(text, ',');
+    const std::vector<std::string_view> fields = scene::split(text, ',');
     if (column.empty()) {
       column = columns_of(fields, fail);
       width = fields.size();
@@ -118,10 +118,10 @@ DriveCycle parse_key_frames(std::string_view text, const std::string& key) {
   const Fail fail = [&](const std::string& what) { throw Error(ExitCode::usage, fmt::format("{}, key frame {}: {}", key, count, what)); };
   std::size_t width = 0;
   Rows rows(false);
-  for (const std::string_view frame : split(text, ';')) {
+  for (const std::string_view frame : scene::split(text, ';')) {
     if (frame.empty()) continue;  // a semicolon at the end
     ++count;
-    const std::vector<std::string_view> fields = words_of(frame);
+    const std::vector<std::string_view> fields = scene::words_of(frame);
     if (width == 0) {
       width = fields.size();
       rows = Rows(width == 3);

@@ -34,6 +34,7 @@ const std::vector<capture::PassEvaluations>& evaluations() {
       {"composite", pass::bind<CompositePass, scalar::CompositePassText>},
       {"mist", pass::bind<MistPass, scalar::MistPassText>},
       {"join_panes", pass::bind<JoinPanesPass, scalar::JoinPanesPassText>},
+      {"interior", pass::bind<InteriorPass, scalar::InteriorPassText>},
       {"display", pass::bind_display}};
   return all;
 }

@@ -1,6 +1,7 @@
-// composite and join_panes in lanes; compiled once for each SIMD target.
+// composite, mist, join_panes and interior in lanes; compiled once for each SIMD target.
 #include "pass/run.h"
 #include "windshield/composite.pass.h"
+#include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
 
@@ -16,6 +17,7 @@ RAINREF_TARGET_BEGIN(windshield)
 #include "image/sampling-inl.h"
 #include "image/sampling_lanes-inl.h"
 #include "windshield/composite.pass.h"
+#include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
 #undef RAINREF_FN
@@ -23,10 +25,12 @@ RAINREF_TARGET_BEGIN(windshield)
 RAINREF_PASS_ROWS(CompositePass)
 RAINREF_PASS_ROWS(MistPass)
 RAINREF_PASS_ROWS(JoinPanesPass)
+RAINREF_PASS_ROWS(InteriorPass)
 RAINREF_TARGET_END(windshield)
 
 #if RAINREF_ONCE
 RAINREF_PASS_DISPATCH(windshield, CompositePass)
 RAINREF_PASS_DISPATCH(windshield, MistPass)
 RAINREF_PASS_DISPATCH(windshield, JoinPanesPass)
+RAINREF_PASS_DISPATCH(windshield, InteriorPass)
 #endif

@@ -6,7 +6,7 @@
 
 #include "base/number_text.h"
 #include "rainref/error.h"
-#include "windshield/rows_of_text.h"
+#include "scene/rows_of_text.h"
 
 namespace rainref::windshield {
 
@@ -16,10 +16,10 @@ std::vector<Pchip> parse_curves(std::string_view text, const std::string& key, s
   int row = 0;
   const auto fail = [&](const std::string& what) { throw Error(ExitCode::usage, fmt::format("{}, key frame {}: {}", key, row, what)); };
   std::vector<std::vector<double>> columns(quantities.size() + 1);
-  for (const std::string_view frame : split(text, ';')) {
+  for (const std::string_view frame : scene::split(text, ';')) {
     if (frame.empty()) continue;  // a semicolon at the end
     ++row;
-    const std::vector<std::string_view> fields = words_of(frame);
+    const std::vector<std::string_view> fields = scene::words_of(frame);
     if (fields.size() != columns.size()) fail(fmt::format("expected \"{}\", found '{}'", form, frame));
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const std::optional<double> value = number_from<double>(fields[k]);

@@ -69,6 +69,7 @@ MemoryPeak memory(const Settings& s, int frames, std::array<int, 2> scene) {
   }
   m.hold((s.panes.empty() ? 1 : 2) * image(Format::rgba16f, s.picture.width, s.picture.height) +
          image(Format::rgba8, s.picture.width, s.picture.height));
+  if (s.interior.on) m.hold(image(Format::rgba16f, s.picture.width, s.picture.height));
   m.hold(static_cast<std::uint64_t>(most_falling(s, frames / s.fps)) * (sizeof(FallingDrop) + sizeof(Streak)));
   const bool own = scene[0] == 0;
   const auto [width, height] = own ? s.scene_size : scene;

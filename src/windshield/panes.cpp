@@ -6,7 +6,7 @@
 
 #include "base/number_text.h"
 #include "rainref/error.h"
-#include "windshield/rows_of_text.h"
+#include "scene/rows_of_text.h"
 
 namespace rainref::windshield {
 namespace {
@@ -26,17 +26,17 @@ std::string pane_name(int number) { return number == 0 ? "the glass" : fmt::form
 
 std::vector<Corners> parse_panes(std::string_view text) {
   std::vector<Corners> panes;
-  for (const std::string_view pane : split(text, ';')) {
+  for (const std::string_view pane : scene::split(text, ';')) {
     if (pane.empty()) continue;
     const auto fail = [&] {
       throw Error(ExitCode::usage, fmt::format("{}: expected \"x y z, x y z, x y z\", numbers of at most {:g} m, found '{}'",
                                                pane_name(static_cast<int>(panes.size()) + 1), largest_coordinate, pane));
     };
-    const std::vector<std::string_view> points = split(pane, ',');
+    const std::vector<std::string_view> points = scene::split(pane, ',');
     if (points.size() != 3) fail();
     Corners corners{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::vector<std::string_view> numbers = words_of(points[i]);
+      const std::vector<std::string_view> numbers = scene::words_of(points[i]);
       if (numbers.size() != 3) fail();
       for (std::size_t k = 0; k < 3; ++k) {
         const double x = number_from<double>(numbers[k]).value_or(2 * largest_coordinate);

@@ -2,6 +2,7 @@
 
 #include "pass/display.h"
 #include "pass/info.h"
+#include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
 
@@ -10,7 +11,8 @@ using namespace rainref::scene;
 using namespace rainref::capture;
 
 std::vector<PassInfo> picture_passes() {
-  return {pass::info_of<CompositePass>(), pass::info_of<MistPass>(), pass::info_of<JoinPanesPass>(), pass::display_info("composite")};
+  return {pass::info_of<CompositePass>(), pass::info_of<MistPass>(), pass::info_of<JoinPanesPass>(), pass::info_of<InteriorPass>(),
+          pass::display_info("composite")};
 }
 
 std::vector<BufferInfo> picture_buffers() {
@@ -21,6 +23,8 @@ std::vector<BufferInfo> picture_buffers() {
   const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
   all.insert(all.end(), colour.begin(), colour.end());
   all.push_back({"pane_colour", "rgba16f", "As colour, through a pane behind the first.", "1", one, "none", "linear Rec. 709", "opaque"});
+  all.push_back({"interior", "rgba16f", "What of the car stands before the glass.", "1", one, "none", "linear Rec. 709", "premultiplied",
+                 "", "", "corrected"});
   all.push_back({"picture", "rgba8", "Display code; alpha 1.", "1", one, "sRGB", "sRGB", "opaque"});
   return all;
 }

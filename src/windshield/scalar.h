@@ -9,6 +9,7 @@
 #include "math/scalar.h"
 #include "math/rearranged.h"
 #include "windshield/composite.pass.h"
+#include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
 
@@ -23,6 +24,7 @@ using namespace rainref::scalar;
 #include "image/sampling_enclosed-inl.h"
 #include "image/sampling_rearranged-inl.h"
 #include "windshield/composite.pass.h"
+#include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/mist.pass.h"
 #undef RAINREF_FN

@@ -68,6 +68,26 @@ const std::vector<MemberParameter<Settings>>& condensation_members() {
           .only(correct)};
   return table;
 }
+/// Pillar and dashboard.
+const std::vector<MemberParameter<Settings>>& interior_members() {
+  using S = Settings;
+  using I = InteriorSettings;
+  static const std::vector<MemberParameter<S>> table{
+      boolean<&S::interior, &I::on>("interior.on",
+                                    "Pillar and dashboard stand before the glass, dark and out of focus; not in traced pictures.")
+          .only(correct),
+      real<&S::interior, &I::pillar>("interior.pillar", "1", 0, 1,
+                                     "u of the left pillar's edge at the glass' lower and upper end; 0, 0: none.")
+          .only(correct),
+      real<&S::interior, &I::dashboard>("interior.dashboard", "1", 0, 1, "v of the dashboard's edge; 0: none.").only(correct),
+      real<&S::interior, &I::binnacle>("interior.binnacle", "1", 0, 1,
+                                       "Height of the hood over the instruments, on the image plane at distance 1.")
+          .only(correct),
+      real<&S::interior, &I::light>("interior.light", "1", 0, 100, "Radiance that the lightest of it would have.").only(correct),
+      real<&S::interior, &I::reflection>("interior.reflection", "1", 0, 1, "What the glass mirrors of the dashboard, over that.")
+          .only(correct)};
+  return table;
+}
 const std::vector<MemberParameter<Settings>>& step_members() {
   static const std::vector<MemberParameter<Settings>> table{
       integer<&Settings::substeps>("windshield.substeps", "1", 1, 64, "Steps of the drops in a frame.").only(correct)};
@@ -85,6 +105,7 @@ std::vector<Parameter> make() {
   append(all, effect::sequence_parameters());
   append(all, parameters_of(falling_members()));
   append(all, parameters_of(condensation_members()));
+  append(all, parameters_of(interior_members()));
   append(all, parameters_of(picture_parameters()));
   return all;
 }
@@ -139,6 +160,7 @@ Settings settings_from(const Config& config) {
   apply(scene_members(), config, s);
   apply(falling_members(), config, s);
   apply(condensation_members(), config, s);
+  apply(interior_members(), config, s);
   s.picture.width = static_cast<int>(config.integer2("run.size")[0]);
   s.picture.height = static_cast<int>(config.integer2("run.size")[1]);
   constexpr double most = 300000;

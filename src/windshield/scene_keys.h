@@ -11,6 +11,7 @@
 #include "scene/parameter.h"
 #include "windshield/condensation.h"
 #include "windshield/falling_rain.h"
+#include "windshield/interior.h"
 #include "windshield/motion_host.h"
 #include "windshield/picture.h"
 #include "windshield/surface.h"
@@ -42,6 +43,7 @@ struct Settings {
   std::array<int, 2> scene_size{1280, 720};
   FallingRainSettings falling;
   CondensationSettings condensation;
+  InteriorSettings interior;
   double street_start = 0;
   bool clear_lane = false;
   int keyframes = 1;

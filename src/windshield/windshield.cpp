@@ -13,6 +13,7 @@
 #include "rainref/error.h"
 #include "scene/toml.h"
 #include "windshield/falling_rain.pass.h"
+#include "windshield/interior.pass.h"
 #include "windshield/join_panes.pass.h"
 #include "windshield/windshield_state.h"
 
@@ -156,6 +157,18 @@ void Windshield::State::look_through(const pass::Moment& now) {
   }
 }
 
+/// interior, on what all panes show.
+void Windshield::State::sit_inside(const pass::Moment& now) {
+  pass::HostIo<InteriorPass> io;
+  io.interior = interior;
+  io.colour = colour;
+  io.seen = colour;
+  pass::Run<InteriorPass> run(interior_uniforms(settings.interior), corrected, settings.surface.rounding, io);
+  run.start(now);
+  run.tiles(executor, tile_rows);
+  run.finish(now);
+}
+
 Windshield::Windshield(const SceneText& scene, Surroundings surroundings, const parallel::Executor& executor) {
   const FloatingPointGuard guard;
   constexpr const char* pictures[] = {"scene.image", "scene.depth_image"};
@@ -210,6 +223,7 @@ void Windshield::render(Recorder* recorder) {
   for (std::size_t k = 0; k < s.panes.size(); ++k) s.panes[k]->draw(s.moment(recorder, static_cast<int>(k), s.frame_time()), s.frame);
   const pass::Moment now = s.moment(recorder, 0, s.frame_time());
   s.look_through(now);
+  if (s.settings.interior.on) s.sit_inside(now);
 
   pass::Run<pass::DisplayPass> display = pass::display_run(s.settings.picture.exposure, s.settings.surface.rounding, s.colour, s.picture);
   display.start(now);

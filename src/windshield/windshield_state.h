@@ -55,6 +55,7 @@ struct Windshield::State {
   std::vector<std::unique_ptr<WetPane>> panes;  // the windshield first
 
   Image colour, pane_colour, picture;
+  Image interior;  // where the scene asks for it
   CodeTable display;
   SceneView scene;
   SceneView without_blades;  // where they are drawn: what lies behind
@@ -76,6 +77,7 @@ struct Windshield::State {
     colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     if (panes.size() > 1) pane_colour = Image(Format::rgba16f, settings.picture.width, settings.picture.height);
     picture = Image(Format::rgba8, settings.picture.width, settings.picture.height);
+    if (settings.interior.on) interior = draw_interior(settings.interior, settings.picture, settings.corners, executor);
     display = pass::display_table(settings.picture.width, settings.picture.height, settings.picture.exposure, settings.surface.rounding);
     lights = glints(settings.picture);
     own_scene = surroundings.colour.empty();
@@ -113,6 +115,7 @@ struct Windshield::State {
   bool look_at_scene();
   void rain_behind(const pass::Moment& now);
   void look_through(const pass::Moment& now);
+  void sit_inside(const pass::Moment& now);
 };
 
 }  // namespace rainref::windshield

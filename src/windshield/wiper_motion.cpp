@@ -7,7 +7,7 @@
 
 #include "base/number_text.h"
 #include "rainref/error.h"
-#include "windshield/rows_of_text.h"
+#include "scene/rows_of_text.h"
 
 namespace rainref::windshield {
 namespace {
@@ -25,10 +25,10 @@ std::vector<Key> parse(std::string_view text, std::string_view table) {
   const auto fail = [&](const std::string& what) {
     throw Error(ExitCode::usage, fmt::format("{}.key_frames, key frame {}: {}", table, row, what));
   };
-  for (const std::string_view frame : split(text, ';')) {
+  for (const std::string_view frame : scene::split(text, ';')) {
     if (frame.empty()) continue;
     ++row;
-    const std::vector<std::string_view> words = words_of(frame);
+    const std::vector<std::string_view> words = scene::words_of(frame);
     const bool pauses = words.size() == 3 && words[1] == "intermittent";
     const bool runs = words.size() == 2 && (words[1] == "off" || words[1] == "slow" || words[1] == "fast");
     if (!pauses && !runs)

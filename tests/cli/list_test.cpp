@@ -87,10 +87,15 @@ TEST_F(Describe, ListsOfAPassHaveBindingsOfTheirOwn) {
     return o.out;
   };
   const std::string glsl = layout("glsl"), hlsl = layout("hlsl"), wgsl = layout("wgsl"), cuda = layout("cuda");
-  EXPECT_THAT(glsl, StartsWith("// Pass raindrops, corrected. Bindings: 0 RainfallUniforms, 1 craters, 2 count_thresholds, 3 drops.\n"));
+  EXPECT_THAT(
+      glsl,
+      StartsWith(
+          "// Pass raindrops, corrected. Bindings: 0 RainfallUniforms, 1 craters, 2 count_thresholds, 3 shelter, 4 objects, 5 drops.\n"));
   for (const char* line : {"layout(std430, binding = 1) readonly buffer CratersBuffer { Drop craters[]; };\n",
                            "layout(std430, binding = 2) readonly buffer CountThresholdsBuffer { CountThreshold count_thresholds[]; };\n",
-                           "layout(std430, binding = 3) buffer DropsBuffer {\n"})
+                           "layout(std430, binding = 3) readonly buffer ShelterBuffer { ShelterCell shelter[]; };\n",
+                           "layout(std430, binding = 4) readonly buffer ObjectsBuffer { Drop objects[]; };\n",
+                           "layout(std430, binding = 5) buffer DropsBuffer {\n"})
     EXPECT_THAT(glsl, HasSubstr(line));
   EXPECT_THAT(
       hlsl,
@@ -124,8 +129,8 @@ TEST_F(Describe, EveryLayoutIsPrinted) {
     EXPECT_EQ(o.code, 0);
     EXPECT_EQ(o.err, "");
     EXPECT_THAT(o.out, HasSubstr(word)) << language;
-    for (const char* name : {"Drop", "CountThreshold", "RaindropsUniforms", "RainfallUniforms", "WaveStepUniforms", "SurfaceHitUniforms",
-                             "GroundNoiseUniforms", "ShadeUniforms", "DisplayUniforms"}) {
+    for (const char* name : {"Drop", "CountThreshold", "ShelterCell", "RaindropsUniforms", "RainfallUniforms", "WaveStepUniforms",
+                             "SurfaceHitUniforms", "GroundNoiseUniforms", "ShadeUniforms", "DisplayUniforms"}) {
       EXPECT_THAT(o.out, HasSubstr(name)) << language;
     }
   }

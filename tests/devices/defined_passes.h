@@ -37,6 +37,7 @@ bool with_defined_pass(const capture::PassCase& c, const F& f) {
   RAINREF_PASS("windshield", "condense", true, windshield::CondensePass, windshield::scalar::CondensePassText);
   RAINREF_PASS("windshield", "composite", true, windshield::CompositePass, windshield::scalar::CompositePassText);
   RAINREF_PASS("windshield", "mist", true, windshield::MistPass, windshield::scalar::MistPassText);
+  RAINREF_PASS("windshield", "interior", true, windshield::InteriorPass, windshield::scalar::InteriorPassText);
   RAINREF_PASS("rainy_glass", "bake_raindrops", true, rainy_glass::BakeRaindropsPass, rainy_glass::scalar::BakeRaindropsPassText);
   RAINREF_PASS("rainy_glass", "bake_rivulets", true, rainy_glass::BakeRivuletsPass, rainy_glass::scalar::BakeRivuletsPassText);
   RAINREF_PASS("rainy_glass", "rain_on_glass", true, rainy_glass::RainOnGlassPass, rainy_glass::RainOnGlassText);

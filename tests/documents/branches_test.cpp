@@ -59,6 +59,8 @@ const std::vector<Branch> branches{
     {"RimOfAShore", "puddle-corrected", {"puddle.shape=natural", "puddle.rim_width=0.14"}, "wave_step"},
     {"Reflecting", "puddle-corrected", {"puddle.boundary=reflecting"}, "raindrops"},
     {"Periodic", "puddle-corrected", {"puddle.boundary=periodic"}, "raindrops"},
+    {"Sheltered", "puddle-corrected", {"rain.shelter=-0.2 -0.2 0.013 0.2"}, "raindrops", "sheltered where it is open"},
+    {"Objects", "puddle-corrected", {"puddle.objects=0.06 0.004: 0 -0.2 0, 1 0.2 0.1"}, "raindrops", "the first object left out"},
     {"EightBitsOfMetres", "puddle-corrected", {"puddle.storage=rgba8"}, "wave_step", "crater 2 s for 4 s"},
     {"Schlick", "puddle-corrected", {"puddle.fresnel=schlick", "puddle.fog_depth=0", "puddle.use_checkerboard=true"}, "shade"},
     {"Misprint", "screen_drops-as-published", {"drops.printed_misprint=true"}, "drops", "threshold 0.3"},
@@ -85,6 +87,7 @@ const std::vector<Branch> branches{
      "wrong constant"},
     {"Mist", "windshield-corrected", {"condensation.on=true", "condensation.tau=0.5"}, "condense", "wrong constant"},
     {"ThroughMist", "windshield-corrected", {"condensation.on=true", "condensation.blur_lod=1.3"}, "mist", "wrong constant"},
+    {"Inside", "windshield-corrected", {"interior.on=true"}, "interior", "wrong constant"},
     {"Trails", "windshield-as-published", {"windshield.height_tau=0.3"}, "persist", "wrong constant"},
     {"Panes", "windshield-corrected", {"windshield.panes=1.7 0.6 0.9, 1.7 0.1 0.9, 1.6 0.6 1.6"}, "join_panes", "wrong constant"},
 };

@@ -15,6 +15,11 @@ inline void raindrops_corrected(const Run& r, Given& out) {
   const float columns = static_cast<float>(word(r, "columns")), rows = static_cast<float>(word(r, "rows"));
   for (int i = 0; i < count; ++i) {
     const Words w = block(r, r.is("wrong constant") ? 3 : 2, step, static_cast<std::uint32_t>(i));
+    if (const std::uint32_t columns_of_shelter = word(r, "shelter_columns"); columns_of_shelter > 0) {
+      const std::uint32_t column = (w[0] >> 16) * columns_of_shelter >> 16, row = (w[1] >> 16) * word(r, "shelter_rows") >> 16;
+      const std::uint32_t open = word_of(r, "shelter", static_cast<int>(column + columns_of_shelter * row), "open");
+      if (r.is("sheltered where it is open") ? w[3] >> 16 < open : w[3] >> 16 >= open) continue;
+    }
     const int size = static_cast<int>(w[2] >> 22);
     const Crater drop{static_cast<float>((w[0] >> 16) * word(r, "columns") >> 8) / 256,
                       static_cast<float>((w[1] >> 16) * word(r, r.unless("columns for rows", "rows", "columns")) >> 8) / 256,
@@ -30,6 +35,9 @@ inline void raindrops_corrected(const Run& r, Given& out) {
       if (reaches(xs[k % 3], columns) && reaches(ys[k / 3], rows))
         out.append("drops", Crater{xs[k % 3], ys[k / 3], drop.amplitude, drop.radius});
   }
+  for (int i = r.is("the first object left out") ? 1 : 0; i < r.whole("object_count"); ++i)
+    out.append("drops",
+               Crater{r.of("objects", i, "x"), r.of("objects", i, "y"), r.of("objects", i, "amplitude"), r.of("objects", i, "radius")});
 }
 
 /// As the hand-made one, whose shore and rim may be wrong.
@@ -173,6 +181,9 @@ inline std::vector<Written> puddle_corrected_passes() {
         {document,
          R"(drops in the step    = first_count + number of thresholds not above block(1, step, 0)[0];   none where there are no craters
 drop i: r = block(2, step, i)     crater = craters[r[2] >> 22],  x = (((r[0] >> 16) · columns) >> 8) / 256,  y likewise from r[1] and rows
+where shelter_columns > 0:  those alone with r[3] >> 16 below shelter[column + shelter_columns · row],  column = ((r[0] >> 16) · shelter_columns) >> 16,
+                            row likewise from r[1] and shelter_rows
+behind them all:            the object_count records of objects
 A crater that reaches over an edge is followed by its images with x' in (x, −x, 2 columns − x) (reflecting) or (x, x − columns, x + columns)
 (periodic), y' likewise, y' in the outer loop, of those that reach into the rectangle (x' + radius > 0, x' − radius < columns), the drop itself)"}}},
       {{"puddle-corrected"},

@@ -123,6 +123,13 @@ inline bool mist(const Run& r, int x, int y, float* out) {
   return true;
 }
 
+inline bool interior(const Run& r, int x, int y, float* out) {
+  const float open = 1 - constant(r, 1, 0.9f) * r.at("interior", x, y, 3);
+  for (int k = 0; k < 3; ++k) out[k] = r.u("light") * r.at("interior", x, y, k) + open * r.at("colour", x, y, k);
+  out[3] = 1;
+  return true;
+}
+
 inline bool composite_corrected(const Run& r, int x, int y, float* out) {
   const Float3 q{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1};
   const float m = dot(r.u3("w_row"), q), k = 1 / std::max(m, 1e-6f);
@@ -280,6 +287,12 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
        join_panes,
        nullptr,
        {composite_of_both, {document, "joined      mix(colour, pane_colour, on glass), on glass by that pane's composite"}}},
+      {{"windshield-corrected"},
+       "interior",
+       "wrong constant",
+       interior,
+       nullptr,
+       {{document, "interior          colour = light · interior + (1 − alpha of interior) · colour, of rgb"}}},
       {both,
        "display",
        "wrong constant",

@@ -152,7 +152,7 @@ TEST(Bindings, NamesThatNothingHasGetTheNearestOne) {
                  [](json& all) { all["programs"][display]["outputs"] = json::array({"image"}); });
 }
 TEST(Bindings, ListsNeedTheirKeys) {
-  const std::string raindrops = "puddle.raindrops.corrected/1", at = "programs / " + raindrops + " / ";
+  const std::string raindrops = "puddle.raindrops.corrected/2", at = "programs / " + raindrops + " / ";
   const auto without = [&](const char* key) { return [=](json& all) { all["programs"][raindrops].erase(key); }; };
   expect_refused(at + "capacity: expected a number of records for the output drops, found none", without("capacity"), "raindrops");
   expect_refused(at + "one_group: expected true, because the first output, drops, is no image", without("one_group"), "raindrops");

@@ -125,7 +125,8 @@ TEST_F(Wgsl, APassOfEachKindPassesUnderWebgpu) {
                                                     {"windshield-closing", "wipe_texture"},  // three images of two formats
                                                     {"puddle-shore", "wave_step"},           // a rim
                                                     {"windshield-mist", "condense"},
-                                                    {"windshield-mist", "mist"}};
+                                                    {"windshield-mist", "mist"},
+                                                    {"windshield-mist", "interior"}};
   for (const auto& [pack, pass] : kinds) {
     const Outcome outcome = judged(source + "/tests/packs/" + pack, pass, port);
     EXPECT_EQ(outcome.code, 0) << outcome.text;

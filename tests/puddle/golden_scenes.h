@@ -72,6 +72,11 @@ inline std::vector<GoldenScene> golden_scenes() {
       *std::find_if(scenes.begin(), scenes.end(), [](const GoldenScene& s) { return s.name == "puddle/corrected/rg16f"; }));
   rim.name += "/rim";
   rim.settings.rim_width = 0.2;  // ten cells
+  GoldenScene& moved = scenes.emplace_back(
+      *std::find_if(scenes.begin(), scenes.end(), [](const GoldenScene& s) { return s.name == "puddle/corrected/rg16f"; }));
+  moved.name += "/objects";
+  moved.settings.objects = "0.08 0.01: 0 -0.3 0, 0.5 0.2 0.1, 1 0.3 -0.2; 0.1 -0.003: 0.01 0.3 -0.3, 0.9 -0.2 -0.25";
+  moved.settings.shelter = "-0.2 -0.1 0.105 0.3";
   return scenes;
 }
 

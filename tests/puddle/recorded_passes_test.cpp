@@ -1,6 +1,7 @@
 // What the puddle records of its passes: enough to run each of them elsewhere.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -175,12 +176,20 @@ std::vector<Drop> drawn(const PassCase& c) {
     const random::Block k = random::pcg4d({u.seed[0], u.seed[1], purpose, 0});
     return random::pcg4d({a ^ k[0], b ^ k[1], k[2], k[3]});
   };
+  const auto shelter = values<ShelterCell>(c.input("shelter")->array.levels[0]);
+  const auto objects = values<Drop>(c.input("objects")->array.levels[0]);
+  EXPECT_EQ(shelter.size(), std::size_t{u.shelter_columns} * u.shelter_rows);
+  EXPECT_EQ(static_cast<int>(objects.size()), u.object_count);
   std::vector<Drop> out;
-  if (craters.empty()) return out;
+  if (craters.empty()) return objects;
   int count = u.first_count;
   for (const std::uint32_t t : thresholds) count += t <= block(1, u.step, 0)[0];
   for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
     const random::Block r = block(2, u.step, i);
+    if (!shelter.empty()) {
+      const std::uint32_t column = (r[0] >> 16) * u.shelter_columns >> 16, row = (r[1] >> 16) * u.shelter_rows >> 16;
+      if (r[3] >> 16 >= shelter[column + row * u.shelter_columns].open) continue;
+    }
     Drop d = craters[r[2] >> 22];
     d.x = static_cast<float>(((r[0] >> 16) * u.columns) >> 8) / 256;
     d.y = static_cast<float>(((r[1] >> 16) * u.rows) >> 8) / 256;
@@ -194,16 +203,20 @@ std::vector<Drop> drawn(const PassCase& c) {
       if (x + d.radius > 0 && x - d.radius < w && y + d.radius > 0 && y - d.radius < h) out.push_back({x, y, d.amplitude, d.radius});
     }
   }
+  out.insert(out.end(), objects.begin(), objects.end());
   return out;
 }
 
 TEST(RecordedRain, HoldsAllThatTheDropsDependOn) {
   for (const Boundary boundary : {Boundary::reflecting, Boundary::periodic, Boundary::fixed}) {
-    for (const double rate : {0.0, 3.0, 200.0}) {
+    for (const double rate : {0.0, 3.0, 200.0, -200.0}) {
       Settings s = small(Variant::corrected);
+      const bool is_special = rate < 0;
+      if (is_special) s.shelter = "0 0 1 1; -0.3 -0.3 -0.107 -0.1";
+      if (is_special) s.objects = "0.05 0.01: 0 -0.3 0, 2 0.3 0.1; 0.1 0.001: 0.01 0 0, 1 0.4 0.2";
       s.seed = 0x123456789abcdefull;
       s.boundary = boundary;
-      s.rain_rate = rate;
+      s.rain_rate = std::abs(rate);
       std::size_t drops = 0;
       for (const PassCase& c : cases_of(s, 4)) {
         if (c.pass != "raindrops") continue;
@@ -213,7 +226,7 @@ TEST(RecordedRain, HoldsAllThatTheDropsDependOn) {
         EXPECT_TRUE(expected.empty() || std::memcmp(bytes.data(), expected.data(), bytes.size()) == 0) << c.folder();
         drops += expected.size();
       }
-      EXPECT_EQ(drops > 20, rate > 100);
+      EXPECT_EQ(drops > 20, std::abs(rate) > 100);
     }
   }
 }

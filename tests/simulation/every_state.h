@@ -51,6 +51,7 @@ inline std::vector<StateScene> state_scenes() {
     puddle("rgba8", {"puddle.storage=rgba8", "puddle.boundary=fixed"});
     puddle("rtz", {"puddle.rounding=rtz", "run.fps=24", "puddle.boundary=fixed"});
     if (corrected) puddle("shore", {"puddle.shape=natural", "puddle.bed_columns=64"});
+    if (corrected) puddle("objects", {"puddle.objects=0.1 0.01: 0 -0.3 0, 2 0.3 0.1", "rain.shelter=0 0 1 1"});
 
     add("edge_splash", variant, "still", {});
     add("screen_drops", variant, "still", {});
@@ -73,6 +74,7 @@ inline std::vector<StateScene> state_scenes() {
                            "world.wind_key_frames=0 0 0 0; 1 3 -6 0", "windshield.rounding=rtz"});
     std::erase_if(all.back().text.set,
                   [](const std::string& s) { return s.starts_with("rain.rate=") || s.starts_with("windshield.spawn_rate="); });
+    if (corrected) windshield("interior", {"scene.moves=false", "interior.on=true"});
     if (corrected) windshield("condensation", {"scene.moves=false", "condensation.on=true", "condensation.tau=1"});
     if (!corrected) {
       windshield("trails", {"scene.moves=false", "windshield.height_tau=0.5", "windshield.blend=max"});

@@ -12,6 +12,10 @@ layout(std140, binding = 0) uniform RainfallUniforms {
   uint rows;            //  20  [texel] Rows of the wave.
   int boundary;         //  24  [1] 0: reflecting, 1: periodic, 2: fixed.
   int threshold_count;  //  28  [1] Thresholds in the list.
+  uint shelter_columns; //  32  [1] Columns of the shelter; 0: there is none.
+  uint shelter_rows;    //  36  [1] Its rows.
+  int object_count;     //  40  [1] Records of objects in the list.
+  int padding_0;        //  44  padding
 } u;
 struct Drop {
   float x;          //   0  [texel] Centre; texel centres lie at k + 1/2.
@@ -21,7 +25,9 @@ struct Drop {
 };
 layout(std430, binding = 1) readonly buffer CraterBuffer { Drop craters[]; };
 layout(std430, binding = 2) readonly buffer CountThresholdBuffer { uint thresholds[]; };
-layout(std430, binding = 3) buffer DropBuffer {
+layout(std430, binding = 3) readonly buffer ShelterBuffer { uint open[]; };
+layout(std430, binding = 4) readonly buffer ObjectBuffer { Drop objects[]; };
+layout(std430, binding = 5) buffer DropBuffer {
   uint count;
   uint padding[3];
   Drop drops[];
@@ -36,6 +42,12 @@ void append(Drop drop) {
 }
 // Only the images of a crater that reach into the rectangle count.
 bool reaches(float at, float radius, uint size) { return at + radius > 0.0 && at - radius < float(size); }
+// Whether no roof keeps the drop of these words off.
+bool falls(uvec4 r) {
+  if (u.shelter_columns == 0u) return true;
+  uint column = ((r.x >> 16) * u.shelter_columns) >> 16, row = ((r.y >> 16) * u.shelter_rows) >> 16;
+  return (r.w >> 16) < open[row * u.shelter_columns + column];
+}
 
 void main() {
   uint word = random_block(1u, u.step, 0u).x;
@@ -47,6 +59,7 @@ void main() {
   count = 0u;
   for (int i = 0; i < drawn; ++i) {
     uvec4 r = random_block(2u, u.step, uint(i));
+    if (!falls(r)) continue;
     Drop drop = craters[r.z >> 22];
     drop.x = float(((r.x >> 16) * u.columns) >> 8) / 256.0;
     drop.y = float(((r.y >> 16) * u.rows) >> 8) / 256.0;
@@ -63,4 +76,5 @@ void main() {
       }
     }
   }
+  for (int i = 0; i < u.object_count; ++i) append(objects[i]);
 }

@@ -7,6 +7,10 @@ struct RainfallUniforms {
   rows : u32,             //  20  [texel] Rows of the wave.
   boundary : i32,         //  24  [1] 0: reflecting, 1: periodic, 2: fixed.
   threshold_count : i32,  //  28  [1] Thresholds in the list.
+  shelter_columns : u32,  //  32  [1] Columns of the shelter; 0: there is none.
+  shelter_rows : u32,     //  36  [1] Its rows.
+  object_count : i32,     //  40  [1] Records of objects in the list.
+  padding_0 : i32,        //  44  padding
 }
 @group(0) @binding(0) var<uniform> u: RainfallUniforms;
 struct CountThreshold {
@@ -14,6 +18,11 @@ struct CountThreshold {
 }
 @group(0) @binding(1) var<storage, read> craters: array<Drop>;
 @group(0) @binding(2) var<storage, read> count_thresholds: array<CountThreshold>;
+struct ShelterCell {
+  open : u32,  //   0  [1] Of 65536 drops over this cell so many fall.
+}
+@group(0) @binding(3) var<storage, read> shelter: array<ShelterCell>;
+@group(0) @binding(4) var<storage, read> objects: array<Drop>;
 struct DropsBuffer {
   count : u32,
   padding_0 : u32,
@@ -21,7 +30,7 @@ struct DropsBuffer {
   padding_2 : u32,
   records : array<Drop>,
 }
-@group(0) @binding(3) var<storage, read_write> drops: DropsBuffer;
+@group(0) @binding(5) var<storage, read_write> drops: DropsBuffer;
 
 // The buffer may be too short for a wrong port; the count says so.
 fn append(drop: Drop) {
@@ -30,6 +39,14 @@ fn append(drop: Drop) {
 }
 // Only the images of a crater that reach into the rectangle count.
 fn reaches(at: f32, radius: f32, size: u32) -> bool { return at + radius > 0.0 && at - radius < f32(size); }
+
+// Whether no roof keeps the drop of these words off.
+fn falls(r: vec4u) -> bool {
+  if (u.shelter_columns == 0u) { return true; }
+  let column = ((r.x >> 16u) * u.shelter_columns) >> 16u;
+  let row = ((r.y >> 16u) * u.shelter_rows) >> 16u;
+  return (r.w >> 16u) < shelter[row * u.shelter_columns + column].open;
+}
 
 @compute @workgroup_size(1)
 fn main() {
@@ -42,6 +59,7 @@ fn main() {
   drops.count = 0u;
   for (var i = 0; i < drawn; i++) {
     let r = random_block(2u, u.step, u32(i));
+    if (!falls(r)) { continue; }
     var drop = craters[r.z >> 22u];
     drop.x = f32(((r.x >> 16u) * u.columns) >> 8u) / 256.0;
     drop.y = f32(((r.y >> 16u) * u.rows) >> 8u) / 256.0;
@@ -63,4 +81,5 @@ fn main() {
       }
     }
   }
+  for (var i = 0; i < u.object_count; i++) { append(objects[i]); }
 }

@@ -1,8 +1,8 @@
-#include "windshield/rows_of_text.h"
+#include "scene/rows_of_text.h"
 
 #include <algorithm>
 
-namespace rainref::windshield {
+namespace rainref::scene {
 namespace {
 
 std::string_view trimmed(std::string_view s) {
@@ -30,4 +30,4 @@ std::vector<std::string_view> words_of(std::string_view s) {
   return words;
 }
 
-}  // namespace rainref::windshield
+}  // namespace rainref::scene

@@ -4,11 +4,11 @@
 #include <string_view>
 #include <vector>
 
-namespace rainref::windshield {
+namespace rainref::scene {
 
 /// The parts of s, without spaces around them; one more than there are separators.
 std::vector<std::string_view> split(std::string_view s, char separator);
 /// The words of s, parted by any number of spaces.
 std::vector<std::string_view> words_of(std::string_view s);
 
-}  // namespace rainref::windshield
+}  // namespace rainref::scene
