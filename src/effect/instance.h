@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "effect/display.h"
+#include "effect/drops_layer.h"
 #include "image_io/write.h"
 #include "rainref/recorder.h"
 #include "state/items.h"
@@ -42,6 +43,10 @@ class Instance {
   virtual std::vector<PassOutput> buffers() = 0;
   /// What an EXR file of the frame holds, row 0 = bottom.
   virtual std::vector<image_io::Layer> layers() const = 0;
+  /// Whether drops_layer() says something of this effect in this variant.
+  virtual bool has_drops_layer() const { return false; }
+  /// The drops of the frame that was rendered last, by themselves.
+  virtual DropsLayer drops_layer(const parallel::Executor& /*executor*/) const { return {}; }
   /// What goes into files of its own beside the first EXR.
   virtual std::vector<Map> maps() const { return {}; }
 };

@@ -10,6 +10,7 @@
 #include "rainy_glass/info.h"
 #include "rainy_glass/memory.h"
 #include "rainy_glass/parameters.h"
+#include "rainy_glass/shown.h"
 
 namespace rainref::rainy_glass {
 namespace {
@@ -121,6 +122,17 @@ std::vector<image_io::Layer> Instance::layers() const {
   return {{"", {"R", "G", "B"}, &g.colour()}, {"normal", {"X", "Y", "Z"}, &g.orientation()}, {"glass", {"U", "V", "Z"}, &g.surface()}};
 }
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), settings_.exposure}; }
+
+effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
+  const ShownGlass glass(settings_, surroundings_, running());
+  const auto [half_width, half_height] = glass.half_size();
+  return effect::drops_layer(running().colour(), executor, [&](int column, int row) -> effect::DropPixel {
+    const Shown shown = glass.at(column, row);
+    if (!shown.is_behind || !shown.is_wet) return {};
+    return {1, 0.5 * shown.x / half_width - (column + 0.5) / settings_.width + 0.5,
+            0.5 * shown.y / half_height - (row + 0.5) / settings_.height + 0.5};
+  });
+}
 
 effect::Effect entry() {
   return {"rainy_glass",

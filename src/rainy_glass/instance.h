@@ -27,6 +27,8 @@ class Instance final : public effect::InstanceOf<RainyGlass> {
   const Surroundings& surroundings() const { return surroundings_; }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  bool has_drops_layer() const override { return settings_.variant == Variant::corrected; }
+  effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
   std::optional<effect::Display> display() const override;
   /// The maps have a size of their own.
   std::vector<effect::Map> maps() const override { return {{"raindrops", &running().raindrops()}, {"rivulets", &running().rivulets()}}; }

@@ -1,6 +1,8 @@
 // What the corrected pass rain_on_glass takes the water to be and to do: for judging it against traced light, not a pass.
 #pragma once
 
+#include <array>
+
 #include "image/texture.h"
 #include "rainref/rainy_glass.h"
 #include "rainy_glass/uniforms.h"
@@ -21,6 +23,8 @@ class ShownGlass {
   /// `surroundings` are those that `rendered` was made with; they and it must outlive this.
   ShownGlass(const Settings& settings, const Surroundings& surroundings, const RainyGlass& rendered);
   Shown at(int column, int row) const;
+  /// Of the image plane at distance 1.
+  std::array<double, 2> half_size() const { return {uniforms_.half_width, uniforms_.half_height}; }
   /// Slope of the water, up along u and v, at a place of glass of this normal, as the pass knows places [m].
   struct Slope {
     double u, v;

@@ -1,5 +1,7 @@
 #include "screen_drops/instance.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
@@ -12,6 +14,7 @@
 #include "screen_drops/info.h"
 #include "screen_drops/memory.h"
 #include "screen_drops/parameters.h"
+#include "screen_drops/shown.h"
 
 namespace rainref::screen_drops {
 namespace {
@@ -92,6 +95,17 @@ std::vector<image_io::Layer> Instance::layers() const {
   return {{"", {"R", "G", "B"}, &running().colour()}, {"background", {"R", "G", "B"}, &running().background()}};
 }
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), settings_.exposure}; }
+
+effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
+  const ShownDrops drops(settings_, running());
+  const auto [half_width, half_height] = drops.half_size();
+  return effect::drops_layer(running().colour(), executor, [&](int column, int row) -> effect::DropPixel {
+    const Shown shown = drops.at(column, row);
+    const double z = std::max(shown.bent.z, 0.05);  // as the pass has it
+    return {shown.cover, 0.5 * shown.bent.x / (z * half_width) - (column + 0.5) / settings_.width + 0.5,
+            0.5 * shown.bent.y / (z * half_height) - (row + 0.5) / settings_.height + 0.5};
+  });
+}
 
 effect::Effect entry() {
   return {"screen_drops",

@@ -23,6 +23,8 @@ class Instance final : public effect::InstanceOf<ScreenDrops> {
   void list_state(state::Items& items) override;
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  bool has_drops_layer() const override { return settings_.variant == Variant::corrected; }
+  effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
   std::optional<effect::Display> display() const override;
   bool has_sequence() const { return sequence_.has_value(); }
 

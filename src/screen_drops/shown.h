@@ -1,6 +1,7 @@
 // What the corrected pass drops takes the water to be and to do: for judging it against traced light, not a pass.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "image/texture.h"
@@ -35,6 +36,8 @@ class ShownDrops {
  public:
   ShownDrops(const Settings& settings, const ScreenDrops& rendered);
   Shown at(int column, int row) const;
+  /// Of the image plane at distance 1.
+  std::array<double, 2> half_size() const { return {uniforms_.half_size[0], uniforms_.half_size[1]}; }
 
  private:
   DropsUniforms uniforms_;

@@ -19,6 +19,7 @@ struct Development {
   double bloom_threshold = 0;                ///< light above it is
   double bloom_radius = 0.1;                 ///< of the widest blur, heights of the picture
   bool dither = false;
+  bool has_layer = false;  ///< EXR files hold the drops by themselves, too
 
   bool is_on() const { return shoulder < 1 || bloom > 0 || dither; }
 };

@@ -88,6 +88,10 @@ Opened::Opened(scene::Config config, const parallel::Executor& executor)
   if (development_.is_on() && !instance_->display())
     throw Error(ExitCode::usage, fmt::format("picture: expected an effect with a linear picture, found {}", effect_.name));
   is_traced_ = truth::choice_from(config_).is_traced;
+  if (development_.has_layer && (is_traced_ || !instance_->has_drops_layer()))
+    throw Error(ExitCode::usage, fmt::format("picture.layer: expected windshield, screen_drops corrected or rainy_glass corrected, not "
+                                             "traced; found {} {}{}",
+                                             effect_.name, config_.variant(), is_traced_ ? ", traced" : ""));
   if (is_traced_) has_truth();
 }
 
@@ -136,7 +140,14 @@ void Opened::write_png(const std::filesystem::path& path) const {
 
 void Opened::write_exr(const std::filesystem::path& path, bool with_maps) {
   if (is_traced_) return write_top_first(path, tracing_->layers(), notes());
-  write_top_first(path, instance_->layers(), notes());
+  std::vector<image_io::Layer> layers = instance_->layers();
+  effect::DropsLayer own;
+  if (development_.has_layer) {
+    own = instance_->drops_layer(executor_);
+    layers.push_back({"drops", {"R", "G", "B", "A"}, &own.drops});
+    layers.push_back({"offset", {"U", "V"}, &own.offset});
+  }
+  write_top_first(path, std::move(layers), notes());
   if (!with_maps || std::exchange(has_written_maps_, true)) return;
   for (const effect::Map& map : instance_->maps()) write_map(path.parent_path(), map);
 }

@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "effect/scene_pictures.h"
+#include "math/half.h"
 #include "windshield/evaluations.h"
 #include "windshield/info.h"
 #include "windshield/memory.h"
+#include "windshield/shown.h"
 #include "windshield/street.h"
 
 namespace rainref::windshield {
@@ -64,6 +66,21 @@ std::vector<PassOutput> Instance::buffers() {
 }
 std::vector<image_io::Layer> Instance::layers() const { return {{"", {"R", "G", "B"}, &running().colour()}}; }
 std::optional<effect::Display> Instance::display() const { return effect::Display{&running().colour(), settings_.picture.exposure}; }
+
+effect::DropsLayer Instance::drops_layer(const parallel::Executor& executor) const {
+  const PictureSettings& p = settings_.picture;
+  const double half_height = camera(p).half_height(), half_width = half_height * p.width / p.height;
+  const ShownScene scene(settings_, running());
+  Image before;
+  if (settings_.interior.on) before = draw_interior(settings_.interior, p, settings_.corners, executor);
+  return effect::drops_layer(running().colour(), executor, [&](int column, int row) -> effect::DropPixel {
+    const Shown shown = scene.at(column, row);
+    if (!shown.is_on_glass) return {};
+    const double open = before.empty() ? 1 : 1 - to_float(before.row<Half>(row)[4 * column + 3]);
+    const double x = (2 * (column + 0.5) / p.width - 1) * half_width, y = (2 * (row + 0.5) / p.height - 1) * half_height;
+    return {open * shown.visibility, (shown.x - x) / (2 * half_width), (shown.y - y) / (2 * half_height)};
+  });
+}
 
 effect::Effect entry() {
   return {"windshield",

@@ -25,6 +25,9 @@ class Instance final : public effect::InstanceOf<Windshield> {
   }
   std::vector<PassOutput> buffers() override;
   std::vector<image_io::Layer> layers() const override;
+  bool has_drops_layer() const override { return true; }
+  /// Of the windshield itself, before its interior.
+  effect::DropsLayer drops_layer(const parallel::Executor& executor) const override;
   std::optional<effect::Display> display() const override;
 
  private:

@@ -1,0 +1,124 @@
+// The drops of a picture by themselves: of a scene whose colours say their place, each drop's colour says where its light is from.
+#include "effect/drops_layer.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "base/temporary_folder.h"
+#include "math/half.h"
+#include "rainref/error.h"
+#include "rainref/simulation.h"
+#include "registry/registry.h"
+#include "scene/toml.h"
+#include "simulation/opened.h"
+#include "simulation/small_scenes.h"
+
+namespace rainref::effect {
+namespace {
+
+TEST(DropsLayer, IsThePictureTimesItsCoverage) {
+  Image colour(Format::rgba16f, 2, 1);
+  for (int k = 0; k < 8; ++k) colour.row<Half>(0)[k] = to_half(0.5f + 0.25f * static_cast<float>(k));
+  const DropsLayer layer = drops_layer(colour, parallel::Executor(2), [](int x, int) {
+    return x == 0 ? DropPixel{0, 3, 3} : DropPixel{0.5, 0.25, -0.125};
+  });
+  const auto drop = [&](int k) { return to_float(layer.drops.row<Half>(0)[k]); };
+  const auto offset = [&](int k) { return to_float(layer.offset.row<Half>(0)[k]); };
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(drop(k), 0);
+  EXPECT_EQ(offset(0), 0) << "no drop";
+  EXPECT_THAT((std::array{drop(4), drop(5), drop(6), drop(7)}), testing::ElementsAre(0.75f, 0.875f, 1.0f, 0.5f));
+  EXPECT_EQ(offset(2), 0.25f);
+  EXPECT_EQ(offset(3), -0.125f);
+}
+
+/// A picture of 160 x 120 whose red is the place across, from 0 to 1, and whose blue the place from its lower edge; green is 1.
+std::string places() {
+  static const TemporaryFolder folder;
+  static const std::string path = [] {
+    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (120, 160, 3), }";
+    header.resize(117, ' ');
+    const std::string file = (folder / "places.npy").string();
+    std::ofstream out(file, std::ios::binary);
+    out << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n';
+    for (int row = 0; row < 120; ++row) {
+      for (int column = 0; column < 160; ++column) {
+        const float rgb[3] = {(static_cast<float>(column) + 0.5f) / 160, 1, 1 - (static_cast<float>(row) + 0.5f) / 120};
+        out.write(reinterpret_cast<const char*>(rgb), sizeof rgb);
+      }
+    }
+    return file;
+  }();
+  return path;
+}
+
+struct Given {
+  const char* effect;
+  std::vector<std::string> set;
+};
+class DropsLayerOf : public testing::TestWithParam<Given> {};
+
+// What a drop shows has the same share of green lost as of red and blue: their ratio is the place that the offset leads to.
+TEST_P(DropsLayerOf, LeadsToThePlaceWhoseLightADropShows) {
+  const Effect& effect = *registry::find(GetParam().effect);
+  std::vector<std::string> set{"run.size=[160, 120]", "scene.image=" + places(), "display.exposure=0"};
+  set.insert(set.end(), GetParam().set.begin(), GetParam().set.end());
+  const scene::Config config = scene::parse(small(GetParam().effect, "corrected", set), simulation::effect_table());
+  const parallel::Executor executor(2);
+  Inputs inputs;
+  const std::unique_ptr<Instance> instance = effect.open(config, executor, inputs);
+  ASSERT_TRUE(instance->has_drops_layer());
+  for (int frame = 0; frame < 20; ++frame) {
+    instance->simulate(nullptr);
+    instance->render(nullptr);
+  }
+  const DropsLayer layer = instance->drops_layer(executor);
+  const Image& colour = *instance->layers().front().image;
+  int checked = 0, dry = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 160; ++x) {
+      const Half *drop = layer.drops.row<Half>(y) + 4 * x, *offset = layer.offset.row<Half>(y) + 2 * x, *seen = colour.row<Half>(y) + 4 * x;
+      const double cover = to_float(drop[3]), green = to_float(seen[1]);
+      dry += cover == 0;
+      if (cover < 1 || green < 0.05) continue;
+      const double u = (x + 0.5) / 160 + to_float(offset[0]), v = (y + 0.5) / 120 + to_float(offset[1]);
+      if (std::abs(u - 0.5) > 0.4 || std::abs(v - 0.5) > 0.4) continue;  // the picture ends
+      ++checked;
+      // Halves of ratios: 2^-11 each; texels of the scene's coarser levels.
+      ASSERT_NEAR(to_float(seen[0]) / green, u, 0.004) << x << ' ' << y;
+      ASSERT_NEAR(to_float(seen[2]) / green, v, 0.004) << x << ' ' << y;
+      EXPECT_EQ(to_float(drop[1]), to_float(seen[1]));
+    }
+  }
+  EXPECT_GT(checked, 50);
+  EXPECT_GT(dry, 500);
+}
+INSTANTIATE_TEST_SUITE_P(Effects, DropsLayerOf,
+                         testing::Values(Given{"windshield",
+                                               {"windshield.height_size=[320, 180]", "rain.smallest_drop=3", "rain.rate=200",
+                                                "composite.inner=0", "composite.glint_strength=0", "composite.wetness=0", "scene.margin=1",
+                                                "blur.fog_density=0", "vehicle.speed=0", "wipers.count=0"}},
+                                         Given{"screen_drops",
+                                               {"drops.inner=0", "scene.margin=1", "drops.largest_radius=6", "flow.on=false"}},
+                                         Given{"rainy_glass", {}}),
+                         [](const auto& tested) { return std::string(tested.param.effect); });
+
+TEST(DropsLayer, OthersHaveNone) {
+  const auto opened = [](const std::string& effect, const std::string& variant) {
+    try {
+      const parallel::Executor executor(1);
+      Simulation(small(effect, variant, {"picture.layer=true"}), executor);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(opened("puddle", "corrected"), testing::HasSubstr("picture.layer: expected windshield"));
+  EXPECT_THAT(opened("screen_drops", "as-published"), testing::HasSubstr("picture.layer: expected windshield"));
+  EXPECT_EQ(opened("windshield", "as-published"), "");
+}
+
+}  // namespace
+}  // namespace rainref::effect
