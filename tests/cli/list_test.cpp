@@ -99,9 +99,10 @@ TEST_F(Describe, ListsOfAPassHaveBindingsOfTheirOwn) {
     EXPECT_THAT(glsl, HasSubstr(line));
   EXPECT_THAT(
       hlsl,
-      HasSubstr("StructuredBuffer<CountThreshold> count_thresholds : register(t1);\nRWStructuredBuffer<Drop> drops : register(u0);\n"));
+      HasSubstr("StructuredBuffer<CountThreshold> count_thresholds : register(t1);\nStructuredBuffer<ShelterCell> shelter : register(t2);\n"
+                "StructuredBuffer<Drop> objects : register(t3);\nRWStructuredBuffer<Drop> drops : register(u0);\n"));
   EXPECT_THAT(wgsl, HasSubstr("@group(0) @binding(2) var<storage, read> count_thresholds : array<CountThreshold>;\n"));
-  EXPECT_THAT(cuda, StartsWith("// Pass raindrops, corrected. Reads craters, count_thresholds; writes drops.\n"));
+  EXPECT_THAT(cuda, StartsWith("// Pass raindrops, corrected. Reads craters, count_thresholds, shelter, objects; writes drops.\n"));
   // One pass alone prints only what it needs; a buffer that is read and written has two names.
   for (const char* other : {"WaveStepUniforms", "RaindropsUniforms", "ShadeUniforms"}) EXPECT_THAT(glsl, Not(HasSubstr(other)));
   EXPECT_THAT(rainref({"describe", "puddle", "--layout", "glsl", "--pass", "wave_step", "--variant", "as-published"}).out,

@@ -34,24 +34,25 @@ TEST(DropsLayer, IsThePictureTimesItsCoverage) {
   EXPECT_EQ(offset(3), -0.125f);
 }
 
-/// A picture of 160 x 120 whose red is the place across, from 0 to 1, and whose blue the place from its lower edge; green is 1.
-std::string places() {
+/// A picture of 160 x 120 whose red is the place across, from 0 to 1, and whose blue the place from its lower edge; green is 1. Or a depth
+/// of 100 m.
+std::string places(bool is_depth = false) {
   static const TemporaryFolder folder;
-  static const std::string path = [] {
-    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (120, 160, 3), }";
-    header.resize(117, ' ');
-    const std::string file = (folder / "places.npy").string();
-    std::ofstream out(file, std::ios::binary);
-    out << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n';
-    for (int row = 0; row < 120; ++row) {
-      for (int column = 0; column < 160; ++column) {
-        const float rgb[3] = {(static_cast<float>(column) + 0.5f) / 160, 1, 1 - (static_cast<float>(row) + 0.5f) / 120};
+  std::string header = std::string("{'descr': '<f4', 'fortran_order': False, 'shape': (120, 160, ") + (is_depth ? "1), }" : "3), }");
+  header.resize(117, ' ');
+  const std::string file = (folder / (is_depth ? "depth.npy" : "places.npy")).string();
+  std::ofstream out(file, std::ios::binary);
+  out << "\x93NUMPY" << '\1' << '\0' << '\x76' << '\0' << header << '\n';
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      const float depth = 100, rgb[3] = {(static_cast<float>(column) + 0.5f) / 160, 1, 1 - (static_cast<float>(row) + 0.5f) / 120};
+      if (is_depth)
+        out.write(reinterpret_cast<const char*>(&depth), sizeof depth);
+      else
         out.write(reinterpret_cast<const char*>(rgb), sizeof rgb);
-      }
     }
-    return file;
-  }();
-  return path;
+  }
+  return file;
 }
 
 struct Given {
@@ -76,7 +77,7 @@ TEST_P(DropsLayerOf, LeadsToThePlaceWhoseLightADropShows) {
   }
   const DropsLayer layer = instance->drops_layer(executor);
   const Image& colour = *instance->layers().front().image;
-  int checked = 0, dry = 0;
+  int checked = 0, dry = 0, at_rims = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 160; ++x) {
       const Half *drop = layer.drops.row<Half>(y) + 4 * x, *offset = layer.offset.row<Half>(y) + 2 * x, *seen = colour.row<Half>(y) + 4 * x;
@@ -86,13 +87,14 @@ TEST_P(DropsLayerOf, LeadsToThePlaceWhoseLightADropShows) {
       const double u = (x + 0.5) / 160 + to_float(offset[0]), v = (y + 0.5) / 120 + to_float(offset[1]);
       if (std::abs(u - 0.5) > 0.4 || std::abs(v - 0.5) > 0.4) continue;  // the picture ends
       ++checked;
-      // Halves of ratios: 2^-11 each; texels of the scene's coarser levels.
-      ASSERT_NEAR(to_float(seen[0]) / green, u, 0.004) << x << ' ' << y;
-      ASSERT_NEAR(to_float(seen[2]) / green, v, 0.004) << x << ' ' << y;
+      // Halves of ratios: 2^-11 each. At a drop's rim, which shows the scene much smaller, its last level is one texel.
+      const double off = std::max(std::abs(to_float(seen[0]) / green - u), std::abs(to_float(seen[2]) / green - v));
+      at_rims += off > 0.004;
       EXPECT_EQ(to_float(drop[1]), to_float(seen[1]));
     }
   }
   EXPECT_GT(checked, 50);
+  EXPECT_LE(at_rims, checked / 50);
   EXPECT_GT(dry, 500);
 }
 INSTANTIATE_TEST_SUITE_P(Effects, DropsLayerOf,
@@ -101,8 +103,9 @@ INSTANTIATE_TEST_SUITE_P(Effects, DropsLayerOf,
                                                 "composite.inner=0", "composite.glint_strength=0", "composite.wetness=0", "scene.margin=1",
                                                 "blur.fog_density=0", "vehicle.speed=0", "wipers.count=0"}},
                                          Given{"screen_drops",
-                                               {"drops.inner=0", "scene.margin=1", "drops.largest_radius=6", "flow.on=false"}},
-                                         Given{"rainy_glass", {}}),
+                                               {"drops.inner=0", "scene.margin=1", "drops.largest_radius=6", "flow.on=false",
+                                                "glass.height=0.015"}},
+                                         Given{"rainy_glass", {"scene.depth_image=" + places(true)}}),
                          [](const auto& tested) { return std::string(tested.param.effect); });
 
 TEST(DropsLayer, OthersHaveNone) {

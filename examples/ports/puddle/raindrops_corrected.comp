@@ -5,17 +5,17 @@
 layout(local_size_x = 1) in;
 
 layout(std140, binding = 0) uniform RainfallUniforms {
-  uvec2 seed;           //   0  [1] Low and high word of the seed.
-  uint step;            //   8  [1] Wave steps made before this one, modulo 2^32.
-  int first_count;      //  12  [1] Drops where the word is below every threshold.
-  uint columns;         //  16  [texel] Columns of the wave.
-  uint rows;            //  20  [texel] Rows of the wave.
-  int boundary;         //  24  [1] 0: reflecting, 1: periodic, 2: fixed.
-  int threshold_count;  //  28  [1] Thresholds in the list.
-  uint shelter_columns; //  32  [1] Columns of the shelter; 0: there is none.
-  uint shelter_rows;    //  36  [1] Its rows.
-  int object_count;     //  40  [1] Records of objects in the list.
-  int padding_0;        //  44  padding
+  uvec2 seed;            //   0  [1] Low and high word of the seed.
+  uint step;             //   8  [1] Wave steps made before this one, modulo 2^32.
+  int first_count;       //  12  [1] Drops where the word is below every threshold.
+  uint columns;          //  16  [texel] Columns of the wave.
+  uint rows;             //  20  [texel] Rows of the wave.
+  int boundary;          //  24  [1] 0: reflecting, 1: periodic, 2: fixed.
+  int threshold_count;   //  28  [1] Thresholds in the list.
+  uint shelter_columns;  //  32  [1] Columns of the shelter; 0: there is none.
+  uint shelter_rows;     //  36  [1] Its rows.
+  int object_count;      //  40  [1] Records of objects in the list.
+  float padding_0;       //  44  padding
 } u;
 struct Drop {
   float x;          //   0  [texel] Centre; texel centres lie at k + 1/2.
@@ -59,10 +59,10 @@ void main() {
   count = 0u;
   for (int i = 0; i < drawn; ++i) {
     uvec4 r = random_block(2u, u.step, uint(i));
-    if (!falls(r)) continue;
     Drop drop = craters[r.z >> 22];
     drop.x = float(((r.x >> 16) * u.columns) >> 8) / 256.0;
     drop.y = float(((r.y >> 16) * u.rows) >> 8) / 256.0;
+    if (!falls(r)) continue;
     append(drop);
     if (u.boundary == 2) continue;
     vec2 size = vec2(u.columns, u.rows), place = vec2(drop.x, drop.y);

@@ -10,7 +10,7 @@ struct RainfallUniforms {
   shelter_columns : u32,  //  32  [1] Columns of the shelter; 0: there is none.
   shelter_rows : u32,     //  36  [1] Its rows.
   object_count : i32,     //  40  [1] Records of objects in the list.
-  padding_0 : i32,        //  44  padding
+  padding_0 : f32,        //  44  padding
 }
 @group(0) @binding(0) var<uniform> u: RainfallUniforms;
 struct CountThreshold {
