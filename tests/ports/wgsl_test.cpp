@@ -154,7 +154,7 @@ TEST_F(Wgsl, WhatCannotRunIsNamed) {
   port = port_files();
   replace(port["puddle/raindrops_corrected.wgsl"], "storage, read_write", "storage, read");
   EXPECT_THAT(complaint("raindrops", port),
-              testing::HasSubstr("binding 3 is drops: expected var<storage, read_write>, found var<storage, read>"));
+              testing::HasSubstr("binding 5 is drops: expected var<storage, read_write>, found var<storage, read>"));
 }
 
 // No browser needed: programs and texts agree with this version's formulas and layouts.
