@@ -1,8 +1,17 @@
 #include "windshield/condensation.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "math/constants.h"
+#include "math/real64.h"
 
 namespace rainref::windshield {
+namespace {
+
+constexpr int taps_on_ring = 8, mist_tap_count = 1 + taps_on_ring;
+
+}  // namespace
 
 CondenseUniforms condense_uniforms(const CondensationSettings& s, const SurfaceSettings& surface, int frame) {
   CondenseUniforms u{};
@@ -24,9 +33,23 @@ MistUniforms mist_uniforms(const CondensationSettings& s, const CompositeUniform
   std::copy_n(seen.half_size, 2, u.half_size);
   std::copy_n(seen.scene_scale, 2, u.scene_scale);
   u.glass_distance = seen.glass_distance;
-  u.lod = static_cast<float>(s.blur_lod);
+  // A whole level: one texel of it is half the disc's radius, and it is looked up without the next.
+  u.lod = static_cast<float>(std::max(std::floor(s.blur_lod - 1 + 0.5), 0.0));
+  u.weight = static_cast<float>(1.0 / mist_tap_count);
+  u.tap_count = mist_tap_count;
   u.veil = static_cast<float>(s.veil);
   return u;
+}
+
+std::vector<Tap> mist_taps(const CondensationSettings& s, int scene_width, int scene_height) {
+  const double ring = 0.75 * exp2_real(Real64(s.blur_lod)).v;
+  std::vector<Tap> taps{{0, 0, 0, 0}};
+  for (int k = 0; k < taps_on_ring; ++k) {
+    const Real64 angle(2 * pi * k / taps_on_ring);
+    taps.push_back(
+        {static_cast<float>(ring * cos_real(angle).v / scene_width), static_cast<float>(ring * sin_real(angle).v / scene_height), 0, 0});
+  }
+  return taps;
 }
 
 Image make_clear_time(const CondensationSettings& s, const SurfaceSettings& surface) {

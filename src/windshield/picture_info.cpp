@@ -20,6 +20,8 @@ std::vector<BufferInfo> picture_buffers() {
   std::vector<BufferInfo> all{{"glints", "records", "Lights that drops mirror.", "1", one, "none", "none", "none", "", "Glint"}};
   all.push_back(
       {"streaks", "records", "Drops that fall behind the glass, far ones first.", "1", {-1e6, 1e6}, "none", "none", "none", "", "Streak"});
+  all.push_back({"taps", "records", "Places that the picture behind the mist is the mean of.", "1", one, "none", "none", "none", "", "Tap",
+                 "corrected"});
   const std::vector<BufferInfo> colour = pass::buffers_of<CompositePass>();
   all.insert(all.end(), colour.begin(), colour.end());
   all.push_back({"pane_colour", "rgba16f", "As colour, through a pane behind the first.", "1", one, "none", "linear Rec. 709", "opaque"});
@@ -38,6 +40,8 @@ std::vector<UniformBlock> picture_records() {
                member<&Streak::depth>("depth", "m", "Along the view axis."),
                member<&Streak::opacity>("opacity", "1", "Share of the exposure and of the width in which it covers a point of its way."),
                member<&Streak::radiance>("radiance", "1", "Linear RGB.")}),
+          record<Tap>("Tap", {member<&Tap::x>("x", "1", "From the pixel's place, in texture coordinates of the scene."),
+                              member<&Tap::y>("y", "1", "See x.")}),
           record<Glint>("Glint", {member<&Glint::direction>("direction", "1", "Unit, toward the light, camera axes: right, up, forward."),
                                   member<&Glint::radiance>("radiance", "1", "Linear RGB.")})};
 }

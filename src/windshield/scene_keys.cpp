@@ -63,7 +63,9 @@ const std::vector<MemberParameter<Settings>>& condensation_members() {
           .only(correct),
       real<&S::condensation, &C::water>("condensation.water", "mm", 1e-6, 10, "Height of water that takes all of the mist up.")
           .only(correct),
-      real<&S::condensation, &C::blur_lod>("condensation.blur_lod", "1", 0, 12, "Mip level of the picture behind it.").only(correct),
+      real<&S::condensation, &C::blur_lod>("condensation.blur_lod", "1", 0, 12,
+                                           "The picture behind it is blurred over a disc whose radius is a texel of this mip level.")
+          .only(correct),
       real<&S::condensation, &C::veil>("condensation.veil", "1", 0, 1, "Share of the scattered light that comes from all the scene.")
           .only(correct)};
   return table;

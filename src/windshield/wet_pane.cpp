@@ -202,6 +202,8 @@ void WetPane::composite(const pass::Moment& now, const blur_pyramid::LevelTextur
 void WetPane::mist(const pass::Moment& now, const blur_pyramid::LevelTexture& pyramid, std::span<const Image> levels, Image& colour) const {
   pass::HostIo<MistPass> io;
   io.blurred.set(pyramid.view(), levels);
+  const std::vector<Tap> taps = mist_taps(settings_.condensation, levels.front().width(), levels.front().height());
+  io.taps = taps;
   io.condensation = condensation_;
   io.colour = colour;
   io.misted = colour;

@@ -114,7 +114,10 @@ inline bool mist(const Run& r, int x, int y, float* out) {
   const float share = on ? constant(r, 1, 0.9f) * r.linear("condensation", saturate(u), saturate(v)) : 0;
   const Float2 G{q.x * r.u("pixel", 0) - r.u("half_size", 0), q.y * r.u("pixel", 1) - r.u("half_size", 1)};
   const Float2 S{0.5f + G.x * r.u("scene_scale", 0), 0.5f + G.y * r.u("scene_scale", 1)};
-  const Float3 light = mix(r.trilinear3("blurred", S.x, S.y, r.u("lod")), r.trilinear3("blurred", S.x, S.y, 15), r.u("veil"));
+  Float3 sum;
+  for (int i = 0; i < r.whole("tap_count"); ++i)
+    sum = sum + r.trilinear3("blurred", S.x + r.of("taps", i, "x"), S.y + r.of("taps", i, "y"), r.u("lod"));
+  const Float3 light = mix(r.u("weight") * sum, r.trilinear3("blurred", S.x, S.y, 15), r.u("veil"));
   const Float3 colour = mix(r.rgb("colour", x, y), light, share);
   out[0] = colour.x;
   out[1] = colour.y;
@@ -265,7 +268,7 @@ blur_pyramid      level 0 as above;  else t₀ + w₁ (t₁ − t₀) + w₂ (t�
        {composite_of_both,
         {document,
          R"(mist              share = condensation at (u, v), 0 beside the glass;   (u, v) and S as above
-                  colour = mix(colour, mix(level lod of blurred, level 15 or its last, veil), share), both levels trilinear at S)"}}},
+                  colour = mix(colour, mix(weight · sum over taps, in order, of level lod at S + tap, level 15 or its last at S, veil), share), trilinear)"}}},
       {{"windshield-as-published"},
        "persist",
        "wrong constant",

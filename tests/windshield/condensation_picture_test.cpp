@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
 #include "math/half.h"
+#include "windshield/condensation.h"
 #include "windshield/golden_scenes.h"
 
 namespace rainref::windshield {
@@ -71,6 +73,85 @@ TEST(Condensation, AFullVeilIsTheMeanOfTheScene) {
     // The last level is one texel, a mean of means in halves.
     EXPECT_NEAR(least[c], mean[c], 0.01 * mean[c]);
     EXPECT_NEAR(most[c], mean[c], 0.01 * mean[c]);
+  }
+}
+
+// An even disc of radius R has variance R^2 / 4 on each axis, as a bilinear lookup in means over squares of side R: R^2 / 12 + R^2 / 6.
+TEST(Condensation, TapsAreADiscWithTheVarianceOfALookup) {
+  for (const double lod : {0.0, 2.5, 5.0}) {
+    CondensationSettings s;
+    s.blur_lod = lod;
+    const std::vector<Tap> taps = mist_taps(s, 320, 160);
+    const MistUniforms u = mist_uniforms(s, {});
+    ASSERT_EQ(static_cast<int>(taps.size()), u.tap_count);
+    EXPECT_NEAR(u.weight * static_cast<float>(u.tap_count), 1, 1e-6);
+    const double radius = std::exp2(lod);
+    double x = 0, y = 0, xx = 0, yy = 0;
+    for (const Tap& t : taps) {
+      const double px = static_cast<double>(t.x) * 320 / radius, py = static_cast<double>(t.y) * 160 / radius;
+      EXPECT_LT(std::hypot(px, py), 1);
+      x += px / u.tap_count;
+      y += py / u.tap_count;
+      xx += px * px / u.tap_count;
+      yy += py * py / u.tap_count;
+    }
+    EXPECT_NEAR(x, 0, 1e-6);
+    EXPECT_NEAR(y, 0, 1e-6);
+    EXPECT_NEAR(xx, 0.25, 1e-6);
+    EXPECT_NEAR(yy, 0.25, 1e-6);
+    EXPECT_EQ(u.lod, static_cast<float>(std::max(std::floor(lod - 0.5), 0.0)));
+  }
+}
+
+// A small lamp before black, behind mist alone: where its light falls to a share of the brightest is a circle. A texel of a coarse level
+// has no such line: bilinear, its radius differs by 12, 8 and 12 % there, root mean square.
+TEST(Condensation, ALampBehindMistIsRound) {
+  constexpr int side = 256;
+  const std::string text =
+      "[run]\nsize = [256, 256]\n[wipers]\ncount = 0\n[rain]\nrate = 0\n[windshield]\nheight_size = [64, 64]\n[scene]\nmargin = 1\n"
+      "[camera]\nvertical_fov_deg = 10\n[blur]\nfog_density = 0\nblur_levels = 8\n[condensation]\non = true\nmost = 1\nveil = 0\nblur_lod "
+      "= 4\n";
+  const parallel::Executor executor(2);
+  for (const int at : {128, 131, 140}) {
+    Surroundings around{Image(Format::rgba16f, side, side), Image(Format::r32f, side, side)};
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const bool is_lamp = x >= at && x < at + 3 && y >= at && y < at + 3;
+        for (int c = 0; c < 4; ++c) around.colour.row<Half>(y)[4 * x + c] = to_half(is_lamp || c == 3 ? 1000.0f : 0.0f);
+        around.depth.row<float>(y)[x] = 100;
+      }
+    }
+    Windshield w(config_of("corrected", text), std::move(around), executor);
+    w.next_frame();
+    const auto light = [&](double x, double y) {
+      const int i = static_cast<int>(std::floor(x - 0.5)), j = static_cast<int>(std::floor(y - 0.5));
+      const double a = x - 0.5 - i, b = y - 0.5 - j;
+      const auto texel = [&](int column, int row) { return static_cast<double>(to_float(w.colour().row<Half>(row)[4 * column])); };
+      return (1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) + b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1));
+    };
+    double brightest = 0, sum = 0, across = 0, up = 0;  // the middle of its light: a level's texels may lie to one side of it
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const double here = to_float(w.colour().row<Half>(y)[4 * x]);
+        brightest = std::max(brightest, here);
+        sum += here;
+        across += here * (x + 0.5);
+        up += here * (y + 0.5);
+      }
+    }
+    ASSERT_GT(brightest, 0);
+    for (const double share : {0.5, 0.1, 0.02}) {
+      constexpr int rays = 64;
+      double mean = 0, squares = 0;
+      for (int k = 0; k < rays; ++k) {
+        const double angle = 2 * std::acos(-1.0) * k / rays;
+        double r = 0;
+        while (r < 60 && light(across / sum + r * std::cos(angle), up / sum + r * std::sin(angle)) > share * brightest) r += 0.125;
+        mean += r / rays;
+        squares += r * r / rays;
+      }
+      EXPECT_LT(std::sqrt(squares - mean * mean) / mean, 0.08) << at << ' ' << share << ", radius " << mean;
+    }
   }
 }
 
