@@ -207,7 +207,11 @@ void add_edit_faults(std::vector<Fault>& out, const std::vector<Probe>& probes, 
         for (const SharedPlace& place : shared_places_of(all)) {
           if (add.is_full()) break;
           const Probe& of = all[place.probe];
-          for (const Edit& e : edits_of(of, place.node, false)) add.shared(of, place, e);
+          // What is put together otherwise in several places that only look alike is rather a chance.
+          for (const Edit& e : edits_of(of, place.node, false))
+            if (e.name.starts_with("another") || e.name.starts_with("held") || e.name.starts_with("wrapped") ||
+                e.name.starts_with("ceiling"))
+              add.shared(of, place, e);
         }
       }
       for (std::int32_t at = static_cast<std::int32_t>(p.trace.nodes.size()); at-- > 0 && !add.is_full();) {
