@@ -105,9 +105,9 @@ int far_fetched(const Cause& c) {
   for (std::size_t at = c.name.find("..."); at != std::string::npos; at = c.name.find("...", at + 3)) ++parts;
   if (c.of_records && (c.name.ends_with("without a record") || c.name.ends_with("not written"))) return 8;
   if (c.of_records && c.name.ends_with("one step late")) return 4;
-  // What the program that feeds a pass does wrong is rarer in a port of a pass than what stands in its text.
-  for (const char* const end : {" is zero", " halved", " doubled"})
-    if (c.name.ends_with(end)) return 1 + (parts > 3);
+  // Half or twice a number is rather a term or factor of what it stands in; and where few records fail, 0 rather another number.
+  if (c.name.ends_with(" halved") || c.name.ends_with(" doubled")) return 1 + (parts > 3);
+  if (c.name.ends_with(" is zero") && c.of_records && c.of < 8) return 1;
   // Nobody takes a fraction, x - floor(x), the other way.
   if (c.name.starts_with("difference the other way") && c.name.find("- floor(") != std::string::npos) return 1;
   static constexpr std::pair<std::string_view, int> rare[] = {{"condition left out", -1},
@@ -232,7 +232,8 @@ std::vector<Cause> best_causes(std::vector<Tried> causes) {
   // makes a whole part of a pass vanish dozens of mistakes are the cause as well as the first: its failures cannot tell.
   constexpr std::ptrdiff_t most_rivals = 20;
   const auto rivals = std::count_if(causes.begin(), causes.end(), [&](const Tried& c) {
-    return is_best(c) && !is_solved(c.name) && !c.name.ends_with(", in all components");  // other words for the same places
+    // The other two are other words for the same places.
+    return is_best(c) && !is_solved(c.name) && !c.name.ends_with(", in all components") && !c.name.ends_with(", in each such place");
   });
   for (Cause& c : out) c.is_likely &= &c == &out.front() && (c.of_records || (c.of >= 4 && rivals <= most_rivals));
   return out;
